@@ -1,7 +1,7 @@
 // Image-based light: specular levels in a cube map, diffuse light in spherical harmonics.
 #include "shaders/lit_frame.glsl"
 
-LitFrame here;  // main sets it first
+LitFrame here;  // main() sets it before it calls any function
 
 vec3 turned(vec3 d) {
     const float c = cos(here.environment.y), s = sin(here.environment.y);

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// The fraction of a pixel that a glyph covers, from its distance field: four taps, one per quarter of the pixel, with ramps as wide
+// Computes the fraction of a pixel that a glyph covers, from its distance field: four taps, one per quarter of the pixel, with ramps as wide
 // as a quarter of the pixel appears at the edge's angle.
 
 #include "shaders/shared.h"

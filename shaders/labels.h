@@ -1,4 +1,4 @@
-// Labels in the layout that CPU and GPU share: see shared.h, and engine/render/passes/annotations.hpp for their meaning.
+// Labels in the layout that CPU and GPU share (see shared.h). engine/render/scene.hpp explains their meaning.
 #ifndef BOLT_SHADERS_LABELS_H
 #define BOLT_SHADERS_LABELS_H
 
@@ -11,7 +11,7 @@ struct LabelFrame {
     vec4 position;  // m; w: em size, m or pixels
     vec4 right;     // unit vector along a line of text; w: LABEL_…
     vec4 up;        // w: visible fraction behind parts
-    vec4 pixels;    // xy: offset on the screen, y up; z: m towards the eye for the depth comparison with parts
+    vec4 pixels;    // xy: offset on the screen, y up; z: m towards the eye, the occlusion margin
 };
 
 #define LABEL_FIXED 0.0      // in the plane of right and up

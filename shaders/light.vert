@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// Covers the whole picture and passes on the frame data for light.frag.
+// Covers the whole picture and passes the frame data to light.frag.
 #include "shaders/frame.glsl"
 #include "shaders/lit_frame.glsl"
 #include "shaders/corners.glsl"

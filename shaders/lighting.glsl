@@ -1,4 +1,4 @@
-// The radiance that a surface sends to the eye: image-based light, then all lamps, tone-mapped. Features that a pipeline does not
+// Computes the radiance that a surface sends to the eye, from image-based light and all lamps, tone-mapped. Features that a pipeline does not
 // need are compiled out (SCENE_… bits).
 #include "shaders/environment.glsl"
 #include "shaders/brdf.glsl"
@@ -9,7 +9,7 @@ layout(set = 0, binding = 4) uniform samplerCube specular_levels;
 layout(set = 0, binding = 5) uniform sampler2DShadow shadow_map;
 layout(set = 0, binding = 6) uniform sampler2DArray ambient_occlusion;
 
-// The shadow of light 0: four comparisons, each filtered by the sampler. Points are offset along the normal by slightly more than a
+// Returns the fraction of light 0 that is not in shadow: four comparisons, each filtered by the sampler. Points are offset along the normal by slightly more than a
 // texel plus the error of their level of detail, to avoid self-shadowing.
 float lit(vec3 at, vec3 normal) {
     const vec2 texel = 1.0 / vec2(textureSize(shadow_map, 0));
@@ -27,7 +27,7 @@ float lit(vec3 at, vec3 normal) {
     return outside ? 1.0 : 0.25 * sum;
 }
 
-// The irradiance of a light and its direction.
+// Returns the irradiance from a light; `l`: the direction towards it.
 vec3 arriving(Light light, vec3 at, out vec3 l) {
     const vec3 way = light.position.w == 0.0 ? -light.direction.xyz : light.position.xyz - at;
     const float d2 = dot(way, way);

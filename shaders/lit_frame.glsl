@@ -1,4 +1,4 @@
-// The part of the frame data that lighting needs. `of_block` reads it from the block. light.frag runs per pixel and receives it
+// The part of the frame data that lighting needs. of_block() reads it from the frame block. light.frag runs per pixel and receives it
 // through flat inputs instead: lavapipe (Mesa 22.3) gathers block values for each pixel, which took two fifths of the instructions.
 // The third and later lights stay in the block.
 #define LIT_INPUTS 25

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// Outlined parts as flat shapes.
+// Draws outlined parts as flat shapes.
 #include "shaders/frame.glsl"
 
 layout(location = 0) in vec3 position;

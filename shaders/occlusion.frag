@@ -28,7 +28,7 @@ vec3 seen_at(vec2 uv) {
     return world_at(place_of(texel), max(texelFetch(depth_map, ivec3(texel, view_index), 0).r, 1e-7));
 }
 
-// The cosine of the highest horizon on one side.
+// Returns the cosine of the angle between the view direction and the highest horizon on one side.
 float horizon(vec2 uv, vec2 way, vec3 p, vec3 v, float jitter) {
     float highest = -1.0;
     const float radius = frame.occlusion.x;

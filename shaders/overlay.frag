@@ -1,5 +1,5 @@
 #version 460
-// Colours are premultiplied and linear, so blending adds light as in the scene.
+// Draws an overlay. Colours are premultiplied and linear, so blending adds light as in the scene.
 
 layout(location = 0) in vec3 uv;
 layout(location = 1) in vec4 color;

@@ -9,7 +9,7 @@
 
 layout(location = 0) out vec4 color_out;
 
-// Specular strength and colour, anisotropy and coat from maps.
+// Applies the maps of specular strength and colour, anisotropy and coat.
 void set_mapped_layers(inout Surface s, Material m) {
     if (has(SCENE_SPECULAR_MAPS)) {
         const float weight = m.specular_color.w * look_up(specular_map, m, 9u).a;

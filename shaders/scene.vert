@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
+// The vertex stage of parts with materials.
 #include "shaders/frame.glsl"
 
 layout(location = 0) in vec3 position;

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+// Draws parts into the shadow map of light 0.
 #include "shaders/frame.glsl"
 
 layout(location = 0) in vec3 position;

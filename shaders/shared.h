@@ -13,7 +13,7 @@ using vec4 = glm::vec4;
 using mat4 = glm::mat4;
 #endif
 
-// An eye, wall or screen.
+// The view of an eye, or through a wall or screen.
 struct View {
     mat4 clip_from_world;
     mat4 world_from_clip;

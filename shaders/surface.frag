@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// Writes normal, material and grain, and the values of maps and colours if a part has them.
+// Writes the geometry buffer: normal, material and grain, and the values of maps and colours if a part has them.
 #include "shaders/frame.glsl"
 #include "shaders/material.glsl"
 #include "shaders/surface.glsl"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Fetches Debian's stock kernel for tests/kernel, unpacked and not installed: its image and the modules for HID devices.
-# From the package archive the first time, without a network ever after. $1: where to.
+# Fetches Debian's stock kernel for tests/kernel into the folder $1, without installing it: the image and the modules for HID
+# devices. Needs the package archive on the first run only.
 set -euo pipefail
 to=$1
 [[ ! -e $to/vmlinuz ]] || exit 0
 if [[ $(dpkg --print-architecture 2>/dev/null) != amd64 ]]; then
-    echo "This is no Debian on amd64, so the test against a real kernel is left out" >&2
+    echo "This system is not Debian on amd64: the test against a real kernel is skipped" >&2
     exit 0
 fi
 as_root=()

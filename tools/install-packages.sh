@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what packages.txt lists for the given groups (build, test, bench) and what is not there yet. Debian 12.
+# Installs the missing packages that packages.txt lists for the given groups (build, test, bench). Debian 12.
 set -euo pipefail
 list="$(dirname "$0")/../packages.txt"
 missing=()
@@ -15,7 +15,7 @@ echo "Installing: ${missing[*]}"
 as_root=()
 [[ $(id -u) -eq 0 ]] || as_root=(sudo)
 if ! command -v apt-get >/dev/null; then
-    echo "This is no Debian: install the libraries of packages.txt by your system's own means." >&2
+    echo "This system is not Debian: install the libraries of packages.txt with your own package manager." >&2
     exit 1
 fi
 "${as_root[@]}" apt-get update -qq

@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
-# Makes every model and picture that a program makes, anew, into a copy of content/: tools/remake-content.sh BIN OUT
-# BIN: where the programs were built. To take a change over: tools/remake-content.sh build/release/bin content
+# Regenerates all generated models and images into OUT, a copy of content/: tools/remake-content.sh BIN OUT
+# BIN: the folder of the built programs. To update the content itself: tools/remake-content.sh build/release/bin content
 set -euo pipefail
 bin=$1
 out=$2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-import() {  # STEP FOLDER options...: only the models; what stands in the folder's assembly.json is the author's
+import() {  # STEP FOLDER options...: writes the models only and keeps the folder's assembly.json
     local name=${1##*/}
     name=${name%.step}
     "$bin/bolt-author" import-step "$1" -o "$scratch/$name" --no-joints "${@:3}" >"$scratch/log" 2>&1 || { cat "$scratch/log"; exit 1; }
     cp "$scratch/$name"/*.glb "$2"
 }
 "$bin/bolt-models" all -o "$out"
-# Each as fine as the budget of 250 000 triangles near and 60 000 far allows.
+# As fine as the budget of 250,000 triangles near and 60,000 far allows.
 import "$out/assemblies/zq350/zq350.step" "$out/assemblies/zq350" --lod --deflection 0.25 --angle 32 --contact-deflection 0.35
 import "$out/assemblies/dn200-pn16/dn200-pn16.step" "$out/assemblies/dn200-pn16" --lod --angle 20
 import "$out/assemblies/cover-m8/cover-m8.step" "$out/assemblies/cover-m8" --lod --angle 20

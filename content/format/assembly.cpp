@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t most_errors = 200;  // that are worth reading
+constexpr std::size_t max_errors = 200;  // reported per file
 
 bool holds_content(const fs::path& folder) {
     std::error_code ignored;
@@ -39,29 +39,30 @@ std::vector<std::string> assembly_names(const fs::path& content) {
     return names;
 }
 
-Loaded failed(std::string file, std::string what, std::string expected) {
+LoadedAssembly failed(std::string file, std::string what, std::string expected) {
     Error error;
     error.code = ErrorCode::bad_content;
     error.file = std::move(file);
     error.what = std::move(what);
     error.expected = std::move(expected);
-    Loaded loaded;
+    LoadedAssembly loaded;
     loaded.errors.push_back(std::move(error));
     return loaded;
 }
 
-Loaded unknown_assembly(const std::string& name, const fs::path& content,
-                        const std::vector<std::string>& names) {
-    const std::string best = meant(name, names);
-    std::string there = fmt::format("{}expected one of {}",
-                                    best.empty() ? "" : fmt::format("did you mean {}? ", in_quotes(best)),
-                                    fmt::join(names, ", "));
+LoadedAssembly unknown_assembly(const std::string& name, const fs::path& content,
+                                const std::vector<std::string>& names) {
+    const std::string best = nearest_name(name, names);
+    std::string expected_text = fmt::format(
+        "{}one of {}", best.empty() ? "" : fmt::format("did you mean {}? expected ", in_quotes(best)),
+        fmt::join(names, ", "));
     if (names.empty())
-        there = content.empty() ? "a content folder; BOLTWRIGHT_CONTENT names it" : "an assembly in content/";
-    return failed(name, "there is no such folder, file or assembly", std::move(there));
+        expected_text =
+            content.empty() ? "a content folder; BOLTWRIGHT_CONTENT names it" : "an assembly in content/";
+    return failed(name, "there is no such folder, file or assembly", std::move(expected_text));
 }
 
-// Sessions are SQLite files, and all of those begin with the same words.
+// Sessions are SQLite files, which begin with this text.
 bool is_session(const fs::path& file) {
     constexpr std::string_view magic = "SQLite format 3";
     std::error_code ignored;
@@ -77,30 +78,30 @@ std::string folder_name(const fs::path& file) {
     return whole.parent_path().filename().string();
 }
 
-fs::path whole_path(const fs::path& path) {
+fs::path canonical_path(const fs::path& path) {
     std::error_code problem;
     fs::path whole = fs::weakly_canonical(fs::absolute(path), problem);
     return problem ? path : whole;
 }
 
-// An assembly of content/ may name what lies in content/, any other only what lies in its own folder.
-FilePlaces places_of(const fs::path& file) {
-    const fs::path folder = whole_path(file).parent_path(), content = whole_path(content_folder());
+// An assembly in content/ may refer to files in content/, any other assembly only to files in its own folder.
+ModelFolders model_folders(const fs::path& file) {
+    const fs::path folder = canonical_path(file).parent_path(), content = canonical_path(content_folder());
     const auto differs = std::mismatch(content.begin(), content.end(), folder.begin(), folder.end());
     const bool inside = !content.empty() && differs.first == content.end();
     return {file.parent_path(), content_folder() / "tools", inside ? content : folder};
 }
 
-Loaded parse(std::string_view text, std::string_view file, std::string_view variant,
-             const FilePlaces& places) {
-    Loaded loaded;
+LoadedAssembly parse(std::string_view text, std::string_view file, std::string_view variant,
+                     const ModelFolders& folders) {
+    LoadedAssembly loaded;
     loaded.assembly.file = file;
     loaded.assembly.text = text;
     const auto document = JsonDocument::parse(text, file, loaded.errors);
     if (!document) return loaded;
     const std::vector<Error> repeated = std::move(loaded.errors);
-    Reader reader(*document);
-    Assembly assembly = read_assembly(reader, variant, places);
+    JsonReader reader(*document);
+    Assembly assembly = read_assembly(reader, variant, folders);
     assembly.name = folder_name(fs::path(file));
     assembly.file = std::move(loaded.assembly.file);
     assembly.text = std::move(loaded.assembly.text);
@@ -110,8 +111,8 @@ Loaded parse(std::string_view text, std::string_view file, std::string_view vari
     std::stable_sort(loaded.errors.begin(), loaded.errors.end(), [](const Error& a, const Error& b) {
         return std::tie(a.line, a.column) < std::tie(b.line, b.column);
     });
-    if (loaded.errors.size() > most_errors) {
-        loaded.errors.resize(most_errors);
+    if (loaded.errors.size() > max_errors) {
+        loaded.errors.resize(max_errors);
         Error last = loaded.errors.back();
         last.pointer.clear();
         last.what = "further errors are not shown: fix those above first";
@@ -123,7 +124,7 @@ Loaded parse(std::string_view text, std::string_view file, std::string_view vari
 
 }  // namespace
 
-Loaded parse_assembly(std::string_view text, std::string_view file, std::string_view variant) {
+LoadedAssembly parse_assembly(std::string_view text, std::string_view file, std::string_view variant) {
     return parse(text, file, variant, {fs::path(file).parent_path(), "tools", {}});
 }
 
@@ -144,7 +145,7 @@ Status choose_tool(Assembly& assembly, std::string_view name) {
     return fail(error);
 }
 
-Loaded load_assembly(const fs::path& where, std::string_view variant) {
+LoadedAssembly load_assembly(const fs::path& where, std::string_view variant) {
     std::error_code ignored;
     const bool folder = fs::is_directory(where, ignored);
     fs::path file = folder ? where / "assembly.json" : where;
@@ -152,21 +153,21 @@ Loaded load_assembly(const fs::path& where, std::string_view variant) {
         const fs::path content = content_folder();
         const std::vector<std::string> names = assembly_names(content);
         if (std::find(names.begin(), names.end(), where.string()) == names.end())
-            return folder ? failed(where.string(), "this folder has no assembly.json",
-                                   "expected a folder of an assembly")
-                          : unknown_assembly(where.string(), content, names);
+            return folder
+                       ? failed(where.string(), "this folder has no assembly.json", "a folder of an assembly")
+                       : unknown_assembly(where.string(), content, names);
         file = content / "assemblies" / where / "assembly.json";
     }
     if (is_session(file))
         return failed(file.string(), "this is a session, not an assembly",
-                      "expected the folder of an assembly, or its assembly.json");
+                      "the folder of an assembly, or its assembly.json");
     const auto text = read_file(file, json_size_limit, ErrorCode::bad_content);
     if (!text) {
-        Loaded loaded;
+        LoadedAssembly loaded;
         loaded.errors.push_back(text.error());
         return loaded;
     }
-    return parse(*text, file.string(), variant, places_of(file));
+    return parse(*text, file.string(), variant, model_folders(file));
 }
 
 fs::path content_folder() {
@@ -186,14 +187,13 @@ fs::path content_folder() {
     return holds_content(source) ? source : fs::path{};
 }
 
-namespace fs = std::filesystem;
-
 namespace {
 
 constexpr std::string_view schema_name = "assembly.schema.json";
 constexpr std::size_t model_size_limit = 64U << 20U;  // bytes
 
-tl::unexpected<Error> refused(const fs::path& path, ErrorCode code, std::string what, std::string expected) {
+tl::unexpected<Error> path_error(const fs::path& path, ErrorCode code, std::string what,
+                                 std::string expected) {
     Error error;
     error.code = code;
     error.file = path.string();
@@ -202,22 +202,23 @@ tl::unexpected<Error> refused(const fs::path& path, ErrorCode code, std::string 
     return fail(std::move(error));
 }
 
-// Replaces the value at a pointer in the text itself, so that the author finds the file as a person wrote it.
+// Replaces the value at a JSON pointer in the text itself, so that the author's formatting is preserved.
 void replace_value(std::string& text, const char* pointer, std::string_view value) {
     std::vector<Error> errors;
     const auto document = JsonDocument::parse(text, {}, errors);
     if (!document) return;
     const std::size_t start = document->offset(pointer);
-    // The name comes from outside: what is not UTF-8 in it must not make a file that cannot be read.
+    // The name is user input: bytes that are not UTF-8 are replaced, because they would make the file
+    // unreadable.
     const nlohmann::json json = std::string(value);
     text.replace(start, token_end(text, start) - start,
                  json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-// Takes a member out of the text, with its comma: the one behind it or, of the last member, the one before
-// it.
+// Removes a member from the text with its comma: the one after it or, for the last member, the one before it.
 void remove_member(std::string& text, const JsonDocument& document, std::string_view pointer) {
-    std::size_t begin = document.offset(pointer, Part::key), end = token_end(text, document.offset(pointer));
+    std::size_t begin = document.offset(pointer, JsonPart::key),
+                end = token_end(text, document.offset(pointer));
     const std::size_t next = skip_space(text, end);
     if (next < text.size() && text[next] == ',')
         end = skip_space(text, next + 1);
@@ -226,7 +227,7 @@ void remove_member(std::string& text, const JsonDocument& document, std::string_
     text.erase(begin, end - begin);
 }
 
-// Where the template names files of models: the assembly's own, then those of its tools.
+// JSON pointers of the template's model files: the assembly's own, then those of its tools.
 std::vector<std::string> model_pointers(const std::string& text) {
     std::vector<std::string> pointers{"/model", "/model_far", "/contact_model", "/tool/model"};
     std::vector<Error> errors;
@@ -237,18 +238,19 @@ std::vector<std::string> model_pointers(const std::string& text) {
     return pointers;
 }
 
-// The template's models are copied with it, its wrench stays where all wrenches are. What is not there is not
-// named.
-std::vector<fs::path> take_models(std::string& text) {
+// Removes the members of missing model files from the text. Returns the template's own models, which must be
+// copied; models of tools stay in the shared folder.
+std::vector<fs::path> remove_missing_models(std::string& text) {
     std::vector<fs::path> copies;
-    const fs::path content = content_folder(), own = content / "assemblies" / template_name();
+    const fs::path content = content_folder(), template_folder = content / "assemblies" / template_name();
     for (const std::string& pointer : model_pointers(text)) {
         std::vector<Error> errors;
         const auto document = JsonDocument::parse(text, {}, errors);
         const nlohmann::json::json_pointer at(pointer);
         if (!document || !document->root().contains(at)) continue;
         const bool tool = pointer.find("tool") != std::string::npos;
-        const fs::path file = (tool ? content / "tools" : own) / document->root().at(at).get<std::string>();
+        const fs::path file =
+            (tool ? content / "tools" : template_folder) / document->root().at(at).get<std::string>();
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored))
             remove_member(text, *document, pointer);
@@ -265,15 +267,16 @@ bool is_among_assemblies(const fs::path& folder) {
                                               content / "assemblies", problem);
 }
 
-// What was made so far. It goes again unless it is kept: a disk that is full leaves no half of an assembly.
-class Made {
+// The files and folders created so far. The destructor removes them unless commit() was called, so that a
+// failure leaves no partial assembly.
+class CreationRollback {
   public:
-    Made() = default;
-    Made(const Made&) = delete;
-    Made& operator=(const Made&) = delete;
-    ~Made() {
+    CreationRollback() = default;
+    CreationRollback(const CreationRollback&) = delete;
+    CreationRollback& operator=(const CreationRollback&) = delete;
+    ~CreationRollback() {
         std::error_code ignored;
-        // Only empty folders are removed: what others have put there stays.
+        // fs::remove removes only empty folders, so files of others remain.
         for (auto path = paths_.rbegin(); path != paths_.rend(); ++path) fs::remove(*path, ignored);
     }
 
@@ -284,7 +287,8 @@ class Made {
             missing.push_back(at);
         paths_.insert(paths_.end(), missing.rbegin(), missing.rend());
         fs::create_directories(path, problem);
-        if (problem) return refused(path, ErrorCode::failed, "cannot be made: " + problem.message(), {});
+        if (problem)
+            return path_error(path, ErrorCode::failed, "cannot be created: " + problem.message(), {});
         return {};
     }
 
@@ -294,40 +298,40 @@ class Made {
         return written;
     }
 
-    void keep() { paths_.clear(); }
+    void commit() { paths_.clear(); }
 
   private:
-    std::vector<fs::path> paths_;  // a folder before what is in it
+    std::vector<fs::path> paths_;  // a folder precedes its contents
 };
 
 }  // namespace
 
 Status create_assembly(const fs::path& folder, std::string_view name) {
     if (folder.empty() || name.empty())
-        return fail(ErrorCode::usage, "no name for the assembly", "expected a folder and a name");
+        return fail(ErrorCode::usage, "no name for the assembly", "a folder and a name");
     std::error_code problem;
     if (fs::exists(folder, problem) && !fs::is_directory(folder, problem))
-        return refused(folder, ErrorCode::usage, "this is a file", "expected a folder that is new or empty");
+        return path_error(folder, ErrorCode::usage, "this is a file", "a folder that is new or empty");
     if (fs::is_directory(folder, problem) && !fs::is_empty(folder, problem))
-        return refused(folder, ErrorCode::usage, "this folder is not empty",
-                       "expected a folder that is new or empty");
-    // A trailing slash would hide the folder's own name.
+        return path_error(folder, ErrorCode::usage, "this folder is not empty",
+                          "a folder that is new or empty");
+    // With a trailing slash filename() is empty.
     const fs::path target = folder.has_filename() ? folder : folder.parent_path();
-    Made made;
-    BOLT_TRY(made.folder(target));
+    CreationRollback created;
+    BOLT_TRY(created.folder(target));
 
     const bool inside = is_among_assemblies(target);
     std::string text(template_text());
     replace_value(text, "/$schema",
                   inside ? "../../schema/" + std::string(schema_name) : std::string(schema_name));
     for (const char* title : {"/title/en", "/title/de", "/title/zh"}) replace_value(text, title, name);
-    for (const fs::path& model : take_models(text)) {
+    for (const fs::path& model : remove_missing_models(text)) {
         BOLT_TRY_ASSIGN(const auto bytes, read_file(model, model_size_limit, ErrorCode::failed));
-        BOLT_TRY(made.file(target / model.filename(), bytes));
+        BOLT_TRY(created.file(target / model.filename(), bytes));
     }
-    BOLT_TRY(made.file(target / "assembly.json", text));
-    if (!inside) BOLT_TRY(made.file(target / schema_name, schema_text()));
-    made.keep();
+    BOLT_TRY(created.file(target / "assembly.json", text));
+    if (!inside) BOLT_TRY(created.file(target / schema_name, schema_text()));
+    created.commit();
     return {};
 }
 

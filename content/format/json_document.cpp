@@ -47,13 +47,13 @@ std::string last_token(std::string_view pointer) {
 }
 
 std::string in_quotes(std::string_view text) {
-    constexpr std::size_t longest = 60;
+    constexpr std::size_t max_length = 60;
     std::string shown = "\"";
     std::size_t end = text.size();
-    if (end > longest) {
-        end = longest;
+    if (end > max_length) {
+        end = max_length;
         while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U)
-            --end;  // not inside a character
+            --end;  // do not cut inside a character
     }
     for (const char c : text.substr(0, end)) {
         const auto byte = static_cast<unsigned char>(c);
@@ -62,42 +62,42 @@ std::string in_quotes(std::string_view text) {
     return shown + (end < text.size() ? "\"..." : "\"");
 }
 
-std::string meant(std::string_view name, std::span<const std::string> known) {
+std::string nearest_name(std::string_view name, std::span<const std::string> known) {
     std::string best = nearest(name, known);
     if (best.empty()) return best;
     const std::size_t distance = edit_distance(name, best);
-    if (distance >= name.size()) return {};  // not a letter in common
-    const bool alone = std::none_of(known.begin(), known.end(), [&](const std::string& other) {
+    if (distance >= name.size()) return {};  // no letter in common
+    const bool is_unique = std::none_of(known.begin(), known.end(), [&](const std::string& other) {
         return other != best && edit_distance(name, other) <= distance;
     });
-    return alone ? best : std::string{};
+    return is_unique ? best : std::string{};
 }
 
 std::string suggest(std::string_view name, std::span<const std::string> known) {
-    const std::string best = meant(name, known);
+    const std::string best = nearest_name(name, known);
     if (!best.empty()) return fmt::format("did you mean {}?", in_quotes(best));
-    constexpr std::size_t most = 20;  // more names help nobody
-    if (known.size() > most)
-        return fmt::format("expected one of {}, ...", fmt::join(known.subspan(0, most), ", "));
-    if (known.size() == 1) return fmt::format("expected {}", in_quotes(known.front()));
-    return fmt::format("expected one of {}", fmt::join(known, ", "));
+    constexpr std::size_t max_names = 20;  // a longer list does not help
+    if (known.size() > max_names)
+        return fmt::format("one of {}, ...", fmt::join(known.subspan(0, max_names), ", "));
+    if (known.size() == 1) return fmt::format("{}", in_quotes(known.front()));
+    return fmt::format("one of {}", fmt::join(known, ", "));
 }
 
 using nlohmann::json;
 
 namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-constexpr std::size_t json_repeat_limit = 100;  // repeated names before we give up
+constexpr std::size_t json_repeat_limit = 100;  // repeated names before parsing stops
 }  // namespace
 
 // One value of the text, linked to its first child and its next sibling in the order of the file. A table of
-// pointers would be simpler, but its size grows with depth times length of the keys.
+// JSON pointers would be simpler, but its size would grow with the depth times the length of the keys.
 struct JsonDocument::Entry {
     std::uint32_t key_offset = 0;
     std::uint32_t value_offset = 0;
     std::uint32_t first_child = none;
     std::uint32_t next_sibling = none;
-    std::string key;  // of an object's member
+    std::string key;  // of the member, if the parent is an object
 };
 
 struct JsonDocument::Content {
@@ -105,11 +105,11 @@ struct JsonDocument::Content {
     std::string file;
     std::vector<Entry> entries;
     std::vector<std::size_t> line_starts{0};
-    std::vector<std::uint32_t> inner_bytes;  // offsets of the bytes that begin no character, rising
+    std::vector<std::uint32_t> inner_bytes;  // sorted offsets of UTF-8 continuation bytes
 };
 
-// Builds values and places as nlohmann's parser reads. The parser does not say where a token starts; it
-// starts at the first byte behind the previous token that is no white space, comma or colon.
+// SAX handler that builds the values and their positions. nlohmann's parser does not report where a token
+// starts; this is the first byte after the previous token that is not white space, comma or colon.
 class JsonBuilder {
   public:
     JsonBuilder(std::string_view text, JsonDocument& document, std::vector<Error>& errors)
@@ -129,17 +129,16 @@ class JsonBuilder {
 
     bool key(std::string& value) {
         key_offset_ = next_token();
-        before_ = Before::key;
-        if (value.empty())
-            return stop(key_offset_, "an empty name", "expected a name of at least one letter");
+        before_ = ParserState::key;
+        if (value.empty()) return stop_at(key_offset_, "an empty name", "a name of at least one letter");
         if (value.size() > json_key_limit)
-            return stop(key_offset_, "a name of more than 128 bytes", "expected a shorter name");
+            return stop_at(key_offset_, "a name of more than 128 bytes", "a shorter name");
         if (std::any_of(value.begin(), value.end(),
                         [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
-            return stop(key_offset_, "a name with a control character in it", "expected plain text");
-        Open& object = stack_.back();
+            return stop_at(key_offset_, "a name with a control character in it", "plain text");
+        OpenBracket& object = stack_.back();
         if (object.value->contains(value)) {
-            // Where it stood first: the value that counts.
+            // Position of the first occurrence, whose value counts.
             std::uint32_t first = document_.content_->entries[object.entry].first_child;
             while (document_.content_->entries[first].key != value)
                 first = document_.content_->entries[first].next_sibling;
@@ -158,23 +157,23 @@ class JsonBuilder {
     }
 
     bool parse_error(std::size_t, const std::string&, const json::exception&) {
-        Stopped where{end_, before_, {}, suspect_};
+        ParserStop where{end_, before_, {}, misclosed_};
         if (!stack_.empty()) where.open = document_.content_->entries[stack_.back().entry].value_offset;
-        const SyntaxMistake mistake =
+        const SyntaxError mistake =
             explain_syntax(text_, where, [&](std::size_t offset) { return document_.place(offset); });
-        return stop(mistake.offset, mistake.what, mistake.expected);
+        return stop_at(mistake.offset, mistake.what, mistake.expected);
     }
 
   private:
-    struct Open {
+    struct OpenBracket {
         json* value;
         std::uint32_t entry;
         std::uint32_t last_child;
         std::string key;
-        std::size_t indent;  // of the line it was opened in
+        std::size_t indent;  // of the line with the opening bracket
     };
 
-    // Whole numbers that a double cannot hold are kept as doubles: nothing in a content file counts that far.
+    // Integers beyond the exact range of double are stored as doubles; content files need none.
     template <class Integer>
     static json number(Integer value) {
         constexpr double exact = 9007199254740992.0;  // 2⁵³
@@ -193,7 +192,7 @@ class JsonBuilder {
         return start;
     }
 
-    bool stop(std::size_t offset, std::string what, std::string expected) {
+    bool stop_at(std::size_t offset, std::string what, std::string expected) {
         errors_.push_back(document_.error_at(offset, std::move(what), std::move(expected)));
         return false;
     }
@@ -206,16 +205,16 @@ class JsonBuilder {
 
     void value_read() {
         if (stack_.empty())
-            before_ = Before::end;
+            before_ = ParserState::end;
         else
-            before_ = stack_.back().value->is_object() ? Before::object_value : Before::array_value;
+            before_ = stack_.back().value->is_object() ? ParserState::object_value : ParserState::array_value;
     }
 
     json* store(json value) {
         const std::size_t offset = next_token();
         auto& entries = document_.content_->entries;
         if (entries.size() >= json_value_limit) {
-            stop(offset, fmt::format("the file holds more than {} values", json_value_limit), {});
+            stop_at(offset, fmt::format("the file holds more than {} values", json_value_limit), {});
             return nullptr;
         }
         const auto index = static_cast<std::uint32_t>(entries.size());
@@ -223,7 +222,7 @@ class JsonBuilder {
         entry.value_offset = entry.key_offset = static_cast<std::uint32_t>(offset);
         json* slot = &document_.content_->root;
         if (!stack_.empty()) {
-            Open& parent = stack_.back();
+            OpenBracket& parent = stack_.back();
             if (parent.value->is_object()) {
                 entry.key_offset = static_cast<std::uint32_t>(key_offset_);
                 entry.key = key_;
@@ -254,19 +253,20 @@ class JsonBuilder {
         if (slot == nullptr) return false;
         const auto index = static_cast<std::uint32_t>(document_.content_->entries.size() - 1);
         if (stack_.size() >= json_depth_limit)
-            return stop(document_.content_->entries[index].value_offset,
-                        fmt::format("nested more than {} levels deep", json_depth_limit), {});
+            return stop_at(document_.content_->entries[index].value_offset,
+                           fmt::format("nested more than {} levels deep", json_depth_limit), {});
         stack_.push_back({slot, index, none, key_, indent_});
-        before_ = object ? Before::object_open : Before::array_open;
+        before_ = object ? ParserState::object_open : ParserState::array_open;
         return true;
     }
 
     bool close() {
         next_token();
-        // Further left than the line that opened it: the bracket of one further out.
-        const Open& top = stack_.back();
-        if (!suspect_ && first_on_line_ && indent_ < top.indent)
-            suspect_ = document_.content_->entries[top.entry].value_offset;
+        // A closing bracket with less indentation than the line that opened it probably belongs to an outer
+        // bracket.
+        const OpenBracket& top = stack_.back();
+        if (!misclosed_ && first_on_line_ && indent_ < top.indent)
+            misclosed_ = document_.content_->entries[top.entry].value_offset;
         stack_.pop_back();
         value_read();
         return true;
@@ -275,16 +275,18 @@ class JsonBuilder {
     std::string_view text_;
     JsonDocument& document_;
     std::vector<Error>& errors_;
-    std::size_t end_;  // byte behind the last token read
-    Before before_ = Before::start;
-    std::vector<Open> stack_;
-    bool first_on_line_ = false;          // the last token
-    std::size_t indent_ = 0;              // of its line
-    std::optional<std::size_t> suspect_;  // the first bracket that another's seems to have closed
+    std::size_t end_;  // byte after the last token read
+    ParserState before_ = ParserState::start;
+    std::vector<OpenBracket> stack_;
+    bool first_on_line_ = false;  // of the last token
+    std::size_t indent_ = 0;      // of the last token's line
+    // First bracket that was probably closed by another's closing bracket.
+    std::optional<std::size_t> misclosed_;
     std::size_t key_offset_ = 0;
     std::string key_;
-    json* slot_ = nullptr;        // where the value of the key goes
-    std::deque<json> discarded_;  // the values of repeated keys; they stay in place while they are filled
+    json* slot_ = nullptr;  // destination of the value of the current key
+    // Values of repeated keys; a deque keeps their addresses stable while they are filled.
+    std::deque<json> discarded_;
 };
 
 JsonDocument::JsonDocument(std::string_view text, std::string_view file)
@@ -295,7 +297,7 @@ JsonDocument::JsonDocument(std::string_view text, std::string_view file)
         if ((static_cast<unsigned char>(text[i]) & 0xC0U) == 0x80U)
             content_->inner_bytes.push_back(static_cast<std::uint32_t>(i));
     }
-    content_->line_starts[0] = byte_order_mark(text);  // invisible in every editor
+    content_->line_starts[0] = byte_order_mark(text);  // editors do not display it
 }
 
 JsonDocument::~JsonDocument() = default;
@@ -318,7 +320,7 @@ std::unique_ptr<JsonDocument> JsonDocument::parse(std::string_view text, std::st
 
 const json& JsonDocument::root() const { return content_->root; }
 
-std::size_t JsonDocument::offset(std::string_view pointer, Part part) const {
+std::size_t JsonDocument::offset(std::string_view pointer, JsonPart part) const {
     const auto& entries = content_->entries;
     if (entries.empty()) return 0;
     std::uint32_t at = 0;
@@ -327,10 +329,10 @@ std::size_t JsonDocument::offset(std::string_view pointer, Part part) const {
     for (const std::string& token : tokens) {
         std::uint32_t child = entries[at].first_child;
         std::size_t index = 0;
-        const auto is_it = [&](const Entry& e) {
+        const auto matches = [&](const Entry& e) {
             return e.key.empty() ? token == std::to_string(index) : token == e.key;
         };
-        while (child != none && !is_it(entries[child])) {
+        while (child != none && !matches(entries[child])) {
             child = entries[child].next_sibling;
             ++index;
         }
@@ -338,7 +340,8 @@ std::size_t JsonDocument::offset(std::string_view pointer, Part part) const {
         at = child;
         ++found;
     }
-    return part == Part::key && found == tokens.size() ? entries[at].key_offset : entries[at].value_offset;
+    return part == JsonPart::key && found == tokens.size() ? entries[at].key_offset
+                                                           : entries[at].value_offset;
 }
 
 std::size_t JsonDocument::line_start(std::size_t offset) const {
@@ -370,13 +373,14 @@ std::string JsonDocument::place(std::size_t offset) const {
     return fmt::format("{}:{}", error.line, error.column);
 }
 
-Error JsonDocument::error(std::string_view pointer, Part part, std::string what, std::string expected) const {
+Error JsonDocument::error(std::string_view pointer, JsonPart part, std::string what,
+                          std::string expected) const {
     Error error = error_at(offset(pointer, part), std::move(what), std::move(expected));
     error.pointer = pointer;
     return error;
 }
 
-int JsonDocument::line(std::string_view pointer, Part part) const {
+int JsonDocument::line(std::string_view pointer, JsonPart part) const {
     return error_at(offset(pointer, part), {}, {}).line;
 }
 

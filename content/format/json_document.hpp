@@ -1,4 +1,5 @@
-// JSON pointers (RFC 6901): "/joints/3/id".
+// A JSON document that records the position of every key and value, JSON pointers (RFC 6901: "/joints/3/id"),
+// and helpers for error messages.
 #pragma once
 
 #include <cstdint>
@@ -22,32 +23,29 @@ std::vector<std::string> pointer_tokens(std::string_view pointer);
 // The last reference token, unescaped; empty for the whole document.
 std::string last_token(std::string_view pointer);
 
-// How messages show the names of a file, and what an author may have meant by one that is not there.
-
-// A text of the file as a message shows it: quoted, cut when long, without control characters.
+// Quotes a text of the file for a message: truncated if long, without control characters.
 std::string in_quotes(std::string_view text);
 
-// The one known name that is near enough to be what was meant; empty if none is, or several are as near.
-std::string meant(std::string_view name, std::span<const std::string> known);
+// Returns the known name nearest to `name`; empty if none is close enough or several are equally close.
+std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
-// "did you mean "x"?", or "expected one of a, b, c".
+// Error::expected for an unknown name: "did you mean "x"?" or "one of a, b, c".
 std::string suggest(std::string_view name, std::span<const std::string> known);
 
-// A JSON text that remembers where every key and value stands, so that a mistake found later can be pointed
-// at.
-
-// What a content file may be at most: bounds that no author meets, and that keep a hostile file cheap.
+// Limits of a content file, far above what authors need; they bound the cost of a hostile file.
 inline constexpr std::size_t json_size_limit = 4U << 20U;  // bytes
 inline constexpr std::size_t json_depth_limit = 64;
 inline constexpr std::size_t json_value_limit = 100'000;
 inline constexpr std::size_t json_key_limit = 128;  // bytes
 
-enum class Part : std::uint8_t { key, value };
+enum class JsonPart : std::uint8_t { key, value };
 
+// A parsed JSON text with the positions of its keys and values, so that errors found later can name line and
+// column.
 class JsonDocument {
   public:
-    // Appends what is wrong to `errors`. Null if the text is no JSON; a document with repeated keys is still
-    // given, the first of them counts.
+    // Appends errors to `errors`. Returns null if the text is not JSON. A document with repeated keys is
+    // returned with an error; the first value of a key counts.
     static std::unique_ptr<JsonDocument> parse(std::string_view text, std::string_view file,
                                                std::vector<Error>& errors);
     JsonDocument(const JsonDocument&) = delete;
@@ -56,16 +54,15 @@ class JsonDocument {
 
     [[nodiscard]] const nlohmann::json& root() const;
 
-    // Byte where the key or value of a JSON pointer begins; of the nearest parent that is there, if it is
-    // not.
-    [[nodiscard]] std::size_t offset(std::string_view pointer, Part part = Part::value) const;
+    // Offset of the key or value at a JSON pointer; of its nearest existing parent if there is no such value.
+    [[nodiscard]] std::size_t offset(std::string_view pointer, JsonPart part = JsonPart::value) const;
 
-    // A mistake at a JSON pointer, with its line and column. Columns count characters as an editor does: code
-    // points, a tab is one.
-    [[nodiscard]] Error error(std::string_view pointer, Part part, std::string what,
+    // An error at a JSON pointer, with line and column. Columns count code points, as editors do; a tab is
+    // one.
+    [[nodiscard]] Error error(std::string_view pointer, JsonPart part, std::string what,
                               std::string expected) const;
 
-    [[nodiscard]] int line(std::string_view pointer, Part part = Part::value) const;
+    [[nodiscard]] int line(std::string_view pointer, JsonPart part = JsonPart::value) const;
 
   private:
     friend class JsonBuilder;

@@ -1,4 +1,4 @@
-// Says in plain words why a text is no JSON.
+// Explains in plain words why a text is not JSON, for authors.
 #pragma once
 
 #include <cstddef>
@@ -9,36 +9,37 @@
 
 namespace bolt::content {
 
-struct SyntaxMistake {
-    std::size_t offset = 0;  // byte where it stands
+struct SyntaxError {
+    std::size_t offset = 0;  // byte offset
     std::string what;
     std::string expected;
 };
 
-// What the parser had read when it stopped.
-enum class Before { start, object_open, array_open, key, object_value, array_value, end };
+// The position of the parser when it stopped, between the last token read and the next.
+enum class ParserState { start, object_open, array_open, key, object_value, array_value, end };
 
-struct Stopped {
-    std::size_t end = 0;  // byte behind the last good token
-    Before before = Before::start;
-    std::optional<std::size_t> open;     // the innermost bracket that is open
-    std::optional<std::size_t> suspect;  // an earlier one that another's closing bracket seems to have closed
+struct ParserStop {
+    std::size_t end = 0;  // byte after the last valid token
+    ParserState before = ParserState::start;
+    std::optional<std::size_t> open;     // offset of the innermost open bracket
+    std::optional<std::size_t> suspect;  // offset of a bracket that, by the indentation, was closed by the
+                                         // closing bracket of another
 };
 
-// The mistake in `text` where the parser stopped. `place` writes an offset as "line:column".
-SyntaxMistake explain_syntax(std::string_view text, const Stopped& where,
-                             const std::function<std::string(std::size_t)>& place);
+// The error in `text` at which the parser stopped. `place` formats an offset as "line:column".
+SyntaxError explain_syntax(std::string_view text, const ParserStop& stop,
+                           const std::function<std::string(std::size_t)>& place);
 
-// The first byte that no content file may hold: not UTF-8, or NUL.
-std::optional<SyntaxMistake> explain_encoding(std::string_view text);
+// The first byte that a content file must not contain: invalid UTF-8 or NUL.
+std::optional<SyntaxError> explain_encoding(std::string_view text);
 
-// Byte behind the token that starts at `start` of a text that is known to be JSON up to there.
+// Byte after the token that starts at `start`. The text must be valid JSON up to there.
 std::size_t token_end(std::string_view text, std::size_t start);
 
-// First byte at or behind `from` that is not white space.
+// First byte at or after `from` that is not white space.
 std::size_t skip_space(std::string_view text, std::size_t from);
 
-// Bytes of the byte order mark that the text starts with: 3 or 0.
+// Length of the byte order mark at the start of the text: 3 or 0.
 std::size_t byte_order_mark(std::string_view text);
 
 }  // namespace bolt::content

@@ -14,36 +14,37 @@ namespace bolt::content {
 namespace {
 
 constexpr double mm = 1e-3;
-constexpr double largest_play = 0.6e-3;  // m, of a jaw on its nut
+constexpr double max_jaw_play = 0.6e-3;  // m, of a jaw on a nut
 constexpr double default_head_angle = to_radians(15.0);
-constexpr std::string_view click_kind = "click_torque_wrench", usual_tool = "wrench";
+constexpr std::string_view click_tool_kind = "click_torque_wrench", default_tool_name = "wrench";
 constexpr double default_click_swing_deg = 4.0;
 constexpr double default_accuracy_percent = 4.0;  // ISO 6789-1: type II, class A, above 10 N·m
 constexpr double default_field_of_view = to_radians(40.0);
 
-std::map<std::string, std::string> read_texts(Reader& reader, const Node& node) {
+std::map<std::string, std::string> read_texts(JsonReader& reader, const JsonNode& node) {
     std::map<std::string, std::string> texts;
-    for (const Node& item : reader.items(node))
+    for (const JsonNode& item : reader.items(node))
         if (const auto text = reader.text(item)) texts[last_token(item.pointer)] = *text;
-    for (const char* language : {"en", "de", "zh"}) reader.member(node, language);  // named in the schema
+    for (const char* language : {"en", "de", "zh"})
+        reader.member(node, language);  // so that the names count as read
     return texts;
 }
 
-// Of a torque wrench alone: what is said of it on another tool is no use, and meant otherwise.
-void read_click(Reader& reader, const Layers& tool, WrenchDesign& wrench) {
-    const bool clicks = tool.text("kind").value_or("") == click_kind;
+// Reads the members of a click-type torque wrench. On another tool they are an error.
+void read_click(JsonReader& reader, const LayeredObject& tool, WrenchDesign& wrench) {
+    const bool clicks = tool.text("kind").value_or("") == click_tool_kind;
     const auto swing = tool.number("click_swing_deg"), accuracy = tool.number("accuracy_percent");
     for (const auto& value : {swing, accuracy})
-        if (value && !clicks && tool.known({"kind"}))
+        if (value && !clicks && tool.all_valid({"kind"}))
             reader.report(value.pointer, "only a torque wrench clicks",
-                          fmt::format("expected the kind {}, or no such value", in_quotes(click_kind)));
+                          fmt::format("the kind {}, or no such value", in_quotes(click_tool_kind)));
     if (!clicks) return;
     wrench.click_swing = to_radians(swing.value_or(default_click_swing_deg));
     wrench.click_accuracy = accuracy.value_or(default_accuracy_percent) / 100.0;
 }
 
-WrenchDesign read_tool(Reader& reader, const Node& node, const std::vector<AssemblyJoint>& joints) {
-    const Layers tool(reader, {node});
+WrenchDesign read_tool(JsonReader& reader, const JsonNode& node, const std::vector<AssemblyJoint>& joints) {
+    const LayeredObject tool(reader, {node});
     WrenchDesign wrench;
     read_click(reader, tool, wrench);
     wrench.head_angle = default_head_angle;
@@ -53,7 +54,8 @@ WrenchDesign read_tool(Reader& reader, const Node& node, const std::vector<Assem
     const auto depth = tool.number("jaw_depth_mm"), tip = tool.number("jaw_tip_mm");
     wrench.jaw_depth = depth.value_or(0.0) * mm;
     wrench.jaw_tip = tip.value_or(0.0) * mm;
-    // The jaw's bottom leaves room for a corner, its tips reach past the flats' ends.
+    // The bottom of the jaw must leave room for a corner, and its tips must reach beyond the ends of the
+    // flats.
     double widest = 0.0;
     for (const AssemblyJoint& joint : joints)
         widest = std::max(widest, joint.design.thread.size.across_flats);
@@ -62,7 +64,7 @@ WrenchDesign read_tool(Reader& reader, const Node& node, const std::vector<Assem
         reader.report(
             value.pointer,
             fmt::format("{} of {:g} mm is too short for {:g} mm across flats", what, *value, widest / mm),
-            fmt::format("expected at least {:.2f} mm", share * widest / mm));
+            fmt::format("at least {:.2f} mm", share * widest / mm));
     };
     too_short(depth, 1.0 / std::sqrt(3.0), "a jaw depth");
     too_short(tip, 1.0 / std::sqrt(12.0), "a jaw tip");
@@ -72,39 +74,39 @@ WrenchDesign read_tool(Reader& reader, const Node& node, const std::vector<Assem
     for (const AssemblyJoint& joint : joints) {
         const joint::FastenerSize& size = joint.design.thread.size;
         const double s = size.across_flats;
-        if (s <= 0.0 || (wrench.jaw > s - 1e-9 && wrench.jaw < s + largest_play + 1e-9)) continue;
+        if (s <= 0.0 || (wrench.jaw > s - 1e-9 && wrench.jaw < s + max_jaw_play + 1e-9)) continue;
         reader.report(
             jaw.pointer,
             fmt::format("a jaw of {:g} mm does not fit {}, {:g} mm across flats", *jaw, size.name, s / mm),
-            fmt::format("expected {:g} to {:g} mm", s / mm, (s + largest_play) / mm));
+            fmt::format("{:g} to {:g} mm", s / mm, (s + max_jaw_play) / mm));
         break;
     }
     return wrench;
 }
 
-// The usual one, and what there is beside it.
-std::vector<Tool> read_tools(Reader& reader, const std::vector<AssemblyJoint>& joints,
-                             const FilePlaces& places) {
+// The default tool, then the alternatives.
+std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint>& joints,
+                             const ModelFolders& folders) {
     std::vector<Tool> tools;
-    const auto read = [&](std::string name, const Node& node) {
+    const auto read = [&](std::string name, const JsonNode& node) {
         Tool tool{std::move(name), read_texts(reader, reader.member(node, "title")),
                   read_tool(reader, node, joints)};
-        tool.wrench.model = read_tool_model(reader, node, places);
+        tool.wrench.model = read_tool_model(reader, node, folders);
         tools.push_back(std::move(tool));
     };
-    read(std::string(usual_tool), reader.member(reader.root(), "tool"));
-    for (const Node& node : reader.items(reader.member(reader.root(), "more_tools"))) {
+    read(std::string(default_tool_name), reader.member(reader.root(), "tool"));
+    for (const JsonNode& node : reader.items(reader.member(reader.root(), "more_tools"))) {
         const std::string name = last_token(node.pointer);
-        if (name == usual_tool)
-            reader.report(node.pointer, fmt::format("{} is what \"tool\" is called", in_quotes(name)),
-                          "expected another name", Part::key);
+        if (name == default_tool_name)
+            reader.report(node.pointer, fmt::format("{} is the name of \"tool\"", in_quotes(name)),
+                          "another name", JsonPart::key);
         read(name, node);
     }
     return tools;
 }
 
-FlangeDesign read_flange(Reader& reader) {
-    const Layers file(reader, {reader.member(reader.root(), "flange")});
+FlangeDesign read_flange(JsonReader& reader) {
+    const LayeredObject file(reader, {reader.member(reader.root(), "flange")});
     FlangeDesign flange;
     flange.coupled = !file.objects().empty();
     flange.thickness = file.number("thickness_mm").value_or(0.0) * mm;
@@ -114,11 +116,11 @@ FlangeDesign read_flange(Reader& reader) {
     return flange;
 }
 
-std::vector<View> read_views(Reader& reader) {
-    std::vector<View> views;
-    for (const Node& node : reader.items(reader.member(reader.root(), "views"))) {
-        View view;
-        const Node name = reader.member(node, "name");
+std::vector<Viewpoint> read_views(JsonReader& reader) {
+    std::vector<Viewpoint> views;
+    for (const JsonNode& node : reader.items(reader.member(reader.root(), "views"))) {
+        Viewpoint view;
+        const JsonNode name = reader.member(node, "name");
         view.name = reader.text(name).value_or("");
         view.eye = reader.vector(reader.member(node, "eye_mm")).value_or(Vec3{0.0}) * mm;
         view.target = reader.vector(reader.member(node, "target_mm")).value_or(Vec3{0.0}) * mm;
@@ -126,48 +128,49 @@ std::vector<View> read_views(Reader& reader) {
         if (const auto angle = reader.number(reader.member(node, "field_of_view_deg")))
             view.field_of_view = to_radians(*angle);
         if (name &&
-            std::any_of(views.begin(), views.end(), [&](const View& v) { return v.name == view.name; }))
+            std::any_of(views.begin(), views.end(), [&](const Viewpoint& v) { return v.name == view.name; }))
             reader.report(name.pointer, fmt::format("there are two views {}", in_quotes(view.name)),
-                          "expected a name of its own");
-        const Vec3 look = view.target - view.eye;
-        if (reader.sound(node.pointer) && glm::dot(look, look) < 1e-12)
-            reader.report(reader.member(node, "target_mm").pointer, "the view looks at its own eye",
-                          "expected another point");
+                          "a name of its own");
+        const Vec3 line_of_sight = view.target - view.eye;
+        if (reader.is_valid(node.pointer) && glm::dot(line_of_sight, line_of_sight) < 1e-12)
+            reader.report(reader.member(node, "target_mm").pointer, "the target of the view is its eye point",
+                          "another point");
         views.push_back(std::move(view));
     }
     return views;
 }
 
 std::string suggest_variant(std::string_view name, const std::vector<std::string>& known) {
-    return known.empty() ? "expected none: the file has no variants" : suggest(name, known);
+    return known.empty() ? "none: the file has no variants" : suggest(name, known);
 }
 
-// The variant to use: what is asked for, else the file's default, else none.
-std::string choose_variant(Reader& reader, std::string_view asked, const std::vector<Variant>& variants) {
+// The variant to use: the requested one, else the file's default, else none.
+std::string choose_variant(JsonReader& reader, std::string_view requested,
+                           const std::vector<AssemblyVariant>& variants) {
     std::vector<std::string> names;
-    for (const Variant& v : variants) names.push_back(v.name);
+    for (const AssemblyVariant& v : variants) names.push_back(v.name);
     const auto known = [&](std::string_view name) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
-    const Node all = reader.member(reader.root(), "variants");
-    const Node node = reader.member(reader.root(), "default_variant");
+    const JsonNode all = reader.member(reader.root(), "variants");
+    const JsonNode node = reader.member(reader.root(), "default_variant");
     const std::string fallback = reader.text(node).value_or("");
-    if (node && !known(fallback) && reader.sound(all.pointer))
-        reader.report(node.pointer, fmt::format("{} is no variant of this file", in_quotes(fallback)),
+    if (node && !known(fallback) && reader.is_valid(all.pointer))
+        reader.report(node.pointer, fmt::format("{} is not a variant of this file", in_quotes(fallback)),
                       suggest_variant(fallback, names));
-    if (asked.empty()) return known(fallback) ? fallback : std::string{};
-    if (!known(asked) && reader.sound(all.pointer))
+    if (requested.empty()) return known(fallback) ? fallback : std::string{};
+    if (!known(requested) && reader.is_valid(all.pointer))
         reader.report(all.pointer,
-                      fmt::format("the variant {} that was asked for is not in this file", in_quotes(asked)),
-                      suggest_variant(asked, names));
-    return known(asked) ? std::string(asked) : std::string{};
+                      fmt::format("the requested variant {} is not in this file", in_quotes(requested)),
+                      suggest_variant(requested, names));
+    return known(requested) ? std::string(requested) : std::string{};
 }
 
 }  // namespace
 
-Assembly read_assembly(Reader& reader, std::string_view variant, const FilePlaces& places) {
+Assembly read_assembly(JsonReader& reader, std::string_view variant, const ModelFolders& folders) {
     Assembly assembly;
-    const Node root = reader.root();
+    const JsonNode root = reader.root();
     reader.member(root, "$schema");  // for editors only
     assembly.title = read_texts(reader, reader.member(root, "title"));
     assembly.lesson = read_texts(reader, reader.member(root, "lesson"));
@@ -178,17 +181,18 @@ Assembly read_assembly(Reader& reader, std::string_view variant, const FilePlace
     assembly.published_targets = read_published_targets(reader, assembly.published);
     assembly.flange = read_flange(reader);
     assembly.views = read_views(reader);
-    assembly.models = read_model_files(reader, places);
+    assembly.models = read_model_files(reader, folders);
 
-    for (const Node& node : reader.items(reader.member(root, "variants")))
+    for (const JsonNode& node : reader.items(reader.member(root, "variants")))
         assembly.variants.push_back(
             {last_token(node.pointer), read_texts(reader, reader.member(node, "title"))});
     assembly.variant = choose_variant(reader, variant, assembly.variants);
-    // The others are only read for their mistakes. Without a default the plain file can be chosen too.
-    for (const Variant& other : assembly.variants)
-        if (other.name != assembly.variant) read_tools(reader, read_joints(reader, other.name), places);
+    // The other variants are read only to report their errors. Without a default variant the plain file can
+    // be chosen too.
+    for (const AssemblyVariant& other : assembly.variants)
+        if (other.name != assembly.variant) read_tools(reader, read_joints(reader, other.name), folders);
     assembly.joints = read_joints(reader, assembly.variant);
-    assembly.tools = read_tools(reader, assembly.joints, places);
+    assembly.tools = read_tools(reader, assembly.joints, folders);
     assembly.tool = assembly.tools.front().name;
     assembly.wrench = assembly.tools.front().wrench;
     assembly.passes = read_passes(reader, assembly.joints);
@@ -210,45 +214,46 @@ std::vector<std::string> models_in(const fs::path& folder) {
     return names;
 }
 
-bool lies_in(const fs::path& inner, const fs::path& folder) {
+bool is_in_folder(const fs::path& inner, const fs::path& folder) {
     std::error_code problem;
     const fs::path whole = fs::weakly_canonical(fs::absolute(inner), problem);
     return !problem &&
            std::mismatch(folder.begin(), folder.end(), whole.begin(), whole.end()).first == folder.end();
 }
 
-// The path that a value names, from `folder`. Whether it is there is only asked where `root` is known.
-std::string read_file_name(Reader& reader, const Node& node, const fs::path& folder, const fs::path& root,
-                           std::string_view where) {
+// The path of the .glb file that a value refers to, relative to `folder`; empty after an error. Its existence
+// is checked only if `root` is given.
+std::string read_file_name(JsonReader& reader, const JsonNode& node, const fs::path& folder,
+                           const fs::path& root, std::string_view folder_text) {
     const auto name = reader.text(node);
     if (!name) return {};
     const fs::path given(*name);
     if (given.is_absolute() || name->find('\\') != std::string::npos ||
         name->find(':') != std::string::npos) {
         reader.report(node.pointer, fmt::format("{} is not a relative path", in_quotes(*name)),
-                      fmt::format("expected a path from {}, with / between folders", where));
+                      fmt::format("a path from {}, with / between folders", folder_text));
         return {};
     }
     if (given.extension() != ".glb") {
-        reader.report(node.pointer, fmt::format("{} is no .glb file", in_quotes(*name)),
-                      "expected a binary glTF file: bolt-author import-step makes one from STEP");
+        reader.report(node.pointer, fmt::format("{} is not a .glb file", in_quotes(*name)),
+                      "a binary glTF file: bolt-author import-step makes one from STEP");
         return {};
     }
     fs::path path = (folder / given).lexically_normal();
     if (root.empty()) return path.string();
-    if (!lies_in(path, root)) {
-        const bool own = lies_in(root, fs::weakly_canonical(fs::absolute(folder)));
-        reader.report(node.pointer,
-                      fmt::format("{} leads out of {}", in_quotes(*name), own ? where : "the content folder"),
-                      fmt::format("expected a file in {}", own ? where : "the content folder"));
+    if (!is_in_folder(path, root)) {
+        const bool own = is_in_folder(root, fs::weakly_canonical(fs::absolute(folder)));
+        reader.report(
+            node.pointer,
+            fmt::format("{} is outside {}", in_quotes(*name), own ? folder_text : "the content folder"),
+            fmt::format("a file in {}", own ? folder_text : "the content folder"));
         return {};
     }
     std::error_code ignored;
     if (!fs::is_regular_file(path, ignored)) {
         const std::vector<std::string> known = models_in(path.parent_path());
-        reader.report(
-            node.pointer, fmt::format("there is no file {} in {}", in_quotes(*name), where),
-            known.empty() ? "expected a file; no .glb is there" : suggest(given.filename().string(), known));
+        reader.report(node.pointer, fmt::format("there is no file {} in {}", in_quotes(*name), folder_text),
+                      known.empty() ? "a file; no .glb is there" : suggest(given.filename().string(), known));
         return {};
     }
     return path.string();
@@ -256,24 +261,24 @@ std::string read_file_name(Reader& reader, const Node& node, const fs::path& fol
 
 }  // namespace
 
-ModelFiles read_model_files(Reader& reader, const FilePlaces& places) {
+ModelFiles read_model_files(JsonReader& reader, const ModelFolders& folders) {
     const auto read = [&](std::string_view key) {
-        return read_file_name(reader, reader.member(reader.root(), key), places.folder, places.root,
+        return read_file_name(reader, reader.member(reader.root(), key), folders.folder, folders.root,
                               "the assembly's folder");
     };
     return {read("model"), read("model_far"), read("contact_model")};
 }
 
-std::string read_tool_model(Reader& reader, const Node& tool, const FilePlaces& places) {
-    // Tools are shared by all assemblies, so their models lie in one place.
-    const Node node = reader.member(tool, "model");
-    const fs::path root = places.root.empty() ? fs::path{} : fs::weakly_canonical(places.tools);
-    return read_file_name(reader, node, places.tools, root, "content/tools");
+std::string read_tool_model(JsonReader& reader, const JsonNode& tool, const ModelFolders& folders) {
+    // Tools are shared by all assemblies, so their models are in one folder.
+    const JsonNode node = reader.member(tool, "model");
+    const fs::path root = folders.root.empty() ? fs::path{} : fs::weakly_canonical(folders.tools);
+    return read_file_name(reader, node, folders.tools, root, "content/tools");
 }
 
-joint::PublishedParameters read_published(Reader& reader) {
+joint::PublishedParameters read_published(JsonReader& reader) {
     joint::PublishedParameters p;
-    const Layers file(reader, {reader.member(reader.root(), "published")});
+    const LayeredObject file(reader, {reader.member(reader.root(), "published")});
     const auto read = [&](std::string_view key, double& value) { value = file.number(key).value_or(value); };
     read("nut_mass_g", p.nut_mass_g);
     read("mu", p.mu);
@@ -295,53 +300,53 @@ joint::PublishedParameters read_published(Reader& reader) {
     read("yield_width_deg", p.yield_width_deg);
     read("transition_width_deg", p.transition_width_deg);
     read("contact_end_mm2", p.contact_end_mm2);
-    // Only where they are given: the printed values must come through to the last bit.
+    // Converted only if given, so that the paper's defaults are preserved to the last bit.
     if (const auto alpha = file.number("alpha_deg")) p.alpha = to_radians(*alpha);
     if (const auto beta = file.number("beta_deg")) p.beta = to_radians(*beta);
     if (const auto turns = file.number("theta_max_turns")) p.theta_max_deg = *turns * 360.0;
-    const std::vector<Node> rates = reader.items(file.find("spring_rates_MN_per_mm"));
+    const std::vector<JsonNode> rates = reader.items(file.find("spring_rates_MN_per_mm"));
     for (std::size_t i = 0; i < rates.size() && i < std::size(p.spring_rates_1e6); ++i)
         p.spring_rates_1e6[i] = reader.number(rates[i]).value_or(p.spring_rates_1e6[i]);
 
-    if (file.objects().empty() || !file.sound()) return p;
+    if (file.objects().empty() || !file.is_valid()) return p;
     if (p.D1_mm <= p.D2_mm)
         reader.report(file.objects()[0].pointer, fmt::format("D1 of {:g} mm is no larger than D2", p.D1_mm),
-                      fmt::format("expected more than {:g} mm", p.D2_mm));
+                      fmt::format("more than {:g} mm", p.D2_mm));
     const double yield_start = joint::published_yield_torque(p, p.theta_max_deg - p.yield_width_deg);
     if (yield_start <= 0.0)
         reader.report(file.objects()[0].pointer,
                       fmt::format("the torque would be {:.1f} N·m where yield begins", yield_start),
-                      "expected a smaller kappa1_Nm_per_deg2 or yield_width_deg, or a larger T_max_Nm");
+                      "a smaller kappa1_Nm_per_deg2 or yield_width_deg, or a larger T_max_Nm");
     else if (const double start = joint::published_boundaries(p).transition; start <= 0.0)
         reader.report(file.objects()[0].pointer,
                       fmt::format("the nut would be on its seat {:.0f} degrees before it is started", -start),
-                      "expected a larger theta_max_turns or narrower stages");
+                      "a larger theta_max_turns or narrower stages");
     return p;
 }
 
-std::optional<PublishedTargets> read_published_targets(Reader& reader,
+std::optional<PublishedTargets> read_published_targets(JsonReader& reader,
                                                        const joint::PublishedParameters& law) {
-    const Layers file(reader, {reader.member(reader.root(), "published")});
+    const LayeredObject file(reader, {reader.member(reader.root(), "published")});
     PublishedTargets targets;
     targets.torque = read_torque(file);
     targets.snug_torque = read_snug_torque(file, targets.torque);
-    const Node target = file.find("target_torque_Nm");
+    const JsonNode target = file.find("target_torque_Nm");
     if (!target) {
         for (const char* key :
              {"snug_torque_Nm", "min_torque_Nm", "max_torque_Nm", "torque_tolerance_percent"})
-            if (const Node alone = file.find(key); alone && file.known({"target_torque_Nm"}))
+            if (const JsonNode alone = file.find(key); alone && file.all_valid({"target_torque_Nm"}))
                 reader.report(alone.pointer, fmt::format("\"{}\" without \"target_torque_Nm\"", key),
-                              "expected the target too, or neither", Part::key);
+                              "the target too, or neither", JsonPart::key);
         return std::nullopt;
     }
     check_limits(file);
-    if (!file.known({"T_max_Nm", "min_torque_Nm", "max_torque_Nm", "torque_tolerance_percent"}))
+    if (!file.all_valid({"T_max_Nm", "min_torque_Nm", "max_torque_Nm", "torque_tolerance_percent"}))
         return targets;
     if (targets.torque.target > law.T_max_Nm)
         reader.report(target.pointer,
                       fmt::format("{:g} N·m is never reached: the published law ends at a T_max of {:g} N·m",
                                   targets.torque.target, law.T_max_Nm),
-                      fmt::format("expected at most {:g} N·m", law.T_max_Nm));
+                      fmt::format("at most {:g} N·m", law.T_max_Nm));
     check_torques(file, targets.torque, targets.snug_torque);
     return targets;
 }

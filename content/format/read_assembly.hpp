@@ -1,4 +1,4 @@
-// The whole file, read through a Reader that has checked it against the schema.
+// Converts an assembly file to an Assembly. The reader has checked the file against the schema.
 #pragma once
 
 #include <filesystem>
@@ -10,25 +10,25 @@
 
 namespace bolt::content {
 
-// Where the files are that an assembly names.
-struct FilePlaces {
-    std::filesystem::path folder;  // of the assembly; what it names is found from here
-    std::filesystem::path tools;   // folder of the tools' models
-    std::filesystem::path root;    // nothing outside of it may be named; empty: the files are not looked for
+// Folders of the model files that an assembly refers to.
+struct ModelFolders {
+    std::filesystem::path folder;  // of the assembly; its paths are relative to this folder
+    std::filesystem::path tools;   // of the tools' models
+    std::filesystem::path root;    // files outside it are rejected; empty: files are not checked
 };
 
-// All variants are checked; the one that is asked for is given (empty: the file's default).
-Assembly read_assembly(Reader& reader, std::string_view variant, const FilePlaces& places = {});
+// Checks all variants and returns the requested one (empty: the file's default).
+Assembly read_assembly(JsonReader& reader, std::string_view variant, const ModelFolders& folders = {});
 
-// The parts of it that stand in files of their own.
-std::vector<AssemblyJoint> read_joints(Reader& reader, const std::string& variant);
-// The least share of the target torque that a pass tightens to; 1 if that is not known.
-double least_share(Reader& reader);
-std::vector<Pass> read_passes(Reader& reader, const std::vector<AssemblyJoint>& joints);
-joint::PublishedParameters read_published(Reader& reader);
-// None: the file gives none.
-std::optional<PublishedTargets> read_published_targets(Reader& reader, const joint::PublishedParameters& law);
-ModelFiles read_model_files(Reader& reader, const FilePlaces& places);
-std::string read_tool_model(Reader& reader, const Node& tool, const FilePlaces& places);
+std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& variant);
+// The smallest fraction of the target torque that a pass tightens to; 1 if unknown.
+double least_share(JsonReader& reader);
+std::vector<Pass> read_passes(JsonReader& reader, const std::vector<AssemblyJoint>& joints);
+joint::PublishedParameters read_published(JsonReader& reader);
+// Empty if the file gives no targets.
+std::optional<PublishedTargets> read_published_targets(JsonReader& reader,
+                                                       const joint::PublishedParameters& law);
+ModelFiles read_model_files(JsonReader& reader, const ModelFolders& folders);
+std::string read_tool_model(JsonReader& reader, const JsonNode& tool, const ModelFolders& folders);
 
 }  // namespace bolt::content

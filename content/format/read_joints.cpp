@@ -18,37 +18,39 @@ namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// "m 12 × 1,75" as parse_thread would have it: "M12x1.75".
+// Converts a spelling such as "m 12 × 1,75" to the form of parse_thread, "M12x1.75".
 std::string normalised(std::string_view text) {
-    constexpr std::array<std::pair<std::string_view, char>, 9> ways = {{{"\u00D7", 'x'},  // ×
-                                                                        {"X", 'x'},
-                                                                        {"*", 'x'},
-                                                                        {",", '.'},
-                                                                        {"m", 'M'},
-                                                                        {"\u00A0", ' '},  // spaces that
-                                                                        {"\u2009", ' '},  // do not break
-                                                                        {"\u202F", ' '},
-                                                                        {"\t", ' '}}};
+    constexpr std::array<std::pair<std::string_view, char>, 9> replacements = {
+        {{"\u00D7", 'x'},  // ×
+         {"X", 'x'},
+         {"*", 'x'},
+         {",", '.'},
+         {"m", 'M'},
+         {"\u00A0", ' '},  // non-breaking
+         {"\u2009", ' '},  // do not break
+         {"\u202F", ' '},
+         {"\t", ' '}}};
     std::string result;
-    bool gap = false;  // a space was read over
+    bool space_skipped = false;  // a space was skipped
     while (!text.empty()) {
-        const auto* const way =
-            std::find_if(ways.begin(), ways.end(), [&](const auto& w) { return text.starts_with(w.first); });
-        const char c = way != ways.end() ? way->second : text.front();
-        text.remove_prefix(way != ways.end() ? way->first.size() : 1);
+        const auto* const replacement =
+            std::find_if(replacements.begin(), replacements.end(),
+                         [&](const auto& w) { return text.starts_with(w.first); });
+        const char c = replacement != replacements.end() ? replacement->second : text.front();
+        text.remove_prefix(replacement != replacements.end() ? replacement->first.size() : 1);
         if (c == ' ') {
-            gap = true;
+            space_skipped = true;
             continue;
         }
-        // Two numbers with a space between them do not become one.
-        if (gap && is_digit(c) && !result.empty() && is_digit(result.back())) result += 'x';
-        gap = false;
+        // Two numbers separated by a space must not become one.
+        if (space_skipped && is_digit(c) && !result.empty() && is_digit(result.back())) result += 'x';
+        space_skipped = false;
         result += c;
     }
     return result;
 }
 
-// The first number of a text: the diameter.
+// The first number of a text, which is the diameter.
 std::string_view first_number(std::string_view text) {
     const auto in_number = [](char c) { return is_digit(c) || c == '.'; };
     const auto* const begin = std::find_if(text.begin(), text.end(), is_digit);
@@ -61,20 +63,22 @@ std::string_view first_number(std::string_view text) {
 Result<joint::ThreadSize> read_thread(std::string_view text) {
     auto thread = joint::parse_thread(text);
     if (thread) return thread;
-    const std::string meant_text = normalised(text);
-    const auto normal = joint::parse_thread(meant_text);
-    std::string what = fmt::format("{} is no thread that we know", in_quotes(text));
-    if (normal)
-        return fail(ErrorCode::bad_content, std::move(what), fmt::format("did you mean \"{}\"?", meant_text));
+    const std::string normal_text = normalised(text);
+    const auto normal_thread = joint::parse_thread(normal_text);
+    std::string what = fmt::format("{} is not a known thread", in_quotes(text));
+    if (normal_thread)
+        return fail(ErrorCode::bad_content, std::move(what),
+                    fmt::format("did you mean \"{}\"?", normal_text));
     const auto sizes = joint::fastener_sizes();
-    const std::string_view name = std::string_view(meant_text).substr(0, meant_text.find('x'));
+    const std::string_view name = std::string_view(normal_text).substr(0, normal_text.find('x'));
     if (std::any_of(sizes.begin(), sizes.end(), [&](const auto& size) { return size.name == name; }))
-        return fail(ErrorCode::bad_content, std::move(what), normal.error().expected);  // its pitches
-    std::vector<std::string> same;
+        return fail(ErrorCode::bad_content, std::move(what),
+                    normal_thread.error().expected);  // lists the pitches of this size
+    std::vector<std::string> same_diameter;
     for (std::string& known : joint::thread_names())
-        if (first_number(known) == first_number(meant_text)) same.push_back(std::move(known));
-    const std::string best = meant(meant_text, same);
-    return fail(ErrorCode::bad_content, fmt::format("{} is no thread size that we know", in_quotes(text)),
+        if (first_number(known) == first_number(normal_text)) same_diameter.push_back(std::move(known));
+    const std::string best = nearest_name(normal_text, same_diameter);
+    return fail(ErrorCode::bad_content, fmt::format("{} is not a known thread size", in_quotes(text)),
                 best.empty() ? "one of M4 to M39, a fine pitch as in \"M16x1.5\""
                              : fmt::format("did you mean {}?", in_quotes(best)));
 }
@@ -85,31 +89,32 @@ constexpr double mm = 1e-3;
 constexpr double um = 1e-6;
 constexpr double default_tolerance = 0.10;  // of the target torque
 constexpr double default_snug = 0.25;       // of the target torque
-constexpr double started_turns = 1.5;       // that a hand-started nut holds by
+constexpr double started_turns = 1.5;       // turns of a hand-started nut on the thread
 
-std::vector<joint::Member> read_members(const Layers& layers, const Materials& materials) {
-    Reader& reader = layers.reader();
+std::vector<joint::Member> read_members(const LayeredObject& layers, const Materials& materials) {
+    JsonReader& reader = layers.reader();
     std::vector<joint::Member> members;
     std::vector<std::string> names;
     for (const auto& [name, E] : materials.E) names.push_back(name);
-    for (const Node& node : reader.items(layers.find("members"))) {
+    for (const JsonNode& node : reader.items(layers.find("members"))) {
         joint::Member member;
         member.thickness = reader.number(reader.member(node, "thickness_mm")).value_or(0.0) * mm;
-        const Node material = reader.member(node, "material");
+        const JsonNode material = reader.member(node, "material");
         const auto name = reader.text(material);
         if (name && materials.E.contains(*name)) {
             member.E = materials.E.at(*name);
         } else if (name && materials.complete) {
-            reader.report(material.pointer, fmt::format("{} is no material of this file", in_quotes(*name)),
-                          meant(*name, names).empty() ? suggest(*name, names) + ", or add it to \"materials\""
-                                                      : suggest(*name, names));
+            reader.report(
+                material.pointer, fmt::format("{} is not a material of this file", in_quotes(*name)),
+                nearest_name(*name, names).empty() ? suggest(*name, names) + ", or add it to \"materials\""
+                                                   : suggest(*name, names));
         }
         members.push_back(member);
     }
     return members;
 }
 
-joint::FrictionDesign read_friction(const Layers& layers) {
+joint::FrictionDesign read_friction(const LayeredObject& layers) {
     joint::FrictionDesign friction;
     friction.thread = layers.number("friction_thread").value_or(friction.thread);
     friction.bearing = layers.number("friction_bearing").value_or(friction.bearing);
@@ -124,8 +129,8 @@ joint::FrictionDesign read_friction(const Layers& layers) {
     return friction;
 }
 
-joint::JointDesign read_design(const Layers& layers, const Materials& materials) {
-    Reader& reader = layers.reader();
+joint::JointDesign read_design(const LayeredObject& layers, const Materials& materials) {
+    JsonReader& reader = layers.reader();
     joint::JointDesign design{};
     if (const auto size = layers.text("size")) {
         if (auto thread = read_thread(*size))
@@ -159,7 +164,7 @@ joint::JointDesign read_design(const Layers& layers, const Materials& materials)
     return design;
 }
 
-Specification read_spec(const Layers& spec) {
+Specification read_spec(const LayeredObject& spec) {
     Specification result;
     const std::string strategy = spec.text("strategy").value_or("torque");
     result.strategy = strategy == "yield"          ? Strategy::yield
@@ -183,14 +188,14 @@ Specification read_spec(const Layers& spec) {
 
 }  // namespace
 
-// Limits and a tolerance stand for each other: the topmost layer that has either decides.
-Window read_torque(const Layers& spec) {
-    Window torque;
+// Limits and a tolerance are alternatives; the topmost layer that has one of them decides.
+ToleranceWindow read_torque(const LayeredObject& spec) {
+    ToleranceWindow torque;
     torque.target = spec.number("target_torque_Nm").value_or(0.0);
     torque.low = torque.target * (1.0 - default_tolerance);
     torque.high = torque.target * (1.0 + default_tolerance);
-    for (const Node& object : spec.objects()) {
-        const Layers layer(spec.reader(), {object});
+    for (const JsonNode& object : spec.objects()) {
+        const LayeredObject layer(spec.reader(), {object});
         if (layer.find("min_torque_Nm") || layer.find("max_torque_Nm")) {
             torque.low = spec.number("min_torque_Nm").value_or(torque.low);
             torque.high = spec.number("max_torque_Nm").value_or(torque.high);
@@ -205,83 +210,84 @@ Window read_torque(const Layers& spec) {
     return torque;
 }
 
-double read_snug_torque(const Layers& spec, const Window& torque) {
+double read_snug_torque(const LayeredObject& spec, const ToleranceWindow& torque) {
     return spec.number("snug_torque_Nm").value_or(default_snug * torque.target);
 }
 
-Materials read_materials(Reader& reader) {
+Materials read_materials(JsonReader& reader) {
     Materials materials;
     materials.E = {{"aluminium", 70e9},     {"bronze", 105e9},          {"cast_iron", 110e9},
                    {"ductile_iron", 170e9}, {"stainless_steel", 200e9}, {"steel", 205e9}};
-    const Node own = reader.member(reader.root(), "materials");
-    materials.complete = reader.sound(own.pointer);
-    for (const Node& node : reader.items(own))
+    const JsonNode own = reader.member(reader.root(), "materials");
+    materials.complete = reader.is_valid(own.pointer);
+    for (const JsonNode& node : reader.items(own))
         if (const auto E = reader.number(reader.member(node, "E_GPa")))
             materials.E[last_token(node.pointer)] = *E * 1e9;
     return materials;
 }
 
-JointType read_joint_type(const Layers& layers, const Materials& materials, double least_share) {
-    const JointType type{read_design(layers, materials), read_spec(layers.inside("spec"))};
+JointType read_joint_type(const LayeredObject& layers, const Materials& materials, double least_share) {
+    const JointType type{read_design(layers, materials), read_spec(layers.member_layers("spec"))};
     check_joint_type(layers, type, least_share);
     return type;
 }
 
 namespace {
 
-std::vector<std::string> names_of(const Reader& reader, const Node& object) {
+std::vector<std::string> names_of(const JsonReader& reader, const JsonNode& object) {
     std::vector<std::string> names;
-    for (const Node& node : reader.items(object)) names.push_back(last_token(node.pointer));
+    for (const JsonNode& node : reader.items(object)) names.push_back(last_token(node.pointer));
     return names;
 }
 
-void report_unknown(Reader& reader, std::string_view pointer, Part part, std::string_view kind,
+void report_unknown(JsonReader& reader, std::string_view pointer, JsonPart part, std::string_view kind,
                     std::string_view name, const std::vector<std::string>& known) {
-    reader.report(pointer, fmt::format("{} is no {}", in_quotes(name), kind), suggest(name, known), part);
+    reader.report(pointer, fmt::format("{} is not a {}", in_quotes(name), kind), suggest(name, known), part);
 }
 
-struct Types {
-    Reader& reader;
-    bool patched;      // by a variant
-    Node all;          // "joint_types"
-    Node every_patch;  // of the variant
-    Node patches;      // of the variant, by type
+struct JointTypes {
+    JsonReader& reader;
+    bool patched;          // a variant's patches apply
+    JsonNode all;          // "joint_types"
+    JsonNode every_patch;  // of the variant
+    JsonNode patches;      // of the variant, by type
     Materials materials;
-    double least_share;  // of the target torque, of all passes
+    double least_share;  // smallest fraction of the target torque of all passes
     std::map<std::string, JointType> read;
 
-    Layers layers(const std::string& name) {
+    LayeredObject layers(const std::string& name) {
         if (!patched) return {reader, {reader.member(all, name)}};
         return {reader, {reader.member(patches, name), every_patch, reader.member(all, name)}};
     }
 };
 
-Vec3 read_axis(Reader& reader, const Node& joint) {
-    const Node node = reader.member(joint, "axis");
+Vec3 read_axis(JsonReader& reader, const JsonNode& joint) {
+    const JsonNode node = reader.member(joint, "axis");
     const Vec3 axis = reader.vector(node).value_or(Vec3{0.0, 1.0, 0.0});
     const double length = std::sqrt(glm::dot(axis, axis));
     if (std::abs(length - 1.0) > 0.001) {
         reader.report(
             node.pointer,
             length < 1e-6 ? "the axis has no length" : fmt::format("the axis has the length {:.4g}", length),
-            "expected a unit vector, as in [0, 1, 0]");
+            "a unit vector, as in [0, 1, 0]");
         return {0.0, 1.0, 0.0};
     }
     return axis / length;
 }
 
-AssemblyJoint read_joint(Types& types, const Node& node) {
-    Reader& reader = types.reader;
+AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
+    JsonReader& reader = types.reader;
     AssemblyJoint joint{};
     joint.type = reader.text(reader.member(node, "type")).value_or("");
     joint.node = reader.text(reader.member(node, "node")).value_or("");
-    const Node override = reader.member(node, "override");
+    const JsonNode override = reader.member(node, "override");
     if (types.read.contains(joint.type)) {
         JointType type = types.read.at(joint.type);
         if (override) {
-            std::vector<Node> objects = types.layers(joint.type).objects();
+            std::vector<JsonNode> objects = types.layers(joint.type).objects();
             objects.insert(objects.begin(), override);
-            type = read_joint_type(Layers(reader, std::move(objects)), types.materials, types.least_share);
+            type = read_joint_type(LayeredObject(reader, std::move(objects)), types.materials,
+                                   types.least_share);
         }
         joint.design = std::move(type.design);
         joint.spec = type.spec;
@@ -294,41 +300,43 @@ AssemblyJoint read_joint(Types& types, const Node& node) {
     return joint;
 }
 
-// Ids and nodes are names of their own; two joints do not stand in one place.
-void check_joints(Reader& reader, const std::vector<Node>& nodes, const std::vector<AssemblyJoint>& joints) {
+// Checks that ids and nodes are unique and that the nuts of two joints do not overlap.
+void check_joints(JsonReader& reader, const std::vector<JsonNode>& nodes,
+                  const std::vector<AssemblyJoint>& joints) {
     const auto unique = [&](const char* key) {
         std::map<std::string, std::string> first;
-        for (const Node& node : nodes) {
-            const Node value = reader.member(node, key);
+        for (const JsonNode& node : nodes) {
+            const JsonNode value = reader.member(node, key);
             const auto name = reader.text(value);
             if (!name) continue;
             const auto [it, fresh] = first.emplace(*name, value.pointer);
             if (!fresh)
-                reader.report(value.pointer,
-                              fmt::format("{} is the \"{}\" of another joint too", in_quotes(*name), key),
-                              fmt::format("expected a name of its own; it is used first in line {}",
-                                          reader.line(it->second)));
+                reader.report(
+                    value.pointer,
+                    fmt::format("{} is the \"{}\" of another joint too", in_quotes(*name), key),
+                    fmt::format("a name of its own; it is used first in line {}", reader.line(it->second)));
         }
     };
     unique("id");
     unique("node");
-    const auto placed = [&](const Node& node) {
-        const Node place = reader.member(node, "position_mm");
-        return place && reader.sound(place.pointer) && reader.sound(reader.member(node, "axis").pointer);
+    const auto has_position = [&](const JsonNode& node) {
+        const JsonNode position = reader.member(node, "position_mm");
+        return position && reader.is_valid(position.pointer) &&
+               reader.is_valid(reader.member(node, "axis").pointer);
     };
     for (std::size_t i = 0; i < joints.size(); ++i) {
-        const Node place = reader.member(nodes[i], "position_mm");
-        if (!placed(nodes[i])) continue;
+        const JsonNode position = reader.member(nodes[i], "position_mm");
+        if (!has_position(nodes[i])) continue;
         for (std::size_t k = 0; k < i; ++k) {
-            if (!placed(nodes[k])) continue;
-            const Vec3 apart = joints[i].design.seat - joints[k].design.seat;
-            const double distance = std::sqrt(glm::dot(apart, apart));
+            if (!has_position(nodes[k])) continue;
+            const Vec3 between = joints[i].design.seat - joints[k].design.seat;
+            const double distance = std::sqrt(glm::dot(between, between));
             const double nut = joints[i].design.thread.size.across_flats;
             if (distance >= nut) continue;
-            reader.report(place.pointer,
+            reader.report(position.pointer,
                           fmt::format("this joint is {:.3g} mm from {}: their nuts overlap", distance / mm,
                                       in_quotes(joints[k].design.id)),
-                          fmt::format("expected {:g} mm or more", nut / mm));
+                          fmt::format("{:g} mm or more", nut / mm));
             break;
         }
     }
@@ -336,34 +344,35 @@ void check_joints(Reader& reader, const std::vector<Node>& nodes, const std::vec
 
 }  // namespace
 
-std::vector<AssemblyJoint> read_joints(Reader& reader, const std::string& variant) {
-    const Node root = reader.root();
-    const Node patch = variant.empty() ? Node{} : reader.member(reader.member(root, "variants"), variant);
-    Types types{reader,
-                !variant.empty(),
-                reader.member(root, "joint_types"),
-                reader.member(patch, "every_joint_type"),
-                reader.member(patch, "joint_types"),
-                read_materials(reader),
-                least_share(reader),
-                {}};
+std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& variant) {
+    const JsonNode root = reader.root();
+    const JsonNode patch =
+        variant.empty() ? JsonNode{} : reader.member(reader.member(root, "variants"), variant);
+    JointTypes types{reader,
+                     !variant.empty(),
+                     reader.member(root, "joint_types"),
+                     reader.member(patch, "every_joint_type"),
+                     reader.member(patch, "joint_types"),
+                     read_materials(reader),
+                     least_share(reader),
+                     {}};
     const std::vector<std::string> type_names = names_of(reader, types.all);
-    const bool types_known = static_cast<bool>(types.all);
+    const bool has_types = static_cast<bool>(types.all);
     for (const std::string& name : type_names)
         types.read.emplace(name, read_joint_type(types.layers(name), types.materials, types.least_share));
-    for (const Node& node : reader.items(types.patches))
-        if (types_known && !types.read.contains(last_token(node.pointer)))
-            report_unknown(reader, node.pointer, Part::key, "joint type of this file",
+    for (const JsonNode& node : reader.items(types.patches))
+        if (has_types && !types.read.contains(last_token(node.pointer)))
+            report_unknown(reader, node.pointer, JsonPart::key, "joint type of this file",
                            last_token(node.pointer), type_names);
 
-    const std::vector<Node> nodes = reader.items(reader.member(root, "joints"));
+    const std::vector<JsonNode> nodes = reader.items(reader.member(root, "joints"));
     std::vector<AssemblyJoint> joints;
-    for (const Node& node : nodes) {
+    for (const JsonNode& node : nodes) {
         joints.push_back(read_joint(types, node));
-        const Node type = reader.member(node, "type");
-        if (type && types_known && !types.read.contains(joints.back().type))
-            report_unknown(reader, type.pointer, Part::value, "joint type of this file", joints.back().type,
-                           type_names);
+        const JsonNode type = reader.member(node, "type");
+        if (type && has_types && !types.read.contains(joints.back().type))
+            report_unknown(reader, type.pointer, JsonPart::value, "joint type of this file",
+                           joints.back().type, type_names);
     }
     check_joints(reader, nodes, joints);
     return joints;

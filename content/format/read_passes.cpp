@@ -12,38 +12,38 @@ namespace bolt::content {
 
 namespace {
 
-std::vector<std::size_t> as_listed(std::size_t count) {
+std::vector<std::size_t> listed_order(std::size_t count) {
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
     return order;
 }
 
-std::string listed(const std::vector<std::string>& ids) {
+std::string missing_text(const std::vector<std::string>& ids) {
     std::vector<std::string> names;
     names.reserve(ids.size());
     for (const std::string& id : ids) names.push_back(in_quotes(id));
     return fmt::format("{} {} missing", fmt::join(names, ", "), names.size() == 1 ? "is" : "are");
 }
 
-// The names that an order can use.
-struct Ids {
-    std::vector<std::string> names;  // each once, by the first joint that has it
-    std::vector<std::size_t> joint;  // index of that joint
-    std::vector<int> uses;           // how many joints have it
-    std::size_t nameless = 0;        // joints whose id was refused or is missing
-    std::string repeated;     // in words: the first joint with the id of another; empty if there is none
-    std::size_t repeats = 0;  // joints with the id of another
+// The joint ids that an order can refer to.
+struct JointIds {
+    std::vector<std::string> names;  // distinct ids
+    std::vector<std::size_t> joint;  // index of the first joint with this id
+    std::vector<int> uses;           // number of joints with this id
+    std::size_t without_id = 0;      // joints whose id is invalid or missing
+    std::string repeated;  // text that describes the first joint with a repeated id; empty if there is none
+    std::size_t repeats = 0;  // number of joints with a repeated id
 };
 
-Ids read_ids(Reader& reader, const std::vector<AssemblyJoint>& joints) {
-    Ids ids;
-    const std::vector<Node> nodes = reader.items(reader.member(reader.root(), "joints"));
+JointIds read_ids(JsonReader& reader, const std::vector<AssemblyJoint>& joints) {
+    JointIds ids;
+    const std::vector<JsonNode> nodes = reader.items(reader.member(reader.root(), "joints"));
     for (std::size_t i = 0; i < joints.size(); ++i) {
         const std::string& id = joints[i].design.id;
         const auto known =
             static_cast<std::size_t>(std::find(ids.names.begin(), ids.names.end(), id) - ids.names.begin());
         if (id.empty()) {
-            ++ids.nameless;
+            ++ids.without_id;
         } else if (known == ids.names.size()) {
             ids.names.push_back(id);
             ids.joint.push_back(i);
@@ -62,19 +62,22 @@ Ids read_ids(Reader& reader, const std::vector<AssemblyJoint>& joints) {
 std::string suggest_joint(std::string_view id, const std::vector<std::string>& missing,
                           const std::string& repeated) {
     if (repeated.empty())
-        return missing.empty() ? "expected every joint once, and nothing else" : suggest(id, missing);
-    return missing.empty() ? fmt::format("did you mean {}?", repeated)
-                           : fmt::format("did you mean {}? If not, {}", repeated, suggest(id, missing));
+        return missing.empty() ? "every joint once, and nothing else" : suggest(id, missing);
+    return missing.empty()
+               ? fmt::format("did you mean {}?", repeated)
+               : fmt::format("did you mean {}? If not, {}{}", repeated,
+                             nearest_name(id, missing).empty() ? "expected " : "", suggest(id, missing));
 }
 
-// Every joint once. A name that is no joint most likely stands for one that is missing: then both are one
-// mistake. Or for one that has no id of its own: then the order may be right.
-std::vector<std::size_t> read_order(Reader& reader, const Node& node, const Ids& ids) {
+// Reads an order, which must contain every joint once. An unknown name most likely denotes a missing joint,
+// so both are reported as one mistake; or it denotes a joint without a valid id, and the order may be
+// correct.
+std::vector<std::size_t> read_order(JsonReader& reader, const JsonNode& node, const JointIds& ids) {
     std::vector<std::size_t> order;
-    std::vector<Node> unknown;
+    std::vector<JsonNode> unknown;
     std::vector<int> named(ids.names.size());
     std::vector<std::string> first(ids.names.size());
-    for (const Node& item : reader.items(node)) {
+    for (const JsonNode& item : reader.items(node)) {
         const auto id = reader.text(item);
         if (!id) return {};
         const auto index =
@@ -85,138 +88,140 @@ std::vector<std::size_t> read_order(Reader& reader, const Node& node, const Ids&
         }
         if (named[index] == 0) first[index] = item.pointer;
         if (++named[index] > ids.uses[index])
-            reader.report(item.pointer, fmt::format("{} comes twice in this order", in_quotes(*id)),
-                          fmt::format("expected every joint once; it comes first in line {}",
-                                      reader.line(first[index])));
+            reader.report(
+                item.pointer, fmt::format("{} appears twice in this order", in_quotes(*id)),
+                fmt::format("every joint once; it appears first in line {}", reader.line(first[index])));
         else
             order.push_back(ids.joint[index]);
     }
     std::vector<std::string> missing;
     for (std::size_t i = 0; i < ids.names.size(); ++i)
         if (named[i] == 0) missing.push_back(ids.names[i]);
-    if (unknown.size() > ids.nameless || ids.repeats > 0)
-        for (const Node& item : unknown) {
+    if (unknown.size() > ids.without_id || ids.repeats > 0)
+        for (const JsonNode& item : unknown) {
             const std::string id = reader.text(item).value_or("");
-            reader.report(item.pointer, fmt::format("{} is no joint of this file", in_quotes(id)),
+            reader.report(item.pointer, fmt::format("{} is not a joint of this file", in_quotes(id)),
                           suggest_joint(id, missing, ids.repeated));
         }
-    if (!missing.empty() && missing.size() + ids.nameless + ids.repeats > unknown.size())
-        reader.report(node.pointer, listed(missing) + " in this order", "expected every joint once");
+    if (!missing.empty() && missing.size() + ids.without_id + ids.repeats > unknown.size())
+        reader.report(node.pointer, missing_text(missing) + " in this order", "every joint once");
     return order;
 }
 
-// A pass as far as it could be read.
-struct Round {
-    Node node;
-    std::optional<StepKind> kind;
+// The readable part of a pass.
+struct ParsedPass {
+    JsonNode node;
+    std::optional<PassKind> kind;
     std::optional<double> percent;  // tighten only
 };
 
-// The shares of the target torque: they do not fall, and end at all of it.
-void check_percent(Reader& reader, const std::vector<Round>& rounds) {
+// Checks the percentages of the target torque: they must not decrease, and the last must be 100.
+void check_percent(JsonReader& reader, const std::vector<ParsedPass>& parsed) {
     double highest = 0.0;
-    bool falls = false, known = true;
-    const Round* last = nullptr;
-    for (const Round& round : rounds) {
-        const Node percent = reader.member(round.node, "percent");
-        known = known && round.kind && reader.sound(percent.pointer);
-        if (round.kind && round.kind != StepKind::tighten && percent)
+    bool decreases = false, known = true;
+    const ParsedPass* last = nullptr;
+    for (const ParsedPass& pass_read : parsed) {
+        const JsonNode percent = reader.member(pass_read.node, "percent");
+        known = known && pass_read.kind && reader.is_valid(percent.pointer);
+        if (pass_read.kind && pass_read.kind != PassKind::tighten && percent)
             reader.report(percent.pointer, "only a pass of kind \"tighten\" has a share of the target",
                           "no \"percent\" here");
-        if (round.kind != StepKind::tighten) continue;
-        last = &round;
+        if (pass_read.kind != PassKind::tighten) continue;
+        last = &pass_read;
         if (!percent) {
-            if (reader.sound(percent.pointer))
-                reader.report(round.node.pointer, "a pass of kind \"tighten\" without \"percent\"",
-                              "expected a share of the target torque, 100 in the last pass");
+            if (reader.is_valid(percent.pointer))
+                reader.report(pass_read.node.pointer, "a pass of kind \"tighten\" without \"percent\"",
+                              "a share of the target torque, 100 in the last pass");
             known = false;
             continue;
         }
-        if (round.percent < highest) {
-            falls = true;
+        if (pass_read.percent < highest) {
+            decreases = true;
             reader.report(percent.pointer,
-                          fmt::format("{:g} percent after {:g} percent", *round.percent, highest),
-                          "expected shares that do not fall, and 100 in the last pass");
+                          fmt::format("{:g} percent after {:g} percent", *pass_read.percent, highest),
+                          "shares that do not fall, and 100 in the last pass");
         }
-        highest = std::max(highest, *round.percent);
+        highest = std::max(highest, *pass_read.percent);
     }
     if (!known) return;
     if (last == nullptr)
         reader.report(reader.member(reader.root(), "passes").pointer, "no pass tightens",
-                      "expected a pass of kind \"tighten\" with 100 percent");
-    else if (last->percent < 100.0 && !falls)
+                      "a pass of kind \"tighten\" with 100 percent");
+    else if (last->percent < 100.0 && !decreases)
         reader.report(reader.member(last->node, "percent").pointer,
-                      fmt::format("the last pass tightens to {:g} percent only", *last->percent),
-                      "expected 100");
+                      fmt::format("the last pass tightens to {:g} percent only", *last->percent), "100");
 }
 
-// Nuts are run down before a wrench tightens them, and rechecked when all are tight.
-void check_sequence(Reader& reader, const std::vector<Round>& rounds) {
-    const auto kind_at = [&](std::size_t i) { return reader.member(rounds[i].node, "kind").pointer; };
-    const auto works = [](const Round& round) { return round.kind && round.kind != StepKind::run_down; };
+// Checks that nuts are run down before a wrench tightens them, and rechecked after the last tightening.
+void check_sequence(JsonReader& reader, const std::vector<ParsedPass>& parsed) {
+    const auto kind_at = [&](std::size_t i) { return reader.member(parsed[i].node, "kind").pointer; };
+    const auto uses_wrench = [](const ParsedPass& pass_read) {
+        return pass_read.kind && pass_read.kind != PassKind::run_down;
+    };
     const auto first =
-        static_cast<std::size_t>(std::find_if(rounds.begin(), rounds.end(), works) - rounds.begin());
-    const bool run_down = first > 0;  // or a kind that could not be read
-    if (first < rounds.size() && !run_down)
+        static_cast<std::size_t>(std::find_if(parsed.begin(), parsed.end(), uses_wrench) - parsed.begin());
+    const bool run_down = first > 0;  // or a pass of unreadable kind comes first
+    if (first < parsed.size() && !run_down)
         reader.report(kind_at(first),
                       fmt::format("this pass {} before the nuts are run down",
-                                  rounds[first].kind == StepKind::recheck ? "rechecks" : "tightens"),
-                      "expected a pass of kind \"run_down\" first");
-    std::size_t last = 0;  // pass that tightens
-    for (std::size_t i = 0; i < rounds.size(); ++i)
-        if (rounds[i].kind == StepKind::tighten) last = i;
+                                  parsed[first].kind == PassKind::recheck ? "rechecks" : "tightens"),
+                      "a pass of kind \"run_down\" first");
+    std::size_t last = 0;  // index of the last pass that tightens
+    for (std::size_t i = 0; i < parsed.size(); ++i)
+        if (parsed[i].kind == PassKind::tighten) last = i;
     for (std::size_t i = 0; i < last; ++i)
-        if (rounds[i].kind == StepKind::recheck && (run_down || i != first))
+        if (parsed[i].kind == PassKind::recheck && (run_down || i != first))
             reader.report(kind_at(i),
                           fmt::format("this pass rechecks before the last pass that tightens, in line {}",
-                                      reader.line(rounds[last].node.pointer)),
-                          "expected it behind that one");
+                                      reader.line(parsed[last].node.pointer)),
+                          "it after that pass");
 }
 
-std::vector<Round> read_rounds(Reader& reader) {
-    std::vector<Round> rounds;
-    for (const Node& node : reader.items(reader.member(reader.root(), "passes"))) {
-        Round round;
-        round.node = node;
+std::vector<ParsedPass> read_rounds(JsonReader& reader) {
+    std::vector<ParsedPass> parsed;
+    for (const JsonNode& node : reader.items(reader.member(reader.root(), "passes"))) {
+        ParsedPass pass_read;
+        pass_read.node = node;
         const auto kind = reader.text(reader.member(node, "kind"));
         if (kind)
-            round.kind = kind == "run_down"  ? StepKind::run_down
-                         : kind == "recheck" ? StepKind::recheck
-                                             : StepKind::tighten;
-        round.percent = reader.number(reader.member(node, "percent"));
-        rounds.push_back(std::move(round));
+            pass_read.kind = kind == "run_down"  ? PassKind::run_down
+                             : kind == "recheck" ? PassKind::recheck
+                                                 : PassKind::tighten;
+        pass_read.percent = reader.number(reader.member(node, "percent"));
+        parsed.push_back(std::move(pass_read));
     }
-    return rounds;
+    return parsed;
 }
 
 }  // namespace
 
-double least_share(Reader& reader) {
+double least_share(JsonReader& reader) {
     double least = 1.0;
-    for (const Round& round : read_rounds(reader))
-        if (round.kind == StepKind::tighten && round.percent) least = std::min(least, *round.percent / 100.0);
+    for (const ParsedPass& pass_read : read_rounds(reader))
+        if (pass_read.kind == PassKind::tighten && pass_read.percent)
+            least = std::min(least, *pass_read.percent / 100.0);
     return least;
 }
 
-std::vector<Pass> read_passes(Reader& reader, const std::vector<AssemblyJoint>& joints) {
-    const Ids ids = read_ids(reader, joints);
-    const Node common_node = reader.member(reader.root(), "order");
-    std::vector<std::size_t> common = as_listed(joints.size());
+std::vector<Pass> read_passes(JsonReader& reader, const std::vector<AssemblyJoint>& joints) {
+    const JointIds ids = read_ids(reader, joints);
+    const JsonNode common_node = reader.member(reader.root(), "order");
+    std::vector<std::size_t> common = listed_order(joints.size());
     if (common_node && !joints.empty()) common = read_order(reader, common_node, ids);
 
-    const std::vector<Round> rounds = read_rounds(reader);
+    const std::vector<ParsedPass> parsed = read_rounds(reader);
     std::vector<Pass> passes;
-    for (const Round& round : rounds) {
+    for (const ParsedPass& pass_read : parsed) {
         Pass pass;
-        pass.kind = round.kind.value_or(StepKind::tighten);
-        pass.fraction = round.percent.value_or(100.0) / 100.0;
-        const Node order = reader.member(round.node, "order");
+        pass.kind = pass_read.kind.value_or(PassKind::tighten);
+        pass.fraction = pass_read.percent.value_or(100.0) / 100.0;
+        const JsonNode order = reader.member(pass_read.node, "order");
         pass.order = order && !joints.empty() ? read_order(reader, order, ids) : common;
         passes.push_back(std::move(pass));
     }
-    if (!rounds.empty()) {
-        check_percent(reader, rounds);
-        check_sequence(reader, rounds);
+    if (!parsed.empty()) {
+        check_percent(reader, parsed);
+        check_sequence(reader, parsed);
     }
     return passes;
 }

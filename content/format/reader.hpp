@@ -1,5 +1,5 @@
-// Reads values out of a document that may be partly wrong. What the schema refused reads as absent, and is
-// known to be wrong, so that one mistake is not reported twice.
+// Reads values from a JSON document that may be partly invalid. Values that violate the schema read as absent
+// and are marked as invalid, so that one mistake is not reported twice.
 #pragma once
 
 #include <initializer_list>
@@ -16,46 +16,48 @@
 
 namespace bolt::content {
 
-struct Node {
-    const nlohmann::json* value = nullptr;  // null: not there, or not usable
+struct JsonNode {
+    const nlohmann::json* value = nullptr;  // null: missing or unusable
     std::string pointer;
     explicit operator bool() const { return value != nullptr; }
 };
 
 template <class T>
-struct Found {
+struct Located {
     std::optional<T> value;
-    std::string pointer;  // where the value stands; empty if it is not there
+    std::string pointer;  // of the value; empty if it is missing
     explicit operator bool() const { return value.has_value(); }
     const T& operator*() const { return *value; }
     [[nodiscard]] T value_or(T fallback) const { return value.value_or(std::move(fallback)); }
 };
 
-class Reader {
+class JsonReader {
   public:
-    explicit Reader(const JsonDocument& document);
+    explicit JsonReader(const JsonDocument& document);
 
-    // Schema mistakes first, then what report() adds; sorted by place, without repetition.
+    // Returns the schema errors and those added by report(), sorted by position, without duplicates.
     std::vector<Error> take_errors();
 
-    [[nodiscard]] Node root() const;
-    Node member(const Node& object, std::string_view key);
-    std::vector<Node> items(const Node& array) const;  // elements of an array, or members of an object
-    std::optional<std::string> text(const Node& node) const;
-    std::optional<double> number(const Node& node) const;
-    std::optional<bool> boolean(const Node& node) const;
-    std::optional<Vec3> vector(const Node& node) const;
+    [[nodiscard]] JsonNode root() const;
+    JsonNode member(const JsonNode& object, std::string_view key);
+    std::vector<JsonNode> items(
+        const JsonNode& array) const;  // elements of an array, or members of an object
+    std::optional<std::string> text(const JsonNode& node) const;
+    std::optional<double> number(const JsonNode& node) const;
+    std::optional<bool> boolean(const JsonNode& node) const;
+    std::optional<Vec3> vector(const JsonNode& node) const;
 
-    // Neither this value, nor what holds it, nor anything inside it was refused, and it is not missing by
-    // mistake.
-    [[nodiscard]] bool sound(std::string_view pointer) const;
+    // Returns true if neither this value, nor a parent, nor any part of it violates the schema, and it is not
+    // missing by mistake.
+    [[nodiscard]] bool is_valid(std::string_view pointer) const;
 
-    void report(std::string_view pointer, std::string what, std::string expected, Part part = Part::value);
-    [[nodiscard]] int line(std::string_view pointer, Part part = Part::value) const {
+    void report(std::string_view pointer, std::string what, std::string expected,
+                JsonPart part = JsonPart::value);
+    [[nodiscard]] int line(std::string_view pointer, JsonPart part = JsonPart::value) const {
         return document_.line(pointer, part);
     }
 
-    // Every name that was ever asked for: a test holds it against the schema.
+    // All member names that were ever read; a test compares them with the schema.
     [[nodiscard]] const std::set<std::string, std::less<>>& names_read() const { return names_read_; }
 
   private:
@@ -65,26 +67,27 @@ class Reader {
     std::set<std::string, std::less<>> names_read_;
 };
 
-// Objects laid over each other: a value is read from the first that has it. A joint type under its patches.
-class Layers {
+// Objects in layers: a member is read from the first object that has it, for example from a patch before the
+// joint type.
+class LayeredObject {
   public:
-    Layers(Reader& reader, std::vector<Node> objects);
+    LayeredObject(JsonReader& reader, std::vector<JsonNode> objects);
 
-    Found<double> number(std::string_view key) const;
-    Found<std::string> text(std::string_view key) const;
-    Found<bool> boolean(std::string_view key) const;
-    [[nodiscard]] Node find(std::string_view key) const;
-    [[nodiscard]] Layers inside(std::string_view key) const;
-    [[nodiscard]] const std::vector<Node>& objects() const { return objects_; }
-    [[nodiscard]] bool sound() const;
-    // What is read for each of these keys is what the author meant, be it a value or none.
-    [[nodiscard]] bool known(std::initializer_list<std::string_view> keys) const;
-    [[nodiscard]] Reader& reader() const { return reader_; }
+    Located<double> number(std::string_view key) const;
+    Located<std::string> text(std::string_view key) const;
+    Located<bool> boolean(std::string_view key) const;
+    [[nodiscard]] JsonNode find(std::string_view key) const;
+    [[nodiscard]] LayeredObject member_layers(std::string_view key) const;
+    [[nodiscard]] const std::vector<JsonNode>& objects() const { return objects_; }
+    [[nodiscard]] bool is_valid() const;
+    // Returns true if the value of each of these keys, or its absence, is what the author intended.
+    [[nodiscard]] bool all_valid(std::initializer_list<std::string_view> keys) const;
+    [[nodiscard]] JsonReader& reader() const { return reader_; }
 
   private:
-    Reader& reader_;
-    std::vector<Node> objects_;  // those that are there
-    bool whole_ = true;          // none of them was refused
+    JsonReader& reader_;
+    std::vector<JsonNode> objects_;  // the existing ones
+    bool all_valid_ = true;          // none of the objects violates the schema
 };
 
 }  // namespace bolt::content

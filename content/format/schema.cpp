@@ -24,7 +24,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t most_mistakes = 200;  // of one value
+constexpr std::size_t max_violations = 200;  // per value
 
 const json& resolved(const json& schema, const json& node) {
     const json* at = &node;
@@ -42,7 +42,7 @@ std::string type_in_words(const json& value) {
     return fmt::format("the number {:g}", value.get<double>());
 }
 
-// What a member is for, in the schema's own words.
+// The purpose of a member, as the schema describes it.
 std::string purpose(const json& node) {
     for (const char* key : {"description", "title"})
         if (node.contains(key)) return node[key].get<std::string>();
@@ -76,7 +76,7 @@ std::string list_in_words(const json& node) {
     return fmt::format("a list of at most {} values", most);
 }
 
-std::string wanted(const json& node, const std::string& name) {
+std::string expected_text(const json& node, const std::string& name) {
     if (node.contains("enum")) {
         std::vector<std::string> names;
         for (const json& option : node["enum"]) names.push_back(option.get<std::string>());
@@ -105,19 +105,19 @@ bool right_type(const json& node, const json& value) {
 }
 
 void explain_number(const json& node, double value, const std::string& name,
-                    std::vector<SchemaMistake>& out) {
+                    std::vector<SchemaViolation>& out) {
     const bool low = (node.contains("minimum") && value < node["minimum"].get<double>()) ||
                      (node.contains("exclusiveMinimum") && value <= node["exclusiveMinimum"].get<double>());
     const bool high = node.contains("maximum") && value > node["maximum"].get<double>();
     if (!low && !high) return;
-    SchemaMistake mistake;
+    SchemaViolation mistake;
     mistake.what = fmt::format("{:g} is too {}", value, low ? "small" : "large");
-    mistake.expected = "expected " + number_in_words(node, name);
+    mistake.expected = number_in_words(node, name);
     out.push_back(std::move(mistake));
 }
 
-void explain_text(const json& node, const std::string& text, std::vector<SchemaMistake>& out) {
-    SchemaMistake mistake;
+void explain_text(const json& node, const std::string& text, std::vector<SchemaViolation>& out) {
+    SchemaViolation mistake;
     if (node.contains("enum")) {
         std::vector<std::string> names;
         for (const json& option : node["enum"]) names.push_back(option.get<std::string>());
@@ -131,60 +131,60 @@ void explain_text(const json& node, const std::string& text, std::vector<SchemaM
         const std::size_t most = node.value("maxLength", length);
         if (length >= least && length <= most) return;
         mistake.what = length < least ? "this text is empty" : fmt::format("{} is too long", in_quotes(text));
-        mistake.expected = length < least ? "expected at least one letter"
-                                          : fmt::format("expected at most {} letters", most);
+        mistake.expected = length < least ? "at least one letter" : fmt::format("at most {} letters", most);
     }
     out.push_back(std::move(mistake));
 }
 
 void explain_count(const json& node, std::size_t count, const char* least_key, const char* most_key,
-                   std::vector<SchemaMistake>& out) {
+                   std::vector<SchemaViolation>& out) {
     const std::size_t least = node.value(least_key, std::size_t{0});
     const std::size_t most = node.value(most_key, count);
     if (count >= least && count <= most) return;
-    SchemaMistake mistake;
+    SchemaViolation mistake;
     mistake.what = count == 0 ? "this is empty" : fmt::format("{} values", count);
-    mistake.expected = least == most   ? fmt::format("expected {}", least)
-                       : count < least ? fmt::format("expected at least {}", least)
-                                       : fmt::format("expected at most {}", most);
+    mistake.expected = least == most   ? fmt::format("{}", least)
+                       : count < least ? fmt::format("at least {}", least)
+                                       : fmt::format("at most {}", most);
     out.push_back(std::move(mistake));
 }
 
-// Unknown names first: one that is near a missing name explains both.
+// Unknown names first, because an unknown name that is near a missing one explains both.
 void explain_members(const json& schema, const json& node, const json& value,
-                     std::vector<SchemaMistake>& out) {
+                     std::vector<SchemaViolation>& out) {
     const std::vector<std::string> names = member_names(node);
     std::vector<std::string> absent;
     for (const std::string& name : names)
         if (!value.contains(name)) absent.push_back(name);
-    std::vector<std::string> explained;
+    std::vector<std::string> explained_names;
     if (node.contains("additionalProperties") && node["additionalProperties"] == false) {
         for (const auto& [key, member] : value.items()) {
             if (std::find(names.begin(), names.end(), key) != names.end()) continue;
-            if (out.size() >= most_mistakes) break;
-            std::string best = meant(key, absent);
-            if (best.empty()) best = meant(key, names);
-            SchemaMistake mistake;
+            if (out.size() >= max_violations) break;
+            std::string best = nearest_name(key, absent);
+            if (best.empty()) best = nearest_name(key, names);
+            SchemaViolation mistake;
             mistake.key = key;
             mistake.at_key = true;
             mistake.what = fmt::format("unknown property {}", in_quotes(key));
             mistake.expected = best.empty() ? suggest({}, absent.empty() ? names : absent)
                                             : fmt::format("did you mean {}?", in_quotes(best));
             mistake.unusable = best;
-            if (!best.empty()) explained.push_back(best);
+            if (!best.empty()) explained_names.push_back(best);
             out.push_back(std::move(mistake));
         }
     }
     for (const json& entry : node.value("required", json::array())) {
         const auto& name = entry.get_ref<const std::string&>();
-        if (value.contains(name) || std::find(explained.begin(), explained.end(), name) != explained.end())
+        if (value.contains(name) ||
+            std::find(explained_names.begin(), explained_names.end(), name) != explained_names.end())
             continue;
         const json& member = node["properties"][name];
         std::string why = purpose(member);
         if (why.empty()) why = purpose(resolved(schema, member));
-        SchemaMistake mistake;
+        SchemaViolation mistake;
         mistake.what = fmt::format("required property {} is missing", in_quotes(name));
-        mistake.expected = fmt::format("expected {}: {}", wanted(resolved(schema, member), {}), why);
+        mistake.expected = fmt::format("{}: {}", expected_text(resolved(schema, member), {}), why);
         mistake.unusable = name;
         out.push_back(std::move(mistake));
     }
@@ -208,13 +208,13 @@ const json* schema_of(const json& schema, const std::vector<std::string>& tokens
     return at;
 }
 
-std::vector<SchemaMistake> explain_value(const json& schema, const json& node, const json& value,
-                                         const std::string& name) {
-    std::vector<SchemaMistake> out;
+std::vector<SchemaViolation> explain_value(const json& schema, const json& node, const json& value,
+                                           const std::string& name) {
+    std::vector<SchemaViolation> out;
     if (!right_type(node, value)) {
-        SchemaMistake mistake;
-        mistake.what = type_in_words(value) + " cannot stand here";
-        mistake.expected = "expected " + wanted(node, name);
+        SchemaViolation mistake;
+        mistake.what = type_in_words(value) + " is not allowed here";
+        mistake.expected = expected_text(node, name);
         out.push_back(std::move(mistake));
     } else if (value.is_number()) {
         explain_number(node, value.get<double>(), name, out);
@@ -240,27 +240,25 @@ struct CompiledSchema {
 
 }  // namespace
 
-std::map<std::vector<std::string>, std::string> schema_complaints(const nlohmann::json& document) {
+std::map<std::vector<std::string>, std::string> validator_errors(const nlohmann::json& document) {
     static const CompiledSchema compiled;
     valijson::Validator validator;
     valijson::ValidationResults results;
     validator.validate(compiled.schema, NlohmannJsonAdapter(document), &results);
-    std::map<std::vector<std::string>, std::string> complaints;
+    std::map<std::vector<std::string>, std::string> errors_by_value;
     for (const auto& error : results) {
         // The context is "<root>", "[joints]", "[3]", ...
         std::vector<std::string> tokens;
         for (std::size_t i = 1; i < error.context.size(); ++i)
             tokens.push_back(error.context[i].substr(1, error.context[i].size() - 2));
-        complaints.emplace(std::move(tokens), error.description);
+        errors_by_value.emplace(std::move(tokens), error.description);
     }
-    return complaints;
+    return errors_by_value;
 }
-
-using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t most_findings = 1000;  // a file with more is not the file that was meant
+constexpr std::size_t max_findings = 1000;  // with more, the file is probably not an assembly
 
 const json* value_at(const json& root, const std::vector<std::string>& tokens) {
     const json* at = &root;
@@ -277,13 +275,13 @@ const json* value_at(const json& root, const std::vector<std::string>& tokens) {
     return at;
 }
 
-std::string joined(const std::vector<std::string>& tokens) {
+std::string pointer_of(const std::vector<std::string>& tokens) {
     std::string pointer;
     for (const std::string& token : tokens) pointer += "/" + pointer_token(token);
     return pointer;
 }
 
-// The member that holds a value, also through lists: its name ends in the unit.
+// The name of the member that holds a value, also through lists; its suffix is the unit.
 std::string name_of(const std::vector<std::string>& tokens) {
     const auto is_index = [](const std::string& token) { return token[0] >= '0' && token[0] <= '9'; };
     const auto it = std::find_if_not(tokens.rbegin(), tokens.rend(), is_index);
@@ -303,37 +301,37 @@ const json& schema_json() {
 
 SchemaFindings check_schema(const JsonDocument& document) {
     SchemaFindings findings;
-    // The validator also reports every parent of a wrong value. Sorted, what is inside a value follows it at
-    // once.
-    const std::map<std::vector<std::string>, std::string> complaints = schema_complaints(document.root());
-    for (auto it = complaints.begin(); it != complaints.end(); ++it) {
-        if (findings.errors.size() >= most_findings) {
+    // The validator also reports every parent of an invalid value. In sorted order the parts of a value
+    // follow it directly.
+    const std::map<std::vector<std::string>, std::string> errors_by_value = validator_errors(document.root());
+    for (auto it = errors_by_value.begin(); it != errors_by_value.end(); ++it) {
+        if (findings.errors.size() >= max_findings) {
             findings.unusable.emplace_back();  // the whole file
             break;
         }
-        const auto& [tokens, complaint] = *it;
-        const std::string pointer = joined(tokens);
+        const auto& [tokens, validator_message] = *it;
+        const std::string pointer = pointer_of(tokens);
         const json* node = schema_of(schema_json(), tokens);
         const json* value = value_at(document.root(), tokens);
-        std::vector<SchemaMistake> mistakes;
+        std::vector<SchemaViolation> mistakes;
         if (node != nullptr && value != nullptr)
             mistakes = explain_value(schema_json(), *node, *value, name_of(tokens));
-        bool whole = mistakes.empty();
-        for (const SchemaMistake& m : mistakes) {
+        bool value_unusable = mistakes.empty();
+        for (const SchemaViolation& m : mistakes) {
             const std::string at = m.key.empty() ? pointer : pointer + "/" + pointer_token(m.key);
             findings.errors.push_back(
-                document.error(at, m.at_key ? Part::key : Part::value, m.what, m.expected));
+                document.error(at, m.at_key ? JsonPart::key : JsonPart::value, m.what, m.expected));
             if (m.unusable.empty())
-                whole = whole || m.key.empty();
+                value_unusable = value_unusable || m.key.empty();
             else
                 findings.unusable.push_back(pointer + "/" + pointer_token(m.unusable));
         }
         if (mistakes.empty()) {
             const auto next = std::next(it);
-            if (next != complaints.end() && is_inside(next->first, tokens)) continue;  // said there
-            findings.errors.push_back(document.error(pointer, Part::value, complaint, {}));
+            if (next != errors_by_value.end() && is_inside(next->first, tokens)) continue;  // reported there
+            findings.errors.push_back(document.error(pointer, JsonPart::value, validator_message, {}));
         }
-        if (whole) findings.unusable.push_back(pointer);
+        if (value_unusable) findings.unusable.push_back(pointer);
     }
     return findings;
 }

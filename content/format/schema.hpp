@@ -1,4 +1,5 @@
-// What one value has against one node of a JSON Schema (draft-07, the keywords that our schema uses).
+// Validation of a document against the assembly's JSON Schema (draft-07, the keywords that our schema uses),
+// with errors in an author's words.
 #pragma once
 
 #include <map>
@@ -10,36 +11,33 @@
 
 namespace bolt::content {
 
-struct SchemaMistake {
-    std::string key;      // member that it is about; empty: the value itself
-    bool at_key = false;  // stands at the member's name, not at the value
+// A violation of the schema by one value.
+struct SchemaViolation {
+    std::string key;      // member concerned; empty: the value itself
+    bool at_key = false;  // reported at the member's name instead of its value
     std::string what;
     std::string expected;
-    std::string unusable;  // member that cannot be used because of it; may be empty
+    std::string unusable;  // member that cannot be used as a consequence; may be empty
 };
 
-// The schema of the value at `tokens`, references resolved; null where the schema says nothing.
+// The schema node of the value at `tokens` with references resolved; null if the schema has none.
 const nlohmann::json* schema_of(const nlohmann::json& schema, const std::vector<std::string>& tokens);
 
-// Only what is wrong with the value itself and the names of its members, not what is wrong inside them.
-// `name` is the member that holds the value: its last part is the unit.
-std::vector<SchemaMistake> explain_value(const nlohmann::json& schema, const nlohmann::json& node,
-                                         const nlohmann::json& value, const std::string& name);
+// Explains what is wrong with the value itself and the names of its members, but not inside the members.
+// `name` is the member that holds the value; its suffix is the unit.
+std::vector<SchemaViolation> explain_value(const nlohmann::json& schema, const nlohmann::json& node,
+                                           const nlohmann::json& value, const std::string& name);
 
-// The validator behind check_schema: valijson's headers are large, and stay behind this one.
+// All values that violate the schema, by the tokens of their JSON pointers, each with the validator's first
+// message.
+std::map<std::vector<std::string>, std::string> validator_errors(const nlohmann::json& document);
 
-// Every value that the schema refuses, by the tokens of its JSON pointer, with the validator's own first
-// words on it.
-std::map<std::vector<std::string>, std::string> schema_complaints(const nlohmann::json& document);
-
-// Checks a document against the assembly's JSON Schema and says every mistake in an author's words.
-
-// The schema, parsed.
+// The assembly schema, parsed.
 const nlohmann::json& schema_json();
 
 struct SchemaFindings {
     std::vector<Error> errors;
-    // JSON pointers of values that are wrong or missing: nothing that depends on them can be judged.
+    // JSON pointers of values that are invalid or missing; checks that depend on them must be skipped.
     std::vector<std::string> unusable;
 };
 

@@ -9,8 +9,8 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* format_name = "boltwright rig 1";
-constexpr std::size_t longest_file = 1U << 16U;
-constexpr double finest_encoder = 1U << 24U;  // counts a turn
+constexpr std::size_t max_file_size = 1U << 16U;
+constexpr double max_counts_per_turn = 1U << 24U;  // counts per turn
 
 }  // namespace
 
@@ -18,34 +18,34 @@ Result<device::WheelConfig> parse_wheel_config(std::string_view text, const std:
     std::vector<Error> errors;
     const auto document = JsonDocument::parse(text, file, errors);
     if (!errors.empty()) return fail(errors.front());
-    Members members{*document, {}};
+    MemberReader members{*document, {}};
     const json& root = document->root();
     if (!root.is_object()) {
-        members.report("", Part::value, "this says nothing of a rig", "expected a JSON object");
-        return fail(*members.wrong);
+        members.report("", JsonPart::value, "the rig file is not an object", "a JSON object");
+        return fail(*members.first_error);
     }
     if (members.text(root, "format") != format_name)
-        members.report("/format", Part::value, "this is no rig that is known here",
-                       fmt::format("expected \"format\": \"{}\"", format_name));
-    members.only(root, "",
-                 {"format", "full_torque_Nm", "most_torque_Nm", "counts_per_turn", "range_deg", "reversed"});
+        members.report("/format", JsonPart::value, "the format of the rig file is unknown",
+                       fmt::format("\"format\": \"{}\"", format_name));
+    members.check_known(
+        root, "", {"format", "full_torque_Nm", "most_torque_Nm", "counts_per_turn", "range_deg", "reversed"});
     device::WheelConfig rig;
     const auto number = [&](const char* key, double low, double high, double& to) {
         if (root.contains(key)) to = members.number(root, "", key, low, high);
     };
     number("full_torque_Nm", 0.1, max_configurable_torque, rig.full_torque);
     number("most_torque_Nm", 0.0, max_configurable_torque, rig.max_torque);
-    number("counts_per_turn", 0.0, finest_encoder, rig.counts_per_turn);
+    number("counts_per_turn", 0.0, max_counts_per_turn, rig.counts_per_turn);
     double degrees = to_degrees(rig.range);
     number("range_deg", 10.0, 65535.0, degrees);
     rig.range = to_radians(degrees);
     if (root.contains("reversed")) rig.reversed = members.flag(root, "reversed");
-    if (members.wrong) return fail(*members.wrong);
+    if (members.first_error) return fail(*members.first_error);
     return rig;
 }
 
 Result<device::WheelConfig> load_wheel_config(const std::filesystem::path& path) {
-    BOLT_TRY_ASSIGN(const auto text, read_file(path, longest_file, ErrorCode::bad_content));
+    BOLT_TRY_ASSIGN(const auto text, read_file(path, max_file_size, ErrorCode::bad_content));
     return parse_wheel_config(text, path.string());
 }
 

@@ -18,11 +18,11 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* format_name = "boltwright glove calibration 1";
-constexpr std::size_t longest_file = 1U << 16U;
-constexpr std::size_t longest_name = 64;  // bytes; a trainee's name becomes a file's
-constexpr double steepest = 0.2;          // rad a count: 255 of them are eight turns
+constexpr std::size_t max_file_size = 1U << 16U;
+constexpr std::size_t max_name_size = 64;  // bytes; the name becomes a file name
+constexpr double max_gain = 0.2;           // rad per count; 255 counts would be eight turns
 
-// Sensors as the file calls them: "thumb_roll".
+// The name of a sensor in the file: "thumb_roll".
 std::string key_of(hand::Sensor sensor) {
     std::string key = hand::name_of(sensor);
     for (char& c : key) c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -43,25 +43,24 @@ bool is_date(const std::string& text) {
     return month >= 1 && month <= 12 && day >= 1 && day <= 31;
 }
 
-void read_lines(Members& members, const json& root, GloveCalibration& to) {
+void read_lines(MemberReader& members, const json& root, GloveCalibration& to) {
     const json* lines = members.find(root, "", "lines");
     if (lines == nullptr) return;
     if (!lines->is_object() || lines->empty())
-        return members.report(
-            "/lines", Part::value, "no sensor is calibrated",
-            "expected an object with a line a sensor, as {\"thumb_mpj\": {\"offset\": 41.5, "
-            "\"gain\": 0.013}}");
-    members.only(*lines, "/lines", sensor_keys(to.sensors));
+        return members.report("/lines", JsonPart::value, "no sensor is calibrated",
+                              "an object with a line per sensor, as {\"thumb_mpj\": {\"offset\": 41.5, "
+                              "\"gain\": 0.013}}");
+    members.check_known(*lines, "/lines", sensor_keys(to.sensors));
     for (const hand::Sensor sensor : hand::sensors_of(to.sensors)) {
         const std::string key = key_of(sensor), at = "/lines/" + key;
         const auto line = lines->find(key);
         if (line == lines->end()) continue;
         if (!line->is_object())
-            return members.report(at, Part::value, fmt::format("\"{}\" is no line", key),
-                                  "expected an object with \"offset\" and \"gain\"");
-        members.only(*line, at, {"offset", "gain"});
+            return members.report(at, JsonPart::value, fmt::format("\"{}\" is not an object", key),
+                                  "an object with \"offset\" and \"gain\"");
+        members.check_known(*line, at, {"offset", "gain"});
         to.calibration.fits[hand::index(sensor)] =
-            hand::LinearFit{members.number(*line, at, "gain", -steepest, steepest),
+            hand::LinearFit{members.number(*line, at, "gain", -max_gain, max_gain),
                             members.number(*line, at, "offset", -1e4, 1e4)};
     }
 }
@@ -72,38 +71,38 @@ Result<GloveCalibration> parse_glove_calibration(std::string_view text, const st
     std::vector<Error> errors;
     const auto document = JsonDocument::parse(text, file, errors);
     if (!errors.empty()) return fail(errors.front());
-    Members members{*document, {}};
+    MemberReader members{*document, {}};
     const json& root = document->root();
     GloveCalibration read;
     if (!root.is_object()) {
-        members.report("", Part::value, "this is no calibration of a glove", "expected a JSON object");
-        return fail(*members.wrong);
+        members.report("", JsonPart::value, "the glove calibration is not an object", "a JSON object");
+        return fail(*members.first_error);
     }
     if (members.text(root, "format") != format_name)
-        members.report("/format", Part::value, "this is no calibration of a glove that is known here",
-                       fmt::format("expected \"format\": \"{}\"", format_name));
-    members.only(
+        members.report("/format", JsonPart::value, "the format of the glove calibration is unknown",
+                       fmt::format("\"format\": \"{}\"", format_name));
+    members.check_known(
         root, "",
         {"format", "trainee", "glove", "hand", "sensors", "date", "quality", "hand_length_mm", "lines"});
-    read.trainee = members.text(root, "trainee", longest_name);
+    read.trainee = members.text(root, "trainee", max_name_size);
     read.glove = members.text(root, "glove");
     const std::string hand = members.text(root, "hand");
     if (hand != "left" && hand != "right")
-        members.report("/hand", Part::value, fmt::format("a hand cannot be {}", in_quotes(hand)),
-                       "expected \"left\" or \"right\"");
+        members.report("/hand", JsonPart::value, fmt::format("a hand cannot be {}", in_quotes(hand)),
+                       "\"left\" or \"right\"");
     read.hand = hand == "left" ? hand::Side::left : hand::Side::right;
     const double sensors = members.number(root, "", "sensors", 18, 22);
     if (sensors != 18.0 && sensors != 22.0)
-        members.report("/sensors", Part::value, "a glove has no such number of sensors", "expected 18 or 22");
+        members.report("/sensors", JsonPart::value, "a glove cannot have this number of sensors", "18 or 22");
     read.sensors = static_cast<std::size_t>(sensors);
     read.date = members.text(root, "date");
     if (!is_date(read.date))
-        members.report("/date", Part::value, fmt::format("{} is no date", in_quotes(read.date)),
-                       "expected a date as \"2026-11-22\"");
+        members.report("/date", JsonPart::value, fmt::format("{} is not a date", in_quotes(read.date)),
+                       "a date as \"2026-11-22\"");
     read.quality = members.number(root, "", "quality", 0.0, 1.0);
     read.hand_length = 1e-3 * members.number(root, "", "hand_length_mm", 100.0, 300.0);
     read_lines(members, root, read);
-    if (members.wrong) return fail(*members.wrong);
+    if (members.first_error) return fail(*members.first_error);
     return read;
 }
 
@@ -122,18 +121,19 @@ std::string glove_calibration_text(const GloveCalibration& calibration) {
     root["quality"] = calibration.quality;
     root["hand_length_mm"] = std::round(1e6 * calibration.hand_length) / 1e3;  // to a micrometre
     root["lines"] = std::move(lines);
-    // Names come from outside: what is no UTF-8 in them must not make a file that cannot be read.
+    // Names are user input: bytes that are not UTF-8 are replaced, because they would make the file
+    // unreadable.
     return root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 Result<GloveCalibration> load_glove_calibration(const std::filesystem::path& path) {
-    BOLT_TRY_ASSIGN(const auto text, read_file(path, longest_file, ErrorCode::bad_content));
+    BOLT_TRY_ASSIGN(const auto text, read_file(path, max_file_size, ErrorCode::bad_content));
     return parse_glove_calibration(text, path.string());
 }
 
 Status save_glove_calibration(const std::filesystem::path& path, const GloveCalibration& calibration) {
     const std::string text = glove_calibration_text(calibration);
-    // What could not be read back is not written over what can.
+    // A text that cannot be read back must not replace a valid file.
     BOLT_TRY(parse_glove_calibration(text, path.string()));
     return write_file(path, text);
 }

@@ -19,8 +19,8 @@ Result<fs::path> data_folder() {
     if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
         return fs::path(home) / ".local" / "share" / "boltwright";
     // NOLINTEND(concurrency-mt-unsafe)
-    return fail(ErrorCode::usage, "there is no home folder that anything could be kept in",
-                "one in the environment's HOME, or the place itself");
+    return fail(ErrorCode::usage, "there is no home folder for user data",
+                "the environment variable HOME, or an explicit folder");
 }
 
 std::string file_name_of(std::string_view trainee) {
@@ -37,99 +37,102 @@ namespace {
 using nlohmann::json;
 
 constexpr const char* format_name = "boltwright settings 1";
-constexpr std::size_t longest_file = 1U << 16U;
-constexpr std::size_t longest_name = 64;  // bytes, as of a calibration's trainee
+constexpr std::size_t max_file_size = 1U << 16U;
+constexpr std::size_t max_name_size = 64;  // bytes, as in glove_calibration.cpp
 constexpr const char *usual = "usual", *distinct = "distinct";
 constexpr const char *mechanistic = "mechanistic", *published = "published";
 
-bool knows(const std::vector<std::string>& all, const std::string& one) {
+bool contains(const std::vector<std::string>& all, const std::string& one) {
     return std::find(all.begin(), all.end(), one) != all.end();
 }
 
-void read_language(Members& members, const json& root, Settings& to, const SettingsVocabulary& known) {
+void read_language(MemberReader& members, const json& root, TraineeSettings& to,
+                   const SettingsVocabulary& known) {
     to.language = members.text(root, "language");
-    if (to.language.empty() || knows(known.languages, to.language)) return;
-    members.report("/language", Part::value, fmt::format("{} is no language here", in_quotes(to.language)),
+    if (to.language.empty() || contains(known.languages, to.language)) return;
+    members.report("/language", JsonPart::value,
+                   fmt::format("{} is not a supported language", in_quotes(to.language)),
                    suggest(to.language, known.languages));
 }
 
-void read_palette(Members& members, const json& root, Settings& to) {
+void read_palette(MemberReader& members, const json& root, TraineeSettings& to) {
     const std::string name = members.text(root, "palette");
     if (name != usual && name != distinct)
-        members.report("/palette", Part::value, fmt::format("{} is no palette", in_quotes(name)),
-                       fmt::format("expected \"{}\" or \"{}\"", usual, distinct));
+        members.report("/palette", JsonPart::value, fmt::format("{} is not a palette", in_quotes(name)),
+                       fmt::format("\"{}\" or \"{}\"", usual, distinct));
     to.palette = name == distinct ? PaletteKind::distinct : PaletteKind::usual;
 }
 
-void read_law(Members& members, const json& root, Settings& to) {
+void read_law(MemberReader& members, const json& root, TraineeSettings& to) {
     if (!root.contains("law")) return;
     to.law = members.text(root, "law");
     if (to.law != mechanistic && to.law != published)
-        members.report("/law", Part::value, fmt::format("{} is not a joint law", in_quotes(to.law)),
-                       fmt::format("expected \"{}\" or \"{}\"", mechanistic, published));
+        members.report("/law", JsonPart::value, fmt::format("{} is not a joint law", in_quotes(to.law)),
+                       fmt::format("\"{}\" or \"{}\"", mechanistic, published));
 }
 
-void read_seat(Members& members, const json& root, Settings& to) {
+void read_seat(MemberReader& members, const json& root, TraineeSettings& to) {
     const json* seat = members.find(root, "", "seated_height_m");
     if (seat == nullptr || seat->is_null()) return;
     to.seated_height = members.number(root, "", "seated_height_m", lowest_seat, highest_seat);
 }
 
-void read_key(Members& members, const std::string& action, const json& value, std::set<std::string>& taken,
-              const SettingsVocabulary& known) {
+void read_key(MemberReader& members, const std::string& action, const json& value,
+              std::set<std::string>& taken, const SettingsVocabulary& known) {
     const std::string at = "/keys/" + pointer_token(action);
     if (!value.is_string())
-        return members.report(at, Part::value, fmt::format("the key of \"{}\" is no text", action),
-                              "expected the name of a key, as \"T\"");
+        return members.report(at, JsonPart::value, fmt::format("the key of \"{}\" is not a text", action),
+                              "the name of a key, as \"T\"");
     const auto& key = value.get_ref<const std::string&>();
-    if (!knows(known.keys, key))
-        return members.report(at, Part::value, fmt::format("{} is no key that could be used", in_quotes(key)),
+    if (!contains(known.keys, key))
+        return members.report(at, JsonPart::value, fmt::format("{} is not a usable key", in_quotes(key)),
                               suggest(key, known.keys));
     if (const auto kept = known.reserved.find(key); kept != known.reserved.end() && kept->second != action)
-        return members.report(at, Part::value,
+        return members.report(at, JsonPart::value,
                               fmt::format("{} is always the key of \"{}\"", in_quotes(key), kept->second),
-                              "expected another key");
+                              "another key");
     if (!taken.insert(key).second)
-        members.report(at, Part::value, fmt::format("{} is the key of two actions", in_quotes(key)),
-                       "expected a key of its own for each of them");
+        members.report(at, JsonPart::value, fmt::format("{} is the key of two actions", in_quotes(key)),
+                       "a different key for each action");
 }
 
-void read_keys(Members& members, const json& root, Settings& to, const SettingsVocabulary& known) {
+void read_keys(MemberReader& members, const json& root, TraineeSettings& to,
+               const SettingsVocabulary& known) {
     const json* keys = members.find(root, "", "keys");
     if (keys == nullptr) return;
     if (!keys->is_object())
-        return members.report("/keys", Part::value, "these are no keys",
-                              "expected an object with a key an action, as {\"tool\": \"T\"}");
-    members.only(*keys, "/keys", known.actions);
+        return members.report("/keys", JsonPart::value, "\"keys\" is not an object",
+                              "an object with a key per action, as {\"tool\": \"T\"}");
+    members.check_known(*keys, "/keys", known.actions);
     std::set<std::string> taken;
     for (const auto& [action, key] : keys->items()) {
         read_key(members, action, key, taken, known);
-        if (members.wrong) return;
+        if (members.first_error) return;
         to.keys[action] = key.get<std::string>();
     }
 }
 
 }  // namespace
 
-Result<Settings> parse_settings(std::string_view text, const std::string& file,
-                                const SettingsVocabulary& known) {
+Result<TraineeSettings> parse_settings(std::string_view text, const std::string& file,
+                                       const SettingsVocabulary& known) {
     std::vector<Error> errors;
     const auto document = JsonDocument::parse(text, file, errors);
     if (!errors.empty()) return fail(errors.front());
-    Members members{*document, {}};
+    MemberReader members{*document, {}};
     const json& root = document->root();
-    Settings read;
+    TraineeSettings read;
     if (!root.is_object()) {
-        members.report("", Part::value, "these are no settings", "expected a JSON object");
-        return fail(*members.wrong);
+        members.report("", JsonPart::value, "the settings file is not an object", "a JSON object");
+        return fail(*members.first_error);
     }
     if (members.text(root, "format") != format_name)
-        members.report("/format", Part::value, "these are no settings that are known here",
-                       fmt::format("expected \"format\": \"{}\"", format_name));
-    members.only(root, "",
-                 {"format", "trainee", "language", "volume", "captions", "palette", "left_handed",
-                  "force_scale", "seated_height_m", "law", "keys"});
-    read.trainee = members.text(root, "trainee", longest_name);
+        members.report("/format", JsonPart::value, "the format of the settings file is unknown",
+                       fmt::format("\"format\": \"{}\"", format_name));
+    members.check_known(root, "",
+                        {"format", "trainee", "language", "volume", "captions", "palette", "left_handed",
+                         "force_scale", "seated_height_m", "law", "keys"});
+    read.trainee = members.text(root, "trainee", max_name_size);
     read_language(members, root, read, known);
     read.volume = members.number(root, "", "volume", 0.0, 1.0);
     read.captions = members.flag(root, "captions");
@@ -139,11 +142,11 @@ Result<Settings> parse_settings(std::string_view text, const std::string& file,
     read_seat(members, root, read);
     read_law(members, root, read);
     read_keys(members, root, read, known);
-    if (members.wrong) return fail(*members.wrong);
+    if (members.first_error) return fail(*members.first_error);
     return read;
 }
 
-std::string settings_text(const Settings& settings) {
+std::string settings_text(const TraineeSettings& settings) {
     nlohmann::ordered_json root;
     root["format"] = format_name;
     root["trainee"] = settings.trainee;
@@ -157,33 +160,33 @@ std::string settings_text(const Settings& settings) {
                                                      : nlohmann::ordered_json(nullptr);
     if (!settings.law.empty()) root["law"] = settings.law;
     root["keys"] = settings.keys;
-    // Names come from outside: what is no UTF-8 in them must not make a file that cannot be read.
+    // Names are user input: bytes that are not UTF-8 are replaced, because they would make the file
+    // unreadable.
     return root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-Result<Settings> load_settings(const std::filesystem::path& path, const SettingsVocabulary& known) {
-    BOLT_TRY_ASSIGN(const auto text, read_file(path, longest_file, ErrorCode::bad_content));
+Result<TraineeSettings> load_settings(const std::filesystem::path& path, const SettingsVocabulary& known) {
+    BOLT_TRY_ASSIGN(const auto text, read_file(path, max_file_size, ErrorCode::bad_content));
     return parse_settings(text, path.string(), known);
 }
 
-Status save_settings(const std::filesystem::path& path, const Settings& settings,
+Status save_settings(const std::filesystem::path& path, const TraineeSettings& settings,
                      const SettingsVocabulary& known) {
     const std::string text = settings_text(settings);
-    // What could not be read back is not written over what can.
+    // A text that cannot be read back must not replace a valid file.
     BOLT_TRY(parse_settings(text, path.string(), known));
     std::error_code problem;
     if (!path.parent_path().empty()) std::filesystem::create_directories(path.parent_path(), problem);
     if (problem)
-        return fail(ErrorCode::failed, fmt::format("{}: this folder cannot be made: {}",
+        return fail(ErrorCode::failed, fmt::format("{}: this folder cannot be created: {}",
                                                    path.parent_path().string(), problem.message()));
     if (std::filesystem::is_regular_file(path, problem) && !load_settings(path, known)) {
         std::filesystem::path beside = path;
         beside += ".unread";
         std::filesystem::rename(path, beside, problem);
         if (problem)
-            return fail(ErrorCode::failed,
-                        fmt::format("{}: what cannot be read there cannot be put aside: {}", path.string(),
-                                    problem.message()));
+            return fail(ErrorCode::failed, fmt::format("{}: the unreadable file cannot be renamed: {}",
+                                                       path.string(), problem.message()));
     }
     return write_file(path, text);
 }

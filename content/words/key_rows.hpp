@@ -1,4 +1,4 @@
-// The table of all texts: their keys, and the places that each of them has.
+// The table of all texts: their keys and the placeholders of each text.
 #pragma once
 
 #include <iterator>
@@ -8,12 +8,13 @@ namespace bolt::words {
 
 struct KeyRow {
     std::string_view name;
-    std::string_view places;  // names, with a space between; each of them stands in the text
+    std::string_view
+        placeholders;  // names of the placeholders, separated by spaces; the text contains each as {name}
 };
 
-// Where a text may be said of one and of several it has two keys, NAME.one and NAME.many.
+// A text with singular and plural forms has two keys, NAME.one and NAME.many.
 inline constexpr KeyRow key_rows[] = {
-    // Hints: what is to be done now (game/lesson/hints.cpp).
+    // Hints: the next action (game/lesson/hints.cpp).
     {"hint.take_wrench", "size"},
     {"hint.put_wrench_away", ""},
     {"hint.find_by_wrench", "joint"},
@@ -54,7 +55,7 @@ inline constexpr KeyRow key_rows[] = {
     {"hint.leave_broken", "joint"},
     {"hint.leave_stripped", "joint"},
     {"hint.all_done", ""},
-    // The same once more, with the very motion; {control} is what to press or move for it.
+    // More detailed hints: the motion to perform; {control} names the control to use.
     {"how.take", "control"},
     {"how.put_away", "control"},
     {"how.approach", "control"},
@@ -68,7 +69,7 @@ inline constexpr KeyRow key_rows[] = {
     {"how.pull_off", "control"},
     {"how.lift", "control"},
     {"how.set_back", "control"},
-    // What stands at {control}, with a mouse and with a device (game/lesson/hints.cpp).
+    // Values of {control}, for a mouse and for a device (game/lesson/hints.cpp).
     {"control.mouse.take", "key"},
     {"control.mouse.put_away", "key"},
     {"control.mouse.go", ""},
@@ -92,7 +93,7 @@ inline constexpr KeyRow key_rows[] = {
     {"control.device.grip", "key"},
     {"control.device.move", ""},
     {"control.device.turn", ""},
-    // Mistakes: why it was one, and what to do (game/lesson/feedback.cpp).
+    // Mistakes: the reason and the remedy (game/lesson/feedback.cpp).
     {"mistake.begins_again", ""},
     {"mistake.take_back", "control"},
     {"mistake.out_of_turn", "held"},
@@ -111,7 +112,7 @@ inline constexpr KeyRow key_rows[] = {
     {"mistake.stripped.do", ""},
     {"mistake.broken", "held"},
     {"mistake.broken.do", ""},
-    // The result in words: why points were lost (game/lesson/feedback.cpp).
+    // The result: why points were lost (game/lesson/feedback.cpp).
     {"reason.broken", "joint"},
     {"reason.stripped", "joint"},
     {"reason.torque_low", "joint torque low"},
@@ -131,7 +132,7 @@ inline constexpr KeyRow key_rows[] = {
     {"reason.slipped.one", ""},
     {"reason.slipped.many", "count"},
     {"reason.unfinished", "step of"},
-    // And what to do better next time.
+    // Advice for the next time.
     {"advice.broken", ""},
     {"advice.stripped", ""},
     {"advice.torque_low", ""},
@@ -145,7 +146,7 @@ inline constexpr KeyRow key_rows[] = {
     {"advice.wrong_way", ""},
     {"advice.unfinished", ""},
     {"advice.nothing", ""},
-    // Names of what programs know by enumerations (game/lesson/feedback.hpp).
+    // Names of enumerators (game/lesson/feedback.hpp).
     {"mode.guided", ""},
     {"mode.practice", ""},
     {"mode.assessment", ""},
@@ -199,7 +200,7 @@ inline constexpr KeyRow key_rows[] = {
     {"menu.sound", ""},
     {"menu.settings", ""},
     {"menu.back", ""},
-    // Settings, and what keys do.
+    // Settings, and the actions of keys.
     {"settings.seated_height", ""},
     {"settings.usual_keys", ""},
     {"settings.press_key", "action"},
@@ -223,7 +224,7 @@ inline constexpr KeyRow key_rows[] = {
     {"action.restart_step", ""},
     {"action.recentre", ""},
     {"action.close_up", ""},
-    // What sounds say (game/trainer/hud.cpp).
+    // Captions of sounds (game/trainer/hud.cpp).
     {"caption.slip", ""},
     {"caption.mistake", ""},
     {"caption.click", ""},
@@ -233,7 +234,7 @@ inline constexpr KeyRow key_rows[] = {
     {"caption.groan", ""},
     {"caption.scrape", ""},
     {"caption.run", ""},
-    // What stands in the scene beside the wrench.
+    // Texts in the scene beside the wrench.
     {"hud.curve", "joint"},
     {"hud.step", "step of"},
     {"hud.pull", "force"},

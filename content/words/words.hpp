@@ -1,5 +1,4 @@
-// Names a text that the program says to people. Code that names one that is not in the table does not
-// compile.
+// The texts of the user interface in one language, their keys, and the insertion of arguments.
 #pragma once
 
 #include <array>
@@ -17,18 +16,19 @@
 
 namespace bolt::words {
 
-class Key {
+// The key of a text. A key that is not in the table does not compile.
+class TextKey {
   public:
-    // Implicit: a key is written as its name.
-    consteval Key(const char* name) : index_(find(name)) {}  // NOLINT(google-explicit-constructor)
-    static constexpr Key at(std::size_t index) { return Key(static_cast<std::uint16_t>(index)); }
+    // Implicit conversion from the key's name.
+    consteval TextKey(const char* name) : index_(find(name)) {}  // NOLINT(google-explicit-constructor)
+    static constexpr TextKey at(std::size_t index) { return TextKey(static_cast<std::uint16_t>(index)); }
 
     [[nodiscard]] constexpr std::size_t index() const { return index_; }
     [[nodiscard]] constexpr const KeyRow& row() const { return key_rows[index_]; }
-    friend constexpr bool operator==(const Key&, const Key&) = default;
+    friend constexpr bool operator==(const TextKey&, const TextKey&) = default;
 
   private:
-    constexpr explicit Key(std::uint16_t index) : index_(index) {}
+    constexpr explicit TextKey(std::uint16_t index) : index_(index) {}
     static consteval std::uint16_t find(std::string_view name) {
         for (std::size_t i = 0; i < key_count; ++i)
             if (key_rows[i].name == name) return static_cast<std::uint16_t>(i);
@@ -37,58 +37,60 @@ class Key {
     std::uint16_t index_ = 0;
 };
 
-// One language: a text for every key, read from content/words/LANGUAGE.json:
+// One language has a text for every key, read from content/words/LANGUAGE.json:
 //
 //   {"format": "boltwright words 1", "language": "de", "name": "Deutsch", "decimal": ",",
 //    "words": {"hint.next": "Als Nächstes {joint}.", ...}}
 
-// A number that is written as the language writes it.
+// A number that is formatted by the rules of the language.
 struct Number {
     double value = 0.0;
     int decimals = 0;
 };
 
-// What stands in a text where it says {name}.
-struct Place {
+// The value of a placeholder {name} in a text.
+struct TextArgument {
     std::string_view name;
     std::variant<std::string, Number> value;
 };
 
 struct Words {
     std::string language;  // ISO 639, as in assembly files: "de"
-    std::string name;      // what the language calls itself
+    std::string name;      // the language's name in itself
     std::string decimal = ".";
     std::array<std::string, key_count> texts;
 
-    [[nodiscard]] const std::string& operator[](Key key) const { return texts[key.index()]; }
+    [[nodiscard]] const std::string& operator[](TextKey key) const { return texts[key.index()]; }
 };
 
-std::string say(const Words& words, Key key, std::span<const Place> places);
-std::string say(const Words& words, Key key, std::initializer_list<Place> places = {});
-std::string say(const Words& words, const Number& number);
+// The text with its placeholders replaced. A placeholder without an argument is kept; other arguments are
+// ignored.
+std::string format_text(const Words& words, TextKey key, std::span<const TextArgument> arguments);
+std::string format_text(const Words& words, TextKey key, std::initializer_list<TextArgument> arguments = {});
+std::string format_number(const Words& words, const Number& number);
 
-// 20 and 7.5: no more decimals than a torque wrench shows.
+// A torque with the decimals that a torque wrench shows, for example 20 and 7.5.
 Number torque_number(double newton_metres);
 
-// Either words and no errors, or all mistakes of the file, each with its line and column.
-struct Loaded {
+// The words without errors, or all errors of the file with line and column.
+struct LoadedWords {
     Words words;
     std::vector<Error> errors;
-    std::array<int, key_count> lines{};  // where each text stands
+    std::array<int, key_count> lines{};  // line of each text, by key
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
-Loaded parse_words(std::string_view text, std::string_view file);
-Loaded read_words(const std::filesystem::path& file);  // named after its language
+LoadedWords parse_words(std::string_view text, std::string_view file);
+LoadedWords read_words(const std::filesystem::path& file);  // the file's name must be its language
 
-// `language`: a code for which `folder` has a file; the error of another one names those.
-Loaded load_words(const std::filesystem::path& folder, std::string_view language);
+// `language`: a code for which `folder` has a file; otherwise the error lists the available codes.
+LoadedWords load_words(const std::filesystem::path& folder, std::string_view language);
 
-// The codes for which there are files, in order; and where they lie (content/words).
+// The codes of the available languages, sorted, and the folder of their files (content/words).
 std::vector<std::string> languages(const std::filesystem::path& folder);
 std::filesystem::path words_folder();
 
-// "de" where the desktop speaks "de_DE.UTF-8", by LC_ALL, LC_MESSAGES or LANG; "en" where none of `there` is
-// it.
-std::string language_of_desktop(std::span<const std::string> there);
+// The language of the desktop by LC_ALL, LC_MESSAGES or LANG, for example "de" for "de_DE.UTF-8"; "en" if it
+// is not in `available`.
+std::string language_of_desktop(std::span<const std::string> available);
 
 }  // namespace bolt::words

@@ -11,11 +11,11 @@
 
 namespace bolt::assets {
 
-// Reads a .glb or .gltf file with its buffers and images (still encoded; image.hpp decodes them).
+// Reads a .glb or .gltf file with its buffers and its images, which stay encoded (image.hpp decodes them).
 Result<Model> read_gltf(const std::filesystem::path& path);
 
-// The same for bytes in memory. `path` is named in errors, and other files of the model are searched for
-// beside it.
+// The same for the bytes of a file in memory. `path` is named in errors, and other files of the model are
+// searched for in its folder.
 Result<Model> parse_gltf(std::string bytes, const std::filesystem::path& path);
 
 struct WriteOptions {
@@ -24,12 +24,12 @@ struct WriteOptions {
     bool quantize = false;
 };
 
-// Writes a single .glb with the smallest index types, streams interleaved by accessor, and all extensions
-// listed.
+// Writes a single .glb with 16-bit indices where they suffice and a list of all extensions used. Vertex
+// streams are not interleaved: each accessor is contiguous.
 Status write_glb(const std::filesystem::path& path, const Model& model);
 Status write_glb(const std::filesystem::path& path, const Model& model, const WriteOptions& options);
 
-// Returns the bytes of that file. Errors name the JSON pointer at which the invalid value would be.
+// Returns the bytes of such a file. Errors name the JSON pointer at which the invalid value would be written.
 Result<std::string> encode_glb(const Model& model, const WriteOptions& options = {});
 
 }  // namespace bolt::assets

@@ -18,7 +18,7 @@ namespace {
 constexpr int side_limit = 16384;
 constexpr std::int64_t pixel_limit = std::int64_t{1} << 26;
 
-struct Free {
+struct FreePixels {
     void operator()(void* pixels) const { stbi_image_free(pixels); }
 };
 
@@ -48,7 +48,7 @@ Status decode(Image& image) {
         std::int64_t{width} * height > pixel_limit)
         return image_error(image,
                            "is larger than " + std::to_string(side_limit) + " pixels a side or 64 million");
-    const std::unique_ptr<stbi_uc, Free> pixels(
+    const std::unique_ptr<stbi_uc, FreePixels> pixels(
         stbi_load_from_memory(bytes, size, &width, &height, &channels, 0));
     if (!pixels) return image_error(image, "cannot be decoded");
     image.width = width;
@@ -61,12 +61,13 @@ Status decode(Image& image) {
 }
 
 Result<std::string> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {
-    const bool sound = width > 0 && height > 0 && width <= side_limit && height <= side_limit &&
+    const bool valid = width > 0 && height > 0 && width <= side_limit && height <= side_limit &&
                        channels >= 1 && channels <= 4 &&
                        pixels.size() == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                                             static_cast<std::size_t>(channels);
-    if (!sound)
-        return fail(ErrorCode::failed, "the pixels do not fill an image", "width × height × channels bytes");
+    if (!valid)
+        return fail(ErrorCode::failed, "the number of pixel bytes does not match the image size",
+                    "width × height × channels bytes");
     std::string bytes;
     if (stbi_write_png_to_func(append, &bytes, width, height, channels, pixels.data(), width * channels) == 0)
         return fail(ErrorCode::failed, "the PNG cannot be encoded");
@@ -83,7 +84,7 @@ tl::unexpected<Error> hdr_error(const std::filesystem::path& path, const char* w
     return fail(std::move(error));
 }
 
-// The shared-exponent encoding of a pixel.
+// Encodes a pixel with a shared exponent.
 std::array<std::uint8_t, 4> rgbe(const glm::vec3& radiance) {
     const float largest = std::max({radiance.x, radiance.y, radiance.z});
     if (!(largest > 1e-32F)) return {};
@@ -98,8 +99,8 @@ std::array<std::uint8_t, 4> rgbe(const glm::vec3& radiance) {
     return out;
 }
 
-// Appends a row of one channel with run-length encoding: runs of four and more are counted, other bytes are
-// copied.
+// Appends a row of one channel with run-length encoding: runs of four or more equal bytes are stored as count
+// and value, other bytes are copied.
 void append_runs(const std::vector<std::uint8_t>& row, std::string& out) {
     std::size_t i = 0;
     while (i < row.size()) {
@@ -150,8 +151,8 @@ Result<RadianceImage> decode_hdr(std::string_view file, const std::filesystem::p
     const int size = static_cast<int>(file.size());
     RadianceImage image;
     int channels = 0;
-    if (stbi_is_hdr_from_memory(bytes, size) == 0) return hdr_error(path, "is no Radiance .hdr file");
-    const std::unique_ptr<float, Free> pixels(
+    if (stbi_is_hdr_from_memory(bytes, size) == 0) return hdr_error(path, "is not a Radiance .hdr file");
+    const std::unique_ptr<float, FreePixels> pixels(
         stbi_loadf_from_memory(bytes, size, &image.width, &image.height, &channels, 3));
     if (!pixels) return hdr_error(path, "cannot be decoded");
     const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);

@@ -1,4 +1,4 @@
-// Decodes the PNG and JPEG images of a model, and encodes PNG. Eight bits per channel.
+// Image files: decodes PNG and JPEG, encodes PNG (eight bits per channel), reads and writes Radiance .hdr.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@
 namespace bolt::assets {
 
 // Fills `pixels`, `width`, `height` and `channels` from `encoded`, which is kept. Does nothing if the image
-// is decoded already. Fails above 16384 pixels per side or 64 million pixels in total.
+// is already decoded. Fails above 16384 pixels per side or 64 Mi pixels in total.
 Status decode(Image& image);
 
 // Returns the bytes of a PNG file, the same for the same pixels. `pixels`: rows from the top, 1 to 4
 // channels.
 Result<std::string> encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
-// Environment light as an equirectangular image of radiance (the middle column is -Z, the right half +X, the
-// top row +Y), and its files: Radiance .hdr, shared-exponent RGBE with run-length encoding (G. Ward, Real
-// pixels, Graphics Gems II, 1991).
-
+// Environment light as an equirectangular image of radiance: the middle column is -Z, the right half +X, the
+// top row +Y.
 struct RadianceImage {
     int width = 0, height = 0;
     std::vector<glm::vec3> pixels;  // rows from the top
 };
 
-// Fails if the bytes are no such file or have values that are not finite. `path` is named in errors.
+// Radiance .hdr files: shared-exponent RGBE with run-length encoding (G. Ward, Real pixels, Graphics Gems II,
+// 1991). decode_hdr fails if the bytes are not such a file or contain values that are not finite; `path` is
+// named in errors.
 Result<RadianceImage> decode_hdr(std::string_view bytes, const std::filesystem::path& path);
 Result<RadianceImage> read_hdr(const std::filesystem::path& path);
 

@@ -11,7 +11,7 @@ namespace bolt::assets {
 
 // A copy of a vertex with another normal.
 struct AddedVertex {
-    std::uint32_t of = 0;
+    std::uint32_t of = 0;  // index of the copied vertex
     glm::vec3 normal{0.0F};
 };
 
@@ -31,13 +31,14 @@ struct LevelOptions {
     float max_normal_error = 0.1F;  // rad; a normal that deviates more from its faces is replaced
 };
 
-// Each level has about half the triangles of the previous one; there are fewer levels if the mesh cannot be
-// simplified further.
+// Returns the levels below the finest one. Each has about half the triangles of the previous one; there are
+// fewer levels if the mesh cannot be simplified further.
 //
-// With `weld`, the mesh is simplified regardless of attribute seams, and every corner takes the vertex whose
-// normal fits its face. Without `weld`, vertices that share a position stay on their seam; use this for
-// deformable and textured meshes. Where a normal no longer fits its faces (a removed fillet, the rim of a
-// flat), a vertex with a fitting normal is added. Without normals, no vertices are added and none are welded.
+// With `weld`, the mesh is simplified regardless of attribute seams, and every corner uses the vertex whose
+// normal is nearest to that of its face. Without `weld`, vertices that share a position stay on their seam;
+// use this for deformable and textured meshes. Where a normal deviates too much from its faces (at a removed
+// fillet or the rim of a flat), a vertex with a corrected normal is added. Without normals, no vertices are
+// added or welded.
 std::vector<LevelOfDetail> coarser_levels(std::span<const glm::vec3> positions,
                                           std::span<const glm::vec3> normals,
                                           std::span<const std::uint32_t> indices,

@@ -7,10 +7,10 @@ namespace bolt::assets {
 
 namespace {
 
-void descend(const Model& model, int index, const glm::mat4& parent, std::vector<glm::mat4>& world) {
-    const auto place = static_cast<std::size_t>(index);
-    world[place] = parent * local_transform(model.nodes[place]);
-    for (const int child : model.nodes[place].children) descend(model, child, world[place], world);
+void set_subtree(const Model& model, int index, const glm::mat4& parent, std::vector<glm::mat4>& world) {
+    const auto node = static_cast<std::size_t>(index);
+    world[node] = parent * local_transform(model.nodes[node]);
+    for (const int child : model.nodes[node].children) set_subtree(model, child, world[node], world);
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ std::vector<glm::mat4> world_transforms(const Model& model) {
     for (const Node& node : model.nodes)
         for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
     for (std::size_t i = 0; i < model.nodes.size(); ++i)
-        if (!is_child[i]) descend(model, static_cast<int>(i), glm::mat4(1.0F), world);
+        if (!is_child[i]) set_subtree(model, static_cast<int>(i), glm::mat4(1.0F), world);
     return world;
 }
 

@@ -1,6 +1,7 @@
-// A glTF 2.0 scene as plain values on the CPU. Names and meanings follow the glTF 2.0 specification (Khronos,
-// 2021). Indices refer to the vectors of Model; -1: none. Frame: metres, right-handed, Y up. Colours are
-// linear. Every member has a default, so that designated initializers need to name only some of them.
+// A glTF 2.0 scene as plain values on the CPU, its triangulation and its node transforms. Names and meanings
+// follow the glTF 2.0 specification (Khronos, 2021). Indices refer to the vectors of Model; -1: none. Frame:
+// metres, right-handed, Y up. Colours are linear. Every member has a default, so that designated initializers
+// need to name only some of them.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ struct MorphTarget {
     std::vector<glm::vec3> positions = {}, normals = {}, tangents = {};
 };
 
-// Vertex streams are empty or as long as `positions`. Empty indices: vertices in order.
+// Every vertex stream is empty or as long as `positions`. Empty `indices`: the vertices are used in order.
 struct Primitive {
     Topology topology = Topology::triangles;
     std::vector<glm::vec3> positions = {};
@@ -69,10 +70,10 @@ struct Skin {
     int skeleton = -1;
 };
 
-// With KHR_texture_transform.
+// A use of a texture, with the KHR_texture_transform extension.
 struct TextureRef {
     int texture = -1;
-    int texcoord = 0;
+    int texcoord = 0;  // set of texture coordinates
     glm::vec2 offset{0.0F};
     float rotation = 0.0F;  // rad
     glm::vec2 scale{1.0F};
@@ -103,7 +104,7 @@ struct Material {
     TextureRef specular_texture = {}, specular_color_texture = {};
 };
 
-// An encoded file (PNG or JPEG) or decoded pixels; empty `pixels`: not decoded.
+// The bytes of a PNG or JPEG file, decoded pixels, or both. Empty `pixels`: not decoded.
 struct Image {
     std::string name = {}, mime_type = {};
     std::vector<std::uint8_t> encoded = {};
@@ -123,32 +124,33 @@ struct Texture {
 
 enum class LightType : std::uint8_t { directional, point, spot };
 
-// KHR_lights_punctual; it shines along the node's -Z.
+// A light of KHR_lights_punctual. It shines along the node's -Z.
 struct Light {
     std::string name = {};
     LightType type = LightType::point;
     glm::vec3 color{1.0F};
-    float intensity = 1.0F;  // cd (point, spot) or lx (directional)
-    float range = 0.0F;      // m; 0: unlimited
-    float inner_cone = 0.0F, outer_cone = 0.785398F;
+    float intensity = 1.0F;                           // cd (point, spot) or lx (directional)
+    float range = 0.0F;                               // m; 0: unlimited
+    float inner_cone = 0.0F, outer_cone = 0.785398F;  // rad from the axis
 };
 
 struct Camera {
     std::string name = {};
     bool perspective = true;
     float yfov = 0.8F, aspect = 0.0F;  // rad; 0: the window's aspect ratio
-    float xmag = 1.0F, ymag = 1.0F;
-    float znear = 0.01F, zfar = 0.0F;  // 0: infinite
+    float xmag = 1.0F, ymag = 1.0F;    // m, half the width and height of an orthographic view
+    float znear = 0.01F, zfar = 0.0F;  // m; zfar 0: infinite
 };
 
-enum class Path : std::uint8_t { translation, rotation, scale, weights };
+// The property of a node that an animation changes (glTF: target.path).
+enum class TargetPath : std::uint8_t { translation, rotation, scale, weights };
 enum class Interpolation : std::uint8_t { step, linear, cubic };
 
 struct Channel {
     int node = -1;
-    Path path = Path::translation;
+    TargetPath path = TargetPath::translation;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times = {};   // s, rising
+    std::vector<float> times = {};   // s, strictly increasing
     std::vector<float> values = {};  // 3, 4 or n floats per key; three times as many for cubic splines
 };
 
@@ -171,16 +173,14 @@ struct Model {
     std::vector<Animation> animations = {};
 };
 
-// Triangulation of primitives, and node transforms.
-
 // Returns three vertex indices per triangle, wound as glTF defines for strips and fans; empty for points and
 // lines.
 std::vector<std::uint32_t> triangle_indices(const Primitive& primitive);
 
 glm::mat4 local_transform(const Node& node);
 
-// Returns the world transforms of all nodes in the order of model.nodes; nodes outside the scene are relative
-// to its origin.
+// Returns the rest-pose transforms of all nodes to world space, in the order of model.nodes. Nodes that the
+// default scene does not contain are included.
 std::vector<glm::mat4> world_transforms(const Model& model);
 
 }  // namespace bolt::assets

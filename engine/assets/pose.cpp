@@ -15,7 +15,8 @@ glm::mat4 local_transform(const NodePose& node) {
            glm::scale(glm::mat4(1.0F), node.scale);
 }
 
-// Appendix C.3: along the shorter arc, and linear if the angle is too small to divide by its sine.
+// Spherical linear interpolation (appendix C.3) along the shorter arc; linear if the angle is too small to
+// divide by its sine.
 glm::quat slerp(const glm::quat& from, const glm::quat& to, float t) {
     const float cosine = glm::dot(from, to);
     const float side = cosine < 0.0F ? -1.0F : 1.0F;
@@ -27,21 +28,21 @@ glm::quat slerp(const glm::quat& from, const glm::quat& to, float t) {
 
 void set_rotation(std::vector<float>& value, const glm::quat& q) { value = {q.x, q.y, q.z, q.w}; }
 
-void descend(const Model& model, const ModelPose& pose, std::vector<glm::mat4>& world) {
+void set_world_transforms(const Model& model, const ModelPose& pose, std::vector<glm::mat4>& world) {
     std::vector<bool> is_child(model.nodes.size(), false);
     for (const Node& node : model.nodes)
         for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
-    std::vector<std::size_t> waiting;
+    std::vector<std::size_t> pending;
     for (std::size_t i = 0; i < model.nodes.size(); ++i)
-        if (!is_child[i]) waiting.push_back(i);
-    for (const std::size_t root : waiting) world[root] = local_transform(pose[root]);
-    while (!waiting.empty()) {
-        const std::size_t node = waiting.back();
-        waiting.pop_back();
+        if (!is_child[i]) pending.push_back(i);
+    for (const std::size_t root : pending) world[root] = local_transform(pose[root]);
+    while (!pending.empty()) {
+        const std::size_t node = pending.back();
+        pending.pop_back();
         for (const int index : model.nodes[node].children) {
             const auto child = static_cast<std::size_t>(index);
             world[child] = world[node] * local_transform(pose[child]);
-            waiting.push_back(child);
+            pending.push_back(child);
         }
     }
 }
@@ -51,14 +52,14 @@ void descend(const Model& model, const ModelPose& pose, std::vector<glm::mat4>& 
 ModelPose rest_pose(const Model& model) {
     ModelPose pose;
     for (const Node& node : model.nodes) {
-        NodePose one{node.translation, node.rotation, node.scale, node.weights};
-        if (node.mesh >= 0 && one.weights.empty()) {
+        NodePose node_pose{node.translation, node.rotation, node.scale, node.weights};
+        if (node.mesh >= 0 && node_pose.weights.empty()) {
             const Mesh& mesh = model.meshes[static_cast<std::size_t>(node.mesh)];
-            one.weights = mesh.weights;
-            if (one.weights.empty() && !mesh.primitives.empty())
-                one.weights.resize(mesh.primitives.front().targets.size(), 0.0F);
+            node_pose.weights = mesh.weights;
+            if (node_pose.weights.empty() && !mesh.primitives.empty())
+                node_pose.weights.resize(mesh.primitives.front().targets.size(), 0.0F);
         }
-        pose.push_back(std::move(one));
+        pose.push_back(std::move(node_pose));
     }
     return pose;
 }
@@ -68,10 +69,10 @@ std::vector<float> sample(const Channel& channel, float seconds) {
     const std::size_t keys = channel.times.size();
     if (keys == 0) return {};
     const std::size_t width = channel.values.size() / keys / (cubic ? 3 : 1);
-    // Returns a key's value. For cubic splines `part` selects 0: the in-tangent, 1: the value, 2: the
+    // Returns a key's values. For cubic splines `part` selects 0: the in-tangent, 1: the value, 2: the
     // out-tangent.
-    const auto at = [&](std::size_t key, std::size_t which) {
-        return channel.values.data() + (cubic ? 3 * key + which : key) * width;
+    const auto at = [&](std::size_t key, std::size_t part) {
+        return channel.values.data() + (cubic ? 3 * key + part : key) * width;
     };
     const auto value_at = [&](std::size_t key) { return at(key, 1); };
     const auto next = static_cast<std::size_t>(
@@ -88,14 +89,14 @@ std::vector<float> sample(const Channel& channel, float seconds) {
                 value[i] = (2.0F * t3 - 3.0F * t2 + 1.0F) * at(last, 1)[i] +
                            span * (t3 - 2.0F * t2 + t) * at(last, 2)[i] +
                            (3.0F * t2 - 2.0F * t3) * at(next, 1)[i] + span * (t3 - t2) * at(next, 0)[i];
-        } else if (channel.path == Path::rotation) {
+        } else if (channel.path == TargetPath::rotation) {
             set_rotation(value, slerp(quaternion(value_at(last)), quaternion(value_at(next)), t));
         } else {
             for (std::size_t i = 0; i < width; ++i)
                 value[i] = (1.0F - t) * value_at(last)[i] + t * value_at(next)[i];
         }
     }
-    if (channel.path == Path::rotation) {
+    if (channel.path == TargetPath::rotation) {
         const glm::quat q = quaternion(value.data());
         const float length = glm::length(q);
         set_rotation(value, length > 0.0F ? q / length : glm::quat(1.0F, 0.0F, 0.0F, 0.0F));
@@ -109,16 +110,16 @@ void apply(const Animation& animation, float seconds, ModelPose& pose) {
         NodePose& node = pose[static_cast<std::size_t>(channel.node)];
         std::vector<float> value = sample(channel, seconds);
         switch (channel.path) {
-            case Path::translation:
+            case TargetPath::translation:
                 node.translation = {value[0], value[1], value[2]};
                 break;
-            case Path::rotation:
+            case TargetPath::rotation:
                 node.rotation = quaternion(value.data());
                 break;
-            case Path::scale:
+            case TargetPath::scale:
                 node.scale = {value[0], value[1], value[2]};
                 break;
-            case Path::weights:
+            case TargetPath::weights:
                 node.weights = std::move(value);
                 break;
         }
@@ -134,7 +135,7 @@ float duration(const Animation& animation) {
 
 std::vector<glm::mat4> world_transforms(const Model& model, const ModelPose& pose) {
     std::vector<glm::mat4> world(model.nodes.size(), glm::mat4(1.0F));
-    descend(model, pose, world);
+    set_world_transforms(model, pose, world);
     return world;
 }
 

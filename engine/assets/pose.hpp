@@ -1,6 +1,5 @@
-// Poses of a model's nodes, the animations that define them, and joint matrices of skins.
-//   glTF 2.0 specification (Khronos, 2021), sections 3.7.3 (skins), 3.11 (animations) and appendix C
-//   (interpolation).
+// Poses of a model's nodes, the evaluation of animations, and joint matrices of skins. Source: glTF 2.0
+// specification (Khronos, 2021), sections 3.7.3 (skins), 3.11 (animations) and appendix C (interpolation).
 #pragma once
 
 #include <span>
@@ -20,23 +19,25 @@ struct NodePose {
 // One entry per node, in the order of model.nodes.
 using ModelPose = std::vector<NodePose>;
 
-// Returns the nodes' own transforms. A node without weights has those of its mesh.
+// Returns the transforms that the nodes have without animation. A node without weights gets those of its
+// mesh.
 ModelPose rest_pose(const Model& model);
 
-// Sets the animated values in `pose` for a time in seconds. Before the first and after the last key, that
-// key's value holds.
+// Sets the animated values in `pose` for a time in seconds. Before the first and after the last key, the
+// value of that key is used.
 void apply(const Animation& animation, float seconds, ModelPose& pose);
 
 // Returns the time of the last key, in s.
 float duration(const Animation& animation);
 
-// Evaluates one channel: 3 values, 4 (a unit quaternion, x y z w) or one per weight.
+// Evaluates one channel. Returns 3 values, 4 (a unit quaternion, x y z w) or one per morph target.
 std::vector<float> sample(const Channel& channel, float seconds);
 
 // Returns the world transform of every node.
 std::vector<glm::mat4> world_transforms(const Model& model, const ModelPose& pose);
 
-// Returns for each joint of the skin the transform from the bind pose to the joint's current pose.
+// Returns, for each joint of the skin, the transform from the bind pose to the joint's current pose. `world`:
+// the world transforms of all nodes.
 std::vector<glm::mat4> joint_matrices(const Skin& skin, std::span<const glm::mat4> world);
 
 // Makes this pose the model's rest pose.

@@ -1,4 +1,4 @@
-// The stb image headers (Debian's libstb-dev), declared here and compiled in stb.cpp.
+// The stb image headers (Debian's libstb-dev). stb.cpp compiles their implementation.
 #pragma once
 
 #include <stb/stb_image.h>

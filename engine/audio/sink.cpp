@@ -19,15 +19,15 @@ struct CloseDevice {
 struct DestroyContext {
     void operator()(ALCcontext* context) const { alcDestroyContext(context); }
 };
-using Device = std::unique_ptr<ALCdevice, CloseDevice>;
-using Context = std::unique_ptr<ALCcontext, DestroyContext>;
+using AlDevice = std::unique_ptr<ALCdevice, CloseDevice>;
+using AlContext = std::unique_ptr<ALCcontext, DestroyContext>;
 
 tl::unexpected<Error> no_sound(std::string what) {
     return fail(ErrorCode::no_device, std::move(what),
-                "expected a sound card, PulseAudio or PipeWire; ALSOFT_DRIVERS chooses among them");
+                "a sound card, PulseAudio or PipeWire; ALSOFT_DRIVERS chooses among them");
 }
 
-tl::unexpected<Error> gone() {
+tl::unexpected<Error> disconnected() {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = "the sound device was disconnected";
@@ -35,22 +35,22 @@ tl::unexpected<Error> gone() {
     return fail(std::move(error));
 }
 
-void say_nothing(const char*, int, const char*, int, const char*, ...) {}
+void ignore_message(const char*, int, const char*, int, const char*, ...) {}
 
-// Without a sound card, ALSA prints eight lines to the console; silence them, because the error is reported
-// once. ALSA is present only if OpenAL loaded it, so it is not linked.
-void hush_alsa() {
+// Without a sound card, ALSA prints eight lines to the console. They are suppressed, because the error is
+// reported anyway. ALSA is not linked: it is present only if OpenAL has loaded it.
+void silence_alsa() {
     void* alsa = dlopen("libasound.so.2", RTLD_LAZY);
     if (alsa == nullptr) return;
     using Handler = void (*)(const char*, int, const char*, int, const char*, ...);
     using Set = int (*)(Handler);
     if (auto* set = reinterpret_cast<Set>(dlsym(alsa, "snd_lib_error_set_handler")); set != nullptr)
-        set(say_nothing);
+        set(ignore_message);
 }
 
 class OpenAl final : public Sink {
   public:
-    OpenAl(Device device, Context context) : device_(std::move(device)), context_(std::move(context)) {}
+    OpenAl(AlDevice device, AlContext context) : device_(std::move(device)), context_(std::move(context)) {}
     ~OpenAl() override {
         if (source_ != 0) {
             alSourceStop(source_);
@@ -77,33 +77,33 @@ class OpenAl final : public Sink {
         return name != nullptr ? name : "OpenAL";
     }
 
-    Result<std::size_t> room() override {
+    Result<std::size_t> free_blocks() override {
         ALCint connected = ALC_TRUE;
         if (alcIsExtensionPresent(device_.get(), "ALC_EXT_disconnect") == ALC_TRUE)
             alcGetIntegerv(device_.get(), ALC_CONNECTED, 1, &connected);
-        if (connected != ALC_TRUE) return gone();
+        if (connected != ALC_TRUE) return disconnected();
         ALint done = 0;
         alGetSourcei(source_, AL_BUFFERS_PROCESSED, &done);
         for (; done > 0; --done) {
             ALuint buffer = 0;
             alSourceUnqueueBuffers(source_, 1, &buffer);
-            if (alGetError() != AL_NO_ERROR) return gone();
+            if (alGetError() != AL_NO_ERROR) return disconnected();
             free_.push_back(buffer);
         }
-        play_on();
+        start_if_stopped();
         return free_.size();
     }
 
-    Status play(std::span<const float, block> samples) override {
+    Status play(std::span<const float, block_size> samples) override {
         if (free_.empty()) return fail(ErrorCode::failed, "the sound device has no free buffer");
-        std::array<std::int16_t, block> pcm{};
+        std::array<std::int16_t, block_size> pcm{};
         std::transform(samples.begin(), samples.end(), pcm.begin(), to_pcm16);
         const ALuint buffer = free_.back();
-        alBufferData(buffer, AL_FORMAT_MONO16, pcm.data(), static_cast<ALsizei>(sizeof pcm), rate);
+        alBufferData(buffer, AL_FORMAT_MONO16, pcm.data(), static_cast<ALsizei>(sizeof pcm), sample_rate);
         alSourceQueueBuffers(source_, 1, &buffer);
-        if (alGetError() != AL_NO_ERROR) return gone();
+        if (alGetError() != AL_NO_ERROR) return disconnected();
         free_.pop_back();
-        play_on();
+        start_if_stopped();
         return {};
     }
 
@@ -113,15 +113,16 @@ class OpenAl final : public Sink {
     }
 
   private:
-    // Start playback at first and after an underrun, which stops the source; wait until the queue is full to
-    // avoid another underrun.
-    void play_on() {
+    // Starts playback at first and after an underrun, which stops the source. Waits until the queue is full,
+    // to avoid another underrun.
+    void start_if_stopped() {
         ALint state = AL_INITIAL;
         alGetSourcei(source_, AL_SOURCE_STATE, &state);
         if (state != AL_PLAYING && free_.empty()) alSourcePlay(source_);
     }
 
-    // Set the context for this thread only if OpenAL supports it, so that other contexts are not disturbed.
+    // Sets the context for this thread only, if OpenAL supports that, so that other contexts are not
+    // disturbed.
     bool set_context(ALCcontext* context) {
         if (alcIsExtensionPresent(nullptr, "ALC_EXT_thread_local_context") != ALC_TRUE)
             return alcMakeContextCurrent(context) == ALC_TRUE;
@@ -130,9 +131,9 @@ class OpenAl final : public Sink {
         return set(context) == ALC_TRUE;
     }
 
-    Device device_;
-    Context context_;
-    std::array<ALuint, in_queue> buffers_{};
+    AlDevice device_;
+    AlContext context_;
+    std::array<ALuint, max_queued_blocks> buffers_{};
     std::vector<ALuint> free_;
     ALuint source_ = 0;
 };
@@ -140,11 +141,11 @@ class OpenAl final : public Sink {
 }  // namespace
 
 Result<std::unique_ptr<Sink>> open_openal() {
-    hush_alsa();
-    Device device(alcOpenDevice(nullptr));
+    silence_alsa();
+    AlDevice device(alcOpenDevice(nullptr));
     if (!device) return no_sound("no sound device can be opened");
-    const std::array<ALCint, 3> wished{ALC_FREQUENCY, rate, 0};
-    Context context(alcCreateContext(device.get(), wished.data()));
+    const std::array<ALCint, 3> attributes{ALC_FREQUENCY, sample_rate, 0};
+    AlContext context(alcCreateContext(device.get(), attributes.data()));
     if (!context) return no_sound("the sound device accepts no context");
     auto sink = std::make_unique<OpenAl>(std::move(device), std::move(context));
     BOLT_TRY(sink->prepare());

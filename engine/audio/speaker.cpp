@@ -19,12 +19,12 @@ namespace bolt::audio {
 void Feeder::update(double now, double volume) {
     if (!sink_) open(now);
     if (!sink_) return;
-    if (Status fed = feed(volume); !fed) lose(now, fed.error());
+    if (Status fed = feed(volume); !fed) handle_loss(now, fed.error());
 }
 
 void Feeder::open(double now) {
-    if (tried_ && now < next_attempt_) return;
-    tried_ = true;
+    if (attempted_ && now < next_attempt_) return;
+    attempted_ = true;
     Result<std::unique_ptr<Sink>> opened = open_();
     if (!opened) {
         status_.problem = opened.error().message();
@@ -46,22 +46,22 @@ Status Feeder::feed(double volume) {
         BOLT_TRY(sink_->set_volume(volume));
         volume_ = volume;
     }
-    BOLT_TRY_ASSIGN(const auto room, sink_->room());
-    for (std::size_t i = 0; i < room; ++i) {
-        std::array<float, block> samples{};
+    BOLT_TRY_ASSIGN(const auto free_blocks, sink_->free_blocks());
+    for (std::size_t i = 0; i < free_blocks; ++i) {
+        std::array<float, block_size> samples{};
         fill_(samples);
         BOLT_TRY(sink_->play(samples));
-        pause_ = first_pause;  // reset only after playing: a device that fails right after opening keeps its
-                               // growing pause
+        // Reset only after playing: for a device that fails right after opening, the pause keeps growing.
+        pause_ = first_pause;
         ++status_.blocks;
     }
     return {};
 }
 
-void Feeder::lose(double now, const Error& why) {
+void Feeder::handle_loss(double now, const Error& error) {
     sink_.reset();
     status_.playing = false;
-    status_.problem = why.message();
+    status_.problem = error.message();
     ++status_.losses;
     next_attempt_ = now + pause_;
     pause_ = std::min(2.0 * pause_, longest_pause);
@@ -74,8 +74,8 @@ constexpr auto feed_interval = std::chrono::milliseconds(5);
 // Without a sink, only the next attempt to open it is due.
 constexpr auto retry_interval = std::chrono::milliseconds(200);
 
-// Whether to publish the status; the block count alone is published ten times per second.
-bool changed(const PlaybackStatus& now, const PlaybackStatus& before) {
+// Returns whether to publish the status. A new block count alone is published ten times per second.
+bool is_worth_publishing(const PlaybackStatus& now, const PlaybackStatus& before) {
     return now.playing != before.playing || now.problem != before.problem ||
            now.openings != before.openings || now.losses != before.losses || now.blocks >= before.blocks + 10;
 }
@@ -83,15 +83,15 @@ bool changed(const PlaybackStatus& now, const PlaybackStatus& before) {
 }  // namespace
 
 struct Speaker::Shared {
-    Shared(Fill fill, OpenSink open) : feeder(std::move(open), std::move(fill)) {}
+    Shared(FillSamples fill, OpenSink open) : feeder(std::move(open), std::move(fill)) {}
 
     Feeder feeder;
     std::atomic<double> volume{1.0};
     TripleBuffer<PlaybackStatus> published;
     std::mutex mutex;
     std::condition_variable_any stop_condition;
-    std::optional<bool> reported_playing;  // last reported by status_change()
-    std::jthread thread;                   // last: joins before the members that it uses are destroyed
+    std::optional<bool> reported_playing;  // by the last status_change() that returned a line
+    std::jthread thread;  // the last member: it joins before the members that it uses are destroyed
 
     void run(const std::stop_token& stop) {
         using Clock = std::chrono::steady_clock;
@@ -100,7 +100,7 @@ struct Speaker::Shared {
         while (!stop.stop_requested()) {
             const double now = std::chrono::duration<double>(Clock::now() - begin).count();
             feeder.update(now, volume.load(std::memory_order_relaxed));
-            if (const PlaybackStatus& current = feeder.status(); changed(current, before)) {
+            if (const PlaybackStatus& current = feeder.status(); is_worth_publishing(current, before)) {
                 before = current;
                 published.write(current);
             }
@@ -117,9 +117,9 @@ Speaker::Speaker(Speaker&&) noexcept = default;
 Speaker& Speaker::operator=(Speaker&&) noexcept = default;
 Speaker::~Speaker() = default;
 
-Result<Speaker> Speaker::start(Fill fill) { return start(std::move(fill), open_openal); }
+Result<Speaker> Speaker::start(FillSamples fill) { return start(std::move(fill), open_openal); }
 
-Result<Speaker> Speaker::start(Fill fill, OpenSink open) {
+Result<Speaker> Speaker::start(FillSamples fill, OpenSink open) {
     auto shared = std::make_unique<Shared>(std::move(fill), std::move(open));
     try {
         shared->thread = std::jthread([s = shared.get()](const std::stop_token& stop) { s->run(stop); });

@@ -1,5 +1,5 @@
-// Feeds samples to a sound device: opens the sink, keeps it filled, and reopens it after a loss. Without a
-// device the program stays silent and continues. The time is a parameter, so that tests control it.
+// Sound output. Feeder opens a sink, keeps it filled, and reopens it after a loss; Speaker does this on a
+// thread of its own. Without a device the program continues silently.
 #pragma once
 
 #include <cstdint>
@@ -10,25 +10,26 @@
 
 namespace bolt::audio {
 
-// Provides the next samples. Called only by Feeder and Speaker.
-using Fill = std::function<void(std::span<float>)>;
+// Fills a block with the next samples. Called only by Feeder and Speaker.
+using FillSamples = std::function<void(std::span<float>)>;
 
 struct PlaybackStatus {
     bool playing = false;
-    std::string device;   // the last one that was opened
+    std::string device;   // name of the last device that was opened
     std::string problem;  // why there is no sound; empty while playing
     std::uint64_t openings = 0, losses = 0, blocks = 0;
 };
 
-// The pause between attempts to open a sink, s. A failed attempt doubles it: a device that returns is found
-// soon, and a missing one costs almost nothing.
+// The pause between attempts to open a sink, s. A failed attempt doubles it: a device that returns soon is
+// found soon, and a missing one costs almost nothing.
 inline constexpr double first_pause = 1.0, longest_pause = 64.0;
 
+// Feeds one sink. The time is a parameter, so that tests control it.
 class Feeder {
   public:
-    Feeder(OpenSink open, Fill fill) : open_(std::move(open)), fill_(std::move(fill)) {}
+    Feeder(OpenSink open, FillSamples fill) : open_(std::move(open)), fill_(std::move(fill)) {}
 
-    // Opens the sink if an attempt is due, and fills it. `now` in s, from any epoch.
+    // Opens the sink if an attempt is due, and fills it. `now`: s, from any epoch. `volume`: 0 … 1.
     void update(double now, double volume);
     void close() { sink_.reset(); }
 
@@ -37,26 +38,25 @@ class Feeder {
   private:
     void open(double now);
     Status feed(double volume);
-    void lose(double now, const Error& why);
+    void handle_loss(double now, const Error& error);
 
     OpenSink open_;
-    Fill fill_;
+    FillSamples fill_;
     std::unique_ptr<Sink> sink_;
     PlaybackStatus status_;
-    double next_attempt_ = 0.0, pause_ = first_pause;
-    double volume_ = -1.0;  // the sink's volume
-    bool tried_ = false;
+    double next_attempt_ = 0.0, pause_ = first_pause;  // s
+    double volume_ = -1.0;                             // the sink's volume; -1: not set yet
+    bool attempted_ = false;                           // to open a sink, at least once
 };
 
-// Sound output on its own thread, which requests samples whenever the device has room, so that slow frames
-// cause no gaps. Without a device it is silent and reports the reason.
-
+// A Feeder on its own thread. The thread requests samples whenever the device can queue them, so that slow
+// frames cause no gaps.
 class Speaker {
   public:
     // Returns at once; the thread opens the device and reopens it after a loss. Only that thread calls
     // `fill`, block by block; `fill` must not throw or block.
-    static Result<Speaker> start(Fill fill);
-    static Result<Speaker> start(Fill fill, OpenSink open);
+    static Result<Speaker> start(FillSamples fill);
+    static Result<Speaker> start(FillSamples fill, OpenSink open);
 
     Speaker(Speaker&&) noexcept;
     Speaker& operator=(Speaker&&) noexcept;
@@ -64,10 +64,10 @@ class Speaker {
 
     void set_volume(double volume);  // 0 … 1; thread-safe
 
-    // The most recent status. For one calling thread, which also calls status_change().
+    // Returns the most recent status. Only one thread may call status() and status_change().
     const PlaybackStatus& status();
 
-    // Returns a line for the user once after every change: that sound plays (again), or why there is none.
+    // Returns a line for the user, once after every change: the device that plays, or why there is no sound.
     std::optional<std::string> status_change();
 
   private:

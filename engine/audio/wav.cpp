@@ -14,7 +14,7 @@ namespace bolt::audio {
 namespace {
 
 constexpr std::size_t header_size = 44;
-constexpr std::uint32_t unknown = 0xFFFFFFFFU;
+constexpr std::uint32_t unknown_length = 0xFFFFFFFFU;
 
 void put(std::string& bytes, std::uint32_t value, int count) {
     for (int i = 0; i < count; ++i) bytes += static_cast<char>((value >> (8 * i)) & 0xFFU);
@@ -23,23 +23,23 @@ void put(std::string& bytes, std::uint32_t value, int count) {
 // RIFF/WAVE (IBM and Microsoft, Multimedia Programming Interface and Data Specifications 1.0, 1991):
 // little-endian chunks, `fmt ` with plain PCM, `data`.
 std::string header(int rate, std::uint32_t data_bytes) {
-    const auto samples_a_second = static_cast<std::uint32_t>(rate);
+    const auto samples_per_second = static_cast<std::uint32_t>(rate);
     std::string bytes = "RIFF";
-    put(bytes, data_bytes == unknown ? unknown : data_bytes + (header_size - 8), 4);
+    put(bytes, data_bytes == unknown_length ? unknown_length : data_bytes + (header_size - 8), 4);
     bytes += "WAVEfmt ";
     put(bytes, 16, 4);
     put(bytes, 1, 2);  // PCM
     put(bytes, 1, 2);  // channels
-    put(bytes, samples_a_second, 4);
-    put(bytes, 2 * samples_a_second, 4);  // bytes per second
-    put(bytes, 2, 2);                     // bytes per sample
-    put(bytes, 16, 2);                    // bits
+    put(bytes, samples_per_second, 4);
+    put(bytes, 2 * samples_per_second, 4);  // bytes per second
+    put(bytes, 2, 2);                       // bytes per sample
+    put(bytes, 16, 2);                      // bits
     bytes += "data";
     put(bytes, data_bytes, 4);
     return bytes;
 }
 
-struct Close {
+struct CloseFile {
     void operator()(std::FILE* file) const { (void)std::fclose(file); }
 };
 
@@ -47,32 +47,32 @@ struct Close {
 
 struct WavWriter::State {
     std::filesystem::path path, part;
-    std::unique_ptr<std::FILE, Close> file;
-    bool special = false;
+    std::unique_ptr<std::FILE, CloseFile> file;
+    bool not_regular = false;  // a pipe or a device
     int rate = 0;
     std::uint64_t samples = 0;
-    std::optional<Error> broken;
+    std::optional<Error> first_error;
     std::string bytes;
 
     ~State() {
-        if (file && !special) drop();
+        if (file && !not_regular) remove_part();
     }
-    void drop() {
+    void remove_part() {
         file.reset();
         std::error_code ignored;
-        if (!special) std::filesystem::remove(part, ignored);
+        if (!not_regular) std::filesystem::remove(part, ignored);
     }
-    Status fail_with(const std::string& why) {
+    Status fail_writing(const std::string& why) {
         Error error;
         error.file = path.string();
         error.what = "cannot be written: " + why;
-        broken = error;
-        drop();
+        first_error = error;
+        remove_part();
         return fail(error);
     }
-    Status put_bytes(std::string_view given) {
-        if (std::fwrite(given.data(), 1, given.size(), file.get()) != given.size())
-            return fail_with(std::strerror(errno));
+    Status put_bytes(std::string_view bytes_to_write) {
+        if (std::fwrite(bytes_to_write.data(), 1, bytes_to_write.size(), file.get()) != bytes_to_write.size())
+            return fail_writing(std::strerror(errno));
         return {};
     }
 };
@@ -82,25 +82,25 @@ WavWriter::WavWriter(WavWriter&& other) noexcept = default;
 WavWriter& WavWriter::operator=(WavWriter&& other) noexcept = default;
 WavWriter::~WavWriter() = default;
 
-Result<WavWriter> WavWriter::create(const std::filesystem::path& path, int sample_rate) {
+Result<WavWriter> WavWriter::create(const std::filesystem::path& path, int rate) {
     auto state = std::make_unique<State>();
     std::error_code ignored;
     const std::filesystem::file_status target = std::filesystem::status(path, ignored);
-    state->special = std::filesystem::exists(target) && !std::filesystem::is_regular_file(target);
+    state->not_regular = std::filesystem::exists(target) && !std::filesystem::is_regular_file(target);
     state->path = state->part = path;
-    if (!state->special) state->part += ".part";
-    state->rate = sample_rate;
+    if (!state->not_regular) state->part += ".part";
+    state->rate = rate;
     state->file.reset(std::fopen(state->part.c_str(), "wb"));
-    if (!state->file) return fail(state->fail_with(std::strerror(errno)).error());
-    BOLT_TRY(state->put_bytes(header(sample_rate, unknown)));
+    if (!state->file) return fail(state->fail_writing(std::strerror(errno)).error());
+    BOLT_TRY(state->put_bytes(header(rate, unknown_length)));
     return WavWriter(std::move(state));
 }
 
 Status WavWriter::write(std::span<const float> samples) {
     State& s = *state_;
-    if (s.broken) return fail(*s.broken);
-    if (!s.special && s.samples + samples.size() > most_wav_samples)
-        return s.fail_with("a WAV file has no room for more than 4 GiB");
+    if (s.first_error) return fail(*s.first_error);
+    if (!s.not_regular && s.samples + samples.size() > max_wav_samples)
+        return s.fail_writing("a WAV file cannot be larger than 4 GiB");
     s.samples += samples.size();
     s.bytes.clear();
     for (const float sample : samples) put(s.bytes, static_cast<std::uint16_t>(to_pcm16(sample)), 2);
@@ -109,20 +109,20 @@ Status WavWriter::write(std::span<const float> samples) {
 
 Status WavWriter::finish() {
     State& s = *state_;
-    if (s.broken) return fail(*s.broken);
-    if (!s.special) {
-        if (std::fseek(s.file.get(), 0, SEEK_SET) != 0) return s.fail_with(std::strerror(errno));
+    if (s.first_error) return fail(*s.first_error);
+    if (!s.not_regular) {
+        if (std::fseek(s.file.get(), 0, SEEK_SET) != 0) return s.fail_writing(std::strerror(errno));
         BOLT_TRY(s.put_bytes(header(s.rate, static_cast<std::uint32_t>(2 * s.samples))));
     }
     if (std::fclose(s.file.release()) != 0) {
         const std::string why = std::strerror(errno);
-        return s.fail_with(why);
+        return s.fail_writing(why);
     }
-    s.broken = Error{ErrorCode::failed, "is finished", {}, s.path.string(), 0, 0, {}, false};
-    if (s.special) return {};
+    s.first_error = Error{ErrorCode::failed, "is finished", {}, s.path.string(), 0, 0, {}, false};
+    if (s.not_regular) return {};
     std::error_code renamed;
     std::filesystem::rename(s.part, s.path, renamed);
-    if (renamed) return s.fail_with(renamed.message());
+    if (renamed) return s.fail_writing(renamed.message());
     return {};
 }
 

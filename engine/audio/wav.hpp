@@ -1,4 +1,4 @@
-// Writes a WAV file of any length as its samples arrive: 16 bits, mono.
+// Writes a WAV file while its samples arrive: 16 bits, mono.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace bolt::audio {
 
-// Until finish() the file is named `path`.part; the destructor removes it, so that `path` is never
-// incomplete. If `path` is a pipe or a device, it is written to directly with an "unknown" length, which
-// FFmpeg and others accept. After an error every later call returns it again.
+// The file is named `path`.part until finish() renames it; without finish() the destructor removes it. So
+// `path` is never incomplete. If `path` is a pipe or a device, it is written to directly, with an "unknown"
+// length, which FFmpeg and others accept. After an error, every later call returns the same error.
 class WavWriter {
   public:
-    static Result<WavWriter> create(const std::filesystem::path& path, int sample_rate);
+    static Result<WavWriter> create(const std::filesystem::path& path, int rate);  // Hz
     WavWriter(WavWriter&& other) noexcept;
     WavWriter& operator=(WavWriter&& other) noexcept;
     ~WavWriter();
@@ -31,6 +31,6 @@ class WavWriter {
 };
 
 // The limit of the format's 32-bit lengths: more than twelve hours at 48,000 samples per second.
-inline constexpr std::uint64_t most_wav_samples = (0xFFFFFFFFULL - 36) / 2;
+inline constexpr std::uint64_t max_wav_samples = (0xFFFFFFFFULL - 36) / 2;
 
 }  // namespace bolt::audio

@@ -13,7 +13,7 @@ namespace bolt {
 
 namespace {
 
-struct Close {
+struct CloseFile {
     void operator()(std::FILE* file) const { (void)std::fclose(file); }
 };
 
@@ -30,7 +30,7 @@ tl::unexpected<Error> file_error(const std::filesystem::path& path, ErrorCode co
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit, ErrorCode code) {
     std::error_code status;
     if (std::filesystem::is_directory(path, status)) return file_error(path, code, "is a folder");
-    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+    const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
     if (!file) return file_error(path, code, std::string("cannot be opened: ") + std::strerror(errno));
     std::string text;
     char block[65536];

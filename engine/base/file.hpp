@@ -1,4 +1,4 @@
-// Reads and writes whole small files; errors name the file and the reason.
+// Reads and writes small files as a whole, and detects changes of files. Errors name the file and the reason.
 #pragma once
 
 #include <cstddef>
@@ -23,10 +23,6 @@ Status write_file(const std::filesystem::path& path, std::string_view text);
 // Fails if both paths name the same file, because writing the output would destroy the input.
 Status require_different_files(const std::filesystem::path& input, const std::filesystem::path& output);
 
-// Detects file changes by polling. Polling works on every file system, and with editors that write a new file
-// and rename it over the old one. A change is reported only after the file has stayed unchanged for a while,
-// so that half-written files are not read.
-
 // Distinguishes two versions of a file without reading them. A missing file is a version too.
 struct FileStamp {
     std::int64_t modified = 0;  // ns
@@ -36,22 +32,25 @@ struct FileStamp {
 };
 FileStamp stamp(const std::filesystem::path& file);  // of the file as it is now
 
+// Detects file changes by polling. Polling works on every file system, and with editors that write a new file
+// and rename it over the old one. A change is reported only after the file has stayed unchanged for
+// `settle_time` seconds, so that half-written files are not read.
 class FileWatch {
   public:
-    explicit FileWatch(double settle_time = 0.15) : settle_time_(settle_time) {}  // s
+    explicit FileWatch(double settle_time = 0.15) : settle_time_(settle_time) {}
 
     // Replaces the list of watched files. Files that were watched before keep their state.
     void watch(std::vector<std::filesystem::path> files);
 
-    // Returns the files that changed since they were last reported, or since they are watched. `now` is in
-    // seconds, from any monotonic clock.
+    // Returns the files that changed since they were last reported, or since watching began. `now`: s, from
+    // any monotonic clock.
     std::vector<std::filesystem::path> changed(double now);
 
   private:
     struct Watched {
         std::filesystem::path file;
         FileStamp reported, latest;
-        std::optional<double> since;  // when `latest` was first observed, if it differs from `reported`
+        std::optional<double> since;  // s, when `latest` was first observed; nullopt: it equals `reported`
     };
     double settle_time_;
     std::vector<Watched> files_;

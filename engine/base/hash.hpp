@@ -1,5 +1,5 @@
-// FNV-1a, a 64-bit hash (Fowler, Noll, Vo). Every step can be inverted, so one changed byte always changes
-// the hash. It is not a cryptographic hash.
+// The 64-bit FNV-1a hash (Fowler, Noll, Vo). Every step can be inverted, so a single changed byte always
+// changes the hash. It is not a cryptographic hash.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// A ring buffer from one writer thread to one reader thread that loses nothing. Neither side blocks or
-// allocates; a push into a full ring fails and leaves the value with the writer.
+// Lock-free exchange between one writer thread and one reader thread: SpscRing delivers every value,
+// TripleBuffer only the latest.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace bolt {
 
-// Both counters grow without being reduced: their difference is the number of stored values, also after an
-// overflow.
+// A ring buffer. Neither side blocks or allocates; a push into a full ring fails. Both counters grow without
+// being reduced to slot indices: their difference is the number of stored values, also after an overflow.
 template <class T>
 class SpscRing {
   public:
@@ -27,9 +27,9 @@ class SpscRing {
     // Writer only. Returns false if the ring is full; the value is then not stored.
     [[nodiscard]] bool push(const T& value) {
         const std::size_t at = pushed_.load(std::memory_order_relaxed);
-        if (at - seen_popped_ == slots_.size()) {
-            seen_popped_ = popped_.load(std::memory_order_acquire);
-            if (at - seen_popped_ == slots_.size()) return false;
+        if (at - cached_popped_ == slots_.size()) {
+            cached_popped_ = popped_.load(std::memory_order_acquire);
+            if (at - cached_popped_ == slots_.size()) return false;
         }
         slots_[at & (slots_.size() - 1)] = value;
         pushed_.store(at + 1, std::memory_order_release);
@@ -39,9 +39,9 @@ class SpscRing {
     // Reader only. Returns false if the ring is empty.
     [[nodiscard]] bool pop(T& value) {
         const std::size_t at = popped_.load(std::memory_order_relaxed);
-        if (at == seen_pushed_) {
-            seen_pushed_ = pushed_.load(std::memory_order_acquire);
-            if (at == seen_pushed_) return false;
+        if (at == cached_pushed_) {
+            cached_pushed_ = pushed_.load(std::memory_order_acquire);
+            if (at == cached_pushed_) return false;
         }
         value = std::move(slots_[at & (slots_.size() - 1)]);
         popped_.store(at + 1, std::memory_order_release);
@@ -55,20 +55,18 @@ class SpscRing {
     }
 
   private:
-    static constexpr std::size_t cache_line = 64;  // bytes, see triple_buffer.hpp
+    static constexpr std::size_t cache_line = 64;  // bytes; avoids false sharing between the two cores
     std::vector<T> slots_;
     alignas(cache_line) std::atomic<std::size_t> pushed_{0};
-    std::size_t seen_popped_ = 0;  // the writer's copy, refreshed only when the ring seems full
+    std::size_t cached_popped_ = 0;  // the writer's copy, refreshed only when the ring seems full
     alignas(cache_line) std::atomic<std::size_t> popped_{0};
-    std::size_t seen_pushed_ = 0;  // the reader's copy, refreshed only when the ring seems empty
+    std::size_t cached_pushed_ = 0;  // the reader's copy, refreshed only when the ring seems empty
 };
 
-// The latest value, from one writer thread to one reader thread; neither ever blocks. Values that the reader
-// does not poll in time are overwritten; use spsc_ring.hpp for values that must not be lost.
-
-// Three slots: the writer's, the reader's, and one in the middle that each side exchanges with its own. The
-// exchange is the only shared operation. Its release publishes the written slot; its acquire ensures that the
-// other side has finished with the slot that comes back.
+// The latest value. Neither side ever blocks; values that the reader does not poll in time are overwritten.
+// There are three slots: the writer's, the reader's, and one in the middle that each side exchanges with its
+// own. The exchange is the only shared operation. Its release publishes the written slot; its acquire ensures
+// that the other side has finished with the slot that it receives.
 template <class T>
 class TripleBuffer {
   public:
@@ -76,8 +74,7 @@ class TripleBuffer {
     TripleBuffer(const TripleBuffer&) = delete;
     TripleBuffer& operator=(const TripleBuffer&) = delete;
 
-    // Writer only. The slot holds an older value until it is filled. The reader sees nothing before
-    // publish().
+    // Writer only. slot() holds an older value until it is filled; the reader receives it after publish().
     T& slot() { return slots_[writers_].value; }
     void publish() { writers_ = middle_.exchange(writers_ | unseen, std::memory_order_acq_rel) & index; }
     void write(const T& value) {
@@ -95,7 +92,7 @@ class TripleBuffer {
 
   private:
     static constexpr std::uint8_t index = 3, unseen = 4;
-    static constexpr std::size_t cache_line = 64;  // bytes; avoids false sharing between the two cores
+    static constexpr std::size_t cache_line = 64;  // bytes, as above
     struct alignas(cache_line) Slot {
         T value;
     };

@@ -1,5 +1,5 @@
-// Vectors, quaternions and angles. SI units: metres, radians, newtons. Right-handed frames, Y up in world
-// space.
+// Vectors, quaternions, angles, rigid poses, and the minimum-jerk profile. SI units: metres, radians,
+// newtons. Right-handed frames, Y up in world space.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +23,7 @@ constexpr double square(double x) { return x * x; }
 // Returns the angle reduced to [-period/2, period/2].
 inline double wrap(double angle, double period) { return std::remainder(angle, period); }
 
-// The pose of a rigid body: the transform from body coordinates to its surroundings.
-
+// The pose of a rigid body: the transform from body coordinates to the surrounding frame.
 struct Pose {
     Vec3 position{0.0};                    // m, the body's origin
     Quat orientation{1.0, 0.0, 0.0, 0.0};  // unit quaternion
@@ -54,10 +53,9 @@ inline Vec3 rotation_vector(const Quat& unit) {
     return v * (s < 1e-8 ? 2.0 / q.w : 2.0 * std::atan2(s, q.w) / s);
 }
 
-// The minimum-jerk profile of a hand's reach.
-
-// The share of the way at the share `tau` of the time, clamped to 0 … 1: 10τ³ − 15τ⁴ + 6τ⁵, at rest at both
-// ends. Flash and Hogan, J. Neurosci. 5 (1985) 1688.
+// The minimum-jerk profile of a hand's reach: the fraction of the distance covered at the fraction `tau` of
+// the duration, clamped to 0 … 1. 10τ³ − 15τ⁴ + 6τ⁵, at rest at both ends. Flash and Hogan, J. Neurosci. 5
+// (1985) 1688.
 inline double minimum_jerk(double tau) {
     const double t = std::clamp(tau, 0.0, 1.0);
     return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));

@@ -7,7 +7,7 @@
 namespace bolt {
 
 namespace {
-int folded(char c) { return std::tolower(static_cast<unsigned char>(c)); }
+int lower_case(char c) { return std::tolower(static_cast<unsigned char>(c)); }
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -17,10 +17,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     for (std::size_t i = 1; i <= a.size(); ++i) {
         row[0] = i;
         for (std::size_t j = 1; j < width; ++j) {
-            const bool same = folded(a[i - 1]) == folded(b[j - 1]);
+            const bool same = lower_case(a[i - 1]) == lower_case(b[j - 1]);
             row[j] = std::min({above[j] + 1, row[j - 1] + 1, above[j - 1] + (same ? 0U : 1U)});
-            const bool swapped = i > 1 && j > 1 && folded(a[i - 1]) == folded(b[j - 2]) &&
-                                 folded(a[i - 2]) == folded(b[j - 1]);
+            const bool swapped = i > 1 && j > 1 && lower_case(a[i - 1]) == lower_case(b[j - 2]) &&
+                                 lower_case(a[i - 2]) == lower_case(b[j - 1]);
             if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
         }
         before = above;
@@ -30,7 +30,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view name, std::span<const std::string> candidates) {
-    constexpr std::size_t longest = 64;  // a longer name is no typing error, and the cost is quadratic
+    constexpr std::size_t longest = 64;  // the cost is quadratic, and a longer name is hardly a misspelling
     if (name.empty() || name.size() > longest) return {};
     const std::size_t limit = std::max<std::size_t>(1, (name.size() + 1) / 3);
     std::string best;

@@ -17,7 +17,7 @@ namespace bolt {
 
 namespace {
 
-// Gives the child our file descriptor `ours` as its descriptor `theirs`.
+// Makes our file descriptor `ours` available to the child as its descriptor `theirs`.
 struct Redirect {
     int ours = -1, theirs = -1;
 };
@@ -45,15 +45,16 @@ Result<int> spawn(const std::vector<std::string>& command, std::span<const Redir
     for (const Redirect& redirect : redirects)
         ::posix_spawn_file_actions_adddup2(&actions, redirect.ours, redirect.theirs);
     pid_t child = 0;
-    const int problem = ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+    const int error_number =
+        ::posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
     ::posix_spawn_file_actions_destroy(&actions);
-    if (problem != 0)
+    if (error_number != 0)
         return fail(ErrorCode::failed,
-                    fmt::format("{} cannot be started: {}", command[0], std::strerror(problem)));
+                    fmt::format("{} cannot be started: {}", command[0], std::strerror(error_number)));
     return child;
 }
 
-// Waits for the child to end. Returns its exit code, or -1 if a signal ended it.
+// Waits for the child to exit. Returns its exit code; -1 if a signal ended it.
 int wait_for(int child) {
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

@@ -1,4 +1,5 @@
-// Runs other programs: to their end with captured output, or with a stream of bytes on their standard input.
+// Runs other programs: until they exit, with captured output, or with a stream of bytes on their standard
+// input.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@ struct ProgramResult {
 
 enum class Capture : std::uint8_t { output, output_and_errors };
 
-// Runs a program to its end and captures its output. The program is searched for on the PATH and inherits our
-// standard input. Fails if the program cannot be started.
+// Runs a program until it exits and captures its output. The program is searched for on the PATH and inherits
+// our standard input. Fails if the program cannot be started.
 Result<ProgramResult> run_program(const std::vector<std::string>& command, Capture capture);
 
 // A running program that reads bytes from its standard input, such as FFmpeg that encodes pictures.
@@ -30,11 +31,11 @@ class ChildStdin {
     ChildStdin& operator=(ChildStdin&& other) noexcept;
     ~ChildStdin();  // calls finish()
 
-    // Fails if the program no longer reads its input. The caller must have SIGPIPE ignored.
+    // Fails if the program no longer reads its input. The process must ignore SIGPIPE.
     Status write(std::span<const std::uint8_t> bytes);
 
-    // Closes the input and waits for the program to end. Returns its exit code, or -1 if a signal ended it or
-    // it was finished before.
+    // Closes the input and waits for the program to exit. Returns its exit code; -1 if a signal ended it or
+    // if finish() was called before.
     int finish();
 
   private:

@@ -1,4 +1,4 @@
-// The main() of every command-line program: parses the arguments and catches unexpected exceptions.
+// The common part of every command-line program's main().
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,8 +7,8 @@
 
 namespace bolt {
 
-// Parses the arguments and runs the subcommand, which stores its result in `exit_code`. Returns 2 for every
-// usage error, whatever code CLI11 uses.
+// Parses the arguments and runs the subcommand, whose callback stores its result in `exit_code`. Returns
+// `exit_code`, 2 for every usage error (CLI11's own codes differ), or 1 after an unexpected exception.
 inline int run_command_line(CLI::App& app, int argc, char** argv, const int& exit_code) {
     try {
         app.parse(argc, argv);

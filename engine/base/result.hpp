@@ -1,4 +1,4 @@
-// An error as a value: what is wrong, where, and what was expected instead.
+// Errors as values: Error, Result, and their propagation and output.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace bolt {
 
-// The exit codes of every program, in the order of severity that a caller may act on.
+// The value is the exit code of the program.
 enum class ErrorCode {
     failed = 1,       // the work itself failed: a full disk, a broken session file
     usage = 2,        // the command line is wrong
@@ -17,6 +17,7 @@ enum class ErrorCode {
     no_device = 4,    // a requested device or GPU is missing
 };
 
+// States what is wrong, where, and what was expected instead.
 struct Error {
     ErrorCode code = ErrorCode::failed;
     std::string what;      // one clause that states what is wrong: "is an object"
@@ -25,15 +26,14 @@ struct Error {
     int line = 0;          // 1-based; 0: unknown
     int column = 0;        // 1-based, in characters (Unicode code points); 0: unknown
     std::string pointer;   // JSON pointer (RFC 6901) of the value; may be empty
-    bool lost = false;     // the device worked and has disappeared: opening it again may help
+    bool lost = false;     // a device that worked before has disappeared; reopening it may succeed
 
-    // "file:line:column: pointer: what; expected expected" without the unknown parts. The word "expected" is
-    // inserted unless the text already begins with "expected" or "did you mean".
+    // Returns "file:line:column: pointer: what; expected expected" without the unknown parts. The word
+    // "expected" is inserted unless the text already begins with "expected" or "did you mean".
     [[nodiscard]] std::string message() const;
 };
 
-// Result<T>: a value or the Error that explains why there is none. Every boundary returns one.
-
+// A value, or the Error that explains why there is none.
 template <class T>
 using Result = tl::expected<T, Error>;
 
@@ -51,10 +51,10 @@ inline tl::unexpected<Error> fail(ErrorCode code, std::string what, std::string 
 
 }  // namespace bolt
 
-// BOLT_TRY(expression) returns the error of a Result or Status from the enclosing function; on success it
-// discards the value. BOLT_TRY_ASSIGN(const auto name, expression) does the same and defines `name` as the
-// value. The enclosing function has to return a Result or a Status; each stands in a block of its own or
-// directly in a function, never as the body of a bare `if`.
+// BOLT_TRY(expression) returns the error of a Result or Status from the enclosing function; without an error
+// it discards the value. BOLT_TRY_ASSIGN(const auto name, expression) does the same and defines `name` as the
+// value. The enclosing function must return a Result or a Status. BOLT_TRY_ASSIGN expands to several
+// statements: never use it as the body of an `if` without braces.
 #define BOLT_TRY(...) BOLT_TRY_AT(__LINE__, __VA_ARGS__)
 #define BOLT_TRY_AT(line, ...) BOLT_TRY_IN(line, __VA_ARGS__)
 #define BOLT_TRY_IN(line, ...)                                            \
@@ -68,8 +68,6 @@ inline tl::unexpected<Error> fail(ErrorCode code, std::string what, std::string 
     auto bolt_result_##line = (__VA_ARGS__);                                             \
     if (!bolt_result_##line) return ::bolt::fail(std::move(bolt_result_##line).error()); \
     definition = *std::move(bolt_result_##line)
-
-// Console output of programs: errors to stderr with their exit code, results to stdout.
 
 namespace bolt {
 

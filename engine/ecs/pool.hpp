@@ -1,5 +1,4 @@
-// An entity identifies something that has components: a slot index and the slot's generation. A stale entity
-// never refers to the next occupant of its slot.
+// Entities, their allocation, and Pool: the components of one type.
 #pragma once
 
 #include <array>
@@ -12,6 +11,8 @@
 
 namespace bolt::ecs {
 
+// Identifies something that has components: a slot index and the slot's generation. A stale entity never
+// refers to the next occupant of its slot.
 struct Entity {
     static constexpr std::uint32_t none = ~std::uint32_t{0};
 
@@ -63,8 +64,8 @@ class Entities {
   private:
     static constexpr std::uint32_t last_generation = ~std::uint32_t{1};  // the last even one
 
-    std::vector<std::uint32_t> slots_;  // generation; odd while alive
-    std::vector<std::uint32_t> free_;
+    std::vector<std::uint32_t> slots_;  // generations; odd while alive
+    std::vector<std::uint32_t> free_;   // indices of slots
     std::size_t alive_ = 0;
 };
 
@@ -72,11 +73,10 @@ class Entities {
 // paged sparse array maps an entity's slot to its dense index. Insert, erase and find take constant time;
 // iteration walks an array. Erasing moves the last component into the gap: the order is not kept, and
 // pointers to components are valid only until the next insert or erase.
-
 template <class Component>
 class Pool {
   public:
-    // Adds a component to an entity that has none.
+    // Adds a component to an entity that does not have one of this type.
     template <class... Arguments>
     Component& insert(Entity entity, Arguments&&... arguments) {
         assert(!contains(entity));
@@ -86,7 +86,7 @@ class Pool {
         return components_.back();
     }
 
-    // Returns false if the entity has none.
+    // Returns false if the entity has no component of this type.
     bool erase(Entity entity) {
         const std::uint32_t dense = dense_index(entity);
         if (dense == Entity::none) return false;
@@ -103,7 +103,7 @@ class Pool {
 
     [[nodiscard]] bool contains(Entity entity) const { return dense_index(entity) != Entity::none; }
 
-    // Returns null if the entity has none.
+    // Returns null if the entity has no component of this type.
     [[nodiscard]] Component* find(Entity entity) {
         const std::uint32_t dense = dense_index(entity);
         return dense == Entity::none ? nullptr : &components_[dense];

@@ -1,11 +1,4 @@
-// All entities that have all of the given components: iterates over the smallest pool and looks up the
-// others.
-//
-//   view.each([](Entity entity, Pose& pose, const Velocity& velocity) { ... });   or without the entity
-//
-// Iteration goes from the last to the first entity. The callback may destroy the visited entity, remove its
-// components and create entities (which are not visited). It must not destroy other entities: collect them
-// and destroy them afterwards.
+// Registry: entities and their components. View: iterates over the entities that have given components.
 #pragma once
 
 #include <algorithm>
@@ -18,11 +11,19 @@
 
 namespace bolt::ecs {
 
-// The pool of a component type that is const where it is only read.
+// The pool of a component type; const if the type is const.
 template <class Component>
 using PoolOf = std::conditional_t<std::is_const_v<Component>, const Pool<std::remove_const_t<Component>>,
                                   Pool<std::remove_const_t<Component>>>;
 
+// All entities that have all of the given components: iterates over the smallest pool and looks up the
+// others.
+//
+//   view.each([](Entity entity, Pose& pose, const Velocity& velocity) { ... });   or without the entity
+//
+// Iteration goes from the last to the first entity. The callback may destroy the visited entity, remove its
+// components and create entities (which are not visited). It must not destroy other entities: collect them
+// and destroy them afterwards.
 template <class... Components>
 class View {
     static_assert(sizeof...(Components) > 0);
@@ -35,7 +36,7 @@ class View {
         each_from_shortest(function, Indices{});
     }
 
-    // The maximum number of visited entities.
+    // Returns the maximum number of visited entities.
     [[nodiscard]] std::size_t bound() const {
         return std::apply([](const auto*... pool) { return std::min({pool->size()...}); }, pools_);
     }
@@ -46,15 +47,15 @@ class View {
     template <class Function, std::size_t... I>
     void each_from_shortest(Function& function, std::index_sequence<I...>) const {
         const std::size_t shortest = bound();
-        bool walked = false;
-        ((!walked && std::get<I>(pools_)->size() == shortest ? (walked = true, walk<I>(function, Indices{}))
-                                                             : void()),
+        bool done = false;
+        ((!done && std::get<I>(pools_)->size() == shortest ? (done = true, iterate<I>(function, Indices{}))
+                                                           : void()),
          ...);
     }
 
     // Iterates over pool `First` and looks up the others.
     template <std::size_t First, class Function, std::size_t... I>
-    void walk(Function& function, std::index_sequence<I...>) const {
+    void iterate(Function& function, std::index_sequence<I...>) const {
         auto& first = *std::get<First>(pools_);
         for (std::size_t at = first.size(); at-- > 0;) {
             if (at >= first.size()) continue;  // the callback erased more than the visited entity
@@ -87,9 +88,8 @@ class View {
 //   World world;
 //   const ecs::Entity nut = world.create();
 //   world.add<Pose>(nut, position);
-//   world.view<Pose, const Velocity>().each([&](Pose& pose, const Velocity& v) { pose.position += dt *
-//   v.linear; });
-
+//   world.view<Pose, const Velocity>().each(
+//       [&](Pose& pose, const Velocity& v) { pose.position += dt * v.linear; });
 template <class... Components>
 class Registry {
   public:
@@ -119,7 +119,7 @@ class Registry {
         return pool<Component>().erase(entity);
     }
 
-    // Returns null if the entity has none or is not alive.
+    // Returns null if the entity is not alive or has no such component.
     template <class Component>
     [[nodiscard]] Component* find(Entity entity) {
         return pool<Component>().find(entity);
@@ -149,12 +149,12 @@ class Registry {
         return pool<Component>().components().front();
     }
 
-    template <class... Wanted>
-    [[nodiscard]] View<Wanted...> view() {
-        return View<Wanted...>(pool<std::remove_const_t<Wanted>>()...);
+    template <class... Selected>
+    [[nodiscard]] View<Selected...> view() {
+        return View<Selected...>(pool<std::remove_const_t<Selected>>()...);
     }
 
-    // All components of a type and their entities, as parallel arrays.
+    // Returns all components of a type and their entities, as parallel arrays.
     template <class Component>
     [[nodiscard]] Pool<Component>& pool() {
         return std::get<Pool<Component>>(pools_);

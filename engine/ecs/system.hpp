@@ -1,12 +1,4 @@
-// The part of a registry that a function uses: a list of component types, const where it only reads them.
-// Every registry that has these components converts to it, so one function serves a world with pictures and
-// one without.
-//
-//   using Watch = ecs::Access<const Joint, const Tool>;
-//   double torque(const Watch& world) { return world.only<Tool>().torque; }
-//
-// An Access refers to the pools of its registry and must not outlive it. It neither creates nor destroys
-// entities.
+// Access: the components that a function uses. System: a function that runs in every frame.
 #pragma once
 
 #include <cassert>
@@ -20,29 +12,38 @@
 
 namespace bolt::ecs {
 
+// True if a registry or an access has components of this type.
 template <class World, class Component>
 concept Provides = requires(World& world) {
     { &world.template pool<std::remove_const_t<Component>>() } -> std::convertible_to<PoolOf<Component>*>;
 };
 
+// The part of a registry that a function uses: a list of component types, const if it only reads them. Every
+// registry that has these components converts to it, so the same function works on a world with graphics and
+// on one without.
+//
+//   double torque(const ecs::Access<const Joint, const Tool>& world) { return world.only<Tool>().torque; }
+//
+// An Access refers to the pools of its registry and must not outlive it. It cannot create or destroy
+// entities.
 template <class... Components>
 class Access {
   public:
-    // From a registry, or from an access to more components. A component that is not const here must not be
+    // Converts a registry, or an access to more components. A component that is not const here must not be
     // const there.
     template <class World>
     requires(!std::same_as<std::remove_cvref_t<World>, Access> &&
              (Provides<std::remove_reference_t<World>, Components> && ...)) Access(World&& world)
         : pools_{&world.template pool<std::remove_const_t<Components>>()...} {}
 
-    // The components of a type and their entities; const if this access only reads them.
+    // Returns the components of a type and their entities; const if this access only reads them.
     template <class Component>
     [[nodiscard]] auto& pool() const {
         constexpr bool writes = (std::is_same_v<Component, Components> || ...);
         return *std::get<PoolOf<std::conditional_t<writes, Component, const Component>>*>(pools_);
     }
 
-    // Returns null if the entity has none or is not alive.
+    // Returns null if the entity is not alive or has no such component.
     template <class Component>
     [[nodiscard]] auto* find(Entity entity) const {
         return pool<Component>().find(entity);
@@ -55,28 +56,26 @@ class Access {
         return pool<Component>().components().front();
     }
 
-    template <class... Wanted>
-    [[nodiscard]] View<Wanted...> view() const {
-        return View<Wanted...>(pool<std::remove_const_t<Wanted>>()...);
+    template <class... Selected>
+    [[nodiscard]] View<Selected...> view() const {
+        return View<Selected...>(pool<std::remove_const_t<Selected>>()...);
     }
 
   private:
     std::tuple<PoolOf<Components>*...> pools_;
 };
 
-// A frame as an ordered list of systems: free functions over the world and a context, run in the order of the
-// list.
+// A free function over the world and a context. A frame is an array of systems, which run in order:
 //
 //   constexpr ecs::System<World, Frame> frame[] = {{"haptics", haptic_system}, {"lesson", lesson_system}};
 //   ecs::run(frame, world, context);
-
 template <class World, class Context>
 struct System {
     std::string_view name;
     void (*run)(World&, Context&) = nullptr;
 };
 
-// `around(name, run)` is called for each system and must call run(); use it for timing and tracing.
+// Runs the systems. `around(name, run)` is called for each of them and must call run(); use it for timing.
 template <class World, class Context, std::size_t count, class Around>
 void run(const System<World, Context> (&systems)[count], World& world, Context& context, Around&& around) {
     for (const System<World, Context>& system : systems)

@@ -80,16 +80,16 @@ Result<Instance> Instance::create(const InstanceOptions& options) {
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &validation_layer;
     }
-    if (Status made =
+    if (Status created =
             check(vkCreateInstance(&info, nullptr, &instance.instance_), "creating the Vulkan instance");
-        !made)
-        return fail(made.error());
+        !created)
+        return fail(created.error());
     volkLoadInstance(instance.instance_);
     if (options.validation) {
         messenger.pNext = nullptr;
-        const VkResult listening =
+        const VkResult registered =
             vkCreateDebugUtilsMessengerEXT(instance.instance_, &messenger, nullptr, &instance.messenger_);
-        BOLT_TRY(check(listening, "registering the validation callback"));
+        BOLT_TRY(check(registered, "registering the validation callback"));
     }
     return instance;
 }
@@ -119,12 +119,12 @@ std::string lower(std::string text) {
     return text;
 }
 
-struct Kind {
-    int rank;
+struct DeviceTypeRank {
+    int rank;  // the highest is preferred
     const char* name;
 };
 
-Kind kind(VkPhysicalDeviceType type) {
+DeviceTypeRank rank_of(VkPhysicalDeviceType type) {
     switch (type) {
         case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
             return {4, "discrete GPU"};
@@ -139,8 +139,8 @@ Kind kind(VkPhysicalDeviceType type) {
     }
 }
 
-// Returns why the device cannot be used; empty: it can.
-std::string objection(const DeviceCandidate& candidate, const std::string& wanted) {
+// Returns why the device cannot be used; empty: it can be used.
+std::string unusable_reason(const DeviceCandidate& candidate, const std::string& wanted) {
     if (!wanted.empty() && lower(candidate.name).find(lower(wanted)) == std::string::npos)
         return fmt::format("does not match \"{}\"", wanted);
     if (candidate.api_version < VK_API_VERSION_1_3)
@@ -156,80 +156,82 @@ std::string objection(const DeviceCandidate& candidate, const std::string& wante
 
 DeviceChoice choose_device(std::span<const DeviceCandidate> candidates, const std::string& wanted) {
     DeviceChoice choice;
-    std::vector<std::string> objections;
+    std::vector<std::string> unusable;  // by candidate
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         const DeviceCandidate& candidate = candidates[i];
-        objections.push_back(objection(candidate, wanted));
-        if (!objections.back().empty()) continue;
+        unusable.push_back(unusable_reason(candidate, wanted));
+        if (!unusable.back().empty()) continue;
         const auto value = [](const DeviceCandidate& c) {
-            return std::pair{kind(c.type).rank, c.device_memory};
+            return std::pair{rank_of(c.type).rank, c.device_memory};
         };
         if (choice.index < 0 || value(candidate) > value(candidates[static_cast<std::size_t>(choice.index)]))
             choice.index = static_cast<int>(i);
     }
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-        const std::string verdict = !objections[i].empty() ? objections[i]
+        const std::string verdict = !unusable[i].empty() ? unusable[i]
                                     : static_cast<int>(i) == choice.index
                                         ? std::string("used")
                                         : std::string("can be used, but is not the fastest");
         choice.reasons.push_back(fmt::format("{} ({}, {}): {}", candidates[i].name,
-                                             kind(candidates[i].type).name, candidates[i].driver, verdict));
+                                             rank_of(candidates[i].type).name, candidates[i].driver,
+                                             verdict));
     }
     return choice;
 }
 
 namespace {
 
-// The features that the engine uses, as a chain both for the query and for enabling them.
-struct Features {
+// The chain of Vulkan's feature structures, both to query features and to enable them.
+struct DeviceFeatures {
     VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
     VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
 
-    Features() {
+    DeviceFeatures() {
         core.pNext = &v11;
         v11.pNext = &v13;
     }
-    Features(const Features&) = delete;
-    Features& operator=(const Features&) = delete;
+    DeviceFeatures(const DeviceFeatures&) = delete;
+    DeviceFeatures& operator=(const DeviceFeatures&) = delete;
 };
 
-struct Required {
+struct RequiredFeature {
     const char* name;
-    VkBool32& (*of)(Features&);
+    VkBool32& (*flag)(DeviceFeatures&);
 };
 
-constexpr Required required[] = {
-    {"dynamicRendering", [](Features& f) -> VkBool32& { return f.v13.dynamicRendering; }},
-    {"synchronization2", [](Features& f) -> VkBool32& { return f.v13.synchronization2; }},
-    {"maintenance4", [](Features& f) -> VkBool32& { return f.v13.maintenance4; }},
-    {"multiview", [](Features& f) -> VkBool32& { return f.v11.multiview; }},
-    {"depthClamp", [](Features& f) -> VkBool32& { return f.core.features.depthClamp; }},
-    {"imageCubeArray", [](Features& f) -> VkBool32& { return f.core.features.imageCubeArray; }},
+constexpr RequiredFeature required_features[] = {
+    {"dynamicRendering", [](DeviceFeatures& f) -> VkBool32& { return f.v13.dynamicRendering; }},
+    {"synchronization2", [](DeviceFeatures& f) -> VkBool32& { return f.v13.synchronization2; }},
+    {"maintenance4", [](DeviceFeatures& f) -> VkBool32& { return f.v13.maintenance4; }},
+    {"multiview", [](DeviceFeatures& f) -> VkBool32& { return f.v11.multiview; }},
+    {"depthClamp", [](DeviceFeatures& f) -> VkBool32& { return f.core.features.depthClamp; }},
+    {"imageCubeArray", [](DeviceFeatures& f) -> VkBool32& { return f.core.features.imageCubeArray; }},
 };
 
-// A queue family with graphics and compute and, if there is a surface, presentation.
+// Returns a queue family with graphics and compute that can present to the surface; if none can present, any
+// with graphics and compute; nullopt if there is none. A null surface needs no presentation.
 std::optional<std::uint32_t> find_queue_family(VkPhysicalDevice physical, VkSurfaceKHR surface,
                                                bool& presents) {
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
-    std::optional<std::uint32_t> drawing;
+    std::optional<std::uint32_t> without_present;
     presents = surface == VK_NULL_HANDLE;
     for (std::uint32_t i = 0; i < count; ++i) {
         constexpr VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
         if ((families[i].queueFlags & both) != both) continue;
-        if (!drawing) drawing = i;
-        VkBool32 shows = VK_FALSE;
+        if (!without_present) without_present = i;
+        VkBool32 supported = VK_FALSE;
         if (surface == VK_NULL_HANDLE) return i;
-        if (vkGetPhysicalDeviceSurfaceSupportKHR(physical, i, surface, &shows) == VK_SUCCESS &&
-            shows == VK_TRUE) {
+        if (vkGetPhysicalDeviceSurfaceSupportKHR(physical, i, surface, &supported) == VK_SUCCESS &&
+            supported == VK_TRUE) {
             presents = true;
             return i;
         }
     }
-    return drawing;
+    return without_present;
 }
 
 bool has_extension(VkPhysicalDevice physical, const char* wanted) {
@@ -242,8 +244,9 @@ bool has_extension(VkPhysicalDevice physical, const char* wanted) {
     });
 }
 
-// Used by shaders/light.vert: 25 rows of 4 and the position. Vulkan guarantees only 64.
-constexpr std::uint32_t most_passed_on = 104;
+// Components between shader stages that shaders/light.vert needs: 25 rows of 4 and the position. Vulkan
+// guarantees only 64.
+constexpr std::uint32_t required_components = 104;
 
 DeviceCandidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
@@ -258,12 +261,12 @@ DeviceCandidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
     candidate.api_version = properties.properties.apiVersion;
     if (candidate.api_version < VK_API_VERSION_1_3) return candidate;  // the queries below need Vulkan 1.3
 
-    Features features;
+    DeviceFeatures features;
     vkGetPhysicalDeviceFeatures2(physical, &features.core);
-    for (const Required& feature : required)
-        if (feature.of(features) != VK_TRUE) candidate.missing.emplace_back(feature.name);
+    for (const RequiredFeature& feature : required_features)
+        if (feature.flag(features) != VK_TRUE) candidate.missing.emplace_back(feature.name);
     const VkPhysicalDeviceLimits& limits = properties.properties.limits;
-    if (std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents) < most_passed_on)
+    if (std::min(limits.maxVertexOutputComponents, limits.maxFragmentInputComponents) < required_components)
         candidate.missing.emplace_back("104 components between vertex and fragment shaders");
     if (!find_queue_family(physical, surface, candidate.presents))
         candidate.missing.emplace_back("a queue with graphics and compute");
@@ -281,40 +284,40 @@ DeviceCandidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
 }  // namespace
 
 Result<DeviceSurvey> survey_devices(const Instance& instance, const DeviceOptions& options) {
-    DeviceSurvey found;
+    DeviceSurvey survey;
     std::uint32_t count = 0;
     vkEnumeratePhysicalDevices(instance.get(), &count, nullptr);
-    found.physical.resize(count);
-    if (Status listed = check(vkEnumeratePhysicalDevices(instance.get(), &count, found.physical.data()),
+    survey.physical.resize(count);
+    if (Status listed = check(vkEnumeratePhysicalDevices(instance.get(), &count, survey.physical.data()),
                               "enumerating GPUs");
         !listed)
         return fail(listed.error());
-    for (const VkPhysicalDevice physical : found.physical)
-        found.candidates.push_back(describe(physical, options.surface));
-    found.choice = choose_device(found.candidates, options.wanted);
-    return found;
+    for (const VkPhysicalDevice physical : survey.physical)
+        survey.candidates.push_back(describe(physical, options.surface));
+    survey.choice = choose_device(survey.candidates, options.wanted);
+    return survey;
 }
 
 Result<std::unique_ptr<Device>> Device::create(const Instance& instance, const DeviceOptions& options) {
-    BOLT_TRY_ASSIGN(auto found, survey_devices(instance, options));
-    if (found.choice.index < 0)
+    BOLT_TRY_ASSIGN(auto survey, survey_devices(instance, options));
+    if (survey.choice.index < 0)
         return fail(ErrorCode::no_device,
-                    found.physical.empty() ? "no Vulkan device found"
-                                           : fmt::format("no Vulkan device is usable: {}",
-                                                         fmt::join(found.choice.reasons, "; ")),
+                    survey.physical.empty() ? "no Vulkan device survey"
+                                            : fmt::format("no Vulkan device is usable: {}",
+                                                          fmt::join(survey.choice.reasons, "; ")),
                     "a Vulkan 1.3 device; mesa-vulkan-drivers renders without a GPU");
-    const auto index = static_cast<std::size_t>(found.choice.index);
+    const auto index = static_cast<std::size_t>(survey.choice.index);
 
     std::unique_ptr<Device> device(new Device());
-    device->physical_ = found.physical[index];
-    device->name_ = found.candidates[index].name;
-    device->driver_ = found.candidates[index].driver;
+    device->physical_ = survey.physical[index];
+    device->name_ = survey.candidates[index].name;
+    device->driver_ = survey.candidates[index].driver;
     vkGetPhysicalDeviceProperties(device->physical_, &device->properties_);
     bool presents = false;
     device->queue_family_ = find_queue_family(device->physical_, options.surface, presents).value();
 
-    Features features;
-    for (const Required& feature : required) feature.of(features) = VK_TRUE;
+    DeviceFeatures features;
+    for (const RequiredFeature& feature : required_features) feature.flag(features) = VK_TRUE;
     VkPhysicalDeviceFeatures available{};
     vkGetPhysicalDeviceFeatures(device->physical_, &available);
     features.core.features.samplerAnisotropy = available.samplerAnisotropy;
@@ -333,10 +336,10 @@ Result<std::unique_ptr<Device>> Device::create(const Instance& instance, const D
         info.enabledExtensionCount = 1;
         info.ppEnabledExtensionNames = &swapchain;
     }
-    if (Status made = check(vkCreateDevice(device->physical_, &info, nullptr, &device->device_),
-                            fmt::format("creating a device on {}", device->name_));
-        !made)
-        return fail(made.error());
+    if (Status created = check(vkCreateDevice(device->physical_, &info, nullptr, &device->device_),
+                               fmt::format("creating a device on {}", device->name_));
+        !created)
+        return fail(created.error());
     volkLoadDevice(device->device_);
     vkGetDeviceQueue(device->device_, device->queue_family_, 0, &device->queue_);
     device->memory_ = std::make_unique<Memory>(device->physical_, device->device_);

@@ -1,4 +1,5 @@
-// The Vulkan instance and the messages of the validation layers.
+// The Vulkan instance, window surfaces, the choice of a GPU, the logical device, and the policy after its
+// loss.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,7 @@
 
 namespace bolt::gpu {
 
-// All warnings and errors of the validation layers since the instance was created. A correct program has
+// All warnings and errors of the validation layers since the instance was created. A correct program causes
 // none.
 struct ValidationLog {
     std::vector<std::string> messages;
@@ -43,12 +44,11 @@ class Instance {
 
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-    std::unique_ptr<ValidationLog> log_ =
-        std::make_unique<ValidationLog>();  // the messenger holds its address
+    // On the heap, because the messenger holds its address.
+    std::unique_ptr<ValidationLog> log_ = std::make_unique<ValidationLog>();
 };
 
 // The drawable surface of a window. engine/platform creates it, because it depends on the window system.
-
 class Surface {
   public:
     Surface() = default;
@@ -73,9 +73,6 @@ class Surface {
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
 };
 
-// Chooses a GPU and explains the choice. A pure function over descriptions of the devices, so that tests need
-// no GPU.
-
 // The properties of a device that the choice depends on.
 struct DeviceCandidate {
     std::string name;
@@ -84,7 +81,7 @@ struct DeviceCandidate {
     std::uint32_t api_version = 0;
     std::vector<std::string> missing;  // required features and extensions that the device lacks
     std::uint64_t device_memory = 0;   // bytes of the largest device-local heap
-    bool presents = true;              // can present to the requested window; true without a window
+    bool presents = true;              // can present to the requested surface; true if none is requested
 };
 
 struct DeviceChoice {
@@ -93,11 +90,9 @@ struct DeviceChoice {
 };
 
 // Chooses by type (discrete, integrated, virtual, software), then by memory size. If `wanted` is not empty,
-// only devices whose name contains it (case-insensitive) are considered.
+// only devices whose name contains it (ignoring case) are considered. A pure function, so that tests need no
+// GPU.
 DeviceChoice choose_device(std::span<const DeviceCandidate> candidates, const std::string& wanted);
-
-// The logical device, its only queue and its memory. It has a fixed address and must outlive everything
-// created from it.
 
 struct DeviceOptions {
     std::string wanted;                     // part of a device name; empty: choose the fastest device
@@ -112,6 +107,8 @@ struct DeviceSurvey {
 };
 Result<DeviceSurvey> survey_devices(const Instance& instance, const DeviceOptions& options);
 
+// The logical device, its only queue and its memory. It has a fixed address and must outlive everything
+// created from it.
 class Device {
   public:
     static Result<std::unique_ptr<Device>> create(const Instance& instance, const DeviceOptions& options);
@@ -127,9 +124,8 @@ class Device {
     [[nodiscard]] Memory& memory() { return *memory_; }
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     [[nodiscard]] const std::string& name() const { return name_; }  // "llvmpipe (LLVM 15.0.6, 256 bits)"
-    [[nodiscard]] const std::string& driver() const {
-        return driver_;
-    }  // "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
+    // "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
+    [[nodiscard]] const std::string& driver() const { return driver_; }
     [[nodiscard]] const VkPhysicalDeviceProperties& properties() const { return properties_; }
 
     // Waits until the GPU is idle.
@@ -147,9 +143,9 @@ class Device {
     std::unique_ptr<Memory> memory_;
 };
 
-// Decides whether to restart after the GPU was lost. The system resets a hanging driver and it works again,
-// but a device that is lost again shortly after a restart would be lost forever.
-
+// Decides whether to create the device again after the GPU was lost. Usually the system has reset a hanging
+// driver, which then works again. A device that is lost again shortly after a restart would be lost again and
+// again.
 class DeviceLossPolicy {
   public:
     // Reports a loss at time `now` (s). Returns true if the device should be created again.

@@ -9,9 +9,9 @@ namespace bolt::gpu {
 
 namespace {
 
-constexpr VkDeviceSize first_ring = VkDeviceSize{1} << 20;
-constexpr std::uint32_t most_timings = 64;
-constexpr std::uint32_t sets_a_pool = 256;
+constexpr VkDeviceSize initial_ring_size = VkDeviceSize{1} << 20;
+constexpr std::uint32_t max_timings = 64;
+constexpr std::uint32_t sets_per_pool = 256;
 
 Result<Buffer> make_ring(Device& device, VkDeviceSize size) {
     return Buffer::create(device, size,
@@ -29,59 +29,59 @@ Status FrameContext::prepare(Device& device) {
     pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool_info.queueFamilyIndex = device.queue_family();
     VkCommandPool pool = VK_NULL_HANDLE;
-    if (Status made =
+    if (Status created =
             check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &pool), "creating a command pool");
-        !made)
-        return made;
+        !created)
+        return created;
     pool_ = CommandPool(device.get(), pool);
 
     VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     commands.commandPool = pool;
     commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     commands.commandBufferCount = 1;
-    if (Status made = check(vkAllocateCommandBuffers(device.get(), &commands, &commands_),
-                            "allocating a command buffer");
-        !made)
-        return made;
+    if (Status created = check(vkAllocateCommandBuffers(device.get(), &commands, &commands_),
+                               "allocating a command buffer");
+        !created)
+        return created;
 
     VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     fence_info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
     VkFence fence = VK_NULL_HANDLE;
-    if (Status made = check(vkCreateFence(device.get(), &fence_info, nullptr, &fence), "creating a fence");
-        !made)
-        return made;
+    if (Status created = check(vkCreateFence(device.get(), &fence_info, nullptr, &fence), "creating a fence");
+        !created)
+        return created;
     fence_ = Fence(device.get(), fence);
 
     if (device.limits().timestampComputeAndGraphics == VK_TRUE) {
         VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
         queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
-        queries.queryCount = 2 * most_timings;
+        queries.queryCount = 2 * max_timings;
         VkQueryPool query_pool = VK_NULL_HANDLE;
-        if (Status made = check(vkCreateQueryPool(device.get(), &queries, nullptr, &query_pool),
-                                "creating a query pool");
-            !made)
-            return made;
+        if (Status created = check(vkCreateQueryPool(device.get(), &queries, nullptr, &query_pool),
+                                   "creating a query pool");
+            !created)
+            return created;
         queries_ = QueryPool(device.get(), query_pool);
     }
-    BOLT_TRY_ASSIGN(auto ring, make_ring(device, first_ring));
+    BOLT_TRY_ASSIGN(auto ring, make_ring(device, initial_ring_size));
     ring_ = std::move(ring);
     return add_descriptor_pool();
 }
 
 Status FrameContext::add_descriptor_pool() {
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * sets_a_pool},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * sets_a_pool},
-                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * sets_a_pool},
-                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sets_a_pool}};
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * sets_per_pool},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 4 * sets_per_pool},
+                                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 8 * sets_per_pool},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sets_per_pool}};
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    info.maxSets = sets_a_pool;
+    info.maxSets = sets_per_pool;
     info.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     info.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    if (Status made = check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool),
-                            "creating a descriptor pool");
-        !made)
-        return made;
+    if (Status created = check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool),
+                               "creating a descriptor pool");
+        !created)
+        return created;
     descriptor_pools_.emplace_back(device_->get(), pool);
     return {};
 }
@@ -118,33 +118,33 @@ Result<VkDescriptorSet> FrameContext::descriptor_set(VkDescriptorSetLayout layou
 }
 
 void FrameContext::begin_timing(std::string name) {
-    if (!queries_ || timed_.size() == most_timings) return;
-    open_.push_back(timed_.size());
+    if (!queries_ || timing_names_.size() == max_timings) return;
+    open_timings_.push_back(timing_names_.size());
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(),
-                         static_cast<std::uint32_t>(2 * timed_.size()));
-    timed_.push_back(std::move(name));
+                         static_cast<std::uint32_t>(2 * timing_names_.size()));
+    timing_names_.push_back(std::move(name));
 }
 
 void FrameContext::end_timing() {
-    if (open_.empty()) return;
-    const auto query = static_cast<std::uint32_t>(2 * open_.back() + 1);
+    if (open_timings_.empty()) return;
+    const auto query = static_cast<std::uint32_t>(2 * open_timings_.back() + 1);
     vkCmdWriteTimestamp2(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), query);
-    open_.pop_back();
+    open_timings_.pop_back();
 }
 
 void FrameContext::read_timings() {
     timings_.clear();
-    for (std::size_t i = 0; i < timed_.size(); ++i) {
+    for (std::size_t i = 0; i < timing_names_.size(); ++i) {
         std::uint64_t ticks[2] = {0, 0};
         const VkResult result =
             vkGetQueryPoolResults(device_->get(), queries_.get(), static_cast<std::uint32_t>(2 * i), 2,
                                   sizeof ticks, ticks, sizeof ticks[0], VK_QUERY_RESULT_64_BIT);
         if (result != VK_SUCCESS) continue;
         const double period = static_cast<double>(device_->limits().timestampPeriod);
-        timings_.push_back({timed_[i], static_cast<double>(ticks[1] - ticks[0]) * period * 1e-6});
+        timings_.push_back({timing_names_[i], static_cast<double>(ticks[1] - ticks[0]) * period * 1e-6});
     }
-    timed_.clear();
-    open_.clear();
+    timing_names_.clear();
+    open_timings_.clear();
 }
 
 Status FrameContext::reset() {
@@ -174,12 +174,12 @@ Result<FrameContext*> Frames::begin() {
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     BOLT_TRY(check(vkBeginCommandBuffer(frame.commands_, &info), "recording a frame"));
-    if (frame.queries_) vkCmdResetQueryPool(frame.commands_, frame.queries_.get(), 0, 2 * most_timings);
+    if (frame.queries_) vkCmdResetQueryPool(frame.commands_, frame.queries_.get(), 0, 2 * max_timings);
     return &frame;
 }
 
 Status Frames::submit(FrameContext& frame, const Signals& signals) {
-    while (!frame.open_.empty()) frame.end_timing();
+    while (!frame.open_timings_.empty()) frame.end_timing();
     BOLT_TRY(check(vkEndCommandBuffer(frame.commands_), "recording a frame"));
     const VkFence fence = frame.fence_.get();
     BOLT_TRY(check(vkResetFences(device_->get(), 1, &fence), "resetting a fence"));
@@ -205,7 +205,7 @@ Status Frames::submit(FrameContext& frame, const Signals& signals) {
 
 Status Frames::finish() {
     for (std::uint32_t i = 0; i < frames_in_flight; ++i) {
-        FrameContext& frame = frames_[(next_ + i) % frames_in_flight];  // the oldest first
+        FrameContext& frame = frames_[(next_ + i) % frames_in_flight];  // the oldest one first
         BOLT_TRY(frame.reset());
         if (!frame.timings_.empty()) timings_ = frame.timings_;
     }
@@ -237,8 +237,8 @@ DescriptorWriter& DescriptorWriter::buffer(std::uint32_t binding, VkBuffer buffe
 
 DescriptorWriter& DescriptorWriter::image(std::uint32_t binding, VkImageView view, VkSampler sampler,
                                           VkImageLayout layout) {
-    const VkDescriptorImageInfo one{sampler, view, layout};
-    return images(binding, {&one, 1});
+    const VkDescriptorImageInfo info{sampler, view, layout};
+    return images(binding, {&info, 1});
 }
 
 DescriptorWriter& DescriptorWriter::images(std::uint32_t binding,

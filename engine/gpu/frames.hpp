@@ -1,5 +1,5 @@
-// Frames in flight: the CPU records one frame while the GPU draws another. Each frame has its command buffer,
-// fence, transient memory, descriptor sets, timestamps and retired resources.
+// Frames in flight: the CPU records one frame while the GPU draws another. Each frame has its own command
+// buffer, fence, transient memory, descriptor sets, timestamps and retired resources.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ struct TransientRange {
     std::span<std::byte> bytes;
 };
 
-// Resources that the program no longer needs but the GPU may still use. They are destroyed when the frame
-// that used them last has completed.
+// Resources that the program no longer needs but the GPU may still use. They are destroyed when the last
+// frame that used them has completed.
 class RetiredResources {
   public:
     using Resource = std::variant<Buffer, Image, ImageView, Sampler, PipelineHandle, PipelineLayout,
@@ -44,20 +44,22 @@ class RetiredResources {
     std::vector<Resource> resources_;
 };
 
+// One of the frames in flight, while it is recorded.
 class FrameContext {
   public:
     [[nodiscard]] VkCommandBuffer commands() const { return commands_; }
 
-    // Allocates transient memory for uniform and storage buffers; it is valid until this frame is begun
-    // again. The buffer grows on demand.
+    // Allocates transient memory for buffers; it is valid until this frame is begun again. The underlying
+    // buffer grows on demand.
     Result<TransientRange> allocate(VkDeviceSize size);
 
     // Allocates a descriptor set with the same lifetime.
     Result<VkDescriptorSet> descriptor_set(VkDescriptorSetLayout layout);
 
+    // Destroys the resource when the GPU has completed this frame.
     void retire(RetiredResources::Resource resource) { retired_.add(std::move(resource)); }
 
-    // Writes GPU timestamps around the commands recorded in between. Does nothing on GPUs without timestamps.
+    // Measure the GPU time of the commands recorded in between. They do nothing on GPUs without timestamps.
     void begin_timing(std::string name);
     void end_timing();
 
@@ -78,21 +80,21 @@ class FrameContext {
     std::size_t descriptor_pool_ = 0;
     RetiredResources retired_;
     QueryPool queries_;
-    std::vector<std::string> timed_;   // names, in the order of the queries
-    std::vector<std::size_t> open_;    // timings that have begun and not ended
-    std::vector<PassTiming> timings_;  // of the previous use of this frame
+    std::vector<std::string> timing_names_;  // names, in the order of the queries
+    std::vector<std::size_t> open_timings_;  // indices of timings that have begun and not ended
+    std::vector<PassTiming> timings_;        // of the previous use of this frame
 };
 
 class Frames {
   public:
     static Result<std::unique_ptr<Frames>> create(Device& device);
 
-    // Waits until the next frame is free and starts recording.
+    // Waits until the GPU has completed the oldest frame in flight, and starts recording a new one.
     Result<FrameContext*> begin();
 
     // Ends recording and submits the frame.
     struct Signals {
-        VkSemaphore wait = VK_NULL_HANDLE;    // waited for before transfers
+        VkSemaphore wait = VK_NULL_HANDLE;    // transfers wait for it
         VkSemaphore signal = VK_NULL_HANDLE;  // signalled when all commands are complete
     };
     Status submit(FrameContext& frame, const Signals& signals);
@@ -112,10 +114,9 @@ class Frames {
 };
 
 // Collects the resources of a descriptor set and writes them in one call.
-
 class DescriptorWriter {
   public:
-    // Allocates a set with the pipeline's layout that lives as long as the frame.
+    // Allocates descriptor set `set` of the pipeline's layout. It lives as long as the frame.
     static Result<DescriptorWriter> create(Device& device, FrameContext& frame, const Pipeline& pipeline,
                                            std::uint32_t set);
 
@@ -129,8 +130,8 @@ class DescriptorWriter {
     // Sets all elements of an array binding.
     DescriptorWriter& images(std::uint32_t binding, std::span<const VkDescriptorImageInfo> images);
 
-    // Writes the set and returns it. Fails if a binding of the shader was not set or a set binding does not
-    // exist in it.
+    // Writes the set and returns it. Fails if a binding of the shaders was not set, or if a binding was set
+    // that the shaders do not have.
     Result<VkDescriptorSet> finish();
 
   private:
@@ -138,8 +139,8 @@ class DescriptorWriter {
     const Pipeline* pipeline_ = nullptr;
     std::uint32_t set_index_ = 0;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
-    std::deque<VkDescriptorBufferInfo>
-        buffers_;  // a deque, because the writes hold addresses of its elements
+    // Deques, because the writes hold addresses of their elements.
+    std::deque<VkDescriptorBufferInfo> buffers_;
     std::deque<std::vector<VkDescriptorImageInfo>> images_;
     std::vector<VkWriteDescriptorSet> writes_;
 };

@@ -8,32 +8,32 @@
 
 namespace bolt::gpu {
 
-std::optional<std::uint64_t> FreeList::take(std::uint64_t size, std::uint64_t alignment) {
-    auto best = holes_.end();
-    for (auto hole = holes_.begin(); hole != holes_.end(); ++hole) {
-        const std::uint64_t start = (hole->first + alignment - 1) & ~(alignment - 1);
-        const std::uint64_t lost = start - hole->first;
-        if (hole->second < lost || hole->second - lost < size) continue;
-        if (best == holes_.end() || hole->second < best->second) best = hole;
+std::optional<std::uint64_t> FreeList::allocate(std::uint64_t size, std::uint64_t alignment) {
+    auto best = free_ranges_.end();
+    for (auto range = free_ranges_.begin(); range != free_ranges_.end(); ++range) {
+        const std::uint64_t start = (range->first + alignment - 1) & ~(alignment - 1);
+        const std::uint64_t padding = start - range->first;
+        if (range->second < padding || range->second - padding < size) continue;
+        if (best == free_ranges_.end() || range->second < best->second) best = range;
     }
-    if (best == holes_.end()) return std::nullopt;
+    if (best == free_ranges_.end()) return std::nullopt;
     const auto [offset, available] = *best;
     const std::uint64_t start = (offset + alignment - 1) & ~(alignment - 1);
     const std::uint64_t after = offset + available - (start + size);
-    holes_.erase(best);
-    if (start > offset) holes_[offset] = start - offset;
-    if (after > 0) holes_[start + size] = after;
+    free_ranges_.erase(best);
+    if (start > offset) free_ranges_[offset] = start - offset;
+    if (after > 0) free_ranges_[start + size] = after;
     return start;
 }
 
-void FreeList::give_back(std::uint64_t offset, std::uint64_t size) {
-    auto next = holes_.lower_bound(offset);
-    assert(next == holes_.end() || offset + size <= next->first);
-    if (next != holes_.end() && offset + size == next->first) {
+void FreeList::free(std::uint64_t offset, std::uint64_t size) {
+    auto next = free_ranges_.lower_bound(offset);
+    assert(next == free_ranges_.end() || offset + size <= next->first);
+    if (next != free_ranges_.end() && offset + size == next->first) {
         size += next->second;
-        next = holes_.erase(next);
+        next = free_ranges_.erase(next);
     }
-    if (next != holes_.begin()) {
+    if (next != free_ranges_.begin()) {
         const auto before = std::prev(next);
         assert(before->first + before->second <= offset);
         if (before->first + before->second == offset) {
@@ -41,12 +41,12 @@ void FreeList::give_back(std::uint64_t offset, std::uint64_t size) {
             return;
         }
     }
-    holes_[offset] = size;
+    free_ranges_[offset] = size;
 }
 
 std::uint64_t FreeList::free_bytes() const {
     std::uint64_t sum = 0;
-    for (const auto& [offset, size] : holes_) sum += size;
+    for (const auto& [offset, size] : free_ranges_) sum += size;
     return sum;
 }
 
@@ -56,18 +56,18 @@ struct Block {
     Memory::Tiling tiling = Memory::Tiling::linear;
     VkDeviceSize size = 0;
     std::byte* mapped = nullptr;
-    FreeList free{0};
+    FreeList free_list{0};
 };
 
 namespace {
 
-constexpr VkDeviceSize usual_block = VkDeviceSize{64} << 20;
+constexpr VkDeviceSize default_block_size = VkDeviceSize{64} << 20;
 
-struct Wish {
-    VkMemoryPropertyFlags needed, liked, disliked;
+struct MemoryPreferences {
+    VkMemoryPropertyFlags required, preferred, avoided;
 };
 
-Wish wish(MemoryUse use) {
+MemoryPreferences preferences(MemoryUse use) {
     constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     constexpr VkMemoryPropertyFlags visible =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -83,7 +83,7 @@ Wish wish(MemoryUse use) {
     return {visible, cached, local};
 }
 
-int count(VkMemoryPropertyFlags flags) {
+int count_bits(VkMemoryPropertyFlags flags) {
     int n = 0;
     for (; flags != 0; flags &= flags - 1) ++n;
     return n;
@@ -94,22 +94,23 @@ int count(VkMemoryPropertyFlags flags) {
 std::optional<std::uint32_t> memory_type(const VkPhysicalDeviceMemoryProperties& properties,
                                          std::uint32_t allowed_bits, MemoryUse use) {
     // Protected and lazily allocated memory serve other purposes; AMD's uncached device memory is slow.
-    constexpr VkMemoryPropertyFlags never = VK_MEMORY_PROPERTY_PROTECTED_BIT |
-                                            VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
-                                            VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD;
-    const Wish w = wish(use);
+    constexpr VkMemoryPropertyFlags unusable = VK_MEMORY_PROPERTY_PROTECTED_BIT |
+                                               VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
+                                               VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD;
+    const MemoryPreferences p = preferences(use);
     std::optional<std::uint32_t> best;
     int best_score = 0;
     for (std::uint32_t i = 0; i < properties.memoryTypeCount; ++i) {
         const VkMemoryPropertyFlags flags = properties.memoryTypes[i].propertyFlags;
-        if ((allowed_bits >> i & 1U) == 0 || (flags & w.needed) != w.needed || (flags & never) != 0) continue;
-        const int score = 4 * count(flags & w.liked) - count(flags & w.disliked);
+        if ((allowed_bits >> i & 1U) == 0 || (flags & p.required) != p.required || (flags & unusable) != 0)
+            continue;
+        const int score = 4 * count_bits(flags & p.preferred) - count_bits(flags & p.avoided);
         if (!best || score > best_score) {
             best = i;
             best_score = score;
         }
     }
-    // If only host memory can hold the buffer, use it: slow is better than no buffer.
+    // If only host memory can hold the resource, use that: it is slow, but works.
     if (!best && use == MemoryUse::device) return memory_type(properties, allowed_bits, MemoryUse::upload);
     return best;
 }
@@ -130,7 +131,7 @@ Result<Block*> Memory::add_block(std::uint32_t type, VkDeviceSize size, Tiling t
     block->type = type;
     block->tiling = tiling;
     block->size = size;
-    block->free = FreeList(size);
+    block->free_list = FreeList(size);
     const auto what = [&] {
         return fmt::format("allocating {} MiB of GPU memory", (size + (1U << 20) - 1) >> 20);
     };
@@ -138,9 +139,9 @@ Result<Block*> Memory::add_block(std::uint32_t type, VkDeviceSize size, Tiling t
     if (mapped) {
         void* address = nullptr;
         const VkResult result = vkMapMemory(device_, block->memory, 0, VK_WHOLE_SIZE, 0, &address);
-        if (Status made = check(result, "mapping GPU memory"); !made) {
+        if (Status created = check(result, "mapping GPU memory"); !created) {
             vkFreeMemory(device_, block->memory, nullptr);
-            return fail(made.error());
+            return fail(created.error());
         }
         block->mapped = static_cast<std::byte*>(address);
     }
@@ -151,47 +152,50 @@ Result<Block*> Memory::add_block(std::uint32_t type, VkDeviceSize size, Tiling t
 Result<Allocation> Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, Tiling tiling) {
     const std::optional<std::uint32_t> type = memory_type(properties_, needs.memoryTypeBits, use);
     if (!type) return fail(ErrorCode::failed, "the GPU has no suitable memory type for a resource");
-    const VkMemoryType& kind = properties_.memoryTypes[*type];
-    const bool visible = (kind.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
-    const VkDeviceSize block_size = std::min(usual_block, properties_.memoryHeaps[kind.heapIndex].size / 8);
+    const VkMemoryType& chosen = properties_.memoryTypes[*type];
+    const bool visible = (chosen.propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
+    const VkDeviceSize block_size =
+        std::min(default_block_size, properties_.memoryHeaps[chosen.heapIndex].size / 8);
 
-    Block* home = nullptr;
+    Block* target = nullptr;
     std::optional<std::uint64_t> offset;
     if (needs.size <= block_size / 2) {
         for (const std::unique_ptr<Block>& block : blocks_) {
             if (block->type != *type || block->tiling != tiling) continue;
-            if ((offset = block->free.take(needs.size, needs.alignment))) {
-                home = block.get();
+            if ((offset = block->free_list.allocate(needs.size, needs.alignment))) {
+                target = block.get();
                 break;
             }
         }
     }
-    if (home == nullptr) {
+    if (target == nullptr) {
         const VkDeviceSize size = needs.size <= block_size / 2 ? block_size : needs.size;
         BOLT_TRY_ASSIGN(auto added, add_block(*type, size, tiling, visible));
-        home = added;
-        offset = home->free.take(needs.size, needs.alignment);
+        target = added;
+        offset = target->free_list.allocate(needs.size, needs.alignment);
     }
     in_use_ += needs.size;
     std::byte* mapped =
-        home->mapped != nullptr && use != MemoryUse::device ? home->mapped + *offset : nullptr;
-    return Allocation{home->memory, *offset, needs.size, mapped, home};
+        target->mapped != nullptr && use != MemoryUse::device ? target->mapped + *offset : nullptr;
+    return Allocation{target->memory, *offset, needs.size, mapped, target};
 }
 
 void Memory::free(Allocation& allocation) {
     if (allocation.block == nullptr) return;
     Block* block = allocation.block;
-    block->free.give_back(allocation.offset, allocation.size);
+    block->free_list.free(allocation.offset, allocation.size);
     in_use_ -= allocation.size;
     allocation = {};
-    // Keep one empty shared block, to avoid alternating allocation and release; dedicated blocks are released
-    // at once.
-    const auto spare = [&](const std::unique_ptr<Block>& other) {
+    // Keep one empty shared block of each kind, so that a block is not allocated and released alternately.
+    // Dedicated blocks are released at once.
+    const auto is_spare = [&](const std::unique_ptr<Block>& other) {
         return other.get() != block && other->type == block->type && other->tiling == block->tiling &&
-               other->free.untouched();
+               other->free_list.all_free();
     };
-    const bool own = block->size > usual_block;
-    if (!block->free.untouched() || (!own && std::none_of(blocks_.begin(), blocks_.end(), spare))) return;
+    const bool dedicated = block->size > default_block_size;
+    if (!block->free_list.all_free() ||
+        (!dedicated && std::none_of(blocks_.begin(), blocks_.end(), is_spare)))
+        return;
     vkFreeMemory(device_, block->memory, nullptr);
     std::erase_if(blocks_, [&](const std::unique_ptr<Block>& other) { return other.get() == block; });
 }

@@ -1,5 +1,4 @@
-// The free ranges of a memory block. Best fit: allocates from the smallest range that is large enough, the
-// lowest address first; freed ranges are merged with their neighbours. Independent of Vulkan.
+// Allocates GPU memory.
 #pragma once
 
 #include <cstdint>
@@ -12,40 +11,41 @@
 
 namespace bolt::gpu {
 
+// The free ranges of a memory block. Best fit: allocates from the smallest range that is large enough, and
+// from the one with the lowest offset among equals. Freed ranges are merged with their neighbours.
+// Independent of Vulkan.
 class FreeList {
   public:
-    explicit FreeList(std::uint64_t size) : size_(size) { holes_[0] = size; }
+    explicit FreeList(std::uint64_t size) : size_(size) { free_ranges_[0] = size; }
 
     // Returns the offset of a range of `size` > 0 bytes aligned to `alignment` (a power of two), or nullopt
     // if no free range is large enough.
-    std::optional<std::uint64_t> take(std::uint64_t size, std::uint64_t alignment);
+    std::optional<std::uint64_t> allocate(std::uint64_t size, std::uint64_t alignment);
 
-    // Frees a range that take() returned, with the same size.
-    void give_back(std::uint64_t offset, std::uint64_t size);
+    // Frees a range that allocate() returned, with the same size.
+    void free(std::uint64_t offset, std::uint64_t size);
 
-    [[nodiscard]] bool untouched() const { return holes_.size() == 1 && holes_.begin()->second == size_; }
+    [[nodiscard]] bool all_free() const {
+        return free_ranges_.size() == 1 && free_ranges_.begin()->second == size_;
+    }
     [[nodiscard]] std::uint64_t free_bytes() const;
 
   private:
     std::uint64_t size_;
-    std::map<std::uint64_t, std::uint64_t> holes_;  // offset → size; no two are adjacent
+    std::map<std::uint64_t, std::uint64_t> free_ranges_;  // offset → size; no two are adjacent
 };
 
-// Device memory. Resources share blocks of 64 MiB (less on small heaps); large resources get a dedicated
-// block. Buffers and optimally tiled images never share a block, so bufferImageGranularity always holds.
-// Host-visible memory is mapped once, permanently, and is always coherent: no flush is needed.
-//
-// On a discrete GPU the CPU cannot access `device` memory, and data reaches it through an upload. Lavapipe
-// and integrated GPUs have one kind of memory only, so mistakes do not show there; tests/gpu/memory.cpp
-// checks the choice of memory type for both.
-
+// On a discrete GPU the CPU cannot access `device` memory; data is copied there from `upload` memory.
+// Lavapipe and integrated GPUs have only one kind of memory and hide mistakes; tests/gpu/memory.cpp checks
+// the choice of memory type for both.
 enum class MemoryUse : std::uint8_t {
     device,    // accessed by the GPU only
     upload,    // written by the CPU, read by the GPU; host-visible video memory if the GPU has some
-    readback,  // written by the GPU, read by the CPU; cached if possible
+    readback,  // written by the GPU, read by the CPU; cached by the CPU if possible
 };
 
-// Chooses the memory type for a use among the allowed bits; nullopt if none is suitable.
+// Returns the index of the most suitable memory type among those in `allowed_bits`; nullopt if none is
+// suitable.
 std::optional<std::uint32_t> memory_type(const VkPhysicalDeviceMemoryProperties& properties,
                                          std::uint32_t allowed_bits, MemoryUse use);
 
@@ -56,11 +56,13 @@ struct Allocation {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
     VkDeviceSize size = 0;
-    std::byte* mapped = nullptr;  // null for `device`
+    std::byte* mapped = nullptr;  // null for MemoryUse::device
     Block* block = nullptr;
 };
 
-// Not thread-safe.
+// Resources share blocks of 64 MiB (less on small heaps); large resources get a dedicated block. Buffers and
+// optimally tiled images never share a block, so bufferImageGranularity is always respected. Host-visible
+// memory is mapped once, permanently, and is always coherent: no flush is needed. Not thread-safe.
 class Memory {
   public:
     Memory(VkPhysicalDevice physical, VkDevice device);

@@ -15,7 +15,7 @@ namespace bolt::gpu {
 
 namespace {
 
-using Context = std::unique_ptr<spvc_context_s, decltype(&spvc_context_destroy)>;
+using SpirvCrossContext = std::unique_ptr<spvc_context_s, decltype(&spvc_context_destroy)>;
 
 std::optional<VkShaderStageFlagBits> stage_of(SpvExecutionModel model) {
     switch (model) {
@@ -60,7 +60,7 @@ Result<Reflection> reflect(std::span<const std::uint32_t> spirv) {
     spvc_context raw = nullptr;
     if (spvc_context_create(&raw) != SPVC_SUCCESS)
         return fail(ErrorCode::failed, "not enough memory to reflect a shader");
-    const Context context(raw, spvc_context_destroy);
+    const SpirvCrossContext context(raw, spvc_context_destroy);
     spvc_parsed_ir parsed = nullptr;
     spvc_compiler compiler = nullptr;
     spvc_resources resources = nullptr;
@@ -129,7 +129,7 @@ Result<Reflection> reflect(std::span<const std::uint32_t> spirv) {
 
 namespace {
 
-constexpr std::size_t largest_cache = std::size_t{256} << 20;
+constexpr std::size_t max_cache_size = std::size_t{256} << 20;  // bytes
 
 Result<ShaderModule> make_module(const Device& device, const Shader& shader) {
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
@@ -140,13 +140,13 @@ Result<ShaderModule> make_module(const Device& device, const Shader& shader) {
     return ShaderModule(device.get(), module);
 }
 
-// Every vertex input of the shader needs a stream; unused streams are allowed.
+// Checks that every vertex input of the shader has a stream. Unused streams are allowed.
 Status check_streams(const GraphicsInfo& info) {
     for (const VertexInput& input : info.vertex->reflection.inputs) {
-        const bool fed =
+        const bool has_stream =
             std::any_of(info.streams.begin(), info.streams.end(),
                         [&](const VertexStream& stream) { return stream.location == input.location; });
-        if (!fed)
+        if (!has_stream)
             return fail(ErrorCode::failed,
                         fmt::format("{}: no vertex stream for the input \"{}\" at location {}",
                                     info.vertex->name, input.name, input.location));
@@ -189,10 +189,10 @@ Result<PipelineCache> PipelineCache::open(const Device& device, std::filesystem:
     cache.file_ = std::move(file);
     std::string stored;
     if (!cache.file_.empty())
-        if (Result<std::string> text = read_file(cache.file_, largest_cache, ErrorCode::failed))
+        if (Result<std::string> text = read_file(cache.file_, max_cache_size, ErrorCode::failed))
             stored = std::move(*text);
-    // The specification requires drivers to reject a foreign cache, but some did not. Compare the header
-    // first.
+    // The specification requires drivers to reject the cache of another driver, but some did not. So the
+    // header is compared first.
     VkPipelineCacheHeaderVersionOne header{};
     if (stored.size() >= sizeof header) std::memcpy(&header, stored.data(), sizeof header);
     const VkPhysicalDeviceProperties& ours = device.properties();
@@ -204,12 +204,12 @@ Result<PipelineCache> PipelineCache::open(const Device& device, std::filesystem:
     cache.stored_size_ = stored.size();
     info.initialDataSize = cache.restored_ ? stored.size() : 0;
     info.pInitialData = stored.data();
-    VkPipelineCache made = VK_NULL_HANDLE;
+    VkPipelineCache created = VK_NULL_HANDLE;
     if (Status ok =
-            check(vkCreatePipelineCache(device.get(), &info, nullptr, &made), "creating a pipeline cache");
+            check(vkCreatePipelineCache(device.get(), &info, nullptr, &created), "creating a pipeline cache");
         !ok)
         return fail(ok.error());
-    cache.cache_ = PipelineCacheHandle(device.get(), made);
+    cache.cache_ = PipelineCacheHandle(device.get(), created);
     return cache;
 }
 
@@ -269,8 +269,8 @@ Status make_pipeline_layout(const Device& device, std::span<const Shader* const>
         info.bindingCount = static_cast<std::uint32_t>(set.size());
         info.pBindings = set.data();
         VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-        const VkResult made = vkCreateDescriptorSetLayout(device.get(), &info, nullptr, &layout);
-        BOLT_TRY(check(made, "creating a descriptor set layout"));
+        const VkResult created = vkCreateDescriptorSetLayout(device.get(), &info, nullptr, &layout);
+        BOLT_TRY(check(created, "creating a descriptor set layout"));
         pipeline.sets.emplace_back(device.get(), layout);
         layouts.push_back(layout);
     }
@@ -372,8 +372,9 @@ Result<Pipeline> make_graphics_pipeline(const Device& device, const PipelineCach
     create.pDynamicState = &dynamic;
     create.layout = pipeline.layout.get();
     VkPipeline handle = VK_NULL_HANDLE;
-    const VkResult made = vkCreateGraphicsPipelines(device.get(), cache.get(), 1, &create, nullptr, &handle);
-    BOLT_TRY(check(made, fmt::format("creating the pipeline of {}", info.vertex->name)));
+    const VkResult created =
+        vkCreateGraphicsPipelines(device.get(), cache.get(), 1, &create, nullptr, &handle);
+    BOLT_TRY(check(created, fmt::format("creating the pipeline of {}", info.vertex->name)));
     pipeline.handle = PipelineHandle(device.get(), handle);
     return pipeline;
 }
@@ -394,8 +395,9 @@ Result<Pipeline> make_compute_pipeline(const Device& device, const PipelineCache
                     nullptr};
     create.layout = pipeline.layout.get();
     VkPipeline handle = VK_NULL_HANDLE;
-    const VkResult made = vkCreateComputePipelines(device.get(), cache.get(), 1, &create, nullptr, &handle);
-    BOLT_TRY(check(made, fmt::format("creating the pipeline of {}", shader.name)));
+    const VkResult created =
+        vkCreateComputePipelines(device.get(), cache.get(), 1, &create, nullptr, &handle);
+    BOLT_TRY(check(created, fmt::format("creating the pipeline of {}", shader.name)));
     pipeline.handle = PipelineHandle(device.get(), handle);
     return pipeline;
 }

@@ -1,4 +1,4 @@
-// The interface of a shader, read from its SPIR-V. Layouts are derived from it and declared nowhere else.
+// Shaders, the reflection of their interfaces, and pipelines created from them.
 #pragma once
 
 #include <filesystem>
@@ -24,6 +24,7 @@ struct VertexInput {
     std::string name;
 };
 
+// The interface of a shader, read from its SPIR-V. Layouts are derived from it and declared nowhere else.
 struct Reflection {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_VERTEX_BIT;
     std::vector<Binding> bindings;     // sorted by set, then binding
@@ -33,11 +34,8 @@ struct Reflection {
 
 Result<Reflection> reflect(std::span<const std::uint32_t> spirv);
 
-// Pipelines created from shaders. Layouts come from shader reflection, viewport and scissor are dynamic, and
-// dynamic rendering replaces render pass objects.
-
 struct Shader {
-    std::string name;  // for messages: "mesh.vert"
+    std::string name;  // for error messages: "scene.vert"
     std::vector<std::uint32_t> spirv;
     Reflection reflection;
 };
@@ -52,6 +50,8 @@ struct VertexStream {
     std::uint32_t offset = 0;
 };
 
+// A graphics pipeline. Its layouts come from shader reflection. Viewport and scissor are dynamic, and dynamic
+// rendering replaces render pass objects.
 struct GraphicsInfo {
     const Shader* vertex = nullptr;
     const Shader* fragment = nullptr;  // null: depth only
@@ -69,7 +69,7 @@ struct GraphicsInfo {
     float depth_bias = 0.0F, depth_bias_slope = 0.0F;
     bool blend = false;  // premultiplied alpha
     bool color_write = true;
-    std::uint32_t constants = 0;  // bits for specialization constant 0 of both shaders; 0: not specialized
+    std::uint32_t constants = 0;  // value of specialization constant 0 in both shaders; 0: not specialized
 };
 
 struct Pipeline {
@@ -81,15 +81,15 @@ struct Pipeline {
     std::uint32_t push_size = 0;
 };
 
-// Compiled pipelines, stored on disk for the next start. A damaged cache or one of another driver is ignored.
+// Compiled pipelines, stored on disk for the next start. A damaged file or one of another driver is ignored.
 class PipelineCache {
   public:
-    static Result<PipelineCache> open(const Device& device,
-                                      std::filesystem::path file);  // empty path: in memory only
-    // Writes the cache to its file if it has grown. The caller may ignore an error.
+    // Empty `file`: the cache exists in memory only.
+    static Result<PipelineCache> open(const Device& device, std::filesystem::path file);
+    // Writes the cache to its file if its size has changed. The caller may ignore an error.
     Status save() const;
     [[nodiscard]] VkPipelineCache get() const { return cache_.get(); }
-    [[nodiscard]] bool restored() const { return restored_; }
+    [[nodiscard]] bool restored() const { return restored_; }  // open() used the file's contents
 
   private:
     const Device* device_ = nullptr;

@@ -14,10 +14,10 @@ Result<Buffer> Buffer::create(Device& device, VkDeviceSize size, VkBufferUsageFl
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = buffer.size_;
     info.usage = usage;
-    if (Status made =
+    if (Status created =
             check(vkCreateBuffer(device.get(), &info, nullptr, &buffer.buffer_), "creating a buffer");
-        !made)
-        return fail(made.error());
+        !created)
+        return fail(created.error());
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device.get(), buffer.buffer_, &needs);
     BOLT_TRY_ASSIGN(auto allocation, device.memory().allocate(needs, use, Memory::Tiling::linear));
@@ -51,23 +51,24 @@ VkImageAspectFlags ImageInfo::aspect() const {
     }
 }
 
-Result<Image> Image::create(Device& device, const ImageInfo& given) {
+Result<Image> Image::create(Device& device, const ImageInfo& requested) {
     Image image;
     image.device_ = &device;
-    image.info_ = given;
+    image.info_ = requested;
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-    if (given.cube) info.flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
+    if (requested.cube) info.flags = VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
     info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = given.format;
-    info.extent = {given.extent.width, given.extent.height, 1};
-    info.mipLevels = given.mips;
-    info.arrayLayers = given.layers;
-    info.samples = given.samples;
+    info.format = requested.format;
+    info.extent = {requested.extent.width, requested.extent.height, 1};
+    info.mipLevels = requested.mips;
+    info.arrayLayers = requested.layers;
+    info.samples = requested.samples;
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
-    info.usage = given.usage;
-    if (Status made = check(vkCreateImage(device.get(), &info, nullptr, &image.image_), "creating an image");
-        !made)
-        return fail(made.error());
+    info.usage = requested.usage;
+    if (Status created =
+            check(vkCreateImage(device.get(), &info, nullptr, &image.image_), "creating an image");
+        !created)
+        return fail(created.error());
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device.get(), image.image_, &needs);
     BOLT_TRY_ASSIGN(auto allocation,
@@ -77,10 +78,10 @@ Result<Image> Image::create(Device& device, const ImageInfo& given) {
         vkBindImageMemory(device.get(), image.image_, image.allocation_.memory, image.allocation_.offset);
     BOLT_TRY(check(bound, "binding an image"));
 
-    const VkImageViewType type = given.cube                        ? VK_IMAGE_VIEW_TYPE_CUBE
-                                 : given.layers > 1 || given.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
-                                                                   : VK_IMAGE_VIEW_TYPE_2D;
-    BOLT_TRY_ASSIGN(auto view, image.view(type, 0, given.mips, 0, given.layers));
+    const VkImageViewType type = requested.cube                            ? VK_IMAGE_VIEW_TYPE_CUBE
+                                 : requested.layers > 1 || requested.array ? VK_IMAGE_VIEW_TYPE_2D_ARRAY
+                                                                           : VK_IMAGE_VIEW_TYPE_2D;
+    BOLT_TRY_ASSIGN(auto view, image.view(type, 0, requested.mips, 0, requested.layers));
     image.view_ = std::move(view);
     return image;
 }
@@ -93,10 +94,10 @@ Result<ImageView> Image::view(VkImageViewType type, std::uint32_t first_mip, std
     info.format = info_.format;
     info.subresourceRange = {info_.aspect(), first_mip, mips, first_layer, layers};
     VkImageView view = VK_NULL_HANDLE;
-    if (Status made =
+    if (Status created =
             check(vkCreateImageView(device_->get(), &info, nullptr, &view), "creating an image view");
-        !made)
-        return fail(made.error());
+        !created)
+        return fail(created.error());
     return ImageView(device_->get(), view);
 }
 
@@ -115,28 +116,30 @@ Image::~Image() {
     device_->memory().free(allocation_);
 }
 
-Result<Sampler> make_sampler(const Device& device, const SamplerInfo& given) {
+Result<Sampler> make_sampler(const Device& device, const SamplerInfo& requested) {
     VkPhysicalDeviceFeatures features{};
     vkGetPhysicalDeviceFeatures(device.physical(), &features);
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    info.magFilter = given.filter;
-    info.minFilter = given.min_filter.value_or(given.filter);
-    info.mipmapMode = given.mips.value_or(given.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR
-                                                                           : VK_SAMPLER_MIPMAP_MODE_NEAREST);
-    info.addressModeU = info.addressModeW = given.address;
-    info.addressModeV = given.address_v.value_or(given.address);
-    // On llvmpipe (Mesa 22.3) anisotropic filtering took one millisecond per pixel: minutes per picture.
+    info.magFilter = requested.filter;
+    info.minFilter = requested.min_filter.value_or(requested.filter);
+    info.mipmapMode =
+        requested.mips.value_or(requested.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR
+                                                                     : VK_SAMPLER_MIPMAP_MODE_NEAREST);
+    info.addressModeU = info.addressModeW = requested.address;
+    info.addressModeV = requested.address_v.value_or(requested.address);
+    // On llvmpipe (Mesa 22.3) anisotropic filtering took one millisecond per pixel, that is minutes per
+    // picture.
     const bool software = device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    info.anisotropyEnable = given.anisotropy > 1.0F && !software ? features.samplerAnisotropy : VK_FALSE;
-    info.maxAnisotropy = std::min(given.anisotropy, device.limits().maxSamplerAnisotropy);
-    info.compareEnable = given.compares ? VK_TRUE : VK_FALSE;
+    info.anisotropyEnable = requested.anisotropy > 1.0F && !software ? features.samplerAnisotropy : VK_FALSE;
+    info.maxAnisotropy = std::min(requested.anisotropy, device.limits().maxSamplerAnisotropy);
+    info.compareEnable = requested.compares ? VK_TRUE : VK_FALSE;
     info.compareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
     info.maxLod = VK_LOD_CLAMP_NONE;
     info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
     VkSampler sampler = VK_NULL_HANDLE;
-    if (Status made = check(vkCreateSampler(device.get(), &info, nullptr, &sampler), "creating a sampler");
-        !made)
-        return fail(made.error());
+    if (Status created = check(vkCreateSampler(device.get(), &info, nullptr, &sampler), "creating a sampler");
+        !created)
+        return fail(created.error());
     return Sampler(device.get(), sampler);
 }
 
@@ -247,20 +250,20 @@ Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)
     pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool_info.queueFamilyIndex = device.queue_family();
     VkCommandPool raw_pool = VK_NULL_HANDLE;
-    if (Status made = check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &raw_pool),
-                            "creating a command pool");
-        !made)
-        return made;
+    if (Status created = check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &raw_pool),
+                               "creating a command pool");
+        !created)
+        return created;
     const CommandPool pool(device.get(), raw_pool);
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = pool.get();
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    if (Status made = check(vkAllocateCommandBuffers(device.get(), &allocate, &commands),
-                            "allocating a command buffer");
-        !made)
-        return made;
+    if (Status created = check(vkAllocateCommandBuffers(device.get(), &allocate, &commands),
+                               "allocating a command buffer");
+        !created)
+        return created;
 
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -270,10 +273,10 @@ Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)
 
     VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     VkFence raw_fence = VK_NULL_HANDLE;
-    if (Status made =
+    if (Status created =
             check(vkCreateFence(device.get(), &fence_info, nullptr, &raw_fence), "creating a fence");
-        !made)
-        return made;
+        !created)
+        return created;
     const Fence fence(device.get(), raw_fence);
     VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     submitted.commandBuffer = commands;

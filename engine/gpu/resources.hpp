@@ -1,4 +1,5 @@
-// Buffers and images with their memory: move-only, released by their owner.
+// Buffers and images with their memory, samplers, barriers between their uses, and transfers to and from the
+// CPU.
 #pragma once
 
 #include <functional>
@@ -10,6 +11,7 @@
 
 namespace bolt::gpu {
 
+// Move-only; releases its memory.
 class Buffer {
   public:
     Buffer() = default;
@@ -23,7 +25,7 @@ class Buffer {
 
     [[nodiscard]] VkBuffer get() const { return buffer_; }
     [[nodiscard]] VkDeviceSize size() const { return size_; }
-    // The mapped memory; empty for MemoryUse::device.
+    // Returns the mapped memory; empty for MemoryUse::device.
     [[nodiscard]] std::span<std::byte> bytes() const {
         return {allocation_.mapped, allocation_.mapped != nullptr ? static_cast<std::size_t>(size_) : 0};
     }
@@ -49,6 +51,7 @@ struct ImageInfo {
     [[nodiscard]] VkImageAspectFlags aspect() const;
 };
 
+// Move-only; releases its memory.
 class Image {
   public:
     Image() = default;
@@ -62,7 +65,7 @@ class Image {
 
     [[nodiscard]] VkImage get() const { return image_; }
     [[nodiscard]] const ImageInfo& info() const { return info_; }
-    // A view of the whole image: 2D, 2D array or cube, as the info says.
+    // Returns a view of the whole image: 2D, 2D array or cube, according to its ImageInfo.
     [[nodiscard]] VkImageView view() const { return view_.get(); }
     // Creates a view of a part of the image.
     [[nodiscard]] Result<ImageView> view(VkImageViewType type, std::uint32_t first_mip, std::uint32_t mips,
@@ -81,23 +84,21 @@ class Image {
 struct SamplerInfo {
     VkFilter filter = VK_FILTER_LINEAR;
     VkSamplerAddressMode address = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    // Override the values above.
+    // These override the two values above.
     std::optional<VkFilter> min_filter;
     std::optional<VkSamplerMipmapMode> mips;
     std::optional<VkSamplerAddressMode> address_v;
-    bool compares = false;    // shadow maps: reference ≤ depth
+    bool compares = false;    // for shadow maps: returns whether reference ≤ depth
     float anisotropy = 1.0F;  // a value above 1 is used if the GPU supports it
 };
 Result<Sampler> make_sampler(const Device& device, const SamplerInfo& info);
 
-// All barriers of the engine. A barrier moves a resource from one use to another; one table defines the
-// pipeline stages, accesses and image layout of each use.
-
+// How a resource is used. A barrier moves a resource from one use to another; use_info() defines the pipeline
+// stages, accesses and image layout of each use.
 enum class ResourceUse : std::uint8_t {
     undefined,      // newly created
-    acquired,       // from the swapchain, with undefined contents; the acquire semaphore is waited for before
-                    // copies
-    color_target,   // drawn or resolved into
+    acquired,       // from the swapchain, with undefined contents; copies wait for the acquire semaphore
+    color_target,   // a target of drawing or resolving
     depth_target,   // tested and written
     depth_read,     // tested and sampled at the same time
     sampled,        // read in fragment or compute shaders
@@ -127,17 +128,17 @@ struct ImageRange {
 void image_barrier(VkCommandBuffer commands, VkImage image, ResourceUse from, ResourceUse to,
                    const ImageRange& range = {});
 
-// The same for an image whose contents may be lost: waits for the last use, then discards what it wrote. For
-// targets that are redrawn each frame while the previous frame may still be read.
+// The same for an image whose contents are not needed any more: waits for the last use, then discards the
+// contents. For targets that are redrawn each frame, while the GPU may still read the previous frame's
+// contents.
 void image_barrier_discarding(VkCommandBuffer commands, VkImage image, ResourceUse last, ResourceUse to,
                               const ImageRange& range = {});
 
-// A barrier for all buffers: buffers have no layout, and a global memory barrier costs the same as a buffer
+// A barrier for all buffers. Buffers have no layout, and a global memory barrier costs the same as a buffer
 // barrier.
 void memory_barrier(VkCommandBuffer commands, ResourceUse from, ResourceUse to);
 
-// Transfers to and from the GPU outside of frames, for loading and tests. Each call waits until it is
-// complete.
+// The following functions transfer data outside of frames, for loading and tests. Each waits for the GPU.
 
 // Records commands, submits them and waits for their completion.
 Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)>& record);
@@ -146,8 +147,8 @@ Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)
 Result<Buffer> upload_buffer(Device& device, std::span<const std::byte> bytes, VkBufferUsageFlags usage);
 
 // Fills mip 0 of every layer from `texels` (layers one after the other), generates the other mips by halving,
-// and leaves the image in use `sampled`. Needs both transfer usages; if there are mips, the format must
-// support linear blits.
+// and leaves the image in use `sampled`. The image needs both transfer usages; if it has mips, its format
+// must support linear blits.
 Status upload_image(Device& device, Image& image, std::span<const std::byte> texels);
 
 // Reads the texels of one mip of one layer. The image is in use `from` before and afterwards.

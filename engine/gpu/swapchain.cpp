@@ -12,8 +12,8 @@ namespace bolt::gpu {
 
 namespace {
 
-constexpr std::uint32_t undefined_extent =
-    0xFFFFFFFF;  // the value of VkSurfaceCapabilitiesKHR for "the swapchain decides"
+// The value in VkSurfaceCapabilitiesKHR that means "the swapchain determines the size".
+constexpr std::uint32_t undefined_extent = 0xFFFFFFFF;
 
 const char* name(VkPresentModeKHR mode) {
     switch (mode) {
@@ -31,95 +31,101 @@ const char* name(VkPresentModeKHR mode) {
 }
 
 // Pictures are 8-bit sRGB. The first format needs no conversion, the second one swaps red and blue.
-struct Known {
+struct PreferredFormat {
     VkFormat format;
     const char* text;
 };
-constexpr Known known[] = {
+constexpr PreferredFormat preferred_formats[] = {
     {VK_FORMAT_R8G8B8A8_SRGB, "RGBA sRGB: no conversion"},
     {VK_FORMAT_B8G8R8A8_SRGB, "BGRA sRGB: converted by the copy"},
 };
 
-Status choose_format(const SurfaceSupport& offer, SwapchainPlan& plan) {
-    for (const Known& wanted : known)
-        for (const VkSurfaceFormatKHR& format : offer.formats)
+Status choose_format(const SurfaceSupport& support, SwapchainPlan& plan) {
+    for (const PreferredFormat& wanted : preferred_formats)
+        for (const VkSurfaceFormatKHR& format : support.formats)
             if (format.format == wanted.format && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) {
                 plan.format = format;
                 plan.reasons.push_back(fmt::format("format {}", wanted.text));
                 return {};
             }
     std::vector<int> offered;
-    for (const VkSurfaceFormatKHR& format : offer.formats) offered.push_back(static_cast<int>(format.format));
+    for (const VkSurfaceFormatKHR& format : support.formats)
+        offered.push_back(static_cast<int>(format.format));
     return fail(
         ErrorCode::no_device,
         fmt::format("the window supports no 8-bit sRGB format (VkFormat: {})", fmt::join(offered, ", ")),
         "VK_FORMAT_B8G8R8A8_SRGB or VK_FORMAT_R8G8B8A8_SRGB");
 }
 
-void choose_mode(const SurfaceSupport& offer, const SwapchainRequest& wish, SwapchainPlan& plan) {
-    const auto offers = [&](VkPresentModeKHR mode) {
-        return std::find(offer.modes.begin(), offer.modes.end(), mode) != offer.modes.end();
+void choose_mode(const SurfaceSupport& support, const SwapchainRequest& request, SwapchainPlan& plan) {
+    const auto supports = [&](VkPresentModeKHR mode) {
+        return std::find(support.modes.begin(), support.modes.end(), mode) != support.modes.end();
     };
-    const auto take = [&](VkPresentModeKHR mode, const char* why) {
+    const auto choose = [&](VkPresentModeKHR mode, const char* why) {
         plan.mode = mode;
         plan.reasons.push_back(fmt::format("{}: {}", name(mode), why));
     };
-    if (wish.may_tear && offers(VK_PRESENT_MODE_IMMEDIATE_KHR))
-        return take(VK_PRESENT_MODE_IMMEDIATE_KHR, "tearing is allowed");
-    if (offers(VK_PRESENT_MODE_MAILBOX_KHR))
-        return take(VK_PRESENT_MODE_MAILBOX_KHR, "the newest picture, without tearing or queueing");
-    take(VK_PRESENT_MODE_FIFO_KHR, "mailbox is not available, fifo always is");
+    if (request.may_tear && supports(VK_PRESENT_MODE_IMMEDIATE_KHR))
+        return choose(VK_PRESENT_MODE_IMMEDIATE_KHR, "tearing is allowed");
+    if (supports(VK_PRESENT_MODE_MAILBOX_KHR))
+        return choose(VK_PRESENT_MODE_MAILBOX_KHR, "the newest picture, without tearing or queueing");
+    choose(VK_PRESENT_MODE_FIFO_KHR, "mailbox is not available, fifo always is");
 }
 
-void choose_extent(const VkSurfaceCapabilitiesKHR& can, const SwapchainRequest& wish, SwapchainPlan& plan) {
-    plan.extent = can.currentExtent;
-    if (can.currentExtent.width == undefined_extent) {
-        plan.extent = wish.window;
+void choose_extent(const VkSurfaceCapabilitiesKHR& capabilities, const SwapchainRequest& request,
+                   SwapchainPlan& plan) {
+    plan.extent = capabilities.currentExtent;
+    if (capabilities.currentExtent.width == undefined_extent) {
+        plan.extent = request.window;
         if (plan.extent.width == 0 || plan.extent.height == 0) return;
-        plan.extent = {std::clamp(wish.window.width, can.minImageExtent.width, can.maxImageExtent.width),
-                       std::clamp(wish.window.height, can.minImageExtent.height, can.maxImageExtent.height)};
+        plan.extent = {std::clamp(request.window.width, capabilities.minImageExtent.width,
+                                  capabilities.maxImageExtent.width),
+                       std::clamp(request.window.height, capabilities.minImageExtent.height,
+                                  capabilities.maxImageExtent.height)};
     }
 }
 
 }  // namespace
 
-VkResult query_surface(VkPhysicalDevice gpu, VkSurfaceKHR surface, SurfaceSupport& offer) {
-    VkResult result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu, surface, &offer.capabilities);
+VkResult query_surface(VkPhysicalDevice gpu, VkSurfaceKHR surface, SurfaceSupport& support) {
+    VkResult result = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu, surface, &support.capabilities);
     if (result == VK_SUCCESS)
-        result = enumerate(offer.formats, [&](std::uint32_t* count, VkSurfaceFormatKHR* formats) {
+        result = enumerate(support.formats, [&](std::uint32_t* count, VkSurfaceFormatKHR* formats) {
             return vkGetPhysicalDeviceSurfaceFormatsKHR(gpu, surface, count, formats);
         });
     if (result == VK_SUCCESS)
-        result = enumerate(offer.modes, [&](std::uint32_t* count, VkPresentModeKHR* modes) {
+        result = enumerate(support.modes, [&](std::uint32_t* count, VkPresentModeKHR* modes) {
             return vkGetPhysicalDeviceSurfacePresentModesKHR(gpu, surface, count, modes);
         });
     return result;
 }
 
-Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& offer, const SwapchainRequest& wish) {
+Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& support, const SwapchainRequest& request) {
     SwapchainPlan plan;
-    const VkSurfaceCapabilitiesKHR& can = offer.capabilities;
-    if ((can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0)
+    const VkSurfaceCapabilitiesKHR& capabilities = support.capabilities;
+    if ((capabilities.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0)
         return fail(ErrorCode::no_device, "the window's images do not support copies");
-    BOLT_TRY(choose_format(offer, plan));
-    choose_mode(offer, wish, plan);
-    choose_extent(can, wish, plan);
+    BOLT_TRY(choose_format(support, plan));
+    choose_mode(support, request, plan);
+    choose_extent(capabilities, request, plan);
 
     // One image is on the screen; in mailbox mode another one waits.
     const std::uint32_t shown = plan.mode == VK_PRESENT_MODE_MAILBOX_KHR ? 2 : 1;
-    plan.images = std::max(can.minImageCount, wish.in_flight + shown - 1);
-    if (plan.mode == VK_PRESENT_MODE_MAILBOX_KHR) plan.images = std::max(plan.images, can.minImageCount + 1);
-    if (can.maxImageCount != 0) plan.images = std::min(plan.images, can.maxImageCount);
-    plan.reasons.push_back(fmt::format("{} images, the minimum is {}", plan.images, can.minImageCount));
+    plan.images = std::max(capabilities.minImageCount, request.in_flight + shown - 1);
+    if (plan.mode == VK_PRESENT_MODE_MAILBOX_KHR)
+        plan.images = std::max(plan.images, capabilities.minImageCount + 1);
+    if (capabilities.maxImageCount != 0) plan.images = std::min(plan.images, capabilities.maxImageCount);
+    plan.reasons.push_back(
+        fmt::format("{} images, the minimum is {}", plan.images, capabilities.minImageCount));
 
-    plan.transform = can.currentTransform;
-    if ((can.supportedTransforms & VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR) != 0)
+    plan.transform = capabilities.currentTransform;
+    if ((capabilities.supportedTransforms & VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR) != 0)
         plan.transform = VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR;
-    // Windows are opaque. If the surface does not offer opaque composition, the alpha values are 1 anyway.
+    // Windows are opaque. If the surface does not support opaque composition, the alpha values are 1 anyway.
     for (const VkCompositeAlphaFlagBitsKHR alpha :
          {VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR, VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR,
           VK_COMPOSITE_ALPHA_PRE_MULTIPLIED_BIT_KHR, VK_COMPOSITE_ALPHA_POST_MULTIPLIED_BIT_KHR})
-        if ((can.supportedCompositeAlpha & static_cast<VkFlags>(alpha)) != 0) {
+        if ((capabilities.supportedCompositeAlpha & static_cast<VkFlags>(alpha)) != 0) {
             plan.alpha = alpha;
             break;
         }
@@ -128,10 +134,10 @@ Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& offer, const Swapchai
 
 namespace {
 
-// A hidden window may provide no image for as long as it is hidden; time out, so that events are still
-// handled.
-constexpr std::uint64_t longest_wait = 200'000'000;  // ns
-constexpr std::uint32_t most_losses = 3;             // consecutive
+// A hidden window may provide no image for as long as it is hidden. Acquiring one times out, so that events
+// are still handled.
+constexpr std::uint64_t acquire_timeout = 200'000'000;  // ns
+constexpr std::uint32_t max_losses = 3;                 // consecutive
 
 bool same(VkExtent2D a, VkExtent2D b) { return a.width == b.width && a.height == b.height; }
 bool empty(VkExtent2D extent) { return extent.width == 0 || extent.height == 0; }
@@ -139,10 +145,10 @@ bool empty(VkExtent2D extent) { return extent.width == 0 || extent.height == 0; 
 Result<Semaphore> make_semaphore(const Device& device) {
     const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkSemaphore semaphore = VK_NULL_HANDLE;
-    if (Status made =
+    if (Status created =
             check(vkCreateSemaphore(device.get(), &info, nullptr, &semaphore), "creating a semaphore");
-        !made)
-        return fail(made.error());
+        !created)
+        return fail(created.error());
     return Semaphore(device.get(), semaphore);
 }
 
@@ -156,9 +162,9 @@ Result<std::unique_ptr<Swapchain>> Swapchain::create(Device& device, Surface sur
     swapchain->options_ = options;
     swapchain->surface_ = std::move(surface);
     swapchain->make_surface_ = std::move(make_surface);
-    for (Semaphore& semaphore : swapchain->acquired_) {
-        BOLT_TRY_ASSIGN(auto made, make_semaphore(device));
-        semaphore = std::move(made);
+    for (Semaphore& semaphore : swapchain->acquire_semaphores_) {
+        BOLT_TRY_ASSIGN(auto created, make_semaphore(device));
+        semaphore = std::move(created);
     }
     return swapchain;
 }
@@ -167,9 +173,9 @@ Swapchain::~Swapchain() {
     (void)device_->idle();  // a lost device is idle too
 }
 
-// Interprets a result. Returns true to continue, and false if this picture cannot be shown but a later one
-// may.
-Result<bool> Swapchain::judge(VkResult result, std::string_view what) {
+// Updates the state after a Vulkan call. Returns true to continue; false: this picture cannot be presented,
+// but a later one may.
+Result<bool> Swapchain::handle(VkResult result, std::string_view what) {
     switch (result) {
         case VK_SUCCESS:
             return true;
@@ -184,7 +190,7 @@ Result<bool> Swapchain::judge(VkResult result, std::string_view what) {
             return false;
         case VK_ERROR_SURFACE_LOST_KHR:
             lost_ = true;
-            if (++losses_ < most_losses) return false;
+            if (++losses_ < max_losses) return false;
             [[fallthrough]];
         default:
             break;
@@ -198,13 +204,13 @@ Status Swapchain::replace_surface() {
     images_.clear();
     swapchain_ = SwapchainHandle();
     surface_ = Surface();
-    BOLT_TRY_ASSIGN(auto made, make_surface_());
-    surface_ = std::move(made);
-    VkBool32 shows = VK_FALSE;
-    const VkResult asked = vkGetPhysicalDeviceSurfaceSupportKHR(device_->physical(), device_->queue_family(),
-                                                                surface_.get(), &shows);
-    BOLT_TRY(check(asked, "querying the surface capabilities"));
-    if (shows != VK_TRUE)
+    BOLT_TRY_ASSIGN(auto created, make_surface_());
+    surface_ = std::move(created);
+    VkBool32 supported = VK_FALSE;
+    const VkResult queried = vkGetPhysicalDeviceSurfaceSupportKHR(
+        device_->physical(), device_->queue_family(), surface_.get(), &supported);
+    BOLT_TRY(check(queried, "querying the surface capabilities"));
+    if (supported != VK_TRUE)
         return fail(ErrorCode::no_device, "this GPU can no longer present to the window's display");
     lost_ = false;
     stale_ = true;
@@ -212,18 +218,18 @@ Status Swapchain::replace_surface() {
 }
 
 // Returns false if the surface was lost.
-Result<bool> Swapchain::remake(VkExtent2D window) {
-    SurfaceSupport offer;
-    if (Result<bool> asked = judge(query_surface(device_->physical(), surface_.get(), offer),
-                                   "querying the surface capabilities");
-        !asked || !*asked)
-        return asked;
-    BOLT_TRY_ASSIGN(auto plan, plan_swapchain(offer, {window, options_.may_tear, frames_in_flight}));
+Result<bool> Swapchain::recreate(VkExtent2D window) {
+    SurfaceSupport support;
+    if (Result<bool> queried = handle(query_surface(device_->physical(), surface_.get(), support),
+                                      "querying the surface capabilities");
+        !queried || !*queried)
+        return queried;
+    BOLT_TRY_ASSIGN(auto plan, plan_swapchain(support, {window, options_.may_tear, frames_in_flight}));
     suboptimal_is_normal_ = suboptimal_ && same(plan.extent, plan_.extent);
     plan_ = std::move(plan);
     window_ = window;
     if (empty(plan_.extent)) return true;
-    // When the device is idle, the old swapchain is unused and its semaphores are free.
+    // After this the GPU uses neither the old swapchain nor its semaphores.
     BOLT_TRY(device_->idle());
 
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
@@ -243,27 +249,28 @@ Result<bool> Swapchain::remake(VkExtent2D window) {
     VkSwapchainKHR raw = VK_NULL_HANDLE;
     const VkResult result = vkCreateSwapchainKHR(device_->get(), &info, nullptr, &raw);
     images_.clear();
-    drawn_.clear();
+    present_semaphores_.clear();
     swapchain_ = SwapchainHandle(device_->get(), raw);
-    if (Result<bool> made = judge(result, "creating the swapchain"); !made || !*made) return made;
+    if (Result<bool> created = handle(result, "creating the swapchain"); !created || !*created)
+        return created;
     const VkResult got = enumerate(images_, [&](std::uint32_t* count, VkImage* images) {
         return vkGetSwapchainImagesKHR(device_->get(), raw, count, images);
     });
     BOLT_TRY(check(got, "querying the swapchain images"));
-    while (drawn_.size() < images_.size()) {
-        BOLT_TRY_ASSIGN(auto made, make_semaphore(*device_));
-        drawn_.push_back(std::move(made));
+    while (present_semaphores_.size() < images_.size()) {
+        BOLT_TRY_ASSIGN(auto created, make_semaphore(*device_));
+        present_semaphores_.push_back(std::move(created));
     }
-    ++made_;
+    ++creations_;
     stale_ = suboptimal_ = false;
     return true;
 }
 
-Result<VkExtent2D> Swapchain::ready(VkExtent2D window) {
+Result<VkExtent2D> Swapchain::prepare(VkExtent2D window) {
     while (lost_ || stale_ || !same(window, window_)) {
         if (lost_) BOLT_TRY(replace_surface());
-        BOLT_TRY_ASSIGN(const auto made, remake(window));
-        if (made) break;
+        BOLT_TRY_ASSIGN(const auto created, recreate(window));
+        if (created) break;
     }
     return plan_.extent;
 }
@@ -297,36 +304,37 @@ void Swapchain::copy(VkCommandBuffer commands, VkImage to, const Image& picture,
     image_barrier(commands, to, ResourceUse::transfer_to, ResourceUse::present);
 }
 
-Result<bool> Swapchain::show(Frames& frames, FrameContext& frame, const Image& picture, std::uint32_t layer) {
+Result<bool> Swapchain::present(Frames& frames, FrameContext& frame, const Image& picture,
+                                std::uint32_t layer) {
     if (!swapchain_ || stale_ || lost_ || empty(plan_.extent)) {
         BOLT_TRY(frames.submit(frame));
         return false;
     }
-    const VkSemaphore acquired = acquired_[next_acquired_].get();
+    const VkSemaphore acquire = acquire_semaphores_[next_acquire_].get();
     std::uint32_t index = 0;
     BOLT_TRY_ASSIGN(const auto got,
-                    judge(vkAcquireNextImageKHR(device_->get(), swapchain_.get(), longest_wait, acquired,
-                                                VK_NULL_HANDLE, &index),
-                          "acquiring a swapchain image"));
+                    handle(vkAcquireNextImageKHR(device_->get(), swapchain_.get(), acquire_timeout, acquire,
+                                                 VK_NULL_HANDLE, &index),
+                           "acquiring a swapchain image"));
     if (!got) {
         BOLT_TRY(frames.submit(frame));
         return false;
     }
-    next_acquired_ = (next_acquired_ + 1) % frames_in_flight;
+    next_acquire_ = (next_acquire_ + 1) % frames_in_flight;
     copy(frame.commands(), images_[index], picture, layer);
-    const VkSemaphore drawn = drawn_[index].get();
-    BOLT_TRY(frames.submit(frame, {acquired, drawn}));
+    const VkSemaphore present = present_semaphores_[index].get();
+    BOLT_TRY(frames.submit(frame, {acquire, present}));
 
     const VkSwapchainKHR swapchain = swapchain_.get();
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
     info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &drawn;
+    info.pWaitSemaphores = &present;
     info.swapchainCount = 1;
     info.pSwapchains = &swapchain;
     info.pImageIndices = &index;
-    const Result<bool> shown = judge(vkQueuePresentKHR(device_->queue(), &info), "presenting a picture");
-    if (shown && *shown) losses_ = 0;
-    return shown;
+    const Result<bool> presented = handle(vkQueuePresentKHR(device_->queue(), &info), "presenting a picture");
+    if (presented && *presented) losses_ = 0;
+    return presented;
 }
 
 }  // namespace bolt::gpu

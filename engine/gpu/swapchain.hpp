@@ -1,5 +1,4 @@
-// Chooses the swapchain's format, present mode, size and image count, with reasons. A pure function over the
-// surface's capabilities, so that tests need no window.
+// Presents pictures in a window: the swapchain, and the choice of its properties.
 #pragma once
 
 #include <functional>
@@ -22,40 +21,39 @@ struct SurfaceSupport {
     std::vector<VkPresentModeKHR> modes;
 };
 
-VkResult query_surface(VkPhysicalDevice gpu, VkSurfaceKHR surface, SurfaceSupport& offer);
+VkResult query_surface(VkPhysicalDevice gpu, VkSurfaceKHR surface, SurfaceSupport& support);
 
 struct SwapchainRequest {
-    VkExtent2D window{};          // pixels; used if the surface leaves the size to us
-    bool may_tear = false;        // for measurements: never wait for the screen
-    std::uint32_t in_flight = 2;  // frames that are drawn while others are shown
+    VkExtent2D window{};          // pixels; used if the surface does not determine the size
+    bool may_tear = false;        // do not wait for the screen; for measurements
+    std::uint32_t in_flight = 2;  // frames that are drawn while others are presented
 };
 
 struct SwapchainPlan {
     VkSurfaceFormatKHR format{};
     VkPresentModeKHR mode = VK_PRESENT_MODE_FIFO_KHR;
-    VkExtent2D extent{};  // a zero width or height: nothing can be shown now (minimised window)
+    VkExtent2D extent{};  // a zero width or height: nothing can be presented now (minimised window)
     std::uint32_t images = 0;
     VkSurfaceTransformFlagBitsKHR transform = VK_SURFACE_TRANSFORM_IDENTITY_BIT_KHR;
     VkCompositeAlphaFlagBitsKHR alpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
     std::vector<std::string> reasons;  // one line per decision
 };
 
-// Fails if the surface lacks something required, and names it.
-Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& offer, const SwapchainRequest& wish);
+// Chooses format, present mode, size and image count. The error names what the surface lacks. A pure function
+// over the surface's capabilities, so that tests need no window.
+Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& support, const SwapchainRequest& request);
 
-// Presents pictures in a window and handles the window's changes: a new size, no area (minimised), a lost
-// surface. A picture that cannot be presented is dropped, and the swapchain is recreated for the next one.
-// Only a lost device is left to the caller, who must recreate everything made from it.
-
-// Creates the window's surface: at the start, and after a loss.
+// Creates the window's surface, at the start and after a loss.
 using MakeSurface = std::function<Result<Surface>()>;
 
 struct SwapchainOptions {
     bool may_tear = false;
 };
 
-// Must be destroyed before the device, and the device must have been created for a surface of the same
-// window.
+// Handles the window's changes: a new size, no area (minimised), a lost surface. A picture that cannot be
+// presented is dropped, and the swapchain is recreated for the next one. After a lost device the caller must
+// recreate everything created from the device. The device must have been created for a surface of the same
+// window, and must outlive the swapchain.
 class Swapchain {
   public:
     static Result<std::unique_ptr<Swapchain>> create(Device& device, Surface surface,
@@ -65,26 +63,26 @@ class Swapchain {
     Swapchain& operator=(const Swapchain&) = delete;
     ~Swapchain();
 
-    // Returns the size for the next picture; a zero width or height means that nothing can be shown now.
-    // `window` is the window's size in pixels. Call it between frames.
-    Result<VkExtent2D> ready(VkExtent2D window);
+    // Recreates the swapchain if necessary. Returns the size for the next picture; a zero width or height
+    // means that nothing can be presented now. `window`: the window's size in pixels. Call it between frames.
+    Result<VkExtent2D> prepare(VkExtent2D window);
 
     // Copies a layer of `picture` (in use `transfer_from`, of any size) to the window, ends the frame and
     // submits it. Returns false if the picture was drawn but not presented.
-    Result<bool> show(Frames& frames, FrameContext& frame, const Image& picture, std::uint32_t layer = 0);
+    Result<bool> present(Frames& frames, FrameContext& frame, const Image& picture, std::uint32_t layer = 0);
 
-    // The decisions for the current window, with reasons.
+    // The choices for the current window, with reasons.
     [[nodiscard]] const SwapchainPlan& plan() const { return plan_; }
     // How often the swapchain was created: at the start, for every new size, after a loss.
-    [[nodiscard]] std::uint32_t made() const { return made_; }
+    [[nodiscard]] std::uint32_t creations() const { return creations_; }
 
   private:
     Swapchain() = default;
 
     Status replace_surface();
-    Result<bool> remake(VkExtent2D window);
+    Result<bool> recreate(VkExtent2D window);
     void copy(VkCommandBuffer commands, VkImage to, const Image& picture, std::uint32_t layer) const;
-    Result<bool> judge(VkResult result, std::string_view what);
+    Result<bool> handle(VkResult result, std::string_view what);
 
     Device* device_ = nullptr;
     SwapchainOptions options_;
@@ -95,14 +93,14 @@ class Swapchain {
     std::vector<VkImage> images_;
     // Acquire semaphores belong to frames, present semaphores to images. When a frame's fence is signalled,
     // its acquire semaphore is free, but the presentation may still wait for the present semaphore.
-    std::array<Semaphore, frames_in_flight> acquired_;
-    std::vector<Semaphore> drawn_;
-    std::uint32_t next_acquired_ = 0;
+    std::array<Semaphore, frames_in_flight> acquire_semaphores_;
+    std::vector<Semaphore> present_semaphores_;
+    std::uint32_t next_acquire_ = 0;
     VkExtent2D window_{};
     bool stale_ = true, lost_ = false;
-    bool suboptimal_ = false, suboptimal_is_normal_ = false;  // normal: recreation did not help
-    std::uint32_t losses_ = 0;  // losses of the surface since the last presentation
-    std::uint32_t made_ = 0;
+    bool suboptimal_ = false, suboptimal_is_normal_ = false;  // normal: recreating it did not help
+    std::uint32_t losses_ = 0;                                // of the surface, since the last presentation
+    std::uint32_t creations_ = 0;
 };
 
 }  // namespace bolt::gpu

@@ -40,10 +40,10 @@ std::string_view name(VkResult result) {
 
 Status check(VkResult result, std::string_view what) {
     if (result >= 0) return {};
-    const bool gone = result == VK_ERROR_DEVICE_LOST || result == VK_ERROR_INITIALIZATION_FAILED ||
-                      result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_SURFACE_LOST_KHR;
+    const bool device_missing = result == VK_ERROR_DEVICE_LOST || result == VK_ERROR_INITIALIZATION_FAILED ||
+                                result == VK_ERROR_INCOMPATIBLE_DRIVER || result == VK_ERROR_SURFACE_LOST_KHR;
     Error error;
-    error.code = gone ? ErrorCode::no_device : ErrorCode::failed;
+    error.code = device_missing ? ErrorCode::no_device : ErrorCode::failed;
     error.what = fmt::format("{}: {}", what, name(result));
     error.lost = result == VK_ERROR_DEVICE_LOST;
     return fail(std::move(error));

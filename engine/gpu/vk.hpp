@@ -1,5 +1,5 @@
-// Vulkan 1.3 through volk. Entry points are loaded at run time, so the programs start on machines without
-// Vulkan and can report that it is missing.
+// Vulkan 1.3 through volk: results as errors, and owners of Vulkan objects. Entry points are loaded at run
+// time, so the programs start on machines without Vulkan and can report that it is missing.
 #pragma once
 
 #define VK_NO_PROTOTYPES
@@ -14,14 +14,15 @@
 
 namespace bolt::gpu {
 
-// The name in the specification: "VK_ERROR_DEVICE_LOST".
+// Returns the name in the specification: "VK_ERROR_DEVICE_LOST".
 std::string_view name(VkResult result);
 
-// Returns an Error for every result that is not a success. Lost and missing devices have the code no_device.
-// `Error::lost` is set for a lost device, but not for a lost surface, which Swapchain recreates.
+// Returns an Error for every negative result. `what`: the operation that failed. Lost and missing devices
+// have the code no_device. `Error::lost` is set for a lost device, but not for a lost surface, which
+// Swapchain recreates.
 Status check(VkResult result, std::string_view what);
 
-// Fills `values` by a Vulkan function that is called twice: for the count, then for the values.
+// Fills `values` by a Vulkan function that is called twice: first for the count, then for the values.
 // `query`: VkResult(std::uint32_t* count, T* values).
 template <class T, class Query>
 VkResult enumerate(std::vector<T>& values, const Query& query) {
@@ -36,24 +37,23 @@ VkResult enumerate(std::vector<T>& values, const Query& query) {
     return result;
 }
 
-// A move-only owner of a Vulkan object, which it destroys.
-
-// volk loads function pointers at run time, so `destroy` points to the function pointer.
+// A move-only owner that destroys a Vulkan object. volk loads functions at run time, so `destroy` is the
+// address of the variable that holds the function pointer.
 template <class T, auto* destroy>
-class Handle {
+class UniqueHandle {
   public:
-    Handle() = default;
-    Handle(VkDevice device, T object) : device_(device), object_(object) {}
-    Handle(Handle&& other) noexcept
+    UniqueHandle() = default;
+    UniqueHandle(VkDevice device, T object) : device_(device), object_(object) {}
+    UniqueHandle(UniqueHandle&& other) noexcept
         : device_(other.device_), object_(std::exchange(other.object_, T{VK_NULL_HANDLE})) {}
-    Handle& operator=(Handle&& other) noexcept {
+    UniqueHandle& operator=(UniqueHandle&& other) noexcept {
         std::swap(device_, other.device_);
         std::swap(object_, other.object_);
         return *this;
     }
-    Handle(const Handle&) = delete;
-    Handle& operator=(const Handle&) = delete;
-    ~Handle() {
+    UniqueHandle(const UniqueHandle&) = delete;
+    UniqueHandle& operator=(const UniqueHandle&) = delete;
+    ~UniqueHandle() {
         if (object_ != T{VK_NULL_HANDLE}) (*destroy)(device_, object_, nullptr);
     }
 
@@ -65,18 +65,18 @@ class Handle {
     T object_{VK_NULL_HANDLE};
 };
 
-using Fence = Handle<VkFence, &vkDestroyFence>;
-using Semaphore = Handle<VkSemaphore, &vkDestroySemaphore>;
-using CommandPool = Handle<VkCommandPool, &vkDestroyCommandPool>;
-using QueryPool = Handle<VkQueryPool, &vkDestroyQueryPool>;
-using Sampler = Handle<VkSampler, &vkDestroySampler>;
-using ImageView = Handle<VkImageView, &vkDestroyImageView>;
-using ShaderModule = Handle<VkShaderModule, &vkDestroyShaderModule>;
-using DescriptorSetLayout = Handle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout>;
-using DescriptorPool = Handle<VkDescriptorPool, &vkDestroyDescriptorPool>;
-using PipelineLayout = Handle<VkPipelineLayout, &vkDestroyPipelineLayout>;
-using PipelineHandle = Handle<VkPipeline, &vkDestroyPipeline>;
-using PipelineCacheHandle = Handle<VkPipelineCache, &vkDestroyPipelineCache>;
-using SwapchainHandle = Handle<VkSwapchainKHR, &vkDestroySwapchainKHR>;
+using Fence = UniqueHandle<VkFence, &vkDestroyFence>;
+using Semaphore = UniqueHandle<VkSemaphore, &vkDestroySemaphore>;
+using CommandPool = UniqueHandle<VkCommandPool, &vkDestroyCommandPool>;
+using QueryPool = UniqueHandle<VkQueryPool, &vkDestroyQueryPool>;
+using Sampler = UniqueHandle<VkSampler, &vkDestroySampler>;
+using ImageView = UniqueHandle<VkImageView, &vkDestroyImageView>;
+using ShaderModule = UniqueHandle<VkShaderModule, &vkDestroyShaderModule>;
+using DescriptorSetLayout = UniqueHandle<VkDescriptorSetLayout, &vkDestroyDescriptorSetLayout>;
+using DescriptorPool = UniqueHandle<VkDescriptorPool, &vkDestroyDescriptorPool>;
+using PipelineLayout = UniqueHandle<VkPipelineLayout, &vkDestroyPipelineLayout>;
+using PipelineHandle = UniqueHandle<VkPipeline, &vkDestroyPipeline>;
+using PipelineCacheHandle = UniqueHandle<VkPipelineCache, &vkDestroyPipelineCache>;
+using SwapchainHandle = UniqueHandle<VkSwapchainKHR, &vkDestroySwapchainKHR>;
 
 }  // namespace bolt::gpu

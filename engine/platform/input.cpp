@@ -9,13 +9,13 @@ namespace bolt::platform {
 
 namespace {
 
-struct Named {
+struct NamedKey {
     int glfw;
     Key key;
     std::string_view name;
 };
 
-constexpr Named named[] = {
+constexpr NamedKey named_keys[] = {
     {GLFW_KEY_ESCAPE, Key::escape, "Escape"},
     {GLFW_KEY_ENTER, Key::enter, "Enter"},
     {GLFW_KEY_KP_ENTER, Key::enter, "Enter"},
@@ -50,7 +50,8 @@ constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ", digits = "012
 constexpr std::array<std::string_view, 12> functions{"F1", "F2", "F3", "F4",  "F5",  "F6",
                                                      "F7", "F8", "F9", "F10", "F11", "F12"};
 
-// Returns the key `index` positions after `first`; both enumerations count the same way.
+// Returns the key `index` positions after `first`: GLFW's constants and Key have letters, digits and function
+// keys in the same order.
 Key after(Key first, int index) { return static_cast<Key>(static_cast<int>(first) + index); }
 
 bool within(int value, int first, int last) { return value >= first && value <= last; }
@@ -66,7 +67,7 @@ Key key_of(int glfw_key, const char* printed) {
         if (within(printed[0], 'a', 'z')) return after(Key::a, printed[0] - 'a');
         if (within(printed[0], 'A', 'Z')) return after(Key::a, printed[0] - 'A');
     }
-    for (const Named& entry : named)
+    for (const NamedKey& entry : named_keys)
         if (entry.glfw == glfw_key) return entry.key;
     if (within(glfw_key, GLFW_KEY_A, GLFW_KEY_Z)) return after(Key::a, glfw_key - GLFW_KEY_A);
     return Key::unknown;
@@ -74,18 +75,18 @@ Key key_of(int glfw_key, const char* printed) {
 
 std::string_view name(Key key) {
     const auto index = static_cast<std::size_t>(key);
-    const auto place = [&](Key first) { return index - static_cast<std::size_t>(first); };
-    if (key >= Key::a && key <= Key::z) return letters.substr(place(Key::a), 1);
-    if (key >= Key::digit_0 && key <= Key::digit_9) return digits.substr(place(Key::digit_0), 1);
-    if (key >= Key::f1 && key <= Key::f12) return functions[place(Key::f1)];
-    for (const Named& entry : named)
+    const auto offset = [&](Key first) { return index - static_cast<std::size_t>(first); };
+    if (key >= Key::a && key <= Key::z) return letters.substr(offset(Key::a), 1);
+    if (key >= Key::digit_0 && key <= Key::digit_9) return digits.substr(offset(Key::digit_0), 1);
+    if (key >= Key::f1 && key <= Key::f12) return functions[offset(Key::f1)];
+    for (const NamedKey& entry : named_keys)
         if (entry.key == key) return entry.name;
     return "?";
 }
 
-Key key_named(std::string_view wanted) {
+Key key_named(std::string_view wanted_name) {
     for (std::size_t i = 1; i < key_count; ++i)
-        if (name(static_cast<Key>(i)) == wanted) return static_cast<Key>(i);
+        if (name(static_cast<Key>(i)) == wanted_name) return static_cast<Key>(i);
     return Key::unknown;
 }
 

@@ -1,4 +1,5 @@
-// Input of a window as plain values, in the order in which it happened.
+// Input of a window as plain values, in the order in which it happened, and the mapping of GLFW's keys to
+// Key.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +11,8 @@
 
 namespace bolt::platform {
 
-// Letters are the letters that the keyboard layout prints on the keys. Other keys are identified by position,
-// so that digits work on layouts that print them with shift only.
+// Letter keys are identified by the letter that the keyboard layout prints on them. Other keys are identified
+// by position, so that digits also work on layouts that type them with shift only.
 enum class Key : std::uint8_t {
     // clang-format off
     unknown,
@@ -41,7 +42,7 @@ struct KeyEvent {
     Modifiers modifiers;
 };
 struct TextEvent {
-    char32_t letter = 0;  // as composed by the layout and input methods
+    char32_t character = 0;  // as composed by the keyboard layout and input methods
 };
 struct ButtonEvent {
     Button button = Button::other;
@@ -49,27 +50,25 @@ struct ButtonEvent {
     glm::dvec2 at{0.0};  // pixels from the upper left corner
 };
 struct CursorEvent {
-    glm::dvec2 at{0.0};
+    glm::dvec2 at{0.0};  // pixels from the upper left corner
 };
 struct WheelEvent {
-    glm::dvec2 by{0.0};  // notches; y: away from the user
-    glm::dvec2 at{0.0};
+    glm::dvec2 notches{0.0};  // y: away from the user
+    glm::dvec2 at{0.0};       // pixels from the upper left corner
 };
 struct ResizeEvent {
     std::uint32_t width = 0, height = 0;  // pixels
 };
 struct FocusEvent {
-    bool here = false;
+    bool focused = false;
 };
 struct RefreshEvent {};  // the contents were lost and must be drawn again
 struct CloseEvent {};    // the user wants to close the window
 
-using Event = std::variant<KeyEvent, TextEvent, ButtonEvent, CursorEvent, WheelEvent, ResizeEvent, FocusEvent,
-                           RefreshEvent, CloseEvent>;
+using InputEvent = std::variant<KeyEvent, TextEvent, ButtonEvent, CursorEvent, WheelEvent, ResizeEvent,
+                                FocusEvent, RefreshEvent, CloseEvent>;
 
-// Maps GLFW's keys to Key.
-
-// `printed`: the layout's name of the key from GLFW; may be null.
+// Maps a GLFW key code. `printed`: the layout's name of the key from glfwGetKeyName; may be null.
 Key key_of(int glfw_key, const char* printed);
 
 }  // namespace bolt::platform

@@ -7,7 +7,7 @@ namespace bolt::platform {
 
 namespace {
 
-// Multiply each time: accumulated rounded periods would drift.
+// Multiplies, because a sum of rounded periods would drift.
 Clock::time_point deadline_time(const Pace& pace, std::uint64_t index) {
     const std::chrono::duration<double> after(static_cast<double>(index) * pace.period);
     return pace.start + std::chrono::round<Clock::duration>(after);
@@ -15,7 +15,7 @@ Clock::time_point deadline_time(const Pace& pace, std::uint64_t index) {
 
 }  // namespace
 
-Deadline next_deadline(Pace& pace, Clock::time_point now) {
+FrameDeadline next_deadline(Pace& pace, Clock::time_point now) {
     const std::uint64_t expected = pace.index + 1;
     const std::chrono::duration<double> passed = now - pace.start;
     std::uint64_t index = expected;
@@ -30,7 +30,7 @@ Deadline next_deadline(Pace& pace, Clock::time_point now) {
 double period_of(double refresh) { return 1.0 / (refresh >= 20.0 && refresh <= 1000.0 ? refresh : 60.0); }
 
 std::uint64_t wait_for_deadline(Pace& pace) {
-    const Deadline deadline = next_deadline(pace, Clock::now());
+    const FrameDeadline deadline = next_deadline(pace, Clock::now());
     std::this_thread::sleep_until(deadline.time);
     return deadline.missed;
 }

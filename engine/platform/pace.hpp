@@ -1,5 +1,6 @@
-// Frame pacing. Presentation does not limit the frame rate everywhere (not in mailbox mode, not under Xvfb),
-// so the program does. Deadlines are whole periods after one start; a late frame does not move them.
+// Frame pacing. Presentation does not always limit the frame rate (not in mailbox mode, not under Xvfb), so
+// the program limits it. Deadlines are a whole number of periods after the start; a late frame does not move
+// them.
 #pragma once
 
 #include <chrono>
@@ -16,14 +17,14 @@ struct Pace {
     std::uint64_t index = 0;     // of the last deadline
 };
 
-struct Deadline {
+struct FrameDeadline {
     Clock::time_point time;
     std::uint64_t missed = 0;  // earlier deadlines that were skipped
 };
 
-// Returns the next deadline that is not over, and advances `pace` to it. A frame that took too long skips the
-// missed deadlines; none is made up for. `now` must not be before the start.
-Deadline next_deadline(Pace& pace, Clock::time_point now);
+// Returns the next deadline that has not passed, and advances `pace` to it. After a frame that took too long,
+// missed deadlines are skipped, not caught up on. `now` must not be before the start.
+FrameDeadline next_deadline(Pace& pace, Clock::time_point now);
 
 // Returns the period of a display with this refresh rate in Hz; 1/60 s if the rate is implausible.
 double period_of(double refresh);

@@ -9,30 +9,25 @@
 
 #include "engine/platform/input.hpp"
 
-// Handles the end of the X display server while a window is open; by default, Xlib would exit the program.
-
 namespace bolt::platform {
-
-// Sets `lost` when the display server ends, instead of exiting; the owner of the windows then shuts down.
-// Call it after initialising GLFW. `lost` must stay valid until GLFW has terminated.
-void watch_display_loss(bool& lost);
 
 namespace {
 
-// GLFW loads Xlib itself, and some builds of GLFW have no X support, so the functions of both are looked up
-// at run time. Without X, or with an Xlib without exit handlers (before 1.7), nothing changes.
+// Signatures of functions of Xlib and GLFW that are looked up at run time.
 using GetDisplay = void* (*)();
 using ExitHandler = void (*)(void* display, void* data);
 using Handler = int (*)(void* display);
 using SetHandler = Handler (*)(Handler handler);
 using SetExitHandler = void (*)(void* display, ExitHandler handler, void* data);
 
-int ignore_error(void*) { return 0; }  // Xlib's own ends the program
+int ignore_error(void*) { return 0; }  // replaces Xlib's handler, which exits the program
 
 void set_lost(void*, void* lost) { *static_cast<bool*>(lost) = true; }
 
-}  // namespace
-
+// When the X display server ends while a window is open, Xlib exits the program. Sets `lost` instead, so that
+// the owner of the windows can shut down. Call it after initialising GLFW; `lost` must stay valid until GLFW
+// has terminated. GLFW loads Xlib itself, and some builds of GLFW have no X support, so the functions of both
+// are looked up at run time. Does nothing without X or with an Xlib without exit handlers (before 1.7).
 void watch_display_loss(bool& lost) {
     void* xlib = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
     if (xlib == nullptr) return;
@@ -49,13 +44,11 @@ void watch_display_loss(bool& lost) {
     dlclose(xlib);  // GLFW keeps it loaded
 }
 
-namespace {
-
 tl::unexpected<Error> desktop_error(const char* what, const char* expected) {
-    const char* why = nullptr;
-    glfwGetError(&why);
-    return fail(ErrorCode::no_device, why != nullptr ? fmt::format("{}: {}", what, why) : std::string(what),
-                expected);
+    const char* reason = nullptr;
+    glfwGetError(&reason);
+    return fail(ErrorCode::no_device,
+                reason != nullptr ? fmt::format("{}: {}", what, reason) : std::string(what), expected);
 }
 
 Button button_of(int glfw_button) {
@@ -84,12 +77,12 @@ Rect area(GLFWwindow* window) {
 
 // Returns the display that shows most of the window.
 GLFWmonitor* monitor_of(GLFWwindow* window) {
-    if (GLFWmonitor* whole = glfwGetWindowMonitor(window)) return whole;
+    if (GLFWmonitor* full_screen = glfwGetWindowMonitor(window)) return full_screen;
     const Rect w = area(window);
     int count = 0;
     GLFWmonitor** monitors = glfwGetMonitors(&count);
     GLFWmonitor* best = glfwGetPrimaryMonitor();
-    int most = 0;
+    int largest_overlap = 0;
     for (int i = 0; i < count; ++i) {
         int x = 0, y = 0;
         glfwGetMonitorPos(monitors[i], &x, &y);
@@ -97,9 +90,9 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
         if (mode == nullptr) continue;
         const int across = std::min(w.x + w.width, x + mode->width) - std::max(w.x, x);
         const int down = std::min(w.y + w.height, y + mode->height) - std::max(w.y, y);
-        const int shared = std::max(across, 0) * std::max(down, 0);
-        if (shared > most) {
-            most = shared;
+        const int overlap = std::max(across, 0) * std::max(down, 0);
+        if (overlap > largest_overlap) {
+            largest_overlap = overlap;
             best = monitors[i];
         }
     }
@@ -110,7 +103,7 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
 
 struct Window::State {
     GLFWwindow* window = nullptr;
-    std::vector<Event> events;
+    std::vector<InputEvent> events;
     Rect before_full_screen;
     std::shared_ptr<const bool> lost;
     // The cursor position at the time of the event: glfwGetCursorPos would return the current one.
@@ -123,8 +116,8 @@ struct Window::State {
         if (window != nullptr && !(lost && *lost)) glfwDestroyWindow(window);
     }
 
-    void listen();
-    // GLFW uses desktop units, which are several pixels on some displays.
+    void register_callbacks();
+    // Converts a position from GLFW's desktop units, which are several pixels on some displays.
     [[nodiscard]] glm::dvec2 pixel(double x, double y) const {
         int width = 0, height = 0, across = 0, down = 0;
         glfwGetWindowSize(window, &width, &height);
@@ -142,9 +135,9 @@ Modifiers modifiers_of(int mods) {
 
 }  // namespace
 
-void Window::State::listen() {
-    // Plain function pointers for GLFW; their state is the window's user pointer.
-    static constexpr auto of = [](GLFWwindow* w) -> State& {
+void Window::State::register_callbacks() {
+    // GLFW accepts plain function pointers; they find their State through the window's user pointer.
+    static constexpr auto state_of = [](GLFWwindow* w) -> State& {
         return *static_cast<State*>(glfwGetWindowUserPointer(w));
     };
     glfwSetWindowUserPointer(window, this);
@@ -152,32 +145,36 @@ void Window::State::listen() {
     glfwGetCursorPos(window, &at_x, &at_y);
     cursor = pixel(at_x, at_y);
     glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-        of(w).events.emplace_back(KeyEvent{key_of(key, glfwGetKeyName(key, scancode)), action != GLFW_RELEASE,
-                                           action == GLFW_REPEAT, modifiers_of(mods)});
+        state_of(w).events.emplace_back(KeyEvent{key_of(key, glfwGetKeyName(key, scancode)),
+                                                 action != GLFW_RELEASE, action == GLFW_REPEAT,
+                                                 modifiers_of(mods)});
     });
-    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int letter) {
-        of(w).events.emplace_back(TextEvent{static_cast<char32_t>(letter)});
+    glfwSetCharCallback(window, [](GLFWwindow* w, unsigned int character) {
+        state_of(w).events.emplace_back(TextEvent{static_cast<char32_t>(character)});
     });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int) {
-        of(w).events.emplace_back(ButtonEvent{button_of(button), action == GLFW_PRESS, of(w).cursor});
+        state_of(w).events.emplace_back(
+            ButtonEvent{button_of(button), action == GLFW_PRESS, state_of(w).cursor});
     });
     glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) {
-        of(w).cursor = of(w).pixel(x, y);
-        of(w).events.emplace_back(CursorEvent{of(w).cursor});
+        state_of(w).cursor = state_of(w).pixel(x, y);
+        state_of(w).events.emplace_back(CursorEvent{state_of(w).cursor});
     });
     glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
-        of(w).events.emplace_back(WheelEvent{{x, y}, of(w).cursor});
+        state_of(w).events.emplace_back(WheelEvent{{x, y}, state_of(w).cursor});
     });
     glfwSetFramebufferSizeCallback(window, [](GLFWwindow* w, int width, int height) {
-        of(w).events.emplace_back(
+        state_of(w).events.emplace_back(
             ResizeEvent{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)});
     });
-    glfwSetWindowFocusCallback(
-        window, [](GLFWwindow* w, int focused) { of(w).events.emplace_back(FocusEvent{focused != 0}); });
-    glfwSetWindowRefreshCallback(window, [](GLFWwindow* w) { of(w).events.emplace_back(RefreshEvent{}); });
+    glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
+        state_of(w).events.emplace_back(FocusEvent{focused != 0});
+    });
+    glfwSetWindowRefreshCallback(window,
+                                 [](GLFWwindow* w) { state_of(w).events.emplace_back(RefreshEvent{}); });
     glfwSetWindowCloseCallback(window, [](GLFWwindow* w) {
-        glfwSetWindowShouldClose(w, GLFW_FALSE);  // the reader of the events decides
-        of(w).events.emplace_back(CloseEvent{});
+        glfwSetWindowShouldClose(w, GLFW_FALSE);  // the reader of the events decides what to do
+        state_of(w).events.emplace_back(CloseEvent{});
     });
 }
 
@@ -217,7 +214,7 @@ Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options
                                      options.title.c_str(), nullptr, nullptr);
     if (state->window == nullptr) return desktop_error("the window cannot be opened", "");
     state->lost = desktop.lost_;
-    state->listen();
+    state->register_callbacks();
     Window window(std::move(state));
     if (options.full_screen) window.set_full_screen(true);
     return window;
@@ -225,17 +222,17 @@ Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options
 
 Result<gpu::Surface> Window::make_surface(const gpu::Instance& instance) const {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
-    const VkResult made = glfwCreateWindowSurface(instance.get(), state_->window, nullptr, &surface);
-    BOLT_TRY(gpu::check(made, "creating the window surface"));
+    const VkResult created = glfwCreateWindowSurface(instance.get(), state_->window, nullptr, &surface);
+    BOLT_TRY(gpu::check(created, "creating the window surface"));
     return gpu::Surface(instance.get(), surface);
 }
 
-std::vector<Event> Window::events() {
+std::vector<InputEvent> Window::poll_events() {
     glfwPollEvents();
     return std::exchange(state_->events, {});
 }
 
-std::vector<Event> Window::wait_for_events(double seconds) {
+std::vector<InputEvent> Window::wait_for_events(double seconds) {
     glfwWaitEventsTimeout(std::max(seconds, 1e-4));
     return std::exchange(state_->events, {});
 }
@@ -258,7 +255,7 @@ float Window::content_scale() const {
     return std::max(x, y);
 }
 
-double Window::refresh() const {
+double Window::refresh_rate() const {
     GLFWmonitor* monitor = monitor_of(state_->window);
     const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
     return mode != nullptr ? mode->refreshRate : 0.0;

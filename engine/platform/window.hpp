@@ -1,4 +1,4 @@
-// A desktop window (GLFW). Input arrives as values (input.hpp); gpu::Swapchain presents the pictures.
+// A desktop window (GLFW). Input is returned as values (input.hpp); gpu::Swapchain presents the pictures.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace bolt::platform {
 
-// The desktop connection. GLFW supports one only, so there is one Desktop at a time; it must outlive its
-// windows. Main thread only.
+// The connection to the desktop. GLFW supports only one at a time. It must outlive its windows. Main thread
+// only.
 class Desktop {
   public:
     // Fails if there is no display.
@@ -33,14 +33,14 @@ class Desktop {
     friend class Window;
     explicit Desktop(bool open) : open_(open), lost_(std::make_shared<bool>(false)) {}
     bool open_ = false;
-    std::shared_ptr<bool> lost_;  // the display server has ended; GLFW's handler holds the address
+    std::shared_ptr<bool> lost_;  // the display server has ended; Xlib's exit handler holds the address
 };
 
 struct WindowOptions {
     std::string title = "Boltwright";
     std::uint32_t width = 1280, height = 720;  // in desktop units
     bool full_screen = false;
-    bool hidden = false;  // for querying what the display supports
+    bool hidden = false;  // to query the display without showing a window
 };
 
 struct Size {
@@ -57,20 +57,21 @@ class Window {
     // The surface must be destroyed before the window and the instance.
     [[nodiscard]] Result<gpu::Surface> make_surface(const gpu::Instance& instance) const;
 
-    // Returns the events since the last call: at once, or after waiting at most `seconds` for the first one.
-    std::vector<Event> events();
-    std::vector<Event> wait_for_events(double seconds);
+    // Return the events since the last call: poll_events() at once, wait_for_events() after waiting at most
+    // `seconds` for the first one.
+    std::vector<InputEvent> poll_events();
+    std::vector<InputEvent> wait_for_events(double seconds);
 
     // Fails if the display server has ended.
     [[nodiscard]] Status display_status() const;
 
     [[nodiscard]] Size pixels() const;          // framebuffer size; zero while minimised on some systems
     [[nodiscard]] float content_scale() const;  // 2 on a display with doubled text size
-    [[nodiscard]] double refresh() const;       // refresh rate of the window's display, Hz; 0: unknown
+    [[nodiscard]] double refresh_rate() const;  // refresh rate of the window's display, Hz; 0: unknown
     void set_title(const std::string& title);
     void resize(Size size);  // in desktop units
 
-    // Fills the display that shows most of the window; leaving full screen restores the window's place.
+    // Fills the display that shows most of the window. Leaving full screen restores position and size.
     void set_full_screen(bool on);
     [[nodiscard]] bool full_screen() const;
 

@@ -9,7 +9,7 @@ namespace bolt::render {
 
 namespace {
 
-// Returns the frustum through [left, right] × [bottom, top] at distance 1.
+// Returns the projection of the frustum through [left, right] × [bottom, top] at distance 1.
 glm::mat4 frustum(float left, float right, float bottom, float top, float znear, float zfar) {
     glm::mat4 m(0.0F);
     m[0][0] = 2.0F / (right - left);
@@ -30,28 +30,29 @@ glm::mat4 perspective(const Perspective& p) {
 }
 
 glm::mat4 look_at(const glm::vec3& eye, const glm::vec3& target) {
-    const glm::vec3 way = target - eye;
-    const bool vertical = std::abs(way.x) + std::abs(way.z) < 1e-4F * std::abs(way.y);
-    return glm::lookAtRH(eye, target, vertical ? glm::vec3(0, 0, way.y < 0.0F ? -1 : 1) : glm::vec3(0, 1, 0));
+    const glm::vec3 direction = target - eye;
+    const bool vertical = std::abs(direction.x) + std::abs(direction.z) < 1e-4F * std::abs(direction.y);
+    return glm::lookAtRH(eye, target,
+                         vertical ? glm::vec3(0, 0, direction.y < 0.0F ? -1 : 1) : glm::vec3(0, 1, 0));
 }
 
 Eye make_eye(const glm::vec3& eye, const glm::vec3& target, const Perspective& p) {
     return {eye, perspective(p) * look_at(eye, target)};
 }
 
-Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::vec3& inset_rectangle,
+Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::vec3& lower_right,
                   const glm::vec3& upper_left, float znear, float zfar) {
-    const glm::vec3 right = glm::normalize(inset_rectangle - lower_left);
+    const glm::vec3 right = glm::normalize(lower_right - lower_left);
     const glm::vec3 up = glm::normalize(upper_left - lower_left);
     const glm::vec3 normal = glm::cross(right, up);
     const glm::vec3 a = lower_left - eye;
     const float distance = -glm::dot(a, normal);
     const float left = glm::dot(a, right) / distance, bottom = glm::dot(a, up) / distance;
-    const float width = glm::length(inset_rectangle - lower_left) / distance,
+    const float width = glm::length(lower_right - lower_left) / distance,
                 height = glm::length(upper_left - lower_left) / distance;
-    const glm::mat4 turn = glm::transpose(
+    const glm::mat4 rotation = glm::transpose(
         glm::mat4(glm::vec4(right, 0), glm::vec4(up, 0), glm::vec4(normal, 0), glm::vec4(0, 0, 0, 1)));
-    return {eye, frustum(left, left + width, bottom, bottom + height, znear, zfar) * turn *
+    return {eye, frustum(left, left + width, bottom, bottom + height, znear, zfar) * rotation *
                      glm::translate(glm::mat4(1.0F), -eye)};
 }
 
@@ -64,14 +65,15 @@ glm::vec3 framing_eye(const BoundingBox& box, const glm::vec3& side, const Persp
         const glm::vec3 point((corner & 1) != 0 ? box.high.x : box.low.x,
                               (corner & 2) != 0 ? box.high.y : box.low.y,
                               (corner & 4) != 0 ? box.high.z : box.low.z);
-        const glm::vec3 seen =
+        const glm::vec3 in_view =
             glm::vec3(view * glm::vec4(point, 1.0F)) + glm::vec3(0, 0, 1);  // relative to the middle
-        distance = std::max({distance, std::abs(seen.x) / tan_x + seen.z, std::abs(seen.y) / tan_y + seen.z});
+        distance = std::max(
+            {distance, std::abs(in_view.x) / tan_x + in_view.z, std::abs(in_view.y) / tan_y + in_view.z});
     }
     return middle + back * (1.04F * distance);
 }
 
-bool in_sight(const BoundingBox& box, const glm::mat4& clip_from_world) {
+bool may_be_visible(const BoundingBox& box, const glm::mat4& clip_from_world) {
     glm::vec4 corners[8];
     for (int i = 0; i < 8; ++i)
         corners[i] = clip_from_world * glm::vec4((i & 1) != 0 ? box.high.x : box.low.x,
@@ -89,8 +91,8 @@ bool in_sight(const BoundingBox& box, const glm::mat4& clip_from_world) {
 }
 
 glm::mat4 shadow_view(const BoundingBox& box, const glm::vec3& direction) {
-    const glm::mat4 turn = look_at(glm::vec3(0.0F), glm::normalize(direction));
-    const BoundingBox extent = transformed(box, turn);  // the view looks along -Z
+    const glm::mat4 rotation = look_at(glm::vec3(0.0F), glm::normalize(direction));
+    const BoundingBox extent = transformed(box, rotation);  // the view looks along -Z
     const glm::vec3 size = glm::max(extent.high - extent.low, glm::vec3(1e-6F));
     const glm::vec3 margin(0.01F);
     glm::mat4 fit(1.0F);
@@ -99,7 +101,7 @@ glm::mat4 shadow_view(const BoundingBox& box, const glm::vec3& direction) {
     fit[2][2] = -1.0F / (size.z * (1.0F + 2.0F * margin.z));
     const glm::vec3 middle = 0.5F * (extent.low + extent.high);
     fit[3] = glm::vec4(-fit[0][0] * middle.x, -fit[1][1] * middle.y, 0.5F - fit[2][2] * middle.z, 1.0F);
-    return fit * turn;
+    return fit * rotation;
 }
 
 }  // namespace bolt::render

@@ -1,5 +1,5 @@
-// Projections with reversed depth: 1 at the near plane, 0 at the far plane (more even precision; N. Reed,
-// Depth Precision Visualized, 2015). Clip space has y down, as in Vulkan.
+// Views and projections. Depth is reversed: 1 at the near plane, 0 at the far plane, which makes the
+// precision more even (N. Reed, Depth Precision Visualized, 2015). Clip space has y down, as in Vulkan.
 #pragma once
 
 #include "engine/render/scene.hpp"
@@ -19,20 +19,20 @@ glm::mat4 look_at(const glm::vec3& eye, const glm::vec3& target);
 
 Eye make_eye(const glm::vec3& eye, const glm::vec3& target, const Perspective& p);
 
-// The off-axis view from `eye` through a wall, screen or panel: the projection through a rectangle in the
-// world, given by three of its corners (R. Kooima, Generalized Perspective Projection, 2008). Pictures on
-// walls that share an edge meet without a seam.
-Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::vec3& inset_rectangle,
+// Returns the off-axis view from `eye` through a wall, screen or panel: the projection through a rectangle in
+// the world, given by three of its corners (R. Kooima, Generalized Perspective Projection, 2008). Pictures on
+// walls that share an edge join without a seam.
+Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::vec3& lower_right,
                   const glm::vec3& upper_left, float znear, float zfar);
 
 // Returns the eye position from which the box fills the picture. `side` points from the box towards the eye.
 glm::vec3 framing_eye(const BoundingBox& box, const glm::vec3& side, const Perspective& p);
 
-// Returns whether a box may be visible; conservative: never false for a visible box.
-bool in_sight(const BoundingBox& box, const glm::mat4& clip_from_world);
+// Returns false if the box is certainly outside the view; may return true for an invisible box.
+bool may_be_visible(const BoundingBox& box, const glm::mat4& clip_from_world);
 
-// The view of a directional light's shadow map: an orthographic view along `direction` that contains the box,
-// with depth 0 nearest the light and 1 farthest.
+// Returns the view of a directional light's shadow map: an orthographic view along `direction` that contains
+// the box. Its depth is not reversed: 0 nearest the light, 1 farthest.
 glm::mat4 shadow_view(const BoundingBox& box, const glm::vec3& direction);
 
 }  // namespace bolt::render

@@ -12,6 +12,7 @@ namespace bolt::render {
 
 namespace {
 
+// A part of an object that is drawn.
 struct Item {
     PipelineKind kind;
     const Object* object = nullptr;
@@ -22,7 +23,7 @@ struct Item {
 };
 
 // Features whose values vary over a part, unlike the material's constants.
-constexpr std::uint32_t own_values =
+constexpr std::uint32_t varying_features =
     SCENE_BASE_MAP | SCENE_METALLIC_ROUGHNESS_MAP | SCENE_OCCLUSION_MAP | SCENE_VERTEX_COLORS | SCENE_MARKED;
 
 PipelineKind kind_of(const Object& object, const MeshPart& part) {
@@ -38,15 +39,15 @@ PipelineKind kind_of(const Object& object, const MeshPart& part) {
     if (part.tangents) kind.features |= SCENE_TANGENTS;
     if (object.flat || object.tint.w > 0.0F || object.opacity < 1.0F) kind.features |= SCENE_MARKED;
     const std::uint32_t f = kind.features;
-    const bool two_normals = (f & SCENE_COAT) != 0 && (f & SCENE_NORMAL_MAP) != 0;
-    kind.forward =
-        kind.blends || object.flat || two_normals || (f & (SCENE_EMISSIVE_MAP | SCENE_FORWARD_MAPS)) != 0;
-    if (!kind.forward && (f & own_values) != 0) kind.features |= SCENE_WIDE;
+    const bool coat_has_own_normal = (f & SCENE_COAT) != 0 && (f & SCENE_NORMAL_MAP) != 0;
+    kind.forward = kind.blends || object.flat || coat_has_own_normal ||
+                   (f & (SCENE_EMISSIVE_MAP | SCENE_FORWARD_MAPS)) != 0;
+    if (!kind.forward && (f & varying_features) != 0) kind.features |= SCENE_WIDE;
     return kind;
 }
 
-// Returns the largest number of pixels per metre in any picture: at the box corner nearest to an eye.
-float pixels_a_metre(const BoundingBox& box, std::span<const Eye> eyes, float height_px) {
+// Returns the largest number of pixels per metre, at the box corner nearest to an eye, in any picture.
+float pixels_per_metre(const BoundingBox& box, std::span<const Eye> eyes, float height_px) {
     float most = 0.0F;
     for (const Eye& eye : eyes) {
         const glm::mat4& m = eye.clip_from_world;
@@ -67,33 +68,34 @@ std::uint32_t level_of(const MeshPart& part, const BoundingBox& box, float scale
                        const DetailLimits& detail) {
     if (part.levels.size() < 2) return 0;
     const float allowed =
-        eyes.empty() ? detail.allowed_m : detail.allowed_px / pixels_a_metre(box, eyes, detail.height_px);
+        eyes.empty() ? detail.allowed_m : detail.allowed_px / pixels_per_metre(box, eyes, detail.height_px);
     std::uint32_t level = 0;
     while (level + 1 < part.levels.size() && part.levels[level + 1].error * scale < allowed) ++level;
     return level;
 }
 
-// Returns whether a box may reach into the cone between an eye and the cut-away's focus; conservative: never
-// false for a box that does.
-bool hides(const BoundingBox& box, const CutAway& cut, std::span<const Eye> eyes) {
+// Returns false if a box is certainly outside the cones from the eyes to the cut-away's focus.
+bool may_hide_focus(const BoundingBox& box, const CutAway& cut, std::span<const Eye> eyes) {
     const glm::vec3 middle = 0.5F * (box.low + box.high);
     const float reach = 0.5F * glm::distance(box.low, box.high);
     return std::any_of(eyes.begin(), eyes.end(), [&](const Eye& eye) {
-        const glm::vec3 way = cut.focus - eye.position;
-        const float length = glm::length(way);
+        const glm::vec3 to_focus = cut.focus - eye.position;
+        const float length = glm::length(to_focus);
         if (length <= 0.0F) return false;
-        const float along = glm::dot(middle - eye.position, way) / length;
-        const float off = glm::length(middle - eye.position - way * (along / length));
-        return along - reach < length && along + reach > 0.0F && off - reach < cut.radius;
+        const float along = glm::dot(middle - eye.position, to_focus) / length;
+        const float distance_to_axis = glm::length(middle - eye.position - to_focus * (along / length));
+        return along - reach < length && along + reach > 0.0F && distance_to_axis - reach < cut.radius;
     });
 }
 
-bool seen(const BoundingBox& box, std::span<const Eye> eyes) {
-    return eyes.empty() || std::any_of(eyes.begin(), eyes.end(),
-                                       [&](const Eye& eye) { return in_sight(box, eye.clip_from_world); });
+bool may_be_visible(const BoundingBox& box, std::span<const Eye> eyes) {
+    return eyes.empty() || std::any_of(eyes.begin(), eyes.end(), [&](const Eye& eye) {
+               return may_be_visible(box, eye.clip_from_world);
+           });
 }
 
-bool before(const Item& a, const Item& b) {
+// The order of drawing.
+bool is_drawn_before(const Item& a, const Item& b) {
     if (a.kind.blends != b.kind.blends) return b.kind.blends;
     if (a.kind.forward != b.kind.forward) return b.kind.forward;
     if (a.kind.blends && a.distance != b.distance) return a.distance > b.distance;
@@ -127,14 +129,15 @@ std::uint32_t features_of(const Scene& scene) {
 DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const DetailLimits& detail,
                         const DeformedParts& deformed) {
     DrawList list;
-    std::map<const GpuModel*, std::pair<std::uint32_t, std::uint32_t>> models;  // → order, first material
+    // By model: its order of first use, and the index of its first material.
+    std::map<const GpuModel*, std::pair<std::uint32_t, std::uint32_t>> models;
     const std::uint32_t scene_features = features_of(scene);
     std::vector<Item> items;
     for (const Object& object : scene.objects) {
-        const auto [known, fresh] =
+        const auto [known, is_new] =
             models.try_emplace(object.model, static_cast<std::uint32_t>(models.size()),
                                static_cast<std::uint32_t>(list.materials.size()));
-        if (fresh)
+        if (is_new)
             list.materials.insert(list.materials.end(), object.model->materials.begin(),
                                   object.model->materials.end());
         const Deformation* deformation = object.deformation.get();
@@ -144,7 +147,7 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
             const MeshPart& part = object.model->parts[i];
             const BoundingBox box = bounds(object, part);
-            if (!seen(box, eyes)) continue;
+            if (!may_be_visible(box, eyes)) continue;
             const float distance =
                 eyes.empty() ? 0.0F : glm::distance(0.5F * (box.low + box.high), eyes.front().position);
             PipelineKind kind = kind_of(object, part);
@@ -157,8 +160,8 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
                       distance,
                       object.outline.w > 0.0F};
             if (item.outlined) list.outlined.push_back(box);
-            if (object.cut && scene.cut_away.strength > 0.0F && hides(box, scene.cut_away, eyes)) {
-                // The remaining region is drawn as an opaque surface, the fading region is blended.
+            if (object.cut && scene.cut_away.strength > 0.0F && may_hide_focus(box, scene.cut_away, eyes)) {
+                // The opaque region is drawn as a surface, the fading region is blended.
                 item.kind.features |= SCENE_CUT;
                 if (!kind.forward) {
                     items.push_back(item);
@@ -174,17 +177,17 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
             if (kind.forward) list.forward.push_back(box);
         }
     }
-    std::stable_sort(items.begin(), items.end(), before);
+    std::stable_sort(items.begin(), items.end(), is_drawn_before);
     for (const Item& item : items) {
         const MeshPart& part = item.object->model->parts[item.part];
-        const auto bent = deformed.find({item.object->deformation.get(), &part});
-        const DeformedPart vertices = bent != deformed.end() ? bent->second : DeformedPart{};
-        const bool joins = !list.draws.empty() && list.draws.back().kind == item.kind &&
-                           list.draws.back().model == item.object->model &&
-                           list.draws.back().part == item.part && list.draws.back().level == item.level &&
-                           list.draws.back().outlined == item.outlined &&
-                           list.draws.back().deformed == vertices;
-        if (!joins)
+        const auto found = deformed.find({item.object->deformation.get(), &part});
+        const DeformedPart vertices = found != deformed.end() ? found->second : DeformedPart{};
+        const bool is_same_draw =
+            !list.draws.empty() && list.draws.back().kind == item.kind &&
+            list.draws.back().model == item.object->model && list.draws.back().part == item.part &&
+            list.draws.back().level == item.level && list.draws.back().outlined == item.outlined &&
+            list.draws.back().deformed == vertices;
+        if (!is_same_draw)
             list.draws.push_back({item.kind, item.object->model, item.part, item.level,
                                   models.at(item.object->model).second + part.material, item.outlined,
                                   static_cast<std::uint32_t>(list.instances.size()), 0, vertices});

@@ -8,13 +8,13 @@
 
 namespace bolt::render {
 
-// Selects the pipeline of a part. Shaders are specialized for exactly these features: one shader with flags
-// for all features took 1.5 times as long on lavapipe.
+// Determines the pipeline of a part. Shaders are specialized for exactly these features, because one shader
+// with flags for all features took 1.5 times as long on lavapipe.
 struct PipelineKind {
     bool blends = false;
-    bool forward =
-        false;  // shaded while drawn: blended, or with properties that the geometry buffer cannot store
-    bool ghost = false;  // blended, and hides its own back layers
+    // Shaded while drawn: blended, or with properties that the geometry buffer cannot store.
+    bool forward = false;
+    bool ghost = false;  // blended, and only its nearest layer is visible
     bool double_sided = false;
     std::uint32_t features = 0;  // SCENE_… bits
     friend auto operator<=>(const PipelineKind&, const PipelineKind&) = default;
@@ -22,12 +22,13 @@ struct PipelineKind {
 
 // The location of a part's deformed vertices, in the vertex order of the model.
 struct DeformedPart {
-    VkBuffer buffer = VK_NULL_HANDLE;  // null: the part is not deformed
-    VkDeviceSize positions = 0, attributes = 0;
+    VkBuffer buffer = VK_NULL_HANDLE;            // null: the part is not deformed
+    VkDeviceSize positions = 0, attributes = 0;  // offsets in bytes
     friend bool operator==(const DeformedPart&, const DeformedPart&) = default;
 };
 using DeformedParts = std::map<std::pair<const Deformation*, const MeshPart*>, DeformedPart>;
 
+// One draw call: the instances of a part at one level of detail.
 struct Draw {
     PipelineKind kind;
     const GpuModel* model = nullptr;
@@ -48,21 +49,21 @@ struct DrawList {
     std::uint64_t triangles = 0;
 };
 
-// Limits of the error of levels of detail: the coarsest level within the limit is drawn.
+// Limits for the error of levels of detail: the coarsest level within the limit is drawn.
 struct DetailLimits {
     float height_px = 0.0F;   // height of the picture
     float allowed_px = 0.0F;  // error on the screen, for the nearest eye
     float allowed_m = 0.0F;   // limit without eyes
 };
 
-// Objects fade inside a cone between the eye and the cut-away's focus. Returns the box of the cone's end, the
-// only part of it that the eye sees.
+// Objects fade inside a cone from the eye to the cut-away's focus. Returns the box of the cone's end; in the
+// picture it covers the whole cone.
 BoundingBox cone_end(const CutAway& cut);
 
-// SCENE_… bits of the scene's lighting, the same for every part.
+// Returns the SCENE_… bits of the scene's lighting, which are the same for every part.
 std::uint32_t features_of(const Scene& scene);
 
-// Collects everything that any of the eyes may see; without eyes, everything (for the shadow map). Parts that
+// Collects all parts that any of the eyes may see; without eyes, all parts (for the shadow map). Parts that
 // are not in `deformed` are drawn undeformed.
 DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const DetailLimits& detail,
                         const DeformedParts& deformed = {});

@@ -40,8 +40,8 @@ VertexAttributes attributes_of(const assets::Primitive& p, std::uint32_t i, cons
     return a;
 }
 
-// Brushed metal needs a direction along the surface; for normal maps the shader derives one.
-bool wants_tangents(const assets::Primitive& p, const assets::Material& material, std::size_t set) {
+// Brushed metal needs a direction along the surface. For normal maps the shader derives one itself.
+bool needs_tangents(const assets::Primitive& p, const assets::Material& material, std::size_t set) {
     return p.tangents.empty() && material.anisotropy > 0.0F && !p.texcoords[set].empty();
 }
 
@@ -62,7 +62,7 @@ std::vector<glm::vec4> make_tangents(const assets::Primitive& p, std::size_t set
         const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
         const glm::vec2 u = uv[b] - uv[a], v = uv[c] - uv[a];
         const glm::vec3 x = p.positions[b] - p.positions[a], y = p.positions[c] - p.positions[a];
-        // Divide only by the sign of the triangle's texture area, so that large triangles have more weight.
+        // Divides only by the sign of the triangle's texture area, so that large triangles have more weight.
         const float side = u.x * v.y - u.y * v.x < 0.0F ? -1.0F : 1.0F;
         for (const std::uint32_t corner : {a, b, c}) {
             along[corner] += side * (x * v.y - y * u.y);
@@ -84,9 +84,9 @@ Vertices make_vertices(const assets::Primitive& p, const assets::Material& mater
     Vertices v;
     const std::vector<std::uint32_t> triangles = assets::triangle_indices(p);
     const auto uv_set = static_cast<std::size_t>(material.normal_texture.texcoord & 1);
-    const std::vector<glm::vec4> made =
-        wants_tangents(p, material, uv_set) ? make_tangents(p, uv_set) : std::vector<glm::vec4>();
-    const std::vector<glm::vec4>& tangents = p.tangents.empty() ? made : p.tangents;
+    const std::vector<glm::vec4> created =
+        needs_tangents(p, material, uv_set) ? make_tangents(p, uv_set) : std::vector<glm::vec4>();
+    const std::vector<glm::vec4>& tangents = p.tangents.empty() ? created : p.tangents;
     v.tangents = !tangents.empty();
     if (!p.normals.empty()) {
         v.positions = p.positions;
@@ -120,7 +120,8 @@ Vertices make_vertices(const assets::Primitive& p, const assets::Material& mater
 
 namespace {
 
-// In the order of shared::Material::uv. The first five have one feature bit each, from SCENE_BASE_MAP on.
+// Returns the references in the order of shared::Material::uv. The first five have one feature bit each, from
+// SCENE_BASE_MAP on.
 std::array<const assets::TextureRef*, 11> references(const assets::Material& m) {
     return {&m.base_color_texture,
             &m.metallic_roughness_texture,
@@ -236,7 +237,7 @@ MaterialMaps maps_of(const assets::Material& m) {
 }
 
 Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const assets::Model& model) {
-    // A texture holds colours if at least one material uses it as a colour map.
+    // A texture is converted from sRGB if at least one material uses it as a colour map.
     std::vector<bool> color(model.textures.size(), false);
     for (const assets::Material& material : model.materials)
         for (const assets::TextureRef* ref :

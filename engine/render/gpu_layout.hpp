@@ -1,4 +1,4 @@
-// Converts a primitive's vertices to the GPU's layout.
+// Converts vertices, materials and textures to the layout that the shaders read.
 #pragma once
 
 #include "engine/render/gpu_model.hpp"
@@ -13,25 +13,23 @@ struct Vertices {
     bool tangents = false;
 };
 
-// Converts any topology to triangles. Without normals, every triangle gets vertices of its own. `material`
-// decides whether missing tangents are generated.
+// Converts a primitive of any topology to triangles. Without normals, every triangle gets vertices of its
+// own. `material` determines whether missing tangents are generated.
 Vertices make_vertices(const assets::Primitive& primitive, const assets::Material& material);
 
 // Appends a copy of vertex `of` with another normal.
 void copy_with_normal(Vertices& vertices, std::uint32_t of, const glm::vec3& normal);
 
-// The direction of increasing u at every vertex; w: handedness (glTF 2.0, 3.7.2.1: the bitangent is the cross
-// product of normal and tangent, times w).
+// Returns the direction of increasing u at every vertex; w: handedness (glTF 2.0, 3.7.2.1: the bitangent is
+// the cross product of normal and tangent, times w).
 std::vector<glm::vec4> make_tangents(const assets::Primitive& primitive, std::size_t texcoord_set);
 
-// Converts materials and textures to the shaders' layout.
-
 shared::Material make_material(const assets::Material& material);
-// SCENE_… bits that the material needs.
+// Returns the SCENE_… bits that the material needs.
 std::uint32_t features_of(const assets::Material& material);
 MaterialMaps maps_of(const assets::Material& material);
 
-// Uploads all textures of the materials with mips; colours as sRGB, other maps as linear values.
+// Uploads all textures of the model with mips. Colours are sRGB, other maps are linear values.
 Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const assets::Model& model);
 
 // Creates a texture of one texel.

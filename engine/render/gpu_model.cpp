@@ -1,4 +1,3 @@
-// Asserts that C++ lays the shared structures out like the shader compilers.
 #include "engine/render/gpu_model.hpp"
 
 #include <algorithm>
@@ -13,6 +12,7 @@
 #include "engine/render/gpu_layout.hpp"
 #include "shaders/shared.h"
 
+// Asserts that C++ and the shader compilers use the same layout of the shared structures.
 namespace bolt::render::shared {
 
 static_assert(sizeof(View) == 144 && offsetof(View, eye) == 128);
@@ -41,8 +41,8 @@ BoundingBox transformed(const BoundingBox& box, const glm::mat4& transform) {
 
 namespace {
 
-// The weights of a vertex sum to one, so its position is a mean of the positions that its joints alone would
-// give. The union of the joints' boxes therefore contains all vertices.
+// Adds the box of each joint. The weights of a vertex sum to one, so its position is a mean of the positions
+// that each of its joints alone would give. So the union of the moved boxes contains all vertices.
 void add_joint_boxes(const assets::Primitive& p, std::span<const std::uint32_t> sources,
                      std::span<const Influences> influences, Deformable& part) {
     for (std::size_t i = 0; i < influences.size(); ++i)
@@ -79,20 +79,20 @@ void add_targets(const assets::Primitive& p, std::span<const std::uint32_t> sour
 }  // namespace
 
 Influences make_influences(const glm::u16vec4& joints, const glm::vec4& weights) {
-    std::array<float, 4> share{};
-    for (int i = 0; i < 4; ++i) share[static_cast<std::size_t>(i)] = std::max(weights[i], 0.0F);
-    float sum = std::accumulate(share.begin(), share.end(), 0.0F);
-    if (!(sum > 0.0F)) share[0] = sum = 1.0F;  // the vertex follows its first joint
+    std::array<float, 4> weight{};
+    for (int i = 0; i < 4; ++i) weight[static_cast<std::size_t>(i)] = std::max(weights[i], 0.0F);
+    float sum = std::accumulate(weight.begin(), weight.end(), 0.0F);
+    if (!(sum > 0.0F)) weight[0] = sum = 1.0F;  // the vertex follows its first joint
     Influences to{};
-    int left = 65535;
+    int remainder = 65535;
     for (std::size_t i = 0; i < 4; ++i) {
-        const int part = std::min(left, static_cast<int>(std::lround(share[i] / sum * 65535.0F)));
+        const int rounded = std::min(remainder, static_cast<int>(std::lround(weight[i] / sum * 65535.0F)));
         to.joints[i] = joints[static_cast<int>(i)];
-        to.weights[i] = static_cast<std::uint16_t>(part);
-        left -= part;
+        to.weights[i] = static_cast<std::uint16_t>(rounded);
+        remainder -= rounded;
     }
     // Add the rounding remainder to the largest weight.
-    *std::max_element(std::begin(to.weights), std::end(to.weights)) += static_cast<std::uint16_t>(left);
+    *std::max_element(std::begin(to.weights), std::end(to.weights)) += static_cast<std::uint16_t>(remainder);
     return to;
 }
 
@@ -148,7 +148,7 @@ bool mirrors(const Deformation* deformation) {
 
 namespace {
 
-// All parts in sequence, as in the GPU buffers.
+// The contents of the GPU buffers: all parts in sequence.
 struct Streams {
     Vertices vertices;
     std::vector<glm::vec2> second_uv;
@@ -161,21 +161,22 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
     to.insert(to.end(), more.begin(), more.end());
 }
 
-bool looks_at_second_uv(const assets::Model& model) {
+bool uses_second_uv(const assets::Model& model) {
     return std::any_of(model.materials.begin(), model.materials.end(), [](const assets::Material& material) {
         return (features_of(material) & SCENE_SECOND_UV) != 0;
     });
 }
 
-// Generates coarser levels of a part; vertices that they add are appended to it.
+// Generates coarser levels of a part. Vertices that they add are appended to `vertices`.
 std::vector<assets::LevelOfDetail> add_levels(const assets::Primitive& primitive, std::uint32_t features,
                                               Vertices& vertices) {
-    const bool bends = !primitive.targets.empty() || !primitive.joints.empty();
+    const bool deformable = !primitive.targets.empty() || !primitive.joints.empty();
     assets::LevelOptions options;
-    options.weld = !bends && primitive.colors.empty() && (features & SCENE_ANY_MAP) == 0;
+    options.weld = !deformable && primitive.colors.empty() && (features & SCENE_ANY_MAP) == 0;
     std::vector<glm::vec3> normals;
-    // Deformable triangles without normals keep their order in the buffer.
-    if (!bends || !primitive.normals.empty())
+    // For a deformable part without normals, deform.comp computes face normals from every three vertices. So
+    // no vertices may be added; without normals, coarser_levels adds none.
+    if (!deformable || !primitive.normals.empty())
         for (const VertexAttributes& a : vertices.attributes)
             normals.push_back(glm::vec3(a.normal[0], a.normal[1], a.normal[2]) / 32767.0F);
     std::vector<assets::LevelOfDetail> levels =
@@ -209,7 +210,7 @@ MeshPart add_part(const assets::Model& model, const assets::Primitive& primitive
     part.colors = !primitive.colors.empty();
     part.tangents = vertices.tangents;
     for (const glm::vec3& position : vertices.positions) part.box.add(position);
-    part.bends = make_deformable(primitive, vertices.sources, all.deform);
+    part.deformable = make_deformable(primitive, vertices.sources, all.deform);
     append(all.vertices.positions, vertices.positions);
     append(all.vertices.attributes, vertices.attributes);
     if (!all.has_second_uv) return part;
@@ -245,7 +246,7 @@ Status upload_streams(gpu::Device& device, const Streams& all, GpuModel& to) {
 Result<GpuModel> upload_model(gpu::Device& device, const assets::Model& model, const UploadOptions& options) {
     GpuModel gpu_model;
     Streams all;
-    all.has_second_uv = looks_at_second_uv(model);
+    all.has_second_uv = uses_second_uv(model);
     const assets::Material plain;
     for (const assets::Mesh& mesh : model.meshes) {
         MeshRange range{static_cast<std::uint32_t>(gpu_model.parts.size()), 0};

@@ -1,4 +1,4 @@
-// Axis-aligned bounding boxes.
+// Models in GPU memory, with the bounds and the deformation data of their parts.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +15,7 @@
 
 namespace bolt::render {
 
+// Axis-aligned.
 struct BoundingBox {
     glm::vec3 low{1e30F}, high{-1e30F};
 
@@ -28,10 +29,8 @@ struct BoundingBox {
 // Returns the axis-aligned bounding box of a transformed box.
 BoundingBox transformed(const BoundingBox& box, const glm::mat4& transform);
 
-// Skinning and morphing: the joints and weights of an object, and the vertex data of a deformable part. The
-// GPU evaluates them in passes/deform.hpp.
-
-// The pose of one object, created anew for every pose.
+// The joints and weights of one object in one pose. passes/geometry.hpp (DeformPass) applies them on the GPU.
+// Create a new one for every pose.
 struct Deformation {
     std::vector<glm::mat4> joints;  // from the mesh in its bind pose to the object's frame; empty: no skin
     std::vector<float> weights;     // morph target weights, in order; missing ones are 0
@@ -40,8 +39,9 @@ struct Deformation {
 // Four joints of a vertex and their weights.
 struct Influences {
     std::uint16_t joints[4];
-    std::uint16_t
-        weights[4];  // unorm; the sum is exactly 65535: joints with one motion move the vertex by just that
+    // unorm. The sum is exactly 65535, so that joints with equal motions move the vertex by exactly that
+    // motion.
+    std::uint16_t weights[4];
 };
 static_assert(sizeof(Influences) == 16);
 
@@ -52,8 +52,8 @@ struct Deformable {
     std::uint32_t first_delta = 0;      // index into the model's deltas, in floats; target by target
     std::uint32_t delta_floats = 0;     // per vertex: 3 position, 6 with normal, 9 with tangent
     bool own_normals = true;            // false: flat normals of triangles without shared vertices
-    std::vector<BoundingBox> joints;    // bind pose, what each joint moves; boxes may be empty
-    std::vector<BoundingBox> targets;   // displacement of each target at weight 1
+    std::vector<BoundingBox> joints;    // bind pose: the vertices that each joint moves; boxes may be empty
+    std::vector<BoundingBox> targets;   // the displacements by each morph target at weight 1
 };
 
 // The deformation data of all parts of a model, as uploaded to the GPU.
@@ -62,21 +62,21 @@ struct DeformData {
     std::vector<float> deltas;
 };
 
+// Rounds weights to integers with the exact sum. A vertex without weights follows its first joint.
 Influences make_influences(const glm::u16vec4& joints, const glm::vec4& weights);
 
-// `sources`: for each drawn vertex, the vertex of the primitive that it was made from.
+// Appends the data of a primitive to `data`. `sources`: for each drawn vertex, the vertex of the primitive
+// that it was made from.
 Deformable make_deformable(const assets::Primitive& primitive, std::span<const std::uint32_t> sources,
                            DeformData& data);
 
-// Returns a box that contains the part in every pose, in the object's frame. `rest`: its box without
+// Returns a box that contains the part in this pose, in the object's frame. `rest`: its box without
 // deformation.
 BoundingBox bounds(const BoundingBox& rest, const Deformable& part, const Deformation* deformation);
 
-// The largest scale of the joints, and whether they mirror the part.
+// Return the largest scale of the joints, and whether the joints mirror the part.
 float scale_of(const Deformation* deformation);
 bool mirrors(const Deformation* deformation);
-
-// A model in GPU memory: all meshes in shared buffers, materials in the shader's layout, and textures.
 
 // The triangles of a part at one level of detail.
 struct LevelRange {
@@ -92,7 +92,7 @@ struct MeshPart {
     bool colors = false;         // has vertex colours
     bool tangents = false;
     BoundingBox box;  // in the mesh's frame, m
-    Deformable bends;
+    Deformable deformable;
 };
 
 struct MeshRange {
@@ -101,8 +101,8 @@ struct MeshRange {
 
 // The textures of a material's maps; -1: none. The order is that of shared::Material::uv.
 struct MaterialMaps {
-    std::array<int, 11> textures{-1, -1, -1, -1, -1, -1,
-                                 -1, -1, -1, -1, -1};  // index into the model's textures
+    // Indices into the model's textures.
+    std::array<int, 11> textures{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
     bool blends = false, double_sided = false;
 };
 
@@ -111,6 +111,7 @@ struct GpuTexture {
     gpu::Sampler sampler;
 };
 
+// A model in GPU memory: all meshes in shared buffers, materials in the shaders' layout, and textures.
 struct GpuModel {
     gpu::Buffer positions;   // vec3 float
     gpu::Buffer attributes;  // VertexAttributes
@@ -127,7 +128,7 @@ struct GpuModel {
     std::uint64_t triangles = 0;
 };
 
-// The attributes of a vertex beside its position (12 bytes).
+// The attributes of a vertex apart from its position.
 struct VertexAttributes {
     std::int16_t normal[4];   // snorm
     std::int16_t tangent[4];  // snorm; w: handedness; zero: no tangent

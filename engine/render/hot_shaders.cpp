@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* compiler = "glslangValidator";
-constexpr std::size_t largest_file = std::size_t{64} << 20;
+constexpr std::size_t max_file_size = std::size_t{64} << 20;
 
 // Parses the file names after the colon of a make rule; a backslash escapes a space in a name.
 std::set<fs::path> files_of_rule(const std::string& rule) {
@@ -42,78 +42,79 @@ std::set<fs::path> files_of_rule(const std::string& rule) {
 
 }  // namespace
 
-Result<gpu::Shader> load_shader(const std::string& name, const ShaderCode& instead) {
+Result<gpu::Shader> load_shader(const std::string& name, const ShaderCode& replacements) {
     Result<gpu::Shader> built_in = gpu::make_shader(name, scene_shaders(name));
-    const auto given = instead.find(name);
-    if (!built_in || given == instead.end()) return built_in;
-    BOLT_TRY_ASSIGN(auto shader, gpu::make_shader(name, given->second));
+    const auto replacement = replacements.find(name);
+    if (!built_in || replacement == replacements.end()) return built_in;
+    BOLT_TRY_ASSIGN(auto shader, gpu::make_shader(name, replacement->second));
     std::vector<gpu::Binding>& bindings = shader.reflection.bindings;
-    for (const gpu::Binding& usual : built_in->reflection.bindings) {
-        const bool used = std::any_of(bindings.begin(), bindings.end(), [&](const gpu::Binding& binding) {
-            return binding.set == usual.set && binding.binding == usual.binding;
+    for (const gpu::Binding& built_in_binding : built_in->reflection.bindings) {
+        const bool declared = std::any_of(bindings.begin(), bindings.end(), [&](const gpu::Binding& binding) {
+            return binding.set == built_in_binding.set && binding.binding == built_in_binding.binding;
         });
-        if (!used) bindings.push_back(usual);
+        if (!declared) bindings.push_back(built_in_binding);
     }
     return shader;
 }
 
-Result<HotShaders> HotShaders::open(const fs::path& given) {
+Result<HotShaders> HotShaders::open(const fs::path& path) {
     std::error_code problem;
-    const fs::path folder = fs::canonical(given, problem);
+    const fs::path folder = fs::canonical(path, problem);
     if (problem || !fs::is_directory(folder))
-        return fail(ErrorCode::usage, fmt::format("{} does not exist", given.string()),
-                    "expected a folder with shaders");
+        return fail(ErrorCode::usage, fmt::format("{} does not exist", path.string()),
+                    "a folder with shaders");
     if (folder.filename() != "shaders")
-        return fail(ErrorCode::usage, fmt::format("{} is not named \"shaders\"", given.string()),
-                    "expected a folder with that name, by which the files include each other");
+        return fail(ErrorCode::usage, fmt::format("{} is not named \"shaders\"", path.string()),
+                    "a folder with that name, because the files include each other by it");
     HotShaders hot;
     hot.folder_ = folder;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, problem)) {
         std::string name = entry.path().filename().string();
-        if (!scene_shaders(name).empty()) hot.waiting_.insert(std::move(name));
+        if (!scene_shaders(name).empty()) hot.pending_.insert(std::move(name));
     }
-    if (hot.waiting_.empty())
+    if (hot.pending_.empty())
         return fail(ErrorCode::usage,
-                    fmt::format("{} contains none of the renderer's shaders", given.string()),
-                    "expected scene.vert, scene.frag and the others");
+                    fmt::format("{} contains none of the renderer's shaders", path.string()),
+                    "scene.vert, scene.frag and the others");
     if (const auto found = run_program({compiler, "--version"}, Capture::output_and_errors); !found)
-        return fail(ErrorCode::failed, found.error().what, "expected the package glslang-tools");
+        return fail(ErrorCode::failed, found.error().what, "the package glslang-tools");
     std::string pattern = (fs::temp_directory_path() / "boltwright-shaders-XXXXXX").string();
     if (::mkdtemp(pattern.data()) == nullptr)
-        return fail(ErrorCode::failed, fmt::format("the compiler's folder cannot be created: {}", pattern));
-    hot.work_ = pattern;
+        return fail(ErrorCode::failed,
+                    fmt::format("the folder for the compiler's output cannot be created: {}", pattern));
+    hot.output_folder_ = pattern;
     hot.watch();
     return hot;
 }
 
 HotShaders& HotShaders::operator=(HotShaders&& other) noexcept {
     std::swap(folder_, other.folder_);
-    std::swap(work_, other.work_);
+    std::swap(output_folder_, other.output_folder_);
     std::swap(code_, other.code_);
-    std::swap(read_, other.read_);
-    std::swap(waiting_, other.waiting_);
+    std::swap(sources_, other.sources_);
+    std::swap(pending_, other.pending_);
     std::swap(watch_, other.watch_);
     return *this;
 }
 
 HotShaders::~HotShaders() {
     std::error_code ignored;
-    if (!work_.empty()) fs::remove_all(work_, ignored);
+    if (!output_folder_.empty()) fs::remove_all(output_folder_, ignored);
 }
 
-// Watches the folder, and included files outside of it.
+// Watches the files of the folder, and included files outside of it.
 void HotShaders::watch() {
     std::vector<fs::path> files;
     std::error_code problem;
     for (auto entry = fs::directory_iterator(folder_, problem); !problem && entry != fs::directory_iterator();
          entry.increment(problem))
         files.push_back(entry->path());
-    for (const auto& [name, read] : read_) files.insert(files.end(), read.begin(), read.end());
+    for (const auto& [name, sources] : sources_) files.insert(files.end(), sources.begin(), sources.end());
     watch_.watch(std::move(files));
 }
 
 Status HotShaders::compile(const std::string& name) {
-    const fs::path spirv = work_ / (name + ".spv"), rule = work_ / (name + ".d");
+    const fs::path spirv = output_folder_ / (name + ".spv"), rule = output_folder_ / (name + ".d");
     std::vector<std::string> command{compiler};
     std::istringstream flags(BOLT_GLSL_FLAGS);  // the same flags as in the build
     for (std::string flag; flags >> flag;) command.push_back(flag);
@@ -123,40 +124,40 @@ Status HotShaders::compile(const std::string& name) {
         command.push_back(word);
     BOLT_TRY_ASSIGN(const auto run, run_program(command, Capture::output_and_errors));
     if (run.exit_code != 0) return fail(ErrorCode::bad_content, run.output);
-    BOLT_TRY_ASSIGN(const auto bytes, read_file(spirv, largest_file, ErrorCode::failed));
+    BOLT_TRY_ASSIGN(const auto bytes, read_file(spirv, max_file_size, ErrorCode::failed));
     std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
     std::memcpy(words.data(), bytes.data(), words.size() * sizeof(std::uint32_t));
     code_[name] = std::move(words);
-    BOLT_TRY_ASSIGN(const auto read, read_file(rule, largest_file, ErrorCode::failed));
-    read_[name] = files_of_rule(read);
-    read_[name].insert(folder_ / name);
+    BOLT_TRY_ASSIGN(const auto rule_text, read_file(rule, max_file_size, ErrorCode::failed));
+    sources_[name] = files_of_rule(rule_text);
+    sources_[name].insert(folder_ / name);
     return {};
 }
 
 std::optional<Result<ShaderCode>> HotShaders::changed(double now) {
-    const bool first = code_.empty() && !waiting_.empty() && read_.empty();
+    const bool first = code_.empty() && !pending_.empty() && sources_.empty();
     const std::vector<fs::path> files = watch_.changed(now);
     if (files.empty() && !first) return {};
-    for (const auto& [name, read] : read_)
+    for (const auto& [name, sources] : sources_)
         if (std::any_of(files.begin(), files.end(),
-                        [&](const fs::path& file) { return read.contains(file); }))
-            waiting_.insert(name);
-    std::string said;
+                        [&](const fs::path& file) { return sources.contains(file); }))
+            pending_.insert(name);
+    std::string output;
     std::set<std::string> failed;
-    for (const std::string& name : waiting_) {
+    for (const std::string& name : pending_) {
         const Status compiled = compile(name);
         if (compiled) continue;
         failed.insert(name);
-        read_[name].insert(folder_ / name);
-        said += compiled.error().what;
+        sources_[name].insert(folder_ / name);
+        output += compiled.error().what;
     }
-    waiting_ = std::move(failed);
+    pending_ = std::move(failed);
     watch();
-    if (waiting_.empty()) return Result<ShaderCode>(code_);
-    while (!said.empty() && said.back() == '\n') said.pop_back();
-    return Result<ShaderCode>(fail(
-        ErrorCode::bad_content,
-        fmt::format("{} shaders do not compile: {}\n{}", waiting_.size(), fmt::join(waiting_, ", "), said)));
+    if (pending_.empty()) return Result<ShaderCode>(code_);
+    while (!output.empty() && output.back() == '\n') output.pop_back();
+    return Result<ShaderCode>(
+        fail(ErrorCode::bad_content, fmt::format("{} shaders do not compile: {}\n{}", pending_.size(),
+                                                 fmt::join(pending_, ", "), output)));
 }
 
 }  // namespace bolt::render

@@ -16,13 +16,13 @@
 
 namespace bolt::render {
 
-// SPIR-V by file name: RendererOptions::shaders.
+// SPIR-V by the shader's file name.
 using ShaderCode = std::map<std::string, std::vector<std::uint32_t>>;
 
-// Returns one of the renderer's shaders: the given replacement or the built-in one. A replacement may leave
-// out bindings that the built-in shader uses (for example while it returns red at once); they stay in its
-// layout, because the passes bind them.
-Result<gpu::Shader> load_shader(const std::string& name, const ShaderCode& instead);
+// Returns one of the renderer's shaders: the built-in one or its replacement. A replacement may omit bindings
+// that the built-in shader uses (for example while its author lets it return red); they stay in its layout,
+// because the passes bind them.
+Result<gpu::Shader> load_shader(const std::string& name, const ShaderCode& replacements);
 
 class HotShaders {
   public:
@@ -32,9 +32,9 @@ class HotShaders {
     HotShaders& operator=(HotShaders&&) noexcept;
     ~HotShaders();
 
-    // Returns all shaders of the renderer at the first call, and whenever one of them or its includes has
-    // changed since the last call. An error holds the compiler's output; the shaders compiled before stay
-    // valid. `now`: see FileWatch.
+    // Returns all shaders at the first call, and whenever one of them or of its includes has changed since
+    // the last call; otherwise nullopt. An error contains the compiler's output; shaders compiled before stay
+    // valid. `now`: see FileWatch::changed.
     std::optional<Result<ShaderCode>> changed(double now);
 
   private:
@@ -42,10 +42,12 @@ class HotShaders {
     Status compile(const std::string& name);
     void watch();
 
-    std::filesystem::path folder_, work_;  // work: the compiler's output folder
+    std::filesystem::path folder_;
+    std::filesystem::path output_folder_;  // of the compiler
     ShaderCode code_;
-    std::map<std::string, std::set<std::filesystem::path>> read_;  // the files that each shader includes
-    std::set<std::string> waiting_;                                // shaders to compile
+    // The files that each shader consists of.
+    std::map<std::string, std::set<std::filesystem::path>> sources_;
+    std::set<std::string> pending_;  // shaders to compile
     FileWatch watch_;
 };
 

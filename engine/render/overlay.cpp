@@ -9,13 +9,14 @@ namespace bolt::render {
 
 namespace {
 
-void add(Overlay& overlay, const Rectangle& place, const glm::vec4& color, int texture) {
+void add(Overlay& overlay, const Rectangle& rectangle, const glm::vec4& color, int texture) {
     const auto first = static_cast<std::uint32_t>(overlay.vertices.size());
     const std::uint32_t rgba = glm::packUnorm4x8(color);
     for (const glm::vec2& corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1), glm::vec2(1, 1)})
-        overlay.vertices.push_back({place.low + corner * (place.high - place.low), corner, rgba});
+        overlay.vertices.push_back({rectangle.low + corner * (rectangle.high - rectangle.low), corner, rgba});
     OverlayDraw draw;
-    const glm::vec2 low = glm::max(glm::floor(place.low), 0.0F), high = glm::max(glm::ceil(place.high), low);
+    const glm::vec2 low = glm::max(glm::floor(rectangle.low), 0.0F),
+                    high = glm::max(glm::ceil(rectangle.high), low);
     draw.scissor.offset = {static_cast<std::int32_t>(low.x), static_cast<std::int32_t>(low.y)};
     draw.scissor.extent = {static_cast<std::uint32_t>(high.x - low.x),
                            static_cast<std::uint32_t>(high.y - low.y)};
@@ -28,19 +29,19 @@ void add(Overlay& overlay, const Rectangle& place, const glm::vec4& color, int t
 
 }  // namespace
 
-void add_rectangle(Overlay& overlay, const Rectangle& place, const glm::vec4& color) {
-    add(overlay, place, color, -1);
+void add_rectangle(Overlay& overlay, const Rectangle& rectangle, const glm::vec4& color) {
+    add(overlay, rectangle, color, -1);
 }
 
-void add_picture(Overlay& overlay, const Rectangle& place, const ImageLayer& picture) {
+void add_picture(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture) {
     overlay.textures.push_back({picture, gpu::ResourceUse::transfer_from, false});
-    add(overlay, place, glm::vec4(1.0F), static_cast<int>(overlay.textures.size()) - 1);
+    add(overlay, rectangle, glm::vec4(1.0F), static_cast<int>(overlay.textures.size()) - 1);
 }
 
-void add_inset(Overlay& overlay, const Rectangle& place, const ImageLayer& picture, float frame_px,
+void add_inset(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture, float frame_px,
                const glm::vec4& frame_color) {
-    add_rectangle(overlay, {place.low - frame_px, place.high + frame_px}, frame_color);
-    add_picture(overlay, place, picture);
+    add_rectangle(overlay, {rectangle.low - frame_px, rectangle.high + frame_px}, frame_color);
+    add_picture(overlay, rectangle, picture);
 }
 
 }  // namespace bolt::render

@@ -1,5 +1,5 @@
-// Flat triangles over a picture, in pixels from its upper left corner, plain or textured. The user interface
-// and insets are drawn with it.
+// Overlay: flat triangles, plain or textured, that are drawn over a picture. Positions are pixels from the
+// picture's upper left corner. The user interface and insets are overlays.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -18,7 +18,7 @@ struct OverlayVertex {
 
 struct OverlayTexture {
     ImageLayer picture;                                // of an array image
-    gpu::ResourceUse use = gpu::ResourceUse::sampled;  // before and after
+    gpu::ResourceUse use = gpu::ResourceUse::sampled;  // before and after drawing
     bool coverage = false;  // the first channel is coverage; otherwise the texture holds colours
 };
 
@@ -41,13 +41,13 @@ struct Rectangle {
     glm::vec2 low{0.0F}, high{0.0F};
 };
 
-void add_rectangle(Overlay& overlay, const Rectangle& place, const glm::vec4& color);
+void add_rectangle(Overlay& overlay, const Rectangle& rectangle, const glm::vec4& color);
 
-// Draws a whole picture of the renderer; texel by pixel if the rectangle has its size.
-void add_picture(Overlay& overlay, const Rectangle& place, const ImageLayer& picture);
+// Draws a whole picture of the renderer; one texel a pixel if the rectangle has the picture's size.
+void add_picture(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture);
 
 // Draws a picture with a frame of this width around it.
-void add_inset(Overlay& overlay, const Rectangle& place, const ImageLayer& picture, float frame_px,
+void add_inset(Overlay& overlay, const Rectangle& rectangle, const ImageLayer& picture, float frame_px,
                const glm::vec4& frame_color);
 
 }  // namespace bolt::render

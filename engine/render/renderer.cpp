@@ -12,8 +12,8 @@ namespace bolt::render {
 
 namespace {
 
-shared::FrameData describe(const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
-                           const EnvironmentLight& environment, float level_error_px) {
+shared::FrameData make_frame_data(const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
+                                  const EnvironmentLight& environment, float level_error_px) {
     shared::FrameData f{};
     for (std::size_t i = 0; i < eyes.size(); ++i) {
         f.views[i].clip_from_world = eyes[i].clip_from_world;
@@ -40,12 +40,13 @@ shared::FrameData describe(const Scene& scene, std::span<const Eye> eyes, VkExte
     return f;
 }
 
-// Creates passes whose pipelines depend on the number of views when that number is first drawn.
+// Returns the pass for this number of views, and creates it when that number is first drawn.
 template <class Pass>
-Result<Pass*> of_views(std::map<std::uint32_t, Pass>& passes, const PassMaker& maker, std::uint32_t views) {
+Result<Pass*> pass_for_views(std::map<std::uint32_t, Pass>& passes, const PassSetup& setup,
+                             std::uint32_t views) {
     if (const auto known = passes.find(views); known != passes.end()) return &known->second;
-    BOLT_TRY_ASSIGN(auto made, Pass::create(maker, views));
-    return &passes.emplace(views, std::move(made)).first->second;
+    BOLT_TRY_ASSIGN(auto created, Pass::create(setup, views));
+    return &passes.emplace(views, std::move(created)).first->second;
 }
 
 }  // namespace
@@ -77,16 +78,16 @@ Status Renderer::prepare() {
 }
 
 Status Renderer::make_passes() {
-    const PassMaker maker{*device_, cache_, shaders_};
+    const PassSetup setup{*device_, cache_, shaders_};
     occlusion_.clear();
     forward_.clear();
     outline_.clear();
-    BOLT_TRY(assign(deform_, DeformPass::create(maker)));
-    BOLT_TRY(assign(shadow_, ShadowPass::create(maker, options_.shadow_size)));
-    BOLT_TRY(assign(surfaces_, SurfacePass::create(maker)));
-    BOLT_TRY(assign(light_, LightPass::create(maker)));
-    BOLT_TRY(assign(labels_, LabelPass::create(maker)));
-    return assign(overlay_, OverlayPass::create(maker));
+    BOLT_TRY(assign(deform_, DeformPass::create(setup)));
+    BOLT_TRY(assign(shadow_, ShadowPass::create(setup, options_.shadow_size)));
+    BOLT_TRY(assign(surfaces_, SurfacePass::create(setup)));
+    BOLT_TRY(assign(light_, LightPass::create(setup)));
+    BOLT_TRY(assign(labels_, LabelPass::create(setup)));
+    return assign(overlay_, OverlayPass::create(setup));
 }
 
 bool Renderer::multiview() const {
@@ -102,7 +103,7 @@ Status Renderer::resize(gpu::FrameContext& frame, ViewGroup& group, VkExtent2D e
     for (RenderTargets& targets : group.targets)
         each_image(targets, [&](gpu::Image& image) { frame.retire(std::move(image)); });
     group.targets.clear();
-    group.views = 0;  // until all targets exist
+    group.views = 0;  // so that a failure below leaves no valid group
     group.views_per_pass = multiview() ? views : 1;
     for (std::uint32_t first = 0; first < views; first += group.views_per_pass) {
         BOLT_TRY_ASSIGN(auto targets, make_targets(*device_, extent, group.views_per_pass));
@@ -117,20 +118,21 @@ Status Renderer::resize(gpu::FrameContext& frame, ViewGroup& group, VkExtent2D e
 Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<const Eye> eyes,
                         VkExtent2D extent, std::uint32_t group_number) {
     if (eyes.empty() || eyes.size() > MAX_VIEWS || extent.width == 0 || extent.height == 0)
-        return fail(ErrorCode::failed, "the picture has no pixel, or not one to four eyes");
+        return fail(ErrorCode::failed, "the picture has no pixels, or its number of eyes is wrong",
+                    "one to four eyes");
     ViewGroup& group = groups_[group_number];
     BOLT_TRY(resize(frame, group, extent, static_cast<std::uint32_t>(eyes.size())));
     const EnvironmentLight& environment = scene.environment != nullptr ? *scene.environment : no_environment_;
-    shared::FrameData shared = describe(scene, eyes, extent, environment, options_.level_error_px);
+    shared::FrameData shared = make_frame_data(scene, eyes, extent, environment, options_.level_error_px);
     PassContext context{
         *device_, frame, scene,  environment,        shared,         {}, group.views_per_pass, extent,
         {},       {},    white_, white_array_.get(), deform_.parts()};
-    const auto put_frame = [&] {
+    const auto upload_frame_data = [&] {
         return assign(context.frame_block, upload_transient<shared::FrameData>(frame, {&shared, 1}));
     };
-    BOLT_TRY(put_frame());
+    BOLT_TRY(upload_frame_data());
 
-    const PassMaker maker{*device_, cache_, shaders_};
+    const PassSetup setup{*device_, cache_, shaders_};
     BOLT_TRY(deform_.draw(context));
     const DrawList list = make_draw_list(
         scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F}, deform_.parts());
@@ -145,22 +147,22 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
         if (pass > 0) {  // a separate view
             shared.views[0] = {eyes[pass].clip_from_world, glm::inverse(eyes[pass].clip_from_world),
                                glm::vec4(eyes[pass].position, 1.0F)};
-            BOLT_TRY(put_frame());
+            BOLT_TRY(upload_frame_data());
         }
         BOLT_TRY(surfaces_.draw(context, targets, list));
         if (scene.occlusion_radius > 0.0F) {
-            BOLT_TRY_ASSIGN(auto occluding, of_views(occlusion_, maker, group.views_per_pass));
-            BOLT_TRY((occluding)->draw(context, targets));
+            BOLT_TRY_ASSIGN(auto occlusion, pass_for_views(occlusion_, setup, group.views_per_pass));
+            BOLT_TRY((occlusion)->draw(context, targets));
             inputs.occlusion = targets.occlusion.view();
         }
         BOLT_TRY(light_.draw(context, targets, list, inputs));
         if (!list.forward.empty()) {
-            BOLT_TRY_ASSIGN(auto forward, of_views(forward_, maker, group.views_per_pass));
+            BOLT_TRY_ASSIGN(auto forward, pass_for_views(forward_, setup, group.views_per_pass));
             BOLT_TRY((forward)->draw(context, targets, list, light_, inputs));
         }
         if (!list.outlined.empty()) {
-            BOLT_TRY_ASSIGN(auto outlining, of_views(outline_, maker, group.views_per_pass));
-            BOLT_TRY((outlining)->draw(context, targets, list));
+            BOLT_TRY_ASSIGN(auto outline, pass_for_views(outline_, setup, group.views_per_pass));
+            BOLT_TRY((outline)->draw(context, targets, list));
         }
         BOLT_TRY(labels_.draw(context, targets));
         gpu::image_barrier(frame.commands(), targets.picture.get(), gpu::ResourceUse::color_target,
@@ -207,9 +209,10 @@ Result<std::vector<Picture>> take_pictures(gpu::Device& device, gpu::Frames& fra
     BOLT_TRY(frames.finish());
     std::vector<Picture> pictures;
     for (std::uint32_t view = 0; view < eyes.size(); ++view) {
-        const ImageLayer made = renderer.picture(view);
-        BOLT_TRY_ASSIGN(auto texels, gpu::download_image(device, *made.image, gpu::ResourceUse::transfer_from,
-                                                         4, 0, made.layer));
+        const ImageLayer created = renderer.picture(view);
+        BOLT_TRY_ASSIGN(auto texels,
+                        gpu::download_image(device, *created.image, gpu::ResourceUse::transfer_from, 4, 0,
+                                            created.layer));
         Picture picture{extent.width, extent.height, std::vector<std::uint8_t>(texels.size())};
         std::memcpy(picture.rgba.data(), texels.data(), texels.size());
         pictures.push_back(std::move(picture));

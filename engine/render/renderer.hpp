@@ -1,4 +1,4 @@
-// Renders a frame. Renderer::render runs these passes:
+// The renderer, and pictures with insets and offscreen. Renderer::render runs these passes:
 //
 //   deform     vertices of deformable parts, moved by joints and morph targets
 //   shadow     depth seen from light 0; static objects are cached
@@ -9,16 +9,16 @@
 //   outline    lines around marked objects
 //   labels     text in the scene
 //
-// draw_over() draws an overlay on a finished picture: the user interface, or pictures of other views as
-// insets.
+// Renderer::draw_over draws an overlay on a finished picture: the user interface, or pictures of other views
+// as insets.
 //
 // Lighting is deferred, because a part's triangles are often smaller than the blocks that a rasteriser
 // shades: with forward lighting the same picture of the reducer took nearly three times as long on lavapipe.
 //
-// Each pass is a class in passes/ with its pipelines. Several views are drawn in one pass by multiview, one
-// layer each. Software rasterisers draw them one after the other into separate images, because lavapipe (Mesa
-// 22.3) draws clipped triangles into the layer of the previous view, and resolves into layer 0 whatever layer
-// the image view begins with.
+// Each pass is a class in passes/ with its pipelines. With multiview, one pass draws several views, one layer
+// each. Software rasterisers draw the views one after the other into separate images, because lavapipe
+// (Mesa 22.3) draws clipped triangles into the layer of the previous view, and always resolves into layer 0,
+// even if the image view begins with another layer.
 #pragma once
 
 #include "engine/render/hot_shaders.hpp"
@@ -34,16 +34,14 @@ struct RendererOptions {
     std::uint32_t shadow_size = 2048;
     std::filesystem::path pipeline_cache;  // empty: no cache on disk
     ShaderCode shaders;                    // replacements of built-in shaders
-    enum class Multiview : std::uint8_t {
-        where_it_works,
-        always,
-        never
-    } multiview = Multiview::where_it_works;
+    enum class Multiview : std::uint8_t { where_it_works, always, never };
+    Multiview multiview = Multiview::where_it_works;
     // The error allowed for coarser levels of detail, in pixels of the picture; 0: always draw all triangles.
     float level_error_px = 0.0F;
     bool keep_depth = false;  // required by depth()
 };
 
+// Counts of the last frame.
 struct Statistics {
     std::uint64_t triangles = 0;
     std::uint32_t draws = 0, instances = 0;
@@ -54,28 +52,28 @@ class Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> create(gpu::Device& device, const RendererOptions& options);
 
-    // Records the views of a frame that have one size. Their pictures are in use `transfer_from` afterwards.
-    // Views of another size (an inset, the instructor's view) form another group with any number, whose
-    // pictures are stored separately.
+    // Records the views of a frame that have the same size. Their pictures are in use `transfer_from`
+    // afterwards. Views of another size (an inset, the instructor's view) form another group, which has its
+    // own pictures; `group` is any number that identifies it.
     Status render(gpu::FrameContext& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
                   std::uint32_t group = 0);
 
-    // Draws over a picture that was rendered in this frame. The overlay may refer to other pictures by
-    // picture().
+    // Draws an overlay over a picture that was rendered in this frame. The overlay may contain pictures of
+    // other groups.
     Status draw_over(gpu::FrameContext& frame, const Overlay& overlay, const ImageLayer& picture);
 
     [[nodiscard]] ImageLayer picture(std::uint32_t view, std::uint32_t group = 0) const {
         return groups_.at(group).picture(view);
     }
-    // The depth of each pixel's first sample, without blended parts, in use `transfer_from`. Empty without
-    // RendererOptions::keep_depth.
+    // Returns the depth of each pixel's first sample, without blended parts, in use `transfer_from`. Empty
+    // without RendererOptions::keep_depth.
     [[nodiscard]] ImageLayer depth(std::uint32_t view, std::uint32_t group = 0) const {
         return options_.keep_depth ? groups_.at(group).depth(view) : ImageLayer{};
     }
     [[nodiscard]] const Statistics& statistics() const { return statistics_; }
-    // The deformed vertices of the last frame, for tests.
+    // Returns the pass with the deformed vertices of the last frame, for tests.
     [[nodiscard]] const DeformPass& deformed() const { return deform_; }
-    // Writes compiled pipelines to the cache for the next start.
+    // Writes compiled pipelines to the cache file for the next start.
     [[nodiscard]] Status save_pipelines() const { return cache_.save(); }
 
   private:
@@ -104,21 +102,19 @@ class Renderer {
     Statistics statistics_;
 };
 
-// Offscreen rendering into pictures on the CPU, and pictures with insets.
-
 // A second view in a corner of the picture, such as the trainee's view in the instructor's picture.
 struct Inset {
     Eye eye;
     Rectangle place;  // in whole pixels; the view is rendered at this size
     float frame_px = 2.0F;
-    glm::vec4 frame{0.92F, 0.94F, 0.96F, 1.0F};  // colour, encoded as overlay colours
+    glm::vec4 frame{0.92F, 0.94F, 0.96F, 1.0F};  // the frame's colour, encoded as overlay colours
 };
 
 // Returns a rectangle in the lower right corner: `share` of the picture's width, with the picture's aspect
 // ratio.
 Rectangle inset_rectangle(VkExtent2D picture, float share);
 
-// Renders the views, and draws each inset over all of them. The insets use the renderer's groups from 1 on.
+// Renders the views, and draws each inset over all of them. Inset i uses the renderer's group i + 1.
 Status render_with_insets(Renderer& renderer, gpu::FrameContext& frame, const Scene& scene,
                           std::span<const Eye> eyes, VkExtent2D extent, std::span<const Inset> insets);
 
@@ -127,7 +123,7 @@ struct Picture {
     std::vector<std::uint8_t> rgba;  // sRGB, rows from the top
 };
 
-// Renders one picture per eye.
+// Renders one picture per eye and copies it to the CPU.
 Result<std::vector<Picture>> take_pictures(gpu::Device& device, gpu::Frames& frames, Renderer& renderer,
                                            const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
                                            std::span<const Inset> insets = {});

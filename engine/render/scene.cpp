@@ -18,7 +18,7 @@ constexpr std::uint32_t table_size = 48;
 
 std::uint16_t half(float x) { return glm::packHalf1x16(std::clamp(x, 0.0F, 65000.0F)); }
 
-// Copies every level of every face from one staging buffer.
+// Uploads every level of every face from one staging buffer.
 Status upload_levels(gpu::Device& device, gpu::Image& image, const std::vector<shading::Cube>& levels) {
     std::vector<std::uint32_t> texels;
     std::vector<VkBufferImageCopy> regions;
@@ -84,15 +84,15 @@ Result<gpu::Image> upload_albedo_table(gpu::Device& device) {
 
 namespace {
 
-// Visits the nodes of the default scene.
+// Calls `visit(index)` for every node of the default scene, parents first.
 template <class Visit>
-void walk(const assets::Model& model, const Visit& visit) {
-    std::vector<int> waiting(model.roots.rbegin(), model.roots.rend());
-    while (!waiting.empty()) {
-        const auto node = static_cast<std::size_t>(waiting.back());
-        waiting.pop_back();
+void for_each_node(const assets::Model& model, const Visit& visit) {
+    std::vector<int> pending(model.roots.rbegin(), model.roots.rend());
+    while (!pending.empty()) {
+        const auto node = static_cast<std::size_t>(pending.back());
+        pending.pop_back();
         visit(node);
-        waiting.insert(waiting.end(), model.nodes[node].children.rbegin(), model.nodes[node].children.rend());
+        pending.insert(pending.end(), model.nodes[node].children.rbegin(), model.nodes[node].children.rend());
     }
 }
 
@@ -115,7 +115,7 @@ shared::Light make_light(const assets::Light& light, const glm::mat4& world) {
 void add_model(Scene& scene, const assets::Model& model, const GpuModel& gpu_model,
                const assets::ModelPose& pose, const glm::mat4& world) {
     const std::vector<glm::mat4> transforms = assets::world_transforms(model, pose);
-    walk(model, [&](std::size_t index) {
+    for_each_node(model, [&](std::size_t index) {
         const assets::Node& node = model.nodes[index];
         if (node.mesh < 0) return;
         Object object;
@@ -148,7 +148,7 @@ void add_lights(Scene& scene, const assets::Model& model, const glm::mat4& world
 void add_lights(Scene& scene, const assets::Model& model, const assets::ModelPose& pose,
                 const glm::mat4& world) {
     const std::vector<glm::mat4> transforms = assets::world_transforms(model, pose);
-    walk(model, [&](std::size_t node) {
+    for_each_node(model, [&](std::size_t node) {
         if (model.nodes[node].light < 0) return;
         const assets::Light& light = model.lights[static_cast<std::size_t>(model.nodes[node].light)];
         scene.lights.push_back({make_light(light, world * transforms[node]), false});
@@ -170,7 +170,7 @@ bool casts_shadow(const Scene& scene) {
 }
 
 BoundingBox bounds(const Object& object, const MeshPart& part) {
-    return transformed(bounds(part.box, part.bends, object.deformation.get()), object.world);
+    return transformed(bounds(part.box, part.deformable, object.deformation.get()), object.world);
 }
 
 BoundingBox bounds(const Scene& scene) {

@@ -1,4 +1,5 @@
-// Image-based lighting, prefiltered and uploaded to the GPU.
+// The contents of a frame as values that are filled anew for every frame: objects, lights, environment,
+// labels, eyes.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +16,10 @@
 
 namespace bolt::render {
 
+// Image-based light, prefiltered and uploaded to the GPU.
 struct EnvironmentLight {
-    gpu::Image levels;  // specular mips, from sharp to rough
-    shading::Harmonics diffuse{};
+    gpu::Image levels;             // specular light; mips from sharp to rough
+    shading::Harmonics diffuse{};  // diffuse light
 };
 
 Result<EnvironmentLight> upload_environment(gpu::Device& device, const shading::RadianceImage& image,
@@ -26,56 +28,55 @@ Result<EnvironmentLight> upload_environment(gpu::Device& device, const shading::
 // Uploads the table of directional albedos (engine/shading/ggx.hpp): columns √cos, rows roughness.
 Result<gpu::Image> upload_albedo_table(gpu::Device& device);
 
-// Text in the scene, such as the names of joints and the torque at the wrench.
-
 enum class LabelPlacement : std::uint8_t {
-    fixed,      // oriented by `turn`
-    facing,     // turned to the eye, with a fixed size in the scene
-    on_screen,  // turned to the eye, with a fixed size on the screen
+    fixed,      // oriented by Label::orientation
+    facing,     // faces the eye, with a fixed size in the scene
+    on_screen,  // faces the eye, with a fixed size on the screen
 };
 
-// Text is drawn over the finished picture and is not lit. Colours are screen colours (sRGB, straight alpha).
+// Text in the scene, such as the name of a joint or the torque at the wrench. It is drawn over the finished
+// picture and is not lit. Colours are screen colours (sRGB, straight alpha).
 struct Label {
     std::string text;  // UTF-8; lines end with \n
     glm::vec3 position{0.0F};
-    LabelPlacement stand = LabelPlacement::on_screen;
-    glm::quat turn{1.0F, 0.0F, 0.0F, 0.0F};  // `fixed`: turns a text along x, with y up, seen from +z
-    float height = 16.0F;                    // em size: pixels for `on_screen`, otherwise m
-    // The point of the text at `position`: (0, 0) is its lower left corner, (1, 1) its upper right one. Lines
-    // are aligned the same way.
+    LabelPlacement placement = LabelPlacement::on_screen;
+    // For `fixed`: rotates a text that runs along x, with y up, seen from +z.
+    glm::quat orientation{1.0F, 0.0F, 0.0F, 0.0F};
+    float height = 16.0F;  // em size: pixels for `on_screen`, otherwise m
+    // The point of the text that is at `position`: (0, 0) the lower left corner, (1, 1) the upper right one.
+    // Lines are aligned accordingly.
     glm::vec2 anchor{0.5F, 0.5F};
-    glm::vec2 moved_px{0.0F};  // offset on the screen, to the right and up
+    glm::vec2 offset_px{0.0F};  // on the screen, to the right and up
     glm::vec4 color{1.0F};
     glm::vec4 outline{0.0F};      // alpha 0: no outline
     float outline_width = 0.06F;  // em, up to 0.1
     glm::vec4 plate{0.0F};        // background behind the text; alpha 0: none
-    // Visible fraction behind other parts: 0 hidden, 1 fully visible. Ghosts hide text like opaque parts.
-    float through = 0.0F;
-    float before = 0.0F;  // m: parts hide the text only if they are farther in front than this
+    // How much of the text shows through parts in front of it: 0 hidden, 1 fully visible. Ghosts hide text
+    // like opaque parts.
+    float occluded_visibility = 0.0F;
+    float occlusion_margin = 0.0F;  // m: parts less far in front of the text do not hide it
 };
 
-// The contents of a frame: plain values, filled anew for every frame.
-
+// An instance of a mesh.
 struct Object {
     const GpuModel* model = nullptr;
     std::uint32_t mesh = 0;
     glm::mat4 world{1.0F};
     glm::vec4 tint{0.0F};  // w: the fraction of the material's colour that it replaces
-    float opacity = 1.0F;  // below 1: a ghost, whose nearest layer only is visible
+    float opacity = 1.0F;  // below 1: a ghost, of which only the nearest layer is visible
     bool flat = false;     // unlit
-    // Joints and weights; null: rigid. Create a new one for every pose: the GPU may still use the previous
-    // one.
+    // Null: rigid. Create a new one for every pose, because the GPU may still use the previous one.
     std::shared_ptr<const Deformation> deformation = nullptr;
-    bool moves = false;       // drawn into the shadow map in every frame
+    bool moves = false;       // drawn into the shadow map anew in every frame
     bool cut = false;         // fades where it hides the focus of the scene's cut-away
-    glm::vec4 outline{0.0F};  // a line around it, visible through occluders; w: opacity
+    glm::vec4 outline{0.0F};  // colour of a line around it, visible through occluders; w: opacity
     int node = -1;            // the model's node that it was created from; -1: unknown
 };
 
-// Objects with `cut` set fade between the eye and this sphere.
+// Objects with Object::cut fade where they are between the eye and this sphere.
 struct CutAway {
     glm::vec3 focus{0.0F};
-    float radius = 0.03F;   // m, kept visible around the focus
+    float radius = 0.03F;   // m, of the sphere around the focus that stays visible
     float strength = 0.0F;  // 0: no fading … 1: full fading
 };
 
@@ -98,7 +99,7 @@ struct Scene {
     float outline_px = 3.0F;
 };
 
-// A viewpoint with any projection that has depth 1 near and 0 far.
+// A viewpoint with any projection whose depth is 1 near and 0 far.
 struct Eye {
     glm::vec3 position{0.0F};
     glm::mat4 clip_from_world{1.0F};
@@ -118,11 +119,11 @@ void add_lights(Scene& scene, const assets::Model& model, const assets::ModelPos
                 const glm::mat4& world = glm::mat4(1.0F));
 void add_lights(Scene& scene, const assets::Model& model, const glm::mat4& world = glm::mat4(1.0F));
 
-// Whether an object casts a shadow, and whether light 0 casts shadows in this scene.
+// Return whether an object casts a shadow, and whether light 0 casts shadows in this scene.
 bool casts_shadow(const Object& object);
 bool casts_shadow(const Scene& scene);
 
-// The world bounds of a part of an object, including its deformation.
+// Return bounds in world space, including deformation.
 BoundingBox bounds(const Object& object, const MeshPart& part);
 BoundingBox bounds(const Scene& scene);
 

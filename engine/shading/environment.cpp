@@ -14,22 +14,23 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-// The brightness of a soft box in `direction`: a rectangle on a plane at distance one, with soft edges.
+// A lamp: a rectangle with soft edges on a plane at distance one.
 struct SoftBox {
     glm::vec3 towards;    // direction of its centre, any length
     glm::vec2 half_size;  // relative to the distance
     float radiance;
 };
 
-float brightness(const SoftBox& box, const glm::vec3& direction) {
+// Returns the radiance of a soft box in `direction`.
+float radiance_from(const SoftBox& box, const glm::vec3& direction) {
     const glm::vec3 n = glm::normalize(box.towards);
     const float along = glm::dot(direction, n);
     if (along <= 0.05F) return 0.0F;
     const glm::vec3 up = std::abs(n.y) < 0.95F ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
     const glm::vec3 right = glm::normalize(glm::cross(up, n));
-    const glm::vec2 place(glm::dot(direction, right) / along,
-                          glm::dot(direction, glm::cross(n, right)) / along);
-    const glm::vec2 inside = box.half_size - glm::abs(place);
+    const glm::vec2 position(glm::dot(direction, right) / along,
+                             glm::dot(direction, glm::cross(n, right)) / along);
+    const glm::vec2 inside = box.half_size - glm::abs(position);
     const auto soft = [](float x) { return glm::smoothstep(-0.06F, 0.06F, x); };
     return box.radiance * soft(inside.x) * soft(inside.y);
 }
@@ -47,9 +48,9 @@ glm::vec3 to_direction(const glm::vec2& uv) {
 }
 
 glm::vec3 lookup(const RadianceImage& image, const glm::vec3& direction) {
-    const glm::vec2 place = to_square(direction) * glm::vec2(image.width, image.height) - 0.5F;
-    const glm::vec2 corner = glm::floor(place);
-    const glm::vec2 f = place - corner;
+    const glm::vec2 texel = to_square(direction) * glm::vec2(image.width, image.height) - 0.5F;
+    const glm::vec2 corner = glm::floor(texel);
+    const glm::vec2 f = texel - corner;
     const int x = static_cast<int>(corner.x);
     const int y = static_cast<int>(corner.y);
     const auto at = [&](int px, int py) {
@@ -78,7 +79,7 @@ RadianceImage studio(int width) {
                 to_direction({(static_cast<float>(x) + 0.5F) / static_cast<float>(image.width),
                               (static_cast<float>(y) + 0.5F) / static_cast<float>(image.height)});
             float value = glm::mix(0.06F, 0.30F, glm::smoothstep(-0.6F, 1.0F, d.y));
-            for (const SoftBox& box : boxes) value += brightness(box, d);
+            for (const SoftBox& box : boxes) value += radiance_from(box, d);
             image.pixels.emplace_back(value);
         }
     }
@@ -108,8 +109,8 @@ float centre(std::uint32_t i, std::uint32_t size) {
     return (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(size) - 1.0F;
 }
 
-// ∫∫ 1/(1 + s² + t²)^{3/2} from a face's centre to (s, t).
-double area(double s, double t) { return std::atan2(s * t, std::sqrt(s * s + t * t + 1.0)); }
+// The solid angle from a face's centre to (s, t): ∫∫ 1/(1 + s² + t²)^{3/2}.
+double solid_angle_to(double s, double t) { return std::atan2(s * t, std::sqrt(s * s + t * t + 1.0)); }
 
 }  // namespace
 
@@ -120,8 +121,8 @@ glm::vec3 cube_direction(std::uint32_t face, std::uint32_t x, std::uint32_t y, s
 float texel_solid_angle(std::uint32_t x, std::uint32_t y, std::uint32_t size) {
     const double half = 1.0 / static_cast<double>(size);
     const double s = static_cast<double>(centre(x, size)), t = static_cast<double>(centre(y, size));
-    return static_cast<float>(area(s - half, t - half) - area(s - half, t + half) - area(s + half, t - half) +
-                              area(s + half, t + half));
+    return static_cast<float>(solid_angle_to(s - half, t - half) - solid_angle_to(s - half, t + half) -
+                              solid_angle_to(s + half, t - half) + solid_angle_to(s + half, t + half));
 }
 
 glm::vec3 lookup(const Cube& cube, const glm::vec3& d) {
@@ -185,8 +186,8 @@ Cube halved(const Cube& cube) {
 
 namespace {
 
-// A direction of the lobe around (0, 0, 1), its weight, and the level of the environment whose texels match
-// the sample density.
+// A direction of the specular lobe around (0, 0, 1), its weight, and the level of the mip chain whose texels
+// match the density of the samples.
 struct LobeSample {
     glm::vec3 direction;
     float weight;

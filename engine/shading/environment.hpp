@@ -1,4 +1,4 @@
-// Environment radiance by direction.
+// Environment light: radiance by direction, cube maps, and prefiltering for image-based lighting.
 #pragma once
 
 #include <array>
@@ -20,15 +20,15 @@ glm::vec3 to_direction(const glm::vec2& uv);
 // Bilinear interpolation that wraps around the seam.
 glm::vec3 lookup(const RadianceImage& image, const glm::vec3& direction);
 
+// Returns an environment with the same radiance in every direction.
 RadianceImage constant(const glm::vec3& radiance);
 
-// A photographer's light table: a large soft box above, one on each side, and a dim background that brightens
-// upwards.
+// Returns a photographer's studio: soft boxes above, on both sides and behind, and a dim background that
+// becomes brighter upwards. `width`: of the image, pixels.
 RadianceImage studio(int width = 256);
 
 // A cube map on the CPU: six square faces in Vulkan's order and orientation (+X, -X, +Y, -Y, +Z, -Z;
 // specification, "Cube Map Face Selection").
-
 struct Cube {
     std::uint32_t size = 0;
     std::vector<glm::vec3> texels;  // face by face, rows from the top
@@ -53,18 +53,16 @@ Cube make_cube(const RadianceImage& image, std::uint32_t size);
 // Returns the map at half its size, which must be even.
 Cube halved(const Cube& cube);
 
-// Image-based lighting: the environment convolved with specular lobes of increasing roughness, and its
-// irradiance in spherical harmonics.
-
-// The roughness of a level: linear from 0 (the environment itself) to 1.
+// Returns the roughness of a prefiltered level: linear from 0 (the environment itself) to 1.
 inline float level_roughness(std::size_t level, std::size_t levels) {
     return static_cast<float>(level) / static_cast<float>(levels - 1);
 }
 
-// Levels of half the size each, down to 4; each uses twice the samples of the previous one for a quarter of
-// the texels. The lobe is GGX for N = V, as in split-sum shading (B. Karis, Real Shading in Unreal Engine 4,
-// 2013), integrated by filtered importance sampling (J. Křivánek and M. Colbert, Real-time Shading with
-// Filtered Importance Sampling, EGSR 2008).
+// Convolves the environment with specular lobes of increasing roughness. Each level has half the size of the
+// previous one, down to 4 texels, and uses twice the samples for a quarter of the texels. The lobe is GGX for
+// N = V, as in split-sum shading (B. Karis, Real Shading in Unreal Engine 4, 2013), integrated by filtered
+// importance sampling (J. Křivánek and M. Colbert, Real-time Shading with Filtered Importance Sampling, EGSR
+// 2008).
 std::vector<Cube> prefilter(const RadianceImage& image, std::uint32_t size, std::uint32_t samples = 32);
 
 // Radiance reflected by a white diffuse surface, irradiance / π, in the first nine real spherical harmonics

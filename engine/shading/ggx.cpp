@@ -6,7 +6,7 @@ namespace bolt::shading {
 
 namespace {
 
-// Uniform steps in roughness and in √cosine, because the albedo varies most at grazing angles.
+// The table has uniform steps in roughness and in √cosine, because the albedo varies most at grazing angles.
 constexpr int size = 48;
 constexpr unsigned directions = 256;
 

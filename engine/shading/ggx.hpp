@@ -1,4 +1,5 @@
-// The van der Corput sequence in base 2, which covers the unit interval evenly.
+// The Trowbridge–Reitz (GGX) distribution: evaluation, sampling and directional albedo. Directions are unit
+// vectors in tangent space, with the normal as z; `alpha` is the roughness along x and y.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 
 namespace bolt::shading {
 
+// The van der Corput sequence in base 2, which covers the unit interval evenly: radical_inverse(i), i = 0, 1,
+// 2, …
 inline std::uint32_t reverse_bits(std::uint32_t x) {
     x = (x << 16U) | (x >> 16U);
     x = ((x & 0x00FF00FFU) << 8U) | ((x & 0xFF00FF00U) >> 8U);
@@ -19,15 +22,14 @@ inline std::uint32_t reverse_bits(std::uint32_t x) {
     return ((x & 0x55555555U) << 1U) | ((x & 0xAAAAAAAAU) >> 1U);
 }
 
-// Uses 24 bits, so that the result as a float is below one.
+// Maps to [0, 1). Uses 24 bits, because with more the float could be rounded to one.
 inline float unit_float(std::uint32_t x) { return static_cast<float>(x >> 8U) * 0x1p-24F; }
 
 inline float radical_inverse(std::uint32_t i) { return unit_float(reverse_bits(i)); }
 
-// The Trowbridge–Reitz (GGX) distribution and its masking functions, in tangent space with the normal as z.
-
 inline float pow5(float x) { return x * x * x * x * x; }
 
+// The distribution D of microfacet normals.
 inline float ggx(const glm::vec3& half, const glm::vec2& alpha) {
     const float x = half.x / alpha.x;
     const float y = half.y / alpha.y;
@@ -35,7 +37,7 @@ inline float ggx(const glm::vec3& half, const glm::vec2& alpha) {
     return 1.0F / (std::numbers::pi_v<float> * alpha.x * alpha.y * t * t);
 }
 
-// The length of v scaled by the roughness: the square root in Smith's functions.
+// The length of v after scaling by the roughness: the square root in Smith's functions.
 inline float stretched(const glm::vec3& v, const glm::vec2& alpha) {
     return std::sqrt(alpha.x * alpha.x * v.x * v.x + alpha.y * alpha.y * v.y * v.y + v.z * v.z);
 }
@@ -45,6 +47,7 @@ inline float visibility(const glm::vec3& out, const glm::vec3& in, const glm::ve
     return 0.5F / (in.z * stretched(out, alpha) + out.z * stretched(in, alpha));
 }
 
+// Smith's masking function G1.
 inline float masking(const glm::vec3& v, const glm::vec2& alpha) {
     return 2.0F * v.z / (v.z + stretched(v, alpha));
 }
@@ -65,15 +68,14 @@ inline glm::vec3 sample_half(const glm::vec3& out, const glm::vec2& alpha, const
     return glm::normalize(glm::vec3(alpha.x * n.x, alpha.y * n.y, std::max(1e-7F, n.z)));
 }
 
-// The probability density per solid angle of the reflected direction.
+// The probability density of sample_half, per solid angle of the reflected direction.
 inline float half_density(const glm::vec3& out, const glm::vec3& half, const glm::vec2& alpha) {
     return masking(out, alpha) * ggx(half, alpha) / (4.0F * out.z);
 }
 
-// The directional albedo of a GGX layer as a table, split into the parts that scale with F0 and F90.
-
-// x: ∫ D V (1 − (1 − V·H)⁵) cos, y: ∫ D V (1 − V·H)⁵ cos; E = x + y. In single scattering, a specular layer
-// reflects the fraction F0 x + F90 y. `cosine` is N·V. Accurate within 0.002 over the whole table.
+// The directional albedo of a GGX layer, split into the parts that scale with F0 and F90: x = ∫ D V (1 − (1 −
+// V·H)⁵) cos, y = ∫ D V (1 − V·H)⁵ cos, E = x + y. With single scattering, a specular layer reflects the
+// fraction F0 x + F90 y. `cosine` is N·V. Interpolated in a table; accurate within 0.002 everywhere.
 glm::vec2 directional_albedo(float alpha, float cosine);
 
 // The same by numerical integration over `count` directions; used to build the table.

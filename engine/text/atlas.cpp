@@ -10,30 +10,29 @@ namespace bolt::text {
 
 namespace {
 
-using Point = glm::dvec2;
-
 struct Edge {
-    Point a{0.0}, b{0.0};
+    glm::dvec2 a{0.0}, b{0.0};
 };
 
-std::vector<Edge> edges_of(const Outline& outline) {
+std::vector<Edge> edges_of(const GlyphOutline& outline) {
     std::vector<Edge> edges;
     for (const auto& ring : outline)
         for (std::size_t i = 0; i < ring.size(); ++i) {
-            const Point& next = ring[(i + 1) % ring.size()];
+            const glm::dvec2& next = ring[(i + 1) % ring.size()];
             if (ring[i] != next) edges.push_back({ring[i], next});
         }
     return edges;
 }
 
-// The direction in which an edge crosses height y; 0: it does not. Half-open, so that a vertex counts once.
-int passes(const Edge& edge, double y, double& x) {
+// Returns the direction in which an edge crosses height y (1 up, -1 down, 0 not at all), and where in `x`.
+// The edge is half-open, so that a vertex counts once.
+int crossing(const Edge& edge, double y, double& x) {
     if ((edge.a.y <= y) == (edge.b.y <= y)) return 0;
     x = edge.a.x + (y - edge.a.y) / (edge.b.y - edge.a.y) * (edge.b.x - edge.a.x);
     return edge.b.y > edge.a.y ? 1 : -1;
 }
 
-// Edges sorted by the heights that they cross, so that a query visits only some of them.
+// Edges sorted into rows of height `step`, so that a query visits only those that may cross its height.
 class EdgesByHeight {
   public:
     EdgesByHeight(const std::vector<Edge>& edges, double low, double high, double step)
@@ -46,11 +45,12 @@ class EdgesByHeight {
 
     [[nodiscard]] const std::vector<Edge>& near(double y) const { return rows_[row(y)]; }
 
-    [[nodiscard]] int winding(const Point& p) const {
+    // Returns the winding number of the outline around a point.
+    [[nodiscard]] int winding(const glm::dvec2& p) const {
         int sum = 0;
         double x = 0.0;
         for (const Edge& edge : near(p.y))
-            if (const int way = passes(edge, p.y, x); way != 0 && x > p.x) sum += way;
+            if (const int direction = crossing(edge, p.y, x); direction != 0 && x > p.x) sum += direction;
         return sum;
     }
 
@@ -64,20 +64,20 @@ class EdgesByHeight {
     std::vector<std::vector<Edge>> rows_;
 };
 
-// Strokes of a glyph may overlap, as in Chinese fonts, and edges inside the union must not count. Cuts edges
-// into pieces of at most `step` and removes those with both or neither side filled.
-std::vector<Edge> visible_pieces(const std::vector<Edge>& edges, const EdgesByHeight& by_height,
-                                 double step) {
+// Cuts edges into pieces of at most `step` and removes the pieces that have both or neither side filled:
+// strokes of a glyph may overlap, as in Chinese fonts, and edges inside the union must not count.
+std::vector<Edge> boundary_pieces(const std::vector<Edge>& edges, const EdgesByHeight& by_height,
+                                  double step) {
     std::vector<Edge> pieces;
     for (const Edge& edge : edges) {
         const double length = glm::distance(edge.a, edge.b);
         const int n = std::max(1, static_cast<int>(std::ceil(length / step)));
-        const Point along = (edge.b - edge.a) / length;
-        const Point aside = 0.02 * step * Point(-along.y, along.x);
+        const glm::dvec2 along = (edge.b - edge.a) / length;
+        const glm::dvec2 aside = 0.02 * step * glm::dvec2(-along.y, along.x);
         for (int i = 0; i < n; ++i) {
             const Edge piece{glm::mix(edge.a, edge.b, static_cast<double>(i) / n),
                              glm::mix(edge.a, edge.b, (i + 1.0) / n)};
-            const Point middle = 0.5 * (piece.a + piece.b);
+            const glm::dvec2 middle = 0.5 * (piece.a + piece.b);
             if ((by_height.winding(middle + aside) != 0) != (by_height.winding(middle - aside) != 0))
                 pieces.push_back(piece);
         }
@@ -85,25 +85,25 @@ std::vector<Edge> visible_pieces(const std::vector<Edge>& edges, const EdgesByHe
     return pieces;
 }
 
-double distance_squared(const Edge& edge, const Point& p) {
-    const Point along = edge.b - edge.a;
+double distance_squared(const Edge& edge, const glm::dvec2& p) {
+    const glm::dvec2 along = edge.b - edge.a;
     const double t = std::clamp(glm::dot(p - edge.a, along) / glm::dot(along, along), 0.0, 1.0);
-    const Point d = p - (edge.a + t * along);
+    const glm::dvec2 d = p - (edge.a + t * along);
     return glm::dot(d, d);
 }
 
-// Returns the rows or columns whose centres are between `low` and `high`.
-std::pair<int, int> between(double low, double high, int count) {
+// Returns the first and the last of `count` rows or columns whose centres are between `low` and `high`.
+std::pair<int, int> centres_between(double low, double high, int count) {
     return {std::max(0, static_cast<int>(std::ceil(low - 0.5))),
             std::min(count - 1, static_cast<int>(std::floor(high - 0.5)))};
 }
 
 }  // namespace
 
-DistanceField distance_field(const Outline& outline, double texels_per_em, double reach) {
+DistanceField distance_field(const GlyphOutline& outline, double texels_per_em, double reach) {
     const std::vector<Edge> edges = edges_of(outline);
     if (edges.empty()) return {};
-    Point low = edges.front().a, high = low;
+    glm::dvec2 low = edges.front().a, high = low;
     for (const Edge& edge : edges) {
         low = glm::min(low, edge.a);
         high = glm::max(high, edge.a);
@@ -116,15 +116,16 @@ DistanceField distance_field(const Outline& outline, double texels_per_em, doubl
     const auto width = static_cast<std::size_t>(field.width);
     std::vector<double> nearest(width * static_cast<std::size_t>(field.height), reach * reach);
     const EdgesByHeight by_height(edges, low.y, high.y, texel);
-    for (const Edge& piece : visible_pieces(edges, by_height, texel)) {
-        const Point from = (glm::min(piece.a, piece.b) - reach - field.low) * texels_per_em,
-                    to = (glm::max(piece.a, piece.b) + reach - field.low) * texels_per_em;
-        const auto [left, right] = between(from.x, to.x, field.width);
-        const auto [below, above] = between(from.y, to.y, field.height);
+    for (const Edge& piece : boundary_pieces(edges, by_height, texel)) {
+        const glm::dvec2 from = (glm::min(piece.a, piece.b) - reach - field.low) * texels_per_em,
+                         to = (glm::max(piece.a, piece.b) + reach - field.low) * texels_per_em;
+        const auto [left, right] = centres_between(from.x, to.x, field.width);
+        const auto [below, above] = centres_between(from.y, to.y, field.height);
         for (int y = below; y <= above; ++y)
             for (int x = left; x <= right; ++x) {
                 double& least = nearest[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)];
-                least = std::min(least, distance_squared(piece, field.low + texel * Point(x + 0.5, y + 0.5)));
+                least = std::min(least,
+                                 distance_squared(piece, field.low + texel * glm::dvec2(x + 0.5, y + 0.5)));
             }
     }
     field.distances.resize(nearest.size());
@@ -134,7 +135,8 @@ DistanceField distance_field(const Outline& outline, double texels_per_em, doubl
         double x = 0.0;
         const double height = field.low.y + texel * (y + 0.5);
         for (const Edge& edge : by_height.near(height))
-            if (const int way = passes(edge, height, x); way != 0) crossings.emplace_back(x, way);
+            if (const int direction = crossing(edge, height, x); direction != 0)
+                crossings.emplace_back(x, direction);
         std::sort(crossings.begin(), crossings.end());
         auto next = crossings.begin();
         int inside = 0;
@@ -151,12 +153,12 @@ DistanceField distance_field(const Outline& outline, double texels_per_em, doubl
 
 namespace {
 
-// Tolerance for flattened curves, well below the size of a texel.
+// Tolerance for flattened curves, em: well below the size of a texel.
 constexpr double tolerance = 0.02 / Atlas::texels_per_em;
 
 }  // namespace
 
-// Fill the background with the largest distance: small text samples slightly beyond its glyphs.
+// The background has the largest distance, because small text samples slightly beyond its glyphs.
 Atlas::Atlas(int size)
     : size_(size),
       texels_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),
@@ -165,7 +167,7 @@ Atlas::Atlas(int size)
 
 const AtlasGlyph* Atlas::glyph(const Fonts& fonts, const GlyphId& id) {
     if (const auto known = glyphs_.find(id); known != glyphs_.end()) return &known->second;
-    const Face& face = fonts.faces.at(static_cast<std::size_t>(id.face));
+    const FontFace& face = fonts.faces.at(static_cast<std::size_t>(id.face));
     const DistanceField field = distance_field(face.outline(id.glyph, tolerance), texels_per_em, reach);
     if (field.width == 0) return &glyphs_.emplace(id, AtlasGlyph{}).first->second;
     if (next_ + field.width > size_) {
@@ -177,7 +179,7 @@ const AtlasGlyph* Atlas::glyph(const Fonts& fonts, const GlyphId& id) {
         for (int x = 0; x < field.width; ++x)
             texels_[static_cast<std::size_t>((shelf_ + y) * size_ + next_ + x)] =
                 glm::packHalf1x16(field.distances[static_cast<std::size_t>(y * field.width + x)]);
-    // Neighbouring fields touch, so keep the sampled area half a texel inside.
+    // Neighbouring fields touch, so the sampled area ends half a texel inside.
     const auto uv = [&](double x, double y) { return glm::vec2((next_ + x) / size_, (shelf_ + y) / size_); };
     const auto em = [&](double x, double y) {
         return glm::vec2(field.low + glm::dvec2(x, y) / texels_per_em);
@@ -191,8 +193,8 @@ const AtlasGlyph* Atlas::glyph(const Fonts& fonts, const GlyphId& id) {
     return &glyphs_.emplace(id, glyph).first->second;
 }
 
-Atlas::Rows Atlas::take_changed() {
-    const Rows rows{changed_low_, changed_high_ - changed_low_};
+Atlas::RowRange Atlas::take_changed_rows() {
+    const RowRange rows{changed_low_, changed_high_ - changed_low_};
     changed_low_ = changed_high_ = 0;
     return rows;
 }

@@ -1,5 +1,6 @@
 // Signed distance fields of glyphs (C. Green, Improved Alpha-Tested Magnification for Vector Textures, 2007),
-// for sharp edges at every size and angle. Distances are computed from the outline itself, not from a raster.
+// for sharp edges at every size and angle, and an atlas of them. Distances are computed from the outline
+// itself, not from a raster.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +17,18 @@ struct DistanceField {
     std::vector<float> distances;  // em, positive inside, rows from the bottom; clamped to [-reach, reach]
 };
 
-// Returns an empty field for an outline without area. The field extends `reach` (em) beyond the outline on
-// every side.
-DistanceField distance_field(const Outline& outline, double texels_per_em, double reach);
+// The field extends `reach` (em) beyond the outline on every side. Returns an empty field for an outline
+// without edges.
+DistanceField distance_field(const GlyphOutline& outline, double texels_per_em, double reach);
 
-// Glyph distance fields in one square texture of half floats. Glyphs are added on demand; the owner of the
-// texture uploads the rows that have changed.
-
+// The place of a glyph's distance field in the texture.
 struct AtlasGlyph {
-    glm::vec2 low{0.0F}, high{0.0F};        // em, relative to the glyph's origin; equal: invisible
+    glm::vec2 low{0.0F}, high{0.0F};        // em, relative to the glyph's origin; equal: nothing to draw
     glm::vec2 uv_low{0.0F}, uv_high{0.0F};  // 0 … 1; v increases with y
 };
 
+// Glyph distance fields in one square texture of half floats. Glyphs are added on demand; the owner of the
+// GPU texture uploads the rows that have changed.
 class Atlas {
   public:
     static constexpr double texels_per_em = 64.0;
@@ -35,17 +36,17 @@ class Atlas {
 
     explicit Atlas(int size);
 
-    // Returns a glyph and adds it if it is new; null if the atlas is full.
+    // Returns a glyph, which is added if it is new; null if the atlas is full.
     const AtlasGlyph* glyph(const Fonts& fonts, const GlyphId& id);
 
     [[nodiscard]] int size() const { return size_; }
     [[nodiscard]] std::span<const std::uint16_t> texels() const { return texels_; }
 
-    // The rows that have changed since the last call; at first all rows.
-    struct Rows {
+    struct RowRange {
         int first = 0, count = 0;
     };
-    Rows take_changed();
+    // Returns the rows that have changed since the last call; at the first call all rows.
+    RowRange take_changed_rows();
 
   private:
     int size_;

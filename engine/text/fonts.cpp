@@ -14,34 +14,35 @@ namespace bolt::text {
 
 namespace {
 
-constexpr std::size_t largest_font = std::size_t{128} << 20;
+constexpr std::size_t max_font_size = std::size_t{128} << 20;  // bytes
 
+// A point on a quadratic Bézier curve.
 glm::dvec2 quadratic(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, double t) {
     return glm::mix(glm::mix(a, b, t), glm::mix(b, c, t), t);
 }
 
-// Returns the number of segments that keep a curve within the tolerance: the error of a chord over 1/n of it
-// is |second derivative| / 8n².
-int pieces(double second_derivative, double tolerance) {
+// Returns the number of segments that keep a flattened curve within the tolerance: the error of a chord over
+// 1/n of the curve is |second derivative| / 8n².
+int segment_count(double second_derivative, double tolerance) {
     return std::clamp(static_cast<int>(std::ceil(std::sqrt(second_derivative / (8.0 * tolerance)))), 1, 64);
 }
 
 }  // namespace
 
-struct Face::Data {
+struct FontFace::Data {
     std::string bytes;
     stbtt_fontinfo info{};
     float em = 1.0F;  // em per font unit
     float ascent = 0.0F, descent = 0.0F;
 };
 
-Face::Face(std::unique_ptr<Data> data) : data_(std::move(data)) {}
-Face::Face(Face&&) noexcept = default;
-Face& Face::operator=(Face&&) noexcept = default;
-Face::~Face() = default;
+FontFace::FontFace(std::unique_ptr<Data> data) : data_(std::move(data)) {}
+FontFace::FontFace(FontFace&&) noexcept = default;
+FontFace& FontFace::operator=(FontFace&&) noexcept = default;
+FontFace::~FontFace() = default;
 
-Result<Face> Face::read(const std::filesystem::path& file) {
-    BOLT_TRY_ASSIGN(auto bytes, read_file(file, largest_font, ErrorCode::failed));
+Result<FontFace> FontFace::read(const std::filesystem::path& file) {
+    BOLT_TRY_ASSIGN(auto bytes, read_file(file, max_font_size, ErrorCode::failed));
     auto data = std::make_unique<Data>();
     data->bytes = std::move(bytes);
     // stb_truetype would read past the end of a file shorter than a table directory.
@@ -50,7 +51,7 @@ Result<Face> Face::read(const std::filesystem::path& file) {
     if (offset < 0 || stbtt_InitFont(&data->info, first, offset) == 0) {
         Error error;
         error.code = ErrorCode::failed;
-        error.what = "is no readable font";
+        error.what = "is not a readable font";
         error.expected = "a TrueType or OpenType font";
         error.file = file.string();
         return fail(std::move(error));
@@ -60,28 +61,30 @@ Result<Face> Face::read(const std::filesystem::path& file) {
     stbtt_GetFontVMetrics(&data->info, &ascent, &descent, &gap);
     data->ascent = data->em * static_cast<float>(ascent);
     data->descent = -data->em * static_cast<float>(descent);
-    return Face(std::move(data));
+    return FontFace(std::move(data));
 }
 
-int Face::glyph(char32_t point) const { return stbtt_FindGlyphIndex(&data_->info, static_cast<int>(point)); }
+int FontFace::glyph(char32_t point) const {
+    return stbtt_FindGlyphIndex(&data_->info, static_cast<int>(point));
+}
 
-float Face::advance(int glyph) const {
+float FontFace::advance(int glyph) const {
     int advance = 0, bearing = 0;
     stbtt_GetGlyphHMetrics(&data_->info, glyph, &advance, &bearing);
     return data_->em * static_cast<float>(advance);
 }
 
-float Face::kerning(int left, int right) const {
+float FontFace::kerning(int left, int right) const {
     return data_->em * static_cast<float>(stbtt_GetGlyphKernAdvance(&data_->info, left, right));
 }
 
-float Face::ascent() const { return data_->ascent; }
-float Face::descent() const { return data_->descent; }
+float FontFace::ascent() const { return data_->ascent; }
+float FontFace::descent() const { return data_->descent; }
 
-Outline Face::outline(int glyph, double tolerance) const {
+GlyphOutline FontFace::outline(int glyph, double tolerance) const {
     stbtt_vertex* vertices = nullptr;
     const int count = stbtt_GetGlyphShape(&data_->info, glyph, &vertices);
-    Outline outline;
+    GlyphOutline outline;
     const auto em = static_cast<double>(data_->em);
     glm::dvec2 at(0.0);
     for (int i = 0; i < count; ++i) {
@@ -93,13 +96,13 @@ Outline Face::outline(int glyph, double tolerance) const {
         } else if (v.type == STBTT_vline) {
             outline.back().push_back(to);
         } else if (v.type == STBTT_vcurve) {
-            const int n = pieces(2.0 * glm::length(at - 2.0 * c1 + to), tolerance);
+            const int n = segment_count(2.0 * glm::length(at - 2.0 * c1 + to), tolerance);
             for (int k = 1; k <= n; ++k)
                 outline.back().push_back(quadratic(at, c1, to, static_cast<double>(k) / n));
         } else {
-            const double bend =
+            const double second_derivative =
                 6.0 * std::max(glm::length(at - 2.0 * c1 + c2), glm::length(c1 - 2.0 * c2 + to));
-            const int n = pieces(bend, tolerance);
+            const int n = segment_count(second_derivative, tolerance);
             for (int k = 1; k <= n; ++k) {
                 const double t = static_cast<double>(k) / n;
                 outline.back().push_back(glm::mix(quadratic(at, c1, c2, t), quadratic(c1, c2, to, t), t));
@@ -111,7 +114,7 @@ Outline Face::outline(int glyph, double tolerance) const {
     return outline;
 }
 
-Face::Raster Face::raster(int glyph, float em_px, float shift) const {
+FontFace::Raster FontFace::raster(int glyph, float em_px, float shift) const {
     const float scale = em_px * data_->em;
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     stbtt_GetGlyphBitmapBoxSubpixel(&data_->info, glyph, scale, scale, shift, 0.0F, &x0, &y0, &x1, &y1);
@@ -130,9 +133,9 @@ const std::vector<FontFile>& font_files() {
 }
 
 std::vector<std::filesystem::path> font_folders() {
-    const char* own = std::getenv("BOLTWRIGHT_FONTS");
-    if (own != nullptr && *own != '\0') return {own};
-    // The first two are Debian's folders of our fonts; other systems and user fonts follow.
+    const char* folder = std::getenv("BOLTWRIGHT_FONTS");
+    if (folder != nullptr && *folder != '\0') return {folder};
+    // The first two are Debian's folders of our fonts; then come those of other systems and the user's.
     std::vector<std::filesystem::path> folders{"/usr/share/fonts/truetype/dejavu",
                                                "/usr/share/fonts/truetype/wqy", "/usr/share/fonts",
                                                "/usr/local/share/fonts"};
@@ -143,21 +146,21 @@ std::vector<std::filesystem::path> font_folders() {
 
 Result<std::filesystem::path> find_font(const FontFile& font,
                                         const std::vector<std::filesystem::path>& folders) {
-    using Walk = std::filesystem::recursive_directory_iterator;
+    using Iterator = std::filesystem::recursive_directory_iterator;
     std::error_code ignored;  // missing and unreadable folders are skipped
     for (const std::filesystem::path& folder : folders)
-        for (Walk at(folder, std::filesystem::directory_options::skip_permission_denied, ignored), end;
+        for (Iterator at(folder, std::filesystem::directory_options::skip_permission_denied, ignored), end;
              at != end; at.increment(ignored))
             if (at->path().filename() == font.file) return at->path();
     return fail(ErrorCode::failed, fmt::format("the font {} is not installed", font.file),
-                fmt::format("the package {}, or the folder of the font in BOLTWRIGHT_FONTS", font.package));
+                fmt::format("the package {}, or the folder with the font in BOLTWRIGHT_FONTS", font.package));
 }
 
 Result<Fonts> load_fonts() {
     Fonts fonts;
-    for (const FontFile& wanted : font_files()) {
-        BOLT_TRY_ASSIGN(auto file, find_font(wanted, font_folders()));
-        BOLT_TRY_ASSIGN(auto face, Face::read(file));
+    for (const FontFile& font : font_files()) {
+        BOLT_TRY_ASSIGN(auto file, find_font(font, font_folders()));
+        BOLT_TRY_ASSIGN(auto face, FontFace::read(file));
         fonts.faces.push_back(std::move(face));
     }
     return fonts;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr char32_t replacement = 0xFFFD;
 
-// Returns the number of continuation bytes; -1 for an invalid first byte.
-int followers(std::uint8_t first) {
+// Returns the number of continuation bytes after a first byte; -1: it is invalid.
+int continuation_bytes(std::uint8_t first) {
     if (first < 0x80) return 0;
     if (first >= 0xC2 && first < 0xE0) return 1;
     if (first >= 0xE0 && first < 0xF0) return 2;
@@ -19,8 +19,8 @@ int followers(std::uint8_t first) {
     return -1;
 }
 
-// Overlong encodings, surrogates and values beyond Unicode are invalid (RFC 3629).
-bool forbidden(char32_t point, int follow) {
+// Returns true for overlong encodings, surrogates and values beyond Unicode (RFC 3629).
+bool is_invalid(char32_t point, int follow) {
     constexpr std::array<char32_t, 4> smallest{0, 0x80, 0x800, 0x10000};
     return point < smallest.at(static_cast<std::size_t>(follow)) || (point >= 0xD800 && point < 0xE000) ||
            point > 0x10FFFF;
@@ -32,17 +32,17 @@ std::u32string decode(std::string_view utf8) {
     std::u32string points;
     for (std::size_t at = 0; at < utf8.size();) {
         const auto first = static_cast<std::uint8_t>(utf8[at]);
-        const int follow = followers(first);
+        const int follow = continuation_bytes(first);
         char32_t point = follow <= 0 ? first : first & (0x3FU >> follow);
-        bool good = follow >= 0 && at + static_cast<std::size_t>(follow) < utf8.size();
-        for (int i = 1; good && i <= follow; ++i) {
+        bool valid = follow >= 0 && at + static_cast<std::size_t>(follow) < utf8.size();
+        for (int i = 1; valid && i <= follow; ++i) {
             const auto next = static_cast<std::uint8_t>(utf8[at + static_cast<std::size_t>(i)]);
-            good = (next & 0xC0U) == 0x80U;
+            valid = (next & 0xC0U) == 0x80U;
             point = point << 6 | (next & 0x3FU);
         }
-        good = good && !forbidden(point, follow);
-        points.push_back(good ? point : replacement);
-        at += good ? static_cast<std::size_t>(follow) + 1 : 1;
+        valid = valid && !is_invalid(point, follow);
+        points.push_back(valid ? point : replacement);
+        at += valid ? static_cast<std::size_t>(follow) + 1 : 1;
     }
     return points;
 }
@@ -82,7 +82,7 @@ TextLayout lay_out(const Fonts& fonts, std::string_view utf8, float align) {
             continue;
         }
         const GlyphId id = find_glyph(fonts, point);
-        const Face& face = fonts.faces[static_cast<std::size_t>(id.face)];
+        const FontFace& face = fonts.faces[static_cast<std::size_t>(id.face)];
         float& x = lines.back().width;
         if (before.glyph != 0 && before.face == id.face) x += face.kerning(before.glyph, id.glyph);
         layout.glyphs.push_back({id, {x, 0.0F}});

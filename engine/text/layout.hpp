@@ -1,4 +1,4 @@
-// Conversion between UTF-8 and code points.
+// Text layout, and conversion between UTF-8 and code points.
 #pragma once
 
 #include <string>
@@ -8,12 +8,10 @@
 
 namespace bolt::text {
 
-// Invalid UTF-8 becomes U+FFFD, one per byte that starts no character.
+// Converts UTF-8 to code points and back. Decoding replaces every byte that does not start a valid character
+// by U+FFFD.
 std::u32string decode(std::string_view utf8);
 std::string encode(std::u32string_view points);
-
-// Text layout from left to right: one glyph per code point, with kerning, without shaping for joining
-// scripts.
 
 struct PlacedGlyph {
     GlyphId id;
@@ -25,7 +23,8 @@ struct TextLayout {
     glm::vec2 size{0.0F};  // em; the box extends from (0, 0), lower left, to this corner
 };
 
-// `align` positions lines shorter than the longest: 0 left, 0.5 centred, 1 right.
+// Lays text out from left to right: one glyph per code point, with kerning, but without the shaping that
+// joining scripts need. `align` positions lines shorter than the longest: 0 left, 0.5 centred, 1 right.
 TextLayout lay_out(const Fonts& fonts, std::string_view utf8, float align = 0.0F);
 
 }  // namespace bolt::text

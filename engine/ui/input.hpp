@@ -1,4 +1,4 @@
-// User input as plain values, filled in once per frame by the owner of the window, the headset or the test.
+// User input as plain values. The owner of the window, the headset or the test fills it in once per frame.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace bolt::ui {
 
-// Keys that the interface itself handles; typed text arrives as text.
-enum class Key : std::uint8_t {
+// Keys that the interface itself handles. Typed text is passed separately (UiInput::text).
+enum class UiKey : std::uint8_t {
     tab,
     left,
     right,
@@ -34,24 +34,24 @@ enum class Key : std::uint8_t {
 };
 inline constexpr std::size_t key_count = 21;
 
-struct Button {
+struct UiButton {
     bool down = false;
-    bool pressed = false;  // went down since the last frame, even if it is up again
+    bool pressed = false;  // went down since the last frame, even if it has been released
 };
 
-struct Input {
-    glm::vec2 size{0.0F};   // of the picture, pixels
-    float scale = 1.0F;     // of the display: pixels per point
-    double seconds = 0.0;   // since the last frame
-    bool pointing = false;  // the pointer is over the picture
-    glm::vec2 pointer{0.0F};
-    std::array<Button, 3> buttons{};  // left, right, middle
-    glm::vec2 wheel{0.0F};            // notches since the last frame; y: away from the user
+struct UiInput {
+    glm::vec2 size{0.0F};               // of the picture, pixels
+    float scale = 1.0F;                 // of the display: pixels per point
+    double seconds = 0.0;               // since the last frame
+    bool pointer_inside = false;        // the pointer is over the picture
+    glm::vec2 pointer{0.0F};            // pixels from the upper left corner
+    std::array<UiButton, 3> buttons{};  // left, right, middle
+    glm::vec2 wheel{0.0F};              // notches since the last frame; y: away from the user
     std::array<bool, key_count> keys{};
     bool ctrl = false, shift = false, alt = false;
     std::string text;  // UTF-8, typed since the last frame
 
-    bool& key(Key k) { return keys.at(static_cast<std::size_t>(k)); }
+    bool& key(UiKey k) { return keys.at(static_cast<std::size_t>(k)); }
 };
 
 }  // namespace bolt::ui

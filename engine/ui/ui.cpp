@@ -11,14 +11,13 @@
 #include "engine/text/fonts.hpp"
 #include "engine/text/layout.hpp"
 
-// The style of the user interface.
-
 namespace bolt::ui {
 
-// Lengths are points times `scale`. Colours are blended linearly (see shaders/overlay.frag), so that
-// translucent colours let a bright background through more than with blending of encoded values.
-ImGuiStyle make_style(float scale);
+namespace {
 
+// Returns the style of the user interface. Lengths are points times `scale`. Colours are blended linearly
+// (see shaders/overlay.frag), so a bright background shines through a translucent colour more than it would
+// with blending of encoded values.
 ImGuiStyle make_style(float scale) {
     ImGuiStyle style;
     ImGui::StyleColorsDark(&style);
@@ -52,15 +51,14 @@ ImGuiStyle make_style(float scale) {
     return style;
 }
 
-namespace {
-
 static_assert(IM_COL32_R_SHIFT == 0 && IM_COL32_A_SHIFT == 24);
 
-// European languages and symbols used in bolting; ranges of code points, inclusive.
-constexpr std::pair<char32_t, char32_t> always[] = {{0x20, 0x7E}, {0xA0, 0x17F}, {0x391, 0x3C9}};
-constexpr std::u32string_view signs = U"–—‘’‚“”„…•′″€⁰¹²³⁴⁻₀₁₂₃₄←↑→↓∆∑−√∞∠∥≈≠≤≥✓✗�";
+// The characters that every font atlas has: those of European languages (ranges of code points, inclusive)
+// and symbols used in bolting.
+constexpr std::pair<char32_t, char32_t> default_ranges[] = {{0x20, 0x7E}, {0xA0, 0x17F}, {0x391, 0x3C9}};
+constexpr std::u32string_view default_symbols = U"–—‘’‚“”„…•′″€⁰¹²³⁴⁻₀₁₂₃₄←↑→↓∆∑−√∞∠∥≈≠≤≥✓✗�";
 
-// Texture ids start at 1: the font, then this frame's pictures.
+// Texture 1 is the font; this frame's pictures follow.
 ImTextureID texture_id(std::size_t number) {
     ImTextureID id = nullptr;
     static_assert(sizeof id == sizeof number);
@@ -73,18 +71,19 @@ std::size_t texture_number(ImTextureID id) {
     return number;
 }
 
-constexpr ImGuiKey_ keys[key_count] = {
+// In the order of UiKey.
+constexpr ImGuiKey_ imgui_keys[key_count] = {
     ImGuiKey_Tab,    ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow,
     ImGuiKey_PageUp, ImGuiKey_PageDown,  ImGuiKey_Home,       ImGuiKey_End,     ImGuiKey_Insert,
     ImGuiKey_Delete, ImGuiKey_Backspace, ImGuiKey_Space,      ImGuiKey_Enter,   ImGuiKey_Escape,
     ImGuiKey_A,      ImGuiKey_C,         ImGuiKey_V,          ImGuiKey_X,       ImGuiKey_Y,
     ImGuiKey_Z};
 
-void feed(ImGuiIO& io, const Input& input) {
+void set_input(ImGuiIO& io, const UiInput& input) {
     io.DisplaySize = {input.size.x, input.size.y};
     io.DeltaTime = static_cast<float>(std::max(input.seconds, 1e-6));
-    // A pointer outside the picture is moved to where no widget can be.
-    io.MousePos = input.pointing
+    // A pointer outside the picture is placed where no widget can be.
+    io.MousePos = input.pointer_inside
                       ? ImVec2(input.pointer.x, input.pointer.y)
                       : ImVec2(-std::numeric_limits<float>::max(), -std::numeric_limits<float>::max());
     for (std::size_t i = 0; i < input.buttons.size(); ++i)
@@ -130,14 +129,14 @@ Result<std::unique_ptr<Ui>> Ui::create(gpu::Device& device, const UiOptions& opt
     std::unique_ptr<Ui> ui(new Ui);
     ui->device_ = &device;
     ui->options_ = options;
-    for (const text::FontFile& wanted : text::font_files()) {
-        BOLT_TRY_ASSIGN(auto file, text::find_font(wanted, text::font_folders()));
-        BOLT_TRY_ASSIGN(auto face, text::Face::read(file));
+    for (const text::FontFile& font : text::font_files()) {
+        BOLT_TRY_ASSIGN(auto file, text::find_font(font, text::font_folders()));
+        BOLT_TRY_ASSIGN(auto face, text::FontFace::read(file));
         ui->fonts_.push_back({file.string(), face.ascent() + face.descent()});
     }
-    for (const auto& [first, last] : always)
-        for (char32_t point = first; point <= last; ++point) ui->letters_.insert(point);
-    ui->letters_.insert(signs.begin(), signs.end());
+    for (const auto& [first, last] : default_ranges)
+        for (char32_t point = first; point <= last; ++point) ui->characters_.insert(point);
+    ui->characters_.insert(default_symbols.begin(), default_symbols.end());
 
     ImGuiContext* before = ImGui::GetCurrentContext();
     ui->context_.reset(ImGui::CreateContext());
@@ -147,30 +146,30 @@ Result<std::unique_ptr<Ui>> Ui::create(gpu::Device& device, const UiOptions& opt
     io.LogFilename = nullptr;
     io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-    for (std::size_t i = 0; i < key_count; ++i) io.KeyMap[keys[i]] = static_cast<int>(i);
+    for (std::size_t i = 0; i < key_count; ++i) io.KeyMap[imgui_keys[i]] = static_cast<int>(i);
     ImGui::SetCurrentContext(before);
     return ui;
 }
 
 Ui::~Ui() = default;
 
-void Ui::need(std::string_view utf8) {
+void Ui::add_characters(std::string_view utf8) {
     for (const char32_t point : text::decode(utf8))
-        if (point >= 0x20 && point <= IM_UNICODE_CODEPOINT_MAX) stale_ |= letters_.insert(point).second;
+        if (point >= 0x20 && point <= IM_UNICODE_CODEPOINT_MAX) stale_ |= characters_.insert(point).second;
 }
 
-Status Ui::rebuild(gpu::FrameContext& frame) {
+Status Ui::rebuild_font(gpu::FrameContext& frame) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     atlas.Clear();
     ImFontGlyphRangesBuilder builder;
-    for (const char32_t point : letters_) builder.AddChar(static_cast<ImWchar>(point));
+    for (const char32_t point : characters_) builder.AddChar(static_cast<ImWchar>(point));
     ImVector<ImWchar> ranges;
     builder.BuildRanges(&ranges);
     for (const Font& font : fonts_) {
         ImFontConfig config;
         config.MergeMode = &font != &fonts_.front();
-        // Chinese characters have one width and are aligned to whole pixels; others may be placed between
-        // pixels.
+        // Chinese characters all have the same width and are aligned to whole pixels; others may be placed
+        // between pixels.
         config.OversampleH = config.MergeMode ? 1 : 3;
         config.PixelSnapH = config.MergeMode;
         const float em = std::round(options_.text_size * scale_);
@@ -197,16 +196,16 @@ Status Ui::rebuild(gpu::FrameContext& frame) {
     return {};
 }
 
-Status Ui::begin(gpu::FrameContext& frame, const Input& input) {
+Status Ui::begin(gpu::FrameContext& frame, const UiInput& input) {
     ImGui::SetCurrentContext(context_.get());
     if (const float scale = std::clamp(input.scale, 0.25F, 8.0F); scale != scale_) {
         scale_ = scale;
         ImGui::GetStyle() = make_style(scale);
         stale_ = true;
     }
-    if (stale_) BOLT_TRY(rebuild(frame));
+    if (stale_) BOLT_TRY(rebuild_font(frame));
     pictures_.clear();
-    feed(ImGui::GetIO(), input);
+    set_input(ImGui::GetIO(), input);
     ImGui::NewFrame();
     return {};
 }

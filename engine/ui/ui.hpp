@@ -1,5 +1,5 @@
 // The user interface: Dear ImGui, drawn as an overlay. Between begin() and end() the caller uses
-// <imgui/imgui.h> in this Ui's context; several Uis may exist if each is ended before the next begins.
+// <imgui/imgui.h> in this Ui's context. Several Uis may exist if each is ended before the next begins.
 // Lengths are pixels: multiply points by scale(). Text is rasterised at its displayed size.
 #pragma once
 
@@ -26,26 +26,26 @@ class Ui {
     Ui& operator=(const Ui&) = delete;
     ~Ui();
 
-    // Adds characters beyond the European ones to the font. Unknown characters are drawn as "?".
-    void need(std::string_view utf8);
+    // Adds characters beyond the European ones to the font. Characters that were not added are drawn as "?".
+    void add_characters(std::string_view utf8);
 
-    // `frame` is the frame that will draw the interface.
-    Status begin(gpu::FrameContext& frame, const Input& input);
+    // Starts the interface's frame. `frame`: the GPU frame that will draw it.
+    Status begin(gpu::FrameContext& frame, const UiInput& input);
 
-    // Registers a picture of the renderer for ImGui::Image, until end().
+    // Registers a picture of the renderer for ImGui::Image; the id is valid until end().
     ImTextureID picture(const render::ImageLayer& picture);
 
     // Returns the overlay for Renderer::draw_over. It refers to this Ui's font.
     render::Overlay end();
 
     [[nodiscard]] float scale() const { return scale_; }
-    // Whether pointer and keyboard input belong to the interface now, not to the scene.
+    // Return whether pointer and keyboard input is for the interface now, not for the scene.
     [[nodiscard]] bool wants_pointer() const;
     [[nodiscard]] bool wants_keys() const;
 
   private:
     Ui() = default;
-    Status rebuild(gpu::FrameContext& frame);
+    Status rebuild_font(gpu::FrameContext& frame);
 
     struct Destroy {
         void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
@@ -59,8 +59,8 @@ class Ui {
     UiOptions options_;
     std::unique_ptr<ImGuiContext, Destroy> context_;
     std::vector<Font> fonts_;
-    std::set<char32_t> letters_;
-    bool stale_ = true;  // the font lacks characters or has the wrong size
+    std::set<char32_t> characters_;
+    bool stale_ = true;  // the font image lacks characters or has the wrong size
     float scale_ = 0.0F;
     gpu::Image font_image_;
     std::vector<render::OverlayTexture> pictures_;  // in this frame

@@ -13,27 +13,27 @@
 namespace bolt::analysis {
 
 namespace {
-constexpr std::size_t most_samples = std::size_t{1} << 18U;
-constexpr double least_step = 1e-6;  // rad
-constexpr double least_turn = to_radians(1.0);
+constexpr std::size_t max_samples = std::size_t{1} << 18U;
+constexpr double min_step = 1e-6;  // rad
+constexpr double min_turn = to_radians(1.0);
 }  // namespace
 
-AdvanceBuilder::AdvanceBuilder(joint::Direction direction)
-    : sign_(direction == joint::Direction::tighten ? 1.0 : -1.0), step_(least_step) {
+TorqueCurveBuilder::TorqueCurveBuilder(joint::Direction direction)
+    : sign_(direction == joint::Direction::tighten ? 1.0 : -1.0), step_(min_step) {
     curve_.direction = direction;
 }
 
-void AdvanceBuilder::restart(double nut_angle, double torque, joint::Stage stage) {
+void TorqueCurveBuilder::restart(double nut_angle, double torque, joint::Stage stage) {
     curve_.angle.assign(1, 0.0);
     curve_.torque.assign(1, torque);
     curve_.stage.assign(1, stage);
-    curve_.passed_over = 0;
+    curve_.skipped = 0;
     origin_ = nut_angle;
     anchor_ = 0.0;
 }
 
-// Of each pair of samples the one with more torque is kept, so that peaks stay.
-void AdvanceBuilder::thin() {
+// Keeps the sample with more torque of each pair, which preserves peaks.
+void TorqueCurveBuilder::thin() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < curve_.size(); i += 2, ++kept) {
         const bool second =
@@ -46,10 +46,10 @@ void AdvanceBuilder::thin() {
     curve_.angle.resize(kept);
     curve_.torque.resize(kept);
     curve_.stage.resize(kept);
-    step_ = std::max(2.0 * step_, curve_.angle.back() / static_cast<double>(most_samples));
+    step_ = std::max(2.0 * step_, curve_.angle.back() / static_cast<double>(max_samples));
 }
 
-void AdvanceBuilder::add(double nut_angle, double torque, joint::Stage stage) {
+void TorqueCurveBuilder::add(double nut_angle, double torque, joint::Stage stage) {
     if (!std::isfinite(nut_angle) || !std::isfinite(torque)) return;
     const bool loosening = curve_.direction == joint::Direction::loosen;
     if (curve_.empty() || (loosening && nut_angle > origin_ + step_)) {
@@ -59,47 +59,48 @@ void AdvanceBuilder::add(double nut_angle, double torque, joint::Stage stage) {
     const double turned = sign_ * (nut_angle - origin_);
     if (curve_.size() == 1 && turned <= step_) {
         if (sign_ * torque > sign_ * curve_.torque[0]) curve_.torque[0] = torque;
-        ++curve_.passed_over;
+        ++curve_.skipped;
         return;
     }
     if (turned <= anchor_ + step_) {
-        // Within a step that has grown, the sample with more torque stands for it: peaks stay.
-        const bool further = turned > curve_.angle.back() + least_step;
+        // Within a step, keep the sample with more torque, which preserves peaks.
+        const bool further = turned > curve_.angle.back() + min_step;
         if (further && std::abs(torque) > std::abs(curve_.torque.back())) {
             curve_.angle.back() = turned;
             curve_.torque.back() = torque;
             curve_.stage.back() = stage;
         }
-        if (!further) ++curve_.passed_over;
+        if (!further) ++curve_.skipped;
         return;
     }
-    if (curve_.size() == most_samples) thin();
+    if (curve_.size() == max_samples) thin();
     anchor_ = turned;
     curve_.angle.push_back(turned);
     curve_.torque.push_back(torque);
     curve_.stage.push_back(stage);
 }
 
-Curve AdvanceBuilder::take() { return std::move(curve_); }
+TorqueCurve TorqueCurveBuilder::finish() { return std::move(curve_); }
 
-Curve advance_curve(std::span<const double> angle, std::span<const double> torque,
-                    joint::Direction direction) {
-    // A rig counts its angle upwards whichever way it turns, or as we do: what it ran through says which.
+TorqueCurve make_torque_curve(std::span<const double> angle, std::span<const double> torque,
+                              joint::Direction direction) {
+    // A rig may count its angle upwards in both directions; the first and the last angle give its sign.
     const std::size_t count = std::min(angle.size(), torque.size());
     if (count == 0) return {};
-    const double counts_up = angle[count - 1] >= angle[0] ? 1.0 : -1.0;
+    const double rig_sign = angle[count - 1] >= angle[0] ? 1.0 : -1.0;
     const double sign = direction == joint::Direction::tighten ? 1.0 : -1.0;
-    AdvanceBuilder builder(direction);
+    TorqueCurveBuilder builder(direction);
     for (std::size_t i = 0; i < count; ++i)
-        builder.add(sign * counts_up * (angle[i] - angle[0]), torque[i], joint::Stage::navigation);
-    Curve curve = builder.take();
+        builder.add(sign * rig_sign * (angle[i] - angle[0]), torque[i], joint::Stage::navigation);
+    TorqueCurve curve = builder.finish();
     curve.stage.clear();
     return curve;
 }
 
-Result<std::vector<std::optional<Curve>>> advance_curves(const session::Reader& session, std::size_t joints,
-                                                         joint::Direction direction) {
-    std::vector<AdvanceBuilder> builders(joints, AdvanceBuilder(direction));
+Result<std::vector<std::optional<TorqueCurve>>> torque_curves(const session::SessionReader& session,
+                                                              std::size_t joints,
+                                                              joint::Direction direction) {
+    std::vector<TorqueCurveBuilder> builders(joints, TorqueCurveBuilder(direction));
     BOLT_TRY(session.for_each_chunk([&](std::uint64_t, std::span<const session::TickRecord> ticks) {
         for (const session::TickRecord& tick : ticks) {
             if (tick.joint < 0 || static_cast<std::size_t>(tick.joint) >= joints) continue;
@@ -108,22 +109,22 @@ Result<std::vector<std::optional<Curve>>> advance_curves(const session::Reader& 
                 static_cast<double>(tick.nut_angle), static_cast<double>(tick.wrench_torque), stage);
         }
     }));
-    std::vector<std::optional<Curve>> curves;
-    for (AdvanceBuilder& builder : builders) {
-        Curve curve = builder.take();
+    std::vector<std::optional<TorqueCurve>> curves;
+    for (TorqueCurveBuilder& builder : builders) {
+        TorqueCurve curve = builder.finish();
         const double sign = direction == joint::Direction::tighten ? 1.0 : -1.0;
         const bool loaded =
             std::any_of(curve.torque.begin(), curve.torque.end(), [&](double t) { return sign * t > 0.0; });
-        const bool turned = !curve.empty() && curve.angle.back() >= least_turn;
-        curves.push_back(loaded && turned ? std::optional<Curve>(std::move(curve)) : std::nullopt);
+        const bool turned = !curve.empty() && curve.angle.back() >= min_turn;
+        curves.push_back(loaded && turned ? std::optional<TorqueCurve>(std::move(curve)) : std::nullopt);
     }
     return curves;
 }
 
 namespace {
 
-// Angle at which the torque first passes the level, between samples.
-double passing(const analysis::Curve& curve, double level) {
+// Interpolated angle at which the torque first passes `level`.
+double angle_at(const TorqueCurve& curve, double level) {
     std::size_t i = 0;
     while (i < curve.size() && curve.torque[i] < level) ++i;
     if (i == 0) return curve.angle.front();
@@ -133,33 +134,33 @@ double passing(const analysis::Curve& curve, double level) {
     return curve.angle[i - 1] + part * (curve.angle[i] - curve.angle[i - 1]);
 }
 
-double highest(const analysis::Curve& curve) {
+double highest_torque(const TorqueCurve& curve) {
     return *std::max_element(curve.torque.begin(), curve.torque.end());
 }
 
-std::size_t breakaway(const analysis::Curve& curve) {
+std::size_t breakaway_index(const TorqueCurve& curve) {
     return static_cast<std::size_t>(std::min_element(curve.torque.begin(), curve.torque.end()) -
                                     curve.torque.begin());
 }
 
 }  // namespace
 
-Result<Alignment> align(const analysis::Curve& ours, const analysis::Curve& measured, double share) {
+Result<Alignment> align(const TorqueCurve& ours, const TorqueCurve& measured, double share) {
     if (ours.empty() || measured.empty()) return fail(ErrorCode::failed, "there is no curve to align");
     Alignment a;
     if (measured.direction == joint::Direction::loosen) {
-        const std::size_t our = breakaway(ours), their = breakaway(measured);
+        const std::size_t our = breakaway_index(ours), their = breakaway_index(measured);
         a.our_angle = ours.angle[our];
         a.measured_angle = measured.angle[their];
         a.torque = measured.torque[their];
     } else {
-        const double end = std::min(highest(ours), highest(measured));
+        const double end = std::min(highest_torque(ours), highest_torque(measured));
         if (!(end > 0.0))
-            return fail(ErrorCode::failed, "the curves have no torque in common to be aligned by",
-                        "tightening torque in both");
+            return fail(ErrorCode::failed, "the curves share no tightening torque to align them by",
+                        "positive torque in both");
         a.torque = share * end;
-        a.our_angle = passing(ours, a.torque);
-        a.measured_angle = passing(measured, a.torque);
+        a.our_angle = angle_at(ours, a.torque);
+        a.measured_angle = angle_at(measured, a.torque);
     }
     a.shift = a.our_angle - a.measured_angle;
     return a;
@@ -168,15 +169,15 @@ Result<Alignment> align(const analysis::Curve& ours, const analysis::Curve& meas
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-// An angle that was shifted there and back is the same to this, rad.
-constexpr double slack = 1e-9;
+// rad, rounding error of a shifted angle.
+constexpr double angle_tolerance = 1e-9;
 
-struct Reading {
+struct CurveValue {
     double torque = 0.0;
     joint::Stage stage = joint::Stage::navigation;
 };
 
-Reading read_at(const analysis::Curve& curve, double angle) {
+CurveValue value_at(const TorqueCurve& curve, double angle) {
     const auto after = std::upper_bound(curve.angle.begin(), curve.angle.end(), angle);
     const auto i = static_cast<std::size_t>(
         std::clamp<std::ptrdiff_t>(after - curve.angle.begin(), 1, std::ssize(curve.angle) - 1));
@@ -186,14 +187,14 @@ Reading read_at(const analysis::Curve& curve, double angle) {
             curve.stage[part < 1.0 ? i - 1 : i]};
 }
 
-// While collecting, mape holds the sum.
-void collect(StageError& error, double relative) {
+// Until finish_error(), mape holds the sum.
+void add_error(StageError& error, double relative) {
     ++error.count;
     error.mre = std::max(error.mre, relative);
     error.mape += relative;
 }
 
-void finish(StageError& error) {
+void finish_error(StageError& error) {
     error.mape = error.count > 0 ? error.mape / static_cast<double>(error.count) : nan;
     if (error.count == 0) error.mre = nan;
 }
@@ -207,42 +208,42 @@ StageError pool(const StageError& a, const StageError& b) {
         sum.mre = std::max(sum.mre, e.mre);
         sum.mape += e.mape * static_cast<double>(e.count);
     }
-    finish(sum);
+    finish_error(sum);
     return sum;
 }
 
 }  // namespace
 
-Errors errors_of(const analysis::Curve& ours, const analysis::Curve& measured, double shift, double floor) {
-    Errors errors;
+TorqueErrors torque_errors(const TorqueCurve& ours, const TorqueCurve& measured, double shift, double floor) {
+    TorqueErrors errors;
     errors.floor = floor;
     for (std::size_t i = 0; i < measured.size(); ++i) {
         const double angle = measured.angle[i] + shift;
-        const bool inside =
-            ours.size() > 1 && angle >= ours.angle.front() - slack && angle <= ours.angle.back() + slack;
+        const bool inside = ours.size() > 1 && angle >= ours.angle.front() - angle_tolerance &&
+                            angle <= ours.angle.back() + angle_tolerance;
         if (!inside) {
             ++errors.outside;
             continue;
         }
-        const Reading reading = read_at(ours, angle);
+        const CurveValue value = value_at(ours, angle);
         const double actual = measured.torque[i];
-        StageError& stage = errors.stage[static_cast<std::size_t>(reading.stage)];
+        StageError& stage = errors.stage[static_cast<std::size_t>(value.stage)];
         if (std::abs(actual) < floor || actual == 0.0) {
             ++stage.below;
             ++errors.all.below;
             continue;
         }
-        const double relative = std::abs(reading.torque - actual) / std::abs(actual);
-        collect(stage, relative);
-        collect(errors.all, relative);
+        const double relative = std::abs(value.torque - actual) / std::abs(actual);
+        add_error(stage, relative);
+        add_error(errors.all, relative);
     }
-    for (StageError& stage : errors.stage) finish(stage);
-    finish(errors.all);
+    for (StageError& stage : errors.stage) finish_error(stage);
+    finish_error(errors.all);
     return errors;
 }
 
-Errors pool(const Errors& a, const Errors& b) {
-    Errors sum;
+TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b) {
+    TorqueErrors sum;
     for (std::size_t i = 0; i < sum.stage.size(); ++i) sum.stage[i] = pool(a.stage[i], b.stage[i]);
     sum.all = pool(a.all, b.all);
     sum.outside = a.outside + b.outside;
@@ -250,7 +251,7 @@ Errors pool(const Errors& a, const Errors& b) {
     return sum;
 }
 
-double floor_of(const analysis::Curve& measured, double share) {
+double torque_floor(const TorqueCurve& measured, double share) {
     double highest = 0.0;
     for (const double torque : measured.torque) highest = std::max(highest, std::abs(torque));
     return share * highest;
@@ -276,16 +277,16 @@ std::string_view verb(joint::Direction direction) {
 
 }  // namespace
 
-std::vector<MeasuredCurve> measured_curves(const Measured& measured) {
+std::vector<MeasuredCurve> measured_curves(const MeasuredRecord& measured) {
     std::vector<MeasuredCurve> curves;
     for (const Cycle& cycle : measured.cycles)
-        curves.push_back(
-            {cycle.name, analysis::advance_curve(cycle.angle, cycle.torque, measured.direction)});
+        curves.push_back({cycle.name, make_torque_curve(cycle.angle, cycle.torque, measured.direction)});
     return curves;
 }
 
-Result<JointComparison> compare_joint(std::string joint, analysis::Curve ours,
-                                      const std::vector<MeasuredCurve>& measured, const Options& options) {
+Result<JointComparison> compare_joint(std::string joint, TorqueCurve ours,
+                                      const std::vector<MeasuredCurve>& measured,
+                                      const ComparisonOptions& options) {
     JointComparison result;
     result.joint = std::move(joint);
     result.ours = std::move(ours);
@@ -293,22 +294,22 @@ Result<JointComparison> compare_joint(std::string joint, analysis::Curve ours,
         CycleComparison one;
         BOLT_TRY_ASSIGN(const auto alignment, align(result.ours, cycle.curve, options.share));
         one.alignment = alignment;
-        one.errors = errors_of(result.ours, cycle.curve, one.alignment.shift,
-                               floor_of(cycle.curve, options.floor_share));
+        one.errors = torque_errors(result.ours, cycle.curve, one.alignment.shift,
+                                   torque_floor(cycle.curve, options.floor_share));
         result.errors = pool(result.errors, one.errors);
         result.cycles.push_back(one);
     }
     return result;
 }
 
-Result<Comparison> compare(const session::Reader& session, const Measured& measured, std::string_view joint,
-                           const Options& options) {
-    BOLT_TRY_ASSIGN(const auto assembly, analysis::stored_assembly(session));
+Result<Comparison> compare(const session::SessionReader& session, const MeasuredRecord& measured,
+                           std::string_view joint, const ComparisonOptions& options) {
+    BOLT_TRY_ASSIGN(const auto assembly, stored_assembly(session));
     const std::vector<std::string> ids = ids_of(assembly);
     if (!joint.empty() && std::find(ids.begin(), ids.end(), joint) == ids.end())
         return unknown_joint(joint, ids);
 
-    BOLT_TRY_ASSIGN(auto ours, analysis::advance_curves(session, ids.size(), measured.direction));
+    BOLT_TRY_ASSIGN(auto ours, torque_curves(session, ids.size(), measured.direction));
 
     Comparison result;
     result.session = session.file();

@@ -1,9 +1,5 @@
-// One nut turned one way: torque over the angle turned, each angle once.
-//
-// A wrench that is put on again and again leaves a record that stands still, drops to no torque and comes
-// back. For a comparison only the samples count at which the nut goes further than ever before. Where it
-// waits it keeps the torque with which it got there; the start, which it did not get to, keeps the highest
-// torque met there (breaking loose).
+// Comparison of a session with a measured record: the torque-angle curves of both, their alignment, and the
+// error of the virtual torque in each stage.
 #pragma once
 
 #include <array>
@@ -22,118 +18,120 @@
 
 namespace bolt::analysis {
 
-struct Curve {
+// Torque over the angle that a nut was turned in one direction, each angle once.
+//
+// With repeated strokes the recorded angle pauses and the torque drops to zero in between. The curve keeps
+// only the samples at which the nut advances beyond all previous angles. While the nut pauses, the curve
+// keeps the torque with which it arrived; at the start it keeps the highest torque before the nut moves
+// (breakaway).
+struct TorqueCurve {
     joint::Direction direction = joint::Direction::tighten;
-    std::vector<double> angle;        // rad turned in the direction, from the first sample; strictly rising
-    std::vector<double> torque;       // N·m, tightening positive
+    std::vector<double> angle;   // rad turned in the direction since the first sample, strictly ascending
+    std::vector<double> torque;  // N·m, tightening positive
     std::vector<joint::Stage> stage;  // empty for a measured curve
-    std::size_t passed_over = 0;      // samples at which the nut did not go further
+    std::size_t skipped = 0;          // samples at which the nut did not advance
 
     [[nodiscard]] std::size_t size() const { return angle.size(); }
     [[nodiscard]] bool empty() const { return angle.empty(); }
 };
 
-// Takes samples in time. A loosening run starts where the nut was furthest on, and starts anew when it is
-// turned further on; a tightening run starts at the first sample.
-class AdvanceBuilder {
+// Builds a curve from samples in order of time. A tightening run starts at the first sample. A loosening run
+// starts at the tightest angle, and restarts when the nut is tightened beyond it.
+class TorqueCurveBuilder {
   public:
-    explicit AdvanceBuilder(joint::Direction direction);
+    explicit TorqueCurveBuilder(joint::Direction direction);
 
     void add(double nut_angle, double torque, joint::Stage stage);
-    Curve take();
+    TorqueCurve finish();
 
   private:
     void restart(double nut_angle, double torque, joint::Stage stage);
     void thin();
 
-    Curve curve_;
+    TorqueCurve curve_;
     double sign_ = 1.0;
     double origin_ = 0.0;  // rad
-    double anchor_ = 0.0;  // rad turned, where the last sample was begun
+    double anchor_ = 0.0;  // rad turned at the begin of the last sample
     double step_;          // rad, between samples; doubles when the curve grows too long
 };
 
-// A measured run, without stages.
-Curve advance_curve(std::span<const double> angle, std::span<const double> torque,
-                    joint::Direction direction);
+// The curve of a measured run, without stages.
+TorqueCurve make_torque_curve(std::span<const double> angle, std::span<const double> torque,
+                              joint::Direction direction);
 
-// The session's curves, one a joint of the assembly, in one reading; none for a nut that was never turned
-// that way by a degree with torque against it.
-Result<std::vector<std::optional<Curve>>> advance_curves(const session::Reader& session, std::size_t joints,
-                                                         joint::Direction direction);
+// The session's curves, one for each joint of the assembly; none for a nut that was not turned by at least 1°
+// in this direction under load.
+Result<std::vector<std::optional<TorqueCurve>>> torque_curves(const session::SessionReader& session,
+                                                              std::size_t joints, joint::Direction direction);
 
-// Where a measured curve lies on ours: a rig counts its angle from anywhere.
+// Tightening curves are aligned where the torque first passes this share of the final torque that both reach:
+// half-way up the elastic line, where the angle is best defined.
+inline constexpr double default_alignment_share = 0.5;
 
-// Tightening curves are laid upon each other where the torque first passes this share of the end torque that
-// both reach: half-way up the elastic line, where the angle is sharpest.
-inline constexpr double default_share = 0.5;
-
+// The position of a measured curve on ours, because a rig may count its angle from any origin.
 struct Alignment {
-    double shift = 0.0;      // rad, to be added to the measured angle
+    double shift = 0.0;      // rad, added to the measured angle
     double our_angle = 0.0;  // rad, of the common point
     double measured_angle = 0.0;
     double torque = 0.0;  // N·m, of the common point on the measured curve
 };
 
-// Both curves as analysis::advance_curve makes them (each angle once). Tightening: by the running maximum of
-// the torque, so that a re-grip or a ripple cannot be taken for the passing; loosening: by the breakaway
-// peak.
-Result<Alignment> align(const analysis::Curve& ours, const analysis::Curve& measured,
-                        double share = default_share);
+// Aligns curves from make_torque_curve(). Tightening: by the running maximum of the torque, so that a re-grip
+// or a ripple does not count as the passing; loosening: by the breakaway peak.
+Result<Alignment> align(const TorqueCurve& ours, const TorqueCurve& measured,
+                        double share = default_alignment_share);
 
-// How far our torque is from the measured one, stage by stage, as the paper of 2018 states it:
-// relative error |T_v − T_a| / T_a, MRE its maximum and MAPE its mean.
-
+// Error of our torque T_v against the measured torque T_a in one stage, as in the paper of 2018: relative
+// error |T_v − T_a| / T_a, MRE its maximum and MAPE its mean.
 struct StageError {
-    std::size_t count = 0;  // samples judged
-    std::size_t below = 0;  // left out: |T_a| below the floor, where a relative error says nothing
-    double mre = 0.0;       // NaN where nothing was judged
+    std::size_t count = 0;  // samples used
+    std::size_t below = 0;  // samples excluded: |T_a| is below the floor, so a relative error is meaningless
+    double mre = 0.0;       // NaN without samples
     double mape = 0.0;
 };
 
-struct Errors {
+struct TorqueErrors {
     std::array<StageError, joint::stage_count> stage;
     StageError all;
-    std::size_t outside = 0;  // left out: at angles our curve does not have
+    std::size_t outside = 0;  // samples excluded: angles outside our curve
     double floor = 0.0;       // N·m; pooled: the largest
 };
 
-// Share of a run's highest |T_a| below which a sample is left out: 1 %, what a good torque sensor resolves.
+// Share of a run's highest |T_a| below which a sample is excluded: 1 %, the resolution of a good torque
+// sensor.
 inline constexpr double default_floor_share = 0.01;
 
-// Our torque is taken between samples, our stage from the sample before. `shift` is added to the measured
-// angles.
-Errors errors_of(const analysis::Curve& ours, const analysis::Curve& measured, double shift, double floor);
+// Errors at the measured samples. Interpolates our torque and takes our stage from the sample before. Adds
+// `shift` in rad to the measured angles; `floor` in N·m.
+TorqueErrors torque_errors(const TorqueCurve& ours, const TorqueCurve& measured, double shift, double floor);
 
-// Maximum of the maxima, mean over all samples.
-Errors pool(const Errors& a, const Errors& b);
+// Combines errors: maximum of the maxima, mean over all samples.
+TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b);
 
-// max |T| · default_floor_share
-double floor_of(const analysis::Curve& measured, double share = default_floor_share);
+// max |T| · share, N·m.
+double torque_floor(const TorqueCurve& measured, double share = default_floor_share);
 
-// A session held against a measured record: which error the virtual torque has, stage by stage.
-
-struct Options {
-    double share = default_share;              // see align.hpp
-    double floor_share = default_floor_share;  // see errors.hpp
+struct ComparisonOptions {
+    double share = default_alignment_share;
+    double floor_share = default_floor_share;
 };
 
-// A run of the measured file against one joint.
+// One run of the measured file compared with one joint.
 struct CycleComparison {
     Alignment alignment;
-    Errors errors;
+    TorqueErrors errors;
 };
 
 struct JointComparison {
     std::string joint;
-    analysis::Curve ours;
+    TorqueCurve ours;
     std::vector<CycleComparison> cycles;  // one for each measured curve
-    Errors errors;                        // over all cycles
+    TorqueErrors errors;                  // over all cycles
 };
 
 struct MeasuredCurve {
-    std::string name;       // of the cycle; may be empty
-    analysis::Curve curve;  // each angle once
+    std::string name;   // of the cycle; may be empty
+    TorqueCurve curve;  // each angle once
 };
 
 struct Comparison {
@@ -143,19 +141,19 @@ struct Comparison {
     joint::Direction direction = joint::Direction::tighten;
     std::vector<MeasuredCurve> measured;
     std::vector<JointComparison> joints;
-    Errors errors;  // over all joints and cycles
-    Options options;
+    TorqueErrors errors;  // over all joints and cycles
+    ComparisonOptions options;
 };
 
-// Curves against a record; the rest of what a Comparison names is left to the caller.
-Result<JointComparison> compare_joint(std::string joint, analysis::Curve ours,
+// Compares a joint's curve with the measured curves.
+Result<JointComparison> compare_joint(std::string joint, TorqueCurve ours,
                                       const std::vector<MeasuredCurve>& measured,
-                                      const Options& options = {});
-std::vector<MeasuredCurve> measured_curves(const Measured& measured);
+                                      const ComparisonOptions& options = {});
+std::vector<MeasuredCurve> measured_curves(const MeasuredRecord& measured);
 
-// `joint`: its id, or empty for every joint that was turned the way the record was. The error says so if none
-// was.
-Result<Comparison> compare(const session::Reader& session, const Measured& measured, std::string_view joint,
-                           const Options& options = {});
+// `joint`: an id, or empty for every joint that was turned in the direction of the record. Fails if there is
+// none.
+Result<Comparison> compare(const session::SessionReader& session, const MeasuredRecord& measured,
+                           std::string_view joint, const ComparisonOptions& options = {});
 
 }  // namespace bolt::analysis

@@ -1,5 +1,5 @@
-// What a hand felt in a session beside the torque of its nuts: what it bumped into, how evenly the force
-// changed, how long it took to get onto the nuts, and when the output stage let go.
+// Metrics of the rendered force in a session, except the nuts' torque: collisions with obstacles, changes of
+// the force, times to reach the nuts, and times in which the output stage released the force.
 #pragma once
 
 #include <array>
@@ -16,115 +16,118 @@
 
 namespace bolt::analysis {
 
-// The wrench against something while it was on no nut. What it does to the nut it is going to, or has just
-// left, is work and no bump; neither is what began with a nut in its jaw.
+// A contact of the wrench while it holds no nut. Contacts with the due nut or the nut held last belong to the
+// work and do not count, nor does a contact that began with a nut in the jaw.
 struct Bump {
     double begin = 0.0, length = 0.0;  // s
-    collision::ObstacleId obstacle;    // the first one of it
-    double hardest = 0.0;              // N, of the force put out meanwhile
+    collision::ObstacleId obstacle;    // the first one of the bump
+    double peak_force = 0.0;           // N
 };
 
-// A tick in which the force changed much, and what was going on.
-struct Moment {
+// A tick with a large change of the force, and its circumstances.
+struct ForceJump {
     double time = 0.0;    // s
     double change = 0.0;  // N in a millisecond
     session::TickRecord tick;
-    // s since each; NaN: never
-    double taken = nan, left = nan, touched = nan, lost_touch = nan;
-    std::int16_t last_joint = -1;  // engaged, or the last that was
+    // s since the last time that the tool engaged or released a nut, and since a contact began or ended; NaN:
+    // never
+    double since_engaged = nan, since_released = nan, since_touched = nan, since_untouched = nan;
+    std::int16_t last_joint = -1;  // engaged joint, or the one engaged last
     collision::ObstacleId last_touched;
     static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 };
 
-struct Changes {
-    double greatest = 0.0, p99 = 0.0;  // in a millisecond; p99 of the ticks in which anything was put out
-    std::uint64_t ticks = 0;           // of those
-    std::uint64_t above = 0;           // of those, more than a tenth of the device's greatest; 0: not known
-    std::uint64_t at_limit = 0;        // of those, as much as the output stage lets through
+struct ChangeStatistics {
+    double greatest = 0.0, p99 = 0.0;  // change in a millisecond
+    std::uint64_t ticks = 0;           // ticks with output; p99, above and at_limit count only these
+    std::uint64_t above = 0;           // changes above a tenth of the device's maximum; 0 if that is unknown
+    std::uint64_t at_limit = 0;        // changes at the rate limit of the output stage
 };
 
-// What was going on in a tick, most telling first.
-enum class Doing : std::uint8_t { held_off, leaving, taking, on_nut, against, free };
-inline constexpr std::size_t doings = 6;
+// The activity of the tool in a tick. activity_of() returns the first that applies.
+enum class ToolActivity : std::uint8_t { output_off, releasing, engaging, on_nut, touching, free };
+inline constexpr std::size_t activity_count = 6;
 
-// Of a nut, from where on it counts as seen.
-inline constexpr double in_sight = 0.6;
+// Visible fraction from which a nut counts as visible.
+inline constexpr double visible_fraction = 0.6;
 
-// From a step's beginning until its nut was in the wrench or between the fingers.
+// The time from a step's beginning until the tool engages its nut.
 struct Arrival {
     int joint = 0;
     bool wrench = false;
-    double waited = 0.0;   // s
-    double placing = 0.0;  // s of them near the nut
-    double seen = 0.0;     // s of those with the nut in sight (in_sight); NaN: not known
+    double duration = 0.0;     // s
+    double near_nut = 0.0;     // s within `duration` near the nut
+    double nut_visible = 0.0;  // s within `near_nut` with a visible nut (visible_fraction); NaN: not recorded
 };
 
-struct Feel {
-    bool recorded = false;  // format 2; otherwise contacts and faults are not known
+struct HapticMetrics {
+    bool recorded = false;  // format 2 or later; format 1 has no contacts and faults
     bool obstacles = false, guided = false;
     std::optional<force::OutputLimits> device;
-    std::vector<Bump> bumps;  // in time
-    Changes force, torque;    // N, N·m
-    // Ticks in which the force changed as fast as the output stage lets it, by what was going on.
-    std::array<std::uint64_t, doings> at_limit{};
-    std::vector<Moment> moments;  // the largest changes of the force, largest first
+    std::vector<Bump> bumps;         // in order of time
+    ChangeStatistics force, torque;  // N, N·m
+    // Ticks with a change of the force at the rate limit of the output stage, by activity.
+    std::array<std::uint64_t, activity_count> at_limit{};
+    std::vector<ForceJump> force_jumps;  // the largest ones, largest first
     std::vector<Arrival> arrivals;
-    std::array<double, force::fault_kinds> faults{};  // s that each held the output off
-    std::string servo;                                // how it ran, in words
+    std::array<double, force::fault_kinds> faults{};  // s for which each fault released the output
+    std::string servo;                                // session::Header::servo
     std::optional<servo::Timing> timing;
 };
 
-// Takes the ticks in order, in pieces of any size.
-class FeelBuilder {
+// Computes the metrics from the ticks in order, in pieces of any size.
+class HapticMetricsBuilder {
   public:
-    // `seats`: of the joints' nuts.
-    FeelBuilder(const session::Header& header, std::span<const lesson::Event> events,
-                std::vector<Vec3> seats);
+    // `seats`: of the joints' nuts, m.
+    HapticMetricsBuilder(const session::Header& header, std::span<const lesson::LessonEvent> events,
+                         std::vector<Vec3> seats);
 
     void add(std::uint64_t first_tick, std::span<const session::TickRecord> ticks);
-    Feel finish();
+    HapticMetrics finish();
 
   private:
     struct StepBegin {
         std::uint64_t tick = 0;
         int joint = -1;
     };
-    void take(std::uint64_t number, const session::TickRecord& tick);
-    struct Sight {
+    void add_tick(std::uint64_t number, const session::TickRecord& tick);
+    struct VisibilitySample {
         std::uint64_t tick = 0;
         int joint = -1;
         double share = 0.0;
     };
-    void note_grip(double time, const session::TickRecord& tick);
-    void note_touch(double time, const session::TickRecord& tick);
-    void note_change(double time, const session::TickRecord& tick);
-    void keep_moment(const Moment& moment);
+    void update_grip(double time, const session::TickRecord& tick);
+    void update_touch(double time, const session::TickRecord& tick);
+    void update_change(double time, const session::TickRecord& tick);
+    void keep_force_jump(const ForceJump& jump);
     [[nodiscard]] bool own_nut(collision::ObstacleId obstacle) const;
 
-    Feel feel_;
+    HapticMetrics metrics_;
     double dt_;
     std::vector<Vec3> seats_;
     std::vector<StepBegin> steps_;
     std::size_t next_step_ = 0;
-    std::vector<Sight> sights_;
-    std::size_t next_sight_ = 0;
-    Sight sight_;
+    std::vector<VisibilitySample> visibilities_;
+    std::size_t next_visibility_ = 0;
+    VisibilitySample visibility_;
     int due_ = -1;
     bool arrived_ = true;
-    double step_begun_ = 0.0, placing_ = 0.0, seen_ = 0.0;
-    std::optional<session::TickRecord> before_;
-    Moment now_;  // what is known of the last times
-    double taken_ = Moment::nan, left_ = Moment::nan, touch_ = Moment::nan, lost_ = Moment::nan;  // s
-    bool working_touch_ = false;  // began with a nut in the jaw
+    double step_begun_ = 0.0, near_nut_ = 0.0, nut_visible_ = 0.0;
+    std::optional<session::TickRecord> previous_;
+    ForceJump state_;  // last joint and last obstacle so far
+    // s, session time of the last events
+    double engaged_at_ = ForceJump::nan, released_at_ = ForceJump::nan;
+    double touched_at_ = ForceJump::nan, untouched_at_ = ForceJump::nan;
+    bool touched_with_nut_ = false;  // the contact began with a nut in the jaw
     bool in_bump_ = false;
     std::vector<float> force_changes_, torque_changes_;
 };
 
-Doing doing(const Moment& moment);
+ToolActivity activity_of(const ForceJump& jump);
 
-// In words: "the wrench slides onto B3", "against casing_upper".
-std::string happening(const Moment& moment, const std::vector<lesson::JointResult>& joints,
-                      const std::vector<session::ObstacleName>& obstacles);
+// English description of the circumstances: "wrench taking hold of B3", "led to B3, against casing_upper".
+std::string describe(const ForceJump& jump, const std::vector<lesson::JointResult>& joints,
+                     const std::vector<session::ObstacleName>& obstacles);
 std::string obstacle_text(collision::ObstacleId id, const std::vector<session::ObstacleName>& obstacles);
 
 }  // namespace bolt::analysis

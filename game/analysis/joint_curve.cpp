@@ -10,7 +10,7 @@ namespace bolt::analysis {
 
 namespace {
 
-// A hand that holds still says nothing new; its last sample keeps the time.
+// True if a sample adds nothing but time.
 bool same_reading(const CurvePoint& a, const CurvePoint& b) {
     return a.angle == b.angle && a.torque == b.torque && a.clamp == b.clamp && a.stage == b.stage &&
            a.stroke == b.stroke;
@@ -18,41 +18,42 @@ bool same_reading(const CurvePoint& a, const CurvePoint& b) {
 
 }  // namespace
 
-CurveStream::CurveStream(std::size_t most_buckets) : most_(std::max<std::size_t>(2, most_buckets)) {}
+CurveDecimator::CurveDecimator(std::size_t max_buckets)
+    : max_buckets_(std::max<std::size_t>(2, max_buckets)) {}
 
-void CurveStream::join(Bucket& into, const Bucket& next) {
+void CurveDecimator::merge(Bucket& into, const Bucket& next) {
     if (next.low.torque < into.low.torque) into.low = next.low;
     if (next.high.torque > into.high.torque) into.high = next.high;
     into.last = next.last;
     into.count += next.count;
 }
 
-void CurveStream::halve() {
+void CurveDecimator::halve() {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < buckets_.size(); i += 2, ++kept) {
-        Bucket joined = buckets_[i];
-        if (i + 1 < buckets_.size()) join(joined, buckets_[i + 1]);
-        buckets_[kept] = joined;
+        Bucket merged = buckets_[i];
+        if (i + 1 < buckets_.size()) merge(merged, buckets_[i + 1]);
+        buckets_[kept] = merged;
     }
     buckets_.resize(kept);
-    share_ *= 2;
+    bucket_samples_ *= 2;
 }
 
-void CurveStream::add(const CurvePoint& point) {
+void CurveDecimator::add(const CurvePoint& point) {
     if (!buckets_.empty() && same_reading(buckets_.back().last, point)) {
         buckets_.back().last.time = point.time;
         return;
     }
     const Bucket one{point, point, point, point, 1};
-    if (!buckets_.empty() && buckets_.back().count < share_) {
-        join(buckets_.back(), one);
+    if (!buckets_.empty() && buckets_.back().count < bucket_samples_) {
+        merge(buckets_.back(), one);
         return;
     }
-    if (buckets_.size() == most_) halve();
+    if (buckets_.size() == max_buckets_) halve();
     buckets_.push_back(one);
 }
 
-std::vector<CurvePoint> CurveStream::points() const {
+std::vector<CurvePoint> CurveDecimator::points() const {
     std::vector<CurvePoint> out;
     for (const Bucket& bucket : buckets_) {
         CurvePoint four[] = {bucket.first, bucket.low, bucket.high, bucket.last};
@@ -66,10 +67,10 @@ std::vector<CurvePoint> CurveStream::points() const {
 
 namespace {
 
-constexpr std::size_t most_visits = 64;  // of one joint; what comes after is added to the last
-constexpr std::size_t most_spans = 64;
+constexpr std::size_t max_visits = 64;  // of one joint; further visits are added to the last one
+constexpr std::size_t max_spans = 64;
 constexpr double touch_angle = to_radians(0.5);
-constexpr double touch_torque = 0.01;  // N·m, where no snug torque is asked
+constexpr double touch_torque = 0.01;  // N·m, without a snug torque
 
 bool usable(const session::TickRecord& tick, std::size_t joints) {
     return tick.joint >= 0 && static_cast<std::size_t>(tick.joint) < joints &&
@@ -78,7 +79,7 @@ bool usable(const session::TickRecord& tick, std::size_t joints) {
 }
 
 void extend(std::vector<StageSpan>& spans, joint::Stage stage, double from, double to) {
-    if (!spans.empty() && (spans.back().stage == stage || spans.size() == most_spans))
+    if (!spans.empty() && (spans.back().stage == stage || spans.size() == max_spans))
         spans.back().to = to;
     else
         spans.push_back({stage, from, to});
@@ -91,11 +92,11 @@ CurveBuilder::CurveBuilder(CurveRequest request)
       sign_(request_.direction == joint::Direction::tighten ? 1.0 : -1.0),
       joints_(request_.snug_torque.size()) {}
 
-void CurveBuilder::begin_visit(Building& joint, const CurvePoint& point, int pass) {
+void CurveBuilder::begin_visit(JointBuilder& joint, const CurvePoint& point, int pass) {
     std::vector<Visit>& visits = joint.curve.visits;
-    if (visits.size() == most_visits) {
-        // Go on with the last one: its points so far are put back into the stream.
-        for (const CurvePoint& kept : visits.back().points) joint.stream.add(kept);
+    if (visits.size() == max_visits) {
+        // Continue the last visit: feed its points to the decimator again.
+        for (const CurvePoint& kept : visits.back().points) joint.points.add(kept);
         return;
     }
     Visit visit;
@@ -106,15 +107,15 @@ void CurveBuilder::begin_visit(Building& joint, const CurvePoint& point, int pas
     visits.push_back(std::move(visit));
 }
 
-void CurveBuilder::end_visit(Building& joint) {
+void CurveBuilder::end_visit(JointBuilder& joint) {
     if (joint.curve.visits.empty()) return;
-    joint.curve.visits.back().points = joint.stream.points();
-    joint.stream = CurveStream();
+    joint.curve.visits.back().points = joint.points.points();
+    joint.points = CurveDecimator();
     joint.gripped = false;
 }
 
-// The nut's first way through each angle tells the stages, the snug point and the run-down.
-void CurveBuilder::advance(Building& joint, const CurvePoint& point, double snug_torque) {
+// Updates the stages, the snug point and the run-down at the nut's first pass through each angle.
+void CurveBuilder::advance(JointBuilder& joint, const CurvePoint& point, double snug_torque) {
     JointCurve& curve = joint.curve;
     if (!joint.started) {
         joint.started = true;
@@ -137,7 +138,7 @@ void CurveBuilder::advance(Building& joint, const CurvePoint& point, double snug
         curve.snug_angle = point.angle;
 }
 
-void CurveBuilder::take(Building& joint, CurvePoint point, double snug_torque) {
+void CurveBuilder::add_sample(JointBuilder& joint, CurvePoint point, double snug_torque) {
     Visit& visit = joint.curve.visits.back();
     if (!joint.gripped) ++visit.strokes;
     joint.gripped = true;
@@ -149,7 +150,7 @@ void CurveBuilder::take(Building& joint, CurvePoint point, double snug_torque) {
     const bool turned = std::abs(point.angle - visit.begin_angle) >= touch_angle;
     const bool loaded = sign_ * point.torque >= std::max(0.5 * snug_torque, touch_torque);
     visit.worked = visit.worked || turned || loaded;
-    joint.stream.add(point);
+    joint.points.add(point);
 }
 
 void CurveBuilder::add(std::uint64_t first_tick, std::span<const session::TickRecord> ticks) {
@@ -173,16 +174,16 @@ void CurveBuilder::add(std::uint64_t first_tick, std::span<const session::TickRe
             begin_visit(joints_[static_cast<std::size_t>(tick.joint)], point, pass);
         }
         const auto index = static_cast<std::size_t>(tick.joint);
-        // As the lesson judges it, fingers make nothing snug.
+        // As in the lesson, fingers do not make a nut snug.
         const bool fingers = static_cast<servo::Grip>(tick.grip) == servo::Grip::fingers;
-        take(joints_[index], point, fingers ? 0.0 : request_.snug_torque[index]);
+        add_sample(joints_[index], point, fingers ? 0.0 : request_.snug_torque[index]);
     }
 }
 
 std::vector<JointCurve> CurveBuilder::finish() {
     if (open_joint_ >= 0) end_visit(joints_[static_cast<std::size_t>(open_joint_)]);
     std::vector<JointCurve> curves;
-    for (Building& joint : joints_) curves.push_back(std::move(joint.curve));
+    for (JointBuilder& joint : joints_) curves.push_back(std::move(joint.curve));
     joints_.clear();
     open_joint_ = -1;
     return curves;

@@ -1,4 +1,5 @@
-// A stream of samples of unknown length, kept within a fixed size. Peaks are never lost.
+// Curves of the work on each joint, from the recorded ticks: torque and clamp force over the nut angle, visit
+// by visit, decimated to a bounded size.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +14,7 @@
 
 namespace bolt::analysis {
 
-// One sample of a joint at work.
+// One sample of a joint while it is held.
 struct CurvePoint {
     double time = 0.0;    // s from the start of the session
     double angle = 0.0;   // rad, nut angle
@@ -23,56 +24,55 @@ struct CurvePoint {
     std::uint16_t stroke = 0;  // counts re-grips of the visit: lines break between strokes
 };
 
-// Equal shares of the stream, each kept as its first, lowest, highest (by torque) and last sample. When the
-// shares run out, neighbours are joined and the share doubles.
-class CurveStream {
+// Decimates a stream of samples of unknown length to a fixed size and keeps all peaks. Each bucket holds the
+// first, lowest, highest (by torque) and last of an equal number of samples. When the buckets are full, pairs
+// of neighbours are merged and that number doubles.
+class CurveDecimator {
   public:
-    explicit CurveStream(std::size_t most_buckets = 2048);
+    explicit CurveDecimator(std::size_t max_buckets = 2048);
 
     void add(const CurvePoint& point);
     [[nodiscard]] bool empty() const { return buckets_.empty(); }
-    [[nodiscard]] std::vector<CurvePoint> points() const;  // in time
+    [[nodiscard]] std::vector<CurvePoint> points() const;  // in order of time
 
   private:
     struct Bucket {
         CurvePoint first, low, high, last;
         std::size_t count = 0;
     };
-    static void join(Bucket& into, const Bucket& next);
+    static void merge(Bucket& into, const Bucket& next);
     void halve();
 
-    std::size_t most_;
-    std::size_t share_ = 1;
+    std::size_t max_buckets_;
+    std::size_t bucket_samples_ = 1;
     std::vector<Bucket> buckets_;
 };
 
-// What was done to each joint, from the recorded ticks: torque and clamp force over the nut angle, visit by
-// visit.
-
-// From the first grip of a nut to the last before another nut is taken or the next pass begins.
+// A visit lasts from the first grip of a nut to the last one before another nut is gripped or the next pass
+// begins.
 struct Visit {
     int pass = 0;              // counted from 0
     double begin = 0.0;        // s
     double end = 0.0;          // s
     double begin_angle = 0.0;  // rad
     int strokes = 0;           // grips
-    bool worked = false;       // the nut turned or the wrench was loaded: more than a touch in passing
+    bool worked = false;       // the nut turned or the wrench was loaded
     CurvePoint peak;           // highest torque in the direction of work
     CurvePoint release;        // last sample
     std::vector<CurvePoint> points;
 };
 
-// Nut angles in rad, in the order they were run through; `from` > `to` when loosening.
+// A range of nut angles, rad, in one stage; `from` > `to` when loosening.
 struct StageSpan {
     joint::Stage stage = joint::Stage::navigation;
     double from = 0.0;
     double to = 0.0;
 };
 
-// The part before the first contact, which the plots leave out.
+// The part before the first contact with the seat, which the plots omit.
 struct RunDown {
     double angle = 0.0;       // rad turned
-    double time = 0.0;        // s with a hand or a wrench on the nut
+    double time = 0.0;        // s while fingers or wrench held the nut
     double torque_low = 0.0;  // N·m
     double torque_high = 0.0;
 };
@@ -87,14 +87,14 @@ struct JointCurve {
 };
 
 struct CurveRequest {
-    std::vector<double> snug_torque;  // N·m, one a joint: how many joints there are
+    std::vector<double> snug_torque;  // N·m, one for each joint
     double dt = 0.001;                // s
     joint::Direction direction = joint::Direction::tighten;
-    std::vector<std::uint64_t> pass_begins;  // ticks, rising; passes are counted by them
+    std::vector<std::uint64_t> pass_begins;  // first ticks of the passes, ascending
 };
 
-// Takes the ticks in order, in pieces of any size; what it holds does not grow with the length of the
-// session. Samples that are no finite numbers, or name no joint, are left out.
+// Computes the curves from the ticks in order, in pieces of any size, in memory independent of the session's
+// length. Ignores samples without a joint and samples that are not finite.
 class CurveBuilder {
   public:
     explicit CurveBuilder(CurveRequest request);
@@ -103,22 +103,22 @@ class CurveBuilder {
     std::vector<JointCurve> finish();
 
   private:
-    struct Building {
+    struct JointBuilder {
         JointCurve curve;
-        CurveStream stream;
+        CurveDecimator points;
         bool gripped = false;  // in the tick before
         bool started = false;
         bool contact = false;  // the run-down is over
     };
-    void begin_visit(Building& joint, const CurvePoint& point, int pass);
-    void end_visit(Building& joint);
-    void take(Building& joint, CurvePoint point, double snug_torque);
-    void advance(Building& joint, const CurvePoint& point, double snug_torque);
+    void begin_visit(JointBuilder& joint, const CurvePoint& point, int pass);
+    void end_visit(JointBuilder& joint);
+    void add_sample(JointBuilder& joint, CurvePoint point, double snug_torque);
+    void advance(JointBuilder& joint, const CurvePoint& point, double snug_torque);
 
     CurveRequest request_;
-    double sign_ = 1.0;  // of nut angles and torques that belong to the direction of work
-    std::vector<Building> joints_;
-    int open_joint_ = -1;  // with a visit under way
+    double sign_ = 1.0;  // of nut angles and torques in the direction of work
+    std::vector<JointBuilder> joints_;
+    int open_joint_ = -1;  // joint of the present visit
     int open_pass_ = 0;
 };
 

@@ -15,19 +15,15 @@
 #include "engine/base/nearest.hpp"
 #include "engine/base/result.hpp"
 
-// One line of a CSV file, taken apart with the column of every field.
-
 namespace bolt::analysis {
 
-struct Field {
-    std::string text;  // unquoted, without surrounding blanks
-    int column = 1;    // 1-based, where the text begins
-};
-
-// RFC 4180 within a line. Errors have the column, not the file and line.
-Result<std::vector<Field>> split_line(std::string_view line);
-
 namespace {
+
+// A field of one CSV line.
+struct CsvField {
+    std::string text;  // unquoted, without surrounding blanks
+    int column = 1;    // 1-based, of the first character
+};
 
 bool blank(char c) { return c == ' ' || c == '\t'; }
 
@@ -40,7 +36,7 @@ tl::unexpected<Error> error_at(std::size_t position, std::string what, std::stri
     return fail(std::move(error));
 }
 
-// Reads the quoted text that begins at `at` and leaves `at` behind its closing quote.
+// Reads the quoted text that begins at `at` and sets `at` after its closing quote.
 Result<std::string> quoted(std::string_view line, std::size_t& at) {
     const std::size_t open = at++;
     std::string text;
@@ -58,21 +54,20 @@ Result<std::string> quoted(std::string_view line, std::size_t& at) {
     return error_at(open, "this quote is not closed on its line", "a closing '\"'");
 }
 
-}  // namespace
-
-Result<std::vector<Field>> split_line(std::string_view line) {
-    std::vector<Field> fields;
+// Splits one line as in RFC 4180. Errors have the column, but not the file and line.
+Result<std::vector<CsvField>> split_line(std::string_view line) {
+    std::vector<CsvField> fields;
     std::size_t at = 0;
     while (true) {
         while (at < line.size() && blank(line[at])) ++at;
-        Field field;
+        CsvField field;
         field.column = static_cast<int>(at) + 1;
         if (at < line.size() && line[at] == '"') {
             BOLT_TRY_ASSIGN(auto text, quoted(line, at));
             field.text = std::move(text);
             while (at < line.size() && blank(line[at])) ++at;
             if (at < line.size() && line[at] != ',')
-                return error_at(at, "there is text behind a quoted field", "a comma or the end of the line");
+                return error_at(at, "there is text after a quoted field", "a comma or the end of the line");
         } else {
             const std::size_t end = std::min(line.find(',', at), line.size());
             field.text = line.substr(at, end - at);
@@ -85,13 +80,12 @@ Result<std::vector<Field>> split_line(std::string_view line) {
     }
 }
 
-namespace {
-
 constexpr std::size_t largest_file = std::size_t{64} << 20U;
-constexpr double largest_angle = 1e7, largest_torque = 1e6;  // degrees, N·m: beyond is no measurement
+constexpr double largest_angle = 1e7,
+                 largest_torque = 1e6;  // degrees, N·m; larger values are not measurements
 constexpr int absent = -1;
 
-// The published data sets do not carry their own source line.
+// Source of the published data sets, whose files have no source line.
 constexpr std::string_view unfastening_source =
     "Al Assadi et al., J. Manuf. Syst. 65 (2022) 19–32, dataset_unfastening, CC BY 4.0";
 
@@ -101,8 +95,8 @@ struct Columns {
     std::vector<std::string> names;
 };
 
-// Where we are in the file: all errors come from here.
-struct Place {
+// The position of errors in the file.
+struct FilePosition {
     std::string_view file;
     int line = 0;
 
@@ -120,7 +114,7 @@ struct Place {
 
 bool is_blank(std::string_view line) { return line.find_first_not_of(" \t\r") == std::string_view::npos; }
 
-// Text behind "# source:", empty for other comments.
+// The text after "# source:"; empty for other comments.
 std::string source_of(std::string_view comment) {
     constexpr std::string_view key = "source:";
     comment.remove_prefix(std::min(comment.find_first_not_of("# \t"), comment.size()));
@@ -132,80 +126,81 @@ std::string source_of(std::string_view comment) {
     return std::string(comment.substr(first, last - first + 1));
 }
 
-Result<Columns> read_header(const std::vector<Field>& fields, const Place& place) {
+Result<Columns> read_header(const std::vector<CsvField>& fields, const FilePosition& position) {
     Columns columns;
     columns.count = fields.size();
-    for (const Field& field : fields) columns.names.push_back(field.text);
-    const std::pair<std::string, int*> wanted[] = {
+    for (const CsvField& field : fields) columns.names.push_back(field.text);
+    const std::pair<std::string, int*> expected[] = {
         {"angle_deg", &columns.angle}, {"torque_Nm", &columns.torque}, {"cycle", &columns.cycle}};
-    for (const auto& [name, index] : wanted) {
+    for (const auto& [name, index] : expected) {
         for (std::size_t i = 0; i < fields.size(); ++i) {
             if (fields[i].text != name) continue;
             if (*index != absent)
-                return place.error(fields[i].column, fmt::format("column '{}' is there twice", name),
-                                   "one of them");
+                return position.error(fields[i].column, fmt::format("column '{}' appears twice", name),
+                                      "it once");
             *index = static_cast<int>(i);
         }
         if (*index != absent || name == "cycle") continue;
         const std::string near = nearest(name, columns.names);
         const auto at =
-            std::find_if(fields.begin(), fields.end(), [&](const Field& f) { return f.text == near; });
+            std::find_if(fields.begin(), fields.end(), [&](const CsvField& f) { return f.text == near; });
         if (!near.empty())
-            return place.error(at->column, fmt::format("there is no column '{}'", name),
-                               fmt::format("'{}' instead of '{}'", name, near));
+            return position.error(at->column, fmt::format("there is no column '{}'", name),
+                                  fmt::format("'{}' instead of '{}'", name, near));
         const bool semicolons = fields.size() == 1 && fields[0].text.find(';') != std::string::npos;
-        return place.error(1, fmt::format("there is no column '{}'", name),
-                           semicolons ? "columns separated by commas, with a decimal point"
-                                      : "a first line that names the columns 'angle_deg' and 'torque_Nm'");
+        return position.error(1, fmt::format("there is no column '{}'", name),
+                              semicolons ? "columns separated by commas, with a decimal point"
+                                         : "a first line that names the columns 'angle_deg' and 'torque_Nm'");
     }
     return columns;
 }
 
-Result<double> read_number(const Field& field, std::string_view name, double limit, const Place& place) {
+Result<double> read_number(const CsvField& field, std::string_view name, double limit,
+                           const FilePosition& position) {
     std::string_view text = field.text;
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     double value = 0.0;
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-    const bool read = problem == std::errc() && end == text.data() + text.size() && std::isfinite(value);
-    if (!read)
-        return place.error(field.column,
-                           fmt::format("'{}' is no number for '{}'", field.text.substr(0, 40), name),
-                           "a decimal number such as -12.5");
+    const bool valid = problem == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+    if (!valid)
+        return position.error(field.column,
+                              fmt::format("'{}' is not a number for '{}'", field.text.substr(0, 40), name),
+                              "a decimal number such as -12.5");
     if (std::abs(value) > limit)
-        return place.error(field.column, fmt::format("{} is no measured '{}'", field.text, name),
-                           fmt::format("a value between -{0:.0f} and {0:.0f}", limit));
+        return position.error(field.column, fmt::format("{} is out of range for '{}'", field.text, name),
+                              fmt::format("a value between -{0:.0f} and {0:.0f}", limit));
     return value;
 }
 
-struct Parser {
-    Measured measured;
-    Place place;
+struct CsvParser {
+    MeasuredRecord measured;
+    FilePosition position;
     Columns columns;
     bool has_header = false;
     std::map<std::string, std::size_t, std::less<>> by_name;
 
     Cycle& cycle(const std::string& name) {
         const auto [entry, fresh] = by_name.try_emplace(name, measured.cycles.size());
-        if (fresh) measured.cycles.push_back({name, place.line, {}, {}});
+        if (fresh) measured.cycles.push_back({name, position.line, {}, {}});
         return measured.cycles[entry->second];
     }
 
-    Status row(const std::vector<Field>& fields, std::size_t length) {
+    Status row(const std::vector<CsvField>& fields, std::size_t length) {
         if (fields.size() != columns.count)
-            return place.error(
+            return position.error(
                 fields.size() < columns.count ? static_cast<int>(length) + 1 : fields[columns.count].column,
                 fmt::format("this row has {} fields", fields.size()),
-                fmt::format("{}, as the columns named", columns.count));
-        const auto field = [&](int column) -> const Field& {
+                fmt::format("{}, as in the header", columns.count));
+        const auto field = [&](int column) -> const CsvField& {
             return fields[static_cast<std::size_t>(column)];
         };
         BOLT_TRY_ASSIGN(const auto angle,
-                        read_number(field(columns.angle), "angle_deg", largest_angle, place));
+                        read_number(field(columns.angle), "angle_deg", largest_angle, position));
         BOLT_TRY_ASSIGN(const auto torque,
-                        read_number(field(columns.torque), "torque_Nm", largest_torque, place));
-        Cycle& into = cycle(columns.cycle == absent ? std::string() : field(columns.cycle).text);
-        into.angle.push_back(to_radians(angle));
-        into.torque.push_back(torque);
+                        read_number(field(columns.torque), "torque_Nm", largest_torque, position));
+        Cycle& current = cycle(columns.cycle == absent ? std::string() : field(columns.cycle).text);
+        current.angle.push_back(to_radians(angle));
+        current.torque.push_back(torque);
         return {};
     }
 
@@ -216,10 +211,11 @@ struct Parser {
             return {};
         }
         if (text.ends_with('\r')) text.remove_suffix(1);
-        Result<std::vector<Field>> fields = split_line(text);
-        if (!fields) return place.error(fields.error().column, fields.error().what, fields.error().expected);
+        Result<std::vector<CsvField>> fields = split_line(text);
+        if (!fields)
+            return position.error(fields.error().column, fields.error().what, fields.error().expected);
         if (has_header) return row(*fields, text.size());
-        BOLT_TRY_ASSIGN(auto header, read_header(*fields, place));
+        BOLT_TRY_ASSIGN(auto header, read_header(*fields, position));
         columns = std::move(header);
         has_header = true;
         return {};
@@ -231,19 +227,20 @@ double extreme_of(const Cycle& cycle) {
                              [](double a, double b) { return std::abs(a) < std::abs(b); });
 }
 
-Status check_cycles(Parser& parser) {
+Status check_cycles(CsvParser& parser) {
     double extreme = 0.0;
     for (const Cycle& cycle : parser.measured.cycles) {
-        parser.place.line = cycle.line;
+        parser.position.line = cycle.line;
         const std::string which = cycle.name.empty() ? "this file" : fmt::format("cycle '{}'", cycle.name);
-        if (cycle.angle.size() < least_samples)
-            return parser.place.error(1, fmt::format("{} has only {} samples", which, cycle.angle.size()),
-                                      fmt::format("at least {}", least_samples));
+        if (cycle.angle.size() < min_samples)
+            return parser.position.error(1, fmt::format("{} has only {} samples", which, cycle.angle.size()),
+                                         fmt::format("at least {}", min_samples));
         const double peak = extreme_of(cycle);
-        if (peak == 0.0) return parser.place.error(1, which + " has no torque at all", "a run with a load");
+        if (peak == 0.0)
+            return parser.position.error(1, which + " has only zero torques", "a run with a load");
         if (extreme * peak < 0.0)
-            return parser.place.error(
-                1, fmt::format("{} turns the other way than those before", which),
+            return parser.position.error(
+                1, fmt::format("{} turns in the other direction than the cycles before", which),
                 "all cycles of a file tightening (torque positive) or all loosening (negative)");
         extreme = peak;
     }
@@ -253,28 +250,28 @@ Status check_cycles(Parser& parser) {
 
 }  // namespace
 
-std::size_t Measured::samples() const {
+std::size_t MeasuredRecord::samples() const {
     std::size_t count = 0;
     for (const Cycle& cycle : cycles) count += cycle.angle.size();
     return count;
 }
 
-Result<Measured> parse_measured(std::string_view text, std::string_view file) {
-    Parser parser;
+Result<MeasuredRecord> parse_measured(std::string_view text, std::string_view file) {
+    CsvParser parser;
     parser.measured.file = file;
-    parser.place.file = file;
+    parser.position.file = file;
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     while (!text.empty()) {
-        ++parser.place.line;
+        ++parser.position.line;
         const std::size_t end = std::min(text.find('\n'), text.size());
         BOLT_TRY(parser.line(text.substr(0, end)));
         text.remove_prefix(std::min(end + 1, text.size()));
     }
-    parser.place.line = std::max(1, parser.place.line);
+    parser.position.line = std::max(1, parser.position.line);
     if (!parser.has_header)
-        return parser.place.error(1, "there is nothing in this file", "columns 'angle_deg' and 'torque_Nm'");
+        return parser.position.error(1, "there is no header line", "columns 'angle_deg' and 'torque_Nm'");
     if (parser.measured.cycles.empty())
-        return parser.place.error(1, "there are no samples", fmt::format("at least {} rows", least_samples));
+        return parser.position.error(1, "there are no samples", fmt::format("at least {} rows", min_samples));
     BOLT_TRY(check_cycles(parser));
     const std::string name = std::filesystem::path(file).filename().string();
     const bool unfastening = name == "m6_releasable.csv" || name == "m8_releasable.csv";
@@ -282,7 +279,7 @@ Result<Measured> parse_measured(std::string_view text, std::string_view file) {
     return std::move(parser.measured);
 }
 
-Result<Measured> read_measured(const std::filesystem::path& path) {
+Result<MeasuredRecord> read_measured(const std::filesystem::path& path) {
     BOLT_TRY_ASSIGN(const auto text, read_file(path, largest_file, ErrorCode::bad_content));
     return parse_measured(text, path.string());
 }

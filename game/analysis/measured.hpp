@@ -1,7 +1,7 @@
 // A measured torque–angle record, from a CSV file.
 //
-// The first line that is neither blank nor a comment (#) names the columns. `angle_deg` and `torque_Nm` must
-// be there, `cycle` may be: it tells several runs in one file apart. Other columns are left alone.
+// The first line that is neither blank nor a comment (#) names the columns. `angle_deg` and `torque_Nm` are
+// required; the optional `cycle` distinguishes several runs in one file. Other columns are ignored.
 #pragma once
 
 #include <filesystem>
@@ -16,24 +16,24 @@ namespace bolt::analysis {
 
 struct Cycle {
     std::string name;            // as in the file; empty if the file has no cycles
-    int line = 0;                // of its first sample
+    int line = 0;                // of the first sample
     std::vector<double> angle;   // rad, as counted by the rig
     std::vector<double> torque;  // N·m, tightening positive
 };
 
-struct Measured {
+struct MeasuredRecord {
     std::string file;
-    std::string source;  // who measured it: named wherever the data is shown; may be empty
+    std::string source;                                      // citation, shown with the data; may be empty
     joint::Direction direction = joint::Direction::tighten;  // loosening if the torques are negative
     std::vector<Cycle> cycles;                               // in the order of the file
 
     [[nodiscard]] std::size_t samples() const;
 };
 
-inline constexpr std::size_t least_samples = 5;  // of a cycle
+inline constexpr std::size_t min_samples = 5;  // of a cycle
 
-// `file` is for messages and for knowing the published data sets by their names.
-Result<Measured> parse_measured(std::string_view text, std::string_view file);
-Result<Measured> read_measured(const std::filesystem::path& path);
+// `file` is used in messages and to recognise the published data sets by name.
+Result<MeasuredRecord> parse_measured(std::string_view text, std::string_view file);
+Result<MeasuredRecord> read_measured(const std::filesystem::path& path);
 
 }  // namespace bolt::analysis

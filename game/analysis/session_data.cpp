@@ -29,24 +29,24 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-CurveRequest request_for(const SessionData& data, const std::vector<lesson::Event>& events) {
+CurveRequest request_for(const SessionData& data, const std::vector<lesson::LessonEvent>& events) {
     CurveRequest request;
     request.dt = data.header.dt;
     request.direction = data.direction();
     for (const content::AssemblyJoint& joint : data.assembly.joints)
         request.snug_torque.push_back(joint.spec.snug_torque);
-    for (const lesson::Event& event : events)
-        if (event.kind == "pass_begin") request.pass_begins.push_back(event.tick);
+    for (const lesson::LessonEvent& event : events)
+        if (event.kind == lesson::EventKind::pass_begin) request.pass_begins.push_back(event.tick);
     std::sort(request.pass_begins.begin(), request.pass_begins.end());
     return request;
 }
 
 }  // namespace
 
-Result<content::Assembly> stored_assembly(const session::Reader& session) {
+Result<content::Assembly> stored_assembly(const session::SessionReader& session) {
     const session::Header& header = session.header();
     const std::string name = header.assembly_file.empty() ? header.assembly : header.assembly_file;
-    content::Loaded loaded = content::parse_assembly(header.assembly_text, name, header.variant);
+    content::LoadedAssembly loaded = content::parse_assembly(header.assembly_text, name, header.variant);
     if (!loaded.ok()) {
         Error error;
         error.code = ErrorCode::failed;
@@ -57,7 +57,7 @@ Result<content::Assembly> stored_assembly(const session::Reader& session) {
     for (const joint::Law law : {joint::Law::published, joint::Law::mechanistic})
         if (header.law == joint::name(law)) loaded.assembly.law = law;
     const joint::Law law = loaded.assembly.law;
-    return lesson::under_law(std::move(loaded.assembly), law);
+    return lesson::apply_law(std::move(loaded.assembly), law);
 }
 
 std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assembly,
@@ -72,12 +72,12 @@ std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assem
     return results;
 }
 
-Result<SessionData> read_session(const session::Reader& session) {
+Result<SessionData> read_session(const session::SessionReader& session) {
     Result<content::Assembly> assembly = stored_assembly(session);
     if (!assembly) return fail(assembly.error());
     const Result<lesson::LessonResult> result = session.result();
     if (!result) return fail(result.error());
-    const Result<std::vector<lesson::Event>> events = session.events();
+    const Result<std::vector<lesson::LessonEvent>> events = session.events();
     if (!events) return fail(events.error());
 
     SessionData data;
@@ -91,24 +91,24 @@ Result<SessionData> read_session(const session::Reader& session) {
     data.score = result->score;
     data.finished = result->finished;
     data.reasons = result->reasons;
-    for (const lesson::Event& event : *events)
-        if (event.kind == "pass_begin") data.pass_texts.push_back(event.text);
+    for (const lesson::LessonEvent& event : *events)
+        if (event.kind == lesson::EventKind::pass_begin) data.pass_texts.push_back(event.text);
 
     CurveBuilder builder(request_for(data, *events));
     std::vector<Vec3> seats;
     for (const content::AssemblyJoint& joint : data.assembly.joints) seats.push_back(joint.design.seat);
-    FeelBuilder feel(data.header, *events, std::move(seats));
+    HapticMetricsBuilder metrics(data.header, *events, std::move(seats));
     const Status read =
         session.for_each_chunk([&](std::uint64_t first, std::span<const session::TickRecord> ticks) {
             builder.add(first, ticks);
-            feel.add(first, ticks);
+            metrics.add(first, ticks);
         });
     if (!read) return fail(read.error());
     data.curves = builder.finish();
-    data.feel = feel.finish();
+    data.metrics = metrics.finish();
     Result<std::optional<servo::Timing>> timing = session.timing();
     if (!timing) return fail(timing.error());
-    data.feel.timing = std::move(*timing);
+    data.metrics.timing = std::move(*timing);
     return data;
 }
 
@@ -142,15 +142,16 @@ Summary summarise(const SessionData& session) {
         if (r.clamp > s.clamp_high) s.highest = i;
         s.clamp_low = std::min(s.clamp_low, r.clamp);
         s.clamp_high = std::max(s.clamp_high, r.clamp);
-        // Welford: the spread of forces that differ little.
+        // Welford's algorithm, for the deviation of forces that differ little.
         const double delta = r.clamp - s.clamp_mean;
         s.clamp_mean += delta / static_cast<double>(s.judged);
         squares += delta * (r.clamp - s.clamp_mean);
     }
     const auto n = static_cast<double>(s.judged);
-    const bool asked = session.direction() == joint::Direction::tighten;  // a loosening torque has no target
+    const bool has_target =
+        session.direction() == joint::Direction::tighten;  // a loosening torque has no target
     if (s.judged == 0) s.clamp_mean = s.clamp_low = s.clamp_high = nan;
-    s.mean_torque_error = s.judged > 0 && asked ? errors / n : nan;
+    s.mean_torque_error = s.judged > 0 && has_target ? errors / n : nan;
     s.clamp_deviation = s.judged > 1 ? std::sqrt(squares / (n - 1.0)) : nan;
     return s;
 }
@@ -163,40 +164,40 @@ std::string title_of(const content::Assembly& assembly) {
 
 namespace {
 
-struct Taken {
+struct VisitStart {
     double begin = 0.0;
     int pass = 0;
     std::size_t joint = 0;
 };
 
-std::vector<Taken> visits_in_time(const SessionData& session) {
-    std::vector<Taken> taken;
+std::vector<VisitStart> visits_in_time(const SessionData& session) {
+    std::vector<VisitStart> visits;
     for (std::size_t j = 0; j < session.curves.size(); ++j)
         for (const Visit& visit : session.curves[j].visits)
-            if (visit.worked) taken.push_back({visit.begin, visit.pass, j});
-    std::stable_sort(taken.begin(), taken.end(),
-                     [](const Taken& a, const Taken& b) { return a.begin < b.begin; });
-    return taken;
+            if (visit.worked) visits.push_back({visit.begin, visit.pass, j});
+    std::stable_sort(visits.begin(), visits.end(),
+                     [](const VisitStart& a, const VisitStart& b) { return a.begin < b.begin; });
+    return visits;
 }
 
-// Out of turn are the fewest joints that would have to move for the order to be as asked: those off the
-// longest run of rising places. A swap then is two joints, and one that came late is one.
+// Marks the smallest set of joints that would have to move for the planned order: those outside the longest
+// ascending subsequence of planned positions. A swap marks up to two joints, a late joint one.
 void mark_out_of_turn(PassOrder& order) {
-    if (order.asked.empty()) return;
-    std::vector<std::size_t> turns;  // first visits of joints that were asked
-    for (std::size_t i = 0; i < order.followed.size(); ++i) {
-        const Turn& turn = order.followed[i];
-        if (turn.again) continue;
-        order.followed[i].out_of_turn = true;
-        if (order.place_asked(turn.joint) > 0) turns.push_back(i);
+    if (order.planned.empty()) return;
+    std::vector<std::size_t> turns;  // first visits of planned joints
+    for (std::size_t i = 0; i < order.actual.size(); ++i) {
+        const OrderEntry& turn = order.actual[i];
+        if (turn.repeated) continue;
+        order.actual[i].out_of_turn = true;
+        if (order.planned_position(turn.joint) > 0) turns.push_back(i);
     }
     std::vector<std::size_t> length(turns.size(), 1), before(turns.size());
     std::size_t end = 0;
     for (std::size_t i = 0; i < turns.size(); ++i) {
         before[i] = i;
         for (std::size_t k = 0; k < i; ++k) {
-            const bool rises = order.place_asked(order.followed[turns[k]].joint) <
-                               order.place_asked(order.followed[turns[i]].joint);
+            const bool rises = order.planned_position(order.actual[turns[k]].joint) <
+                               order.planned_position(order.actual[turns[i]].joint);
             if (!rises || length[k] + 1 <= length[i]) continue;
             length[i] = length[k] + 1;
             before[i] = k;
@@ -204,7 +205,7 @@ void mark_out_of_turn(PassOrder& order) {
         if (length[i] > length[end]) end = i;
     }
     for (std::size_t left = turns.empty() ? 0 : length[end]; left > 0; --left) {
-        order.followed[turns[end]].out_of_turn = false;
+        order.actual[turns[end]].out_of_turn = false;
         end = before[end];
     }
 }
@@ -212,26 +213,26 @@ void mark_out_of_turn(PassOrder& order) {
 }  // namespace
 
 bool PassOrder::in_turn() const {
-    return std::none_of(followed.begin(), followed.end(),
-                        [](const Turn& t) { return t.out_of_turn || t.again; });
+    return std::none_of(actual.begin(), actual.end(),
+                        [](const OrderEntry& t) { return t.out_of_turn || t.repeated; });
 }
 
-bool PassOrder::as_asked() const { return !asked.empty() && in_turn() && left_out() == 0; }
+bool PassOrder::as_planned() const { return !planned.empty() && in_turn() && skipped_joints() == 0; }
 
-std::size_t PassOrder::left_out() const {
-    return static_cast<std::size_t>(
-        std::count_if(asked.begin(), asked.end(), [&](std::size_t j) { return place_followed(j) == 0; }));
+std::size_t PassOrder::skipped_joints() const {
+    return static_cast<std::size_t>(std::count_if(planned.begin(), planned.end(),
+                                                  [&](std::size_t j) { return actual_position(j) == 0; }));
 }
 
-std::size_t PassOrder::place_asked(std::size_t joint) const {
-    const auto found = std::find(asked.begin(), asked.end(), joint);
-    return found == asked.end() ? 0 : static_cast<std::size_t>(found - asked.begin()) + 1;
+std::size_t PassOrder::planned_position(std::size_t joint) const {
+    const auto found = std::find(planned.begin(), planned.end(), joint);
+    return found == planned.end() ? 0 : static_cast<std::size_t>(found - planned.begin()) + 1;
 }
 
-std::size_t PassOrder::place_followed(std::size_t joint) const {
+std::size_t PassOrder::actual_position(std::size_t joint) const {
     std::size_t place = 0;
-    for (const Turn& turn : followed) {
-        if (!turn.again) ++place;
+    for (const OrderEntry& turn : actual) {
+        if (!turn.repeated) ++place;
         if (turn.joint == joint) return place;
     }
     return 0;
@@ -239,15 +240,15 @@ std::size_t PassOrder::place_followed(std::size_t joint) const {
 
 std::size_t PassOrder::visits(std::size_t joint) const {
     return static_cast<std::size_t>(
-        std::count_if(followed.begin(), followed.end(), [&](const Turn& t) { return t.joint == joint; }));
+        std::count_if(actual.begin(), actual.end(), [&](const OrderEntry& t) { return t.joint == joint; }));
 }
 
 std::vector<OrderDrawing> order_drawings(const std::vector<PassOrder>& orders) {
     std::vector<OrderDrawing> drawings;
     for (const PassOrder& order : orders) {
-        if (order.followed.empty()) continue;
+        if (order.actual.empty()) continue;
         const auto same = std::find_if(drawings.begin(), drawings.end(), [&](const OrderDrawing& d) {
-            return d.order.as_asked() && order.as_asked() && d.order.asked == order.asked;
+            return d.order.as_planned() && order.as_planned() && d.order.planned == order.planned;
         });
         if (same == drawings.end()) {
             drawings.push_back({order, 1});
@@ -261,11 +262,11 @@ std::vector<OrderDrawing> order_drawings(const std::vector<PassOrder>& orders) {
 
 std::string pass_label(const content::Pass& pass) {
     switch (pass.kind) {
-        case content::StepKind::run_down:
+        case content::PassKind::run_down:
             return "run-down";
-        case content::StepKind::recheck:
+        case content::PassKind::recheck:
             return "re-check";
-        case content::StepKind::tighten:
+        case content::PassKind::tighten:
             break;
     }
     return fmt::format("{:.0f} %", 100.0 * pass.fraction);
@@ -274,25 +275,25 @@ std::string pass_label(const content::Pass& pass) {
 std::vector<PassOrder> pass_orders(const SessionData& session) {
     const std::vector<content::Pass>& passes = session.assembly.passes;
     const bool loosening = session.direction() == joint::Direction::loosen;
-    const bool told = !session.pass_texts.empty() && !loosening;
+    const bool has_passes = !session.pass_texts.empty() && !loosening;
     std::vector<PassOrder> orders;
     if (loosening) {
-        // As the lesson plans it: the reverse of the last pass.
+        // As in the lesson's plan: the reverse of the last pass.
         orders.push_back(
             {"loosening", passes.empty() ? std::vector<std::size_t>{} : passes.back().order, {}});
-        std::reverse(orders.back().asked.begin(), orders.back().asked.end());
-    } else if (!told && passes.size() != 1) {
+        std::reverse(orders.back().planned.begin(), orders.back().planned.end());
+    } else if (!has_passes && passes.size() != 1) {
         orders.push_back({"whole session", {}, {}});
     } else {
         for (const content::Pass& pass : passes) orders.push_back({pass_label(pass), pass.order, {}});
     }
     for (PassOrder& order : orders)
-        std::erase_if(order.asked, [&](std::size_t j) { return j >= session.joints.size(); });
-    for (const Taken& taken : visits_in_time(session)) {
-        const std::size_t at = told ? static_cast<std::size_t>(taken.pass) : 0;
+        std::erase_if(order.planned, [&](std::size_t j) { return j >= session.joints.size(); });
+    for (const VisitStart& visit : visits_in_time(session)) {
+        const std::size_t at = has_passes ? static_cast<std::size_t>(visit.pass) : 0;
         while (orders.size() <= at) orders.push_back({fmt::format("pass {}", orders.size() + 1), {}, {}});
         PassOrder& order = orders[at];
-        order.followed.push_back({taken.joint, false, order.place_followed(taken.joint) > 0});
+        order.actual.push_back({visit.joint, false, order.actual_position(visit.joint) > 0});
     }
     for (PassOrder& order : orders) mark_out_of_turn(order);
     return orders;

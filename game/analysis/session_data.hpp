@@ -1,4 +1,5 @@
-// Median and quartiles of a few values.
+// The data of one session as plain values, read once and then drawn: results, curves, metrics, summary and
+// the order of the joints.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +16,15 @@
 
 namespace bolt::analysis {
 
-// Of type 7 (Hyndman and Fan, Am. Stat. 50 (1996) 361), NumPy's and R's default: straight between the values.
+// Quartiles of type 7 (Hyndman and Fan, Am. Stat. 50 (1996) 361), the default of NumPy and R: linear
+// interpolation between the values.
 struct Quartiles {
     double low = std::numeric_limits<double>::quiet_NaN(), median = low, high = low;
     std::size_t n = 0;
 };
 
-// What is not finite does not count; of nothing all are NaN.
+// Ignores values that are not finite. Without values all are NaN.
 Quartiles quartiles(std::vector<double> values);
-
-// All that a page says of one session, as plain values: read once, then drawn.
 
 struct SessionData {
     std::string file;
@@ -37,70 +37,69 @@ struct SessionData {
     double score = 0.0;
     bool finished = false;
     std::vector<lesson::ScoreReason> reasons;
-    std::vector<std::string> pass_texts;  // what the session's pass_begin events say, in order
+    std::vector<std::string> pass_texts;  // texts of the pass_begin events, in order
     std::vector<JointCurve> curves;       // one for each of assembly.joints
-    Feel feel;
+    HapticMetrics metrics;
 
     [[nodiscard]] joint::Direction direction() const {
         return header.task == "loosen" ? joint::Direction::loosen : joint::Direction::tighten;
     }
 };
 
-// The assembly that is stored in a session as it was played: its law and what that law makes of the targets.
-Result<content::Assembly> stored_assembly(const session::Reader& session);
+// The assembly that a session stores, with the session's law applied (lesson::apply_law).
+Result<content::Assembly> stored_assembly(const session::SessionReader& session);
 
-Result<SessionData> read_session(const session::Reader& session);
+Result<SessionData> read_session(const session::SessionReader& session);
 
-// Results by joint: those given, by id, or empty ones for joints that were never reached.
+// One result for each joint of the assembly: the given one with its id, or an empty one.
 std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assembly,
                                                   const std::vector<lesson::JointResult>& given);
 
-// N: what the specification asks, else what its target torque makes with the nominal friction.
+// Target clamp force, N: the specified one, or the one of the target torque at nominal friction.
 double target_clamp(const content::Assembly& assembly, std::size_t joint);
 
-// How the joints of one session came out, in numbers.
+// Statistics of the joint results of one session.
 struct Summary {
     std::size_t joints = 0, judged = 0, ok = 0;
-    double mean_torque_error =
-        0.0;  // mean of |T − target| / target over judged joints; NaN without any, or loosening
+    // Mean of |T − target| / target over judged joints; NaN without any, or when loosening.
+    double mean_torque_error = 0.0;
     double clamp_mean = 0.0, clamp_low = 0.0, clamp_high = 0.0;  // N, over judged joints; NaN without any
     double clamp_deviation = 0.0;         // N, sample standard deviation; NaN below two joints
-    std::size_t lowest = 0, highest = 0;  // joints
+    std::size_t lowest = 0, highest = 0;  // joints with the extreme clamp forces
 };
 Summary summarise(const SessionData& session);
 
-// English if there is any, else the first language, else the folder's name.
+// The English title, else that of the first language, else the assembly's name.
 std::string title_of(const content::Assembly& assembly);
 
-// In which order the joints were taken, against the order asked.
-
-struct Turn {
+// A visit in the actual order of the joints.
+struct OrderEntry {
     std::size_t joint = 0;
-    bool out_of_turn = false;  // one of the fewest that would have to move for the order to be as asked
-    bool again = false;        // it had been taken in this pass already
+    bool out_of_turn = false;  // belongs to the smallest set of joints to move for the planned order
+    bool repeated = false;     // the joint was visited before in this pass
 };
 
+// The planned and the actual order of the joints in one pass.
 struct PassOrder {
     std::string label;  // "30 %", "run down", "re-check"
-    std::vector<std::size_t> asked;
-    std::vector<Turn> followed;  // visits that did some work, in time
+    std::vector<std::size_t> planned;
+    std::vector<OrderEntry> actual;  // visits with work, in order of time
 
-    [[nodiscard]] bool in_turn() const;          // nothing out of turn or repeated
-    [[nodiscard]] bool as_asked() const;         // an order was asked, and followed from first to last
-    [[nodiscard]] std::size_t left_out() const;  // asked, but not visited
-    // Place in the order, counted from 1; 0 if not in it.
-    [[nodiscard]] std::size_t place_asked(std::size_t joint) const;
-    [[nodiscard]] std::size_t place_followed(
-        std::size_t joint) const;  // its first turn, repeated ones not counted
+    [[nodiscard]] bool in_turn() const;                // no entry is out of turn or repeated
+    [[nodiscard]] bool as_planned() const;             // an order was planned, and followed completely
+    [[nodiscard]] std::size_t skipped_joints() const;  // number of planned joints without a visit
+    // Position in the order, counted from 1; 0 if it is not in it. Repeated visits do not count.
+    [[nodiscard]] std::size_t planned_position(std::size_t joint) const;
+    [[nodiscard]] std::size_t actual_position(std::size_t joint) const;
     [[nodiscard]] std::size_t visits(std::size_t joint) const;
 };
 
-// One for each pass of the assembly. A session that tells no passes apart gives one, without an order asked
-// if the assembly has several.
+// One for each pass of the assembly. A session without pass events gives a single one, without a planned
+// order if the assembly has several passes.
 std::vector<PassOrder> pass_orders(const SessionData& session);
 
-// Passes that were begun, with those together that followed the same order as asked: one drawing each. The
-// label of several names them all.
+// A drawing for the passes that followed the same planned order completely, or for one other pass that was
+// begun. The label names all its passes.
 struct OrderDrawing {
     PassOrder order;
     std::size_t passes = 1;

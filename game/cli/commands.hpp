@@ -1,5 +1,5 @@
-// The subcommands of boltwright. Each adds itself to the command line and leaves its exit code where main
-// finds it.
+// The subcommands of boltwright. Each function adds its subcommand to the command line; when the subcommand
+// runs, it sets `exit_code`.
 #pragma once
 
 namespace CLI {

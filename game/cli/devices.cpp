@@ -1,6 +1,6 @@
-// boltwright devices: what is plugged in that a hand can hold or wear, what it can, what is wrong with it and
-// how to mend that. What is not named is looked at and not opened: somebody may be at work with it, and what
-// hangs on a serial port may be no glove.
+// boltwright devices: lists the connected devices and gloves with their capabilities, faults and remedies. It
+// opens only a device that is named, because another program may use it, and a serial port may not have a
+// glove.
 #include "game/cli/devices.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace bolt::cli {
 
 namespace {
 
-constexpr double device_patience = 3.0;  // s
+constexpr double open_timeout = 3.0;  // s
 
 struct DevicesOptions {
     std::string device, glove, rig;
@@ -30,7 +30,7 @@ struct DevicesOptions {
     double seconds = 1.0;
 };
 
-const char* name_of(device::HidKind kind) {
+const char* description_of(device::HidKind kind) {
     switch (kind) {
         case device::HidKind::puck:
             return "six axes that spring back; moves the tool, renders no force";
@@ -41,84 +41,81 @@ const char* name_of(device::HidKind kind) {
         case device::HidKind::other:
             break;
     }
-    return "nothing to train with";
+    return "cannot be used for training";
 }
 
-std::string listed(const std::vector<device::ListedDevice>& found) {
-    std::string text = "Devices to hold:\n";
+std::string device_list(const std::vector<device::ListedDevice>& found) {
+    std::string text = "USB devices:\n";
     for (const device::ListedDevice& l : found) {
-        text += fmt::format("  {}  {}  {}\n    {}\n", l.id, l.name, l.path, name_of(l.kind));
+        text += fmt::format("  {}  {}  {}\n    {}\n", l.id, l.name, l.path, description_of(l.kind));
         if (l.trouble) text += fmt::format("    cannot be used: {}\n", l.trouble->message());
     }
     if (found.empty())
-        text +=
-            "  none by USB: a SpaceMouse, an OpenFFBoard or a wheel with force feedback would be listed "
-            "here\n";
+        text += "  none by USB; connect a SpaceMouse, an OpenFFBoard or a wheel with force feedback\n";
     else
-        text += "  boltwright devices --device ID opens one and says what it can\n";
+        text += "  boltwright devices --device ID opens one and shows its capabilities\n";
     return text;
 }
 
-std::string ports(const std::vector<std::filesystem::path>& found) {
-    std::string text = "Serial ports, which a CyberGlove may be on:\n";
+std::string port_list(const std::vector<std::filesystem::path>& found) {
+    std::string text = "Serial ports for a CyberGlove:\n";
     for (const auto& port : found) {
-        const Status may = hand::check_port_access(port);
-        text += fmt::format("  {}{}\n", port.string(), may ? "" : "\n    " + may.error().message());
+        const Status access = hand::check_port_access(port);
+        text += fmt::format("  {}{}\n", port.string(), access ? "" : "\n    " + access.error().message());
     }
     if (found.empty())
-        text +=
-            "  none: plug in the glove's adapter; a port of another name can be given with --glove PATH\n";
+        text += "  none; connect the glove's adapter, or name another port with --glove PATH\n";
     else
-        text += "  boltwright devices --glove PATH asks what is on one\n";
+        text += "  boltwright devices --glove PATH queries the glove on one\n";
     return text;
 }
 
-// Opens it and hears what it says for a while.
+// Opens the device and reads it for options.seconds. Returns its description and its sample rate.
 Result<std::string> examine_device(const DevicesOptions& options) {
-    BOLT_TRY(station_setup::find(device::list_devices(true), options.device));
-    device::WheelConfig rig;
+    BOLT_TRY(station_setup::find_device(device::list_devices(true), options.device));
+    device::WheelConfig wheel_config;
     if (!options.rig.empty()) {
         BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(options.rig));
-        rig = read;
+        wheel_config = read;
     }
-    BOLT_TRY_ASSIGN(auto line, device::DeviceThread::start(device::factory_for(options.device, rig)));
-    BOLT_TRY_ASSIGN(const auto description, line.wait_until_open(device_patience));
+    BOLT_TRY_ASSIGN(auto thread,
+                    device::DeviceThread::start(device::factory_for(options.device, wheel_config)));
+    BOLT_TRY_ASSIGN(const auto description, thread.wait_until_open(open_timeout));
     const device::Timer timer = device::steady_timer();
-    const std::uint64_t before = line.snapshot().number;
+    const std::uint64_t before = thread.snapshot().number;
     timer.wait(options.seconds);
-    const auto heard = static_cast<double>(line.snapshot().number - before);
-    const device::DeviceReport& report = line.report();
+    const auto received = static_cast<double>(thread.snapshot().number - before);
+    const device::DeviceReport& report = thread.report();
     if (report.state != device::DeviceState::usable)
         return fail(ErrorCode::no_device,
-                    report.trouble.empty() ? (description)->name + " says nothing" : report.trouble);
-    std::string text = fmt::format("{}  {}\n", options.device, (description)->name);
-    for (const std::string& words : device::summary_lines(*description)) text += fmt::format("  {}\n", words);
+                    report.trouble.empty() ? description->name + " sends nothing" : report.trouble);
+    std::string text = fmt::format("{}  {}\n", options.device, description->name);
+    for (const std::string& line : device::summary_lines(*description)) text += fmt::format("  {}\n", line);
     if (options.seconds > 0.0)
-        text += fmt::format("  said where it is {:.0f} times a second just now{}\n", heard / options.seconds,
-                            heard < 1.0 ? ": it rests" : "");
-    if (report.malformed > 0) text += fmt::format("  {} of its reports make no sense\n", report.malformed);
+        text += fmt::format("  sent {:.0f} samples a second{}\n", received / options.seconds,
+                            received < 1.0 ? "; it is at rest" : "");
+    if (report.malformed > 0) text += fmt::format("  {} malformed reports\n", report.malformed);
     return text;
 }
 
 Result<std::string> examine_glove(const std::string& port, double seconds) {
     BOLT_TRY(hand::check_port_access(port));
     hand::GloveDriver driver = hand::GloveDriver::start(port);
-    BOLT_TRY(station_setup::await_glove(driver, port));
+    BOLT_TRY(station_setup::wait_for_glove(driver, port));
     const device::Timer timer = device::steady_timer();
     const std::uint64_t before = driver.sample().number;
     timer.wait(seconds);
-    const auto heard = static_cast<double>(driver.sample().number - before);
+    const auto received = static_cast<double>(driver.sample().number - before);
     const hand::GloveReport& report = driver.report();
     const hand::GloveIdentity& glove = report.identity;
     std::string text = fmt::format("{}\n  CyberGlove, {} hand, {} sensors{}\n", port,
                                    glove.hand == hand::Side::left ? "left" : "right", glove.sensors,
                                    glove.version.empty() ? "" : ", version " + glove.version);
-    if (seconds > 0.0) text += fmt::format("  {:.0f} samples a second just now\n", heard / seconds);
-    if (report.lost_bytes > 0)
-        text += fmt::format("  {} bytes on the line made no sense\n", report.lost_bytes);
+    if (seconds > 0.0) text += fmt::format("  sent {:.0f} samples a second\n", received / seconds);
+    if (report.lost_bytes > 0) text += fmt::format("  {} invalid bytes received\n", report.lost_bytes);
     if (report.trouble[0] != '\0') text += fmt::format("  {}\n", report.trouble.data());
-    if (const std::string about = station_setup::about_adapter(port); !about.empty())
-        text += fmt::format("  {}\n", about);
+    if (const std::string warning = station_setup::adapter_warning(port); !warning.empty())
+        text += fmt::format("  {}\n", warning);
     return text;
 }
 
@@ -134,34 +131,34 @@ int run_devices(const DevicesOptions& options) {
         if (!found) return print_error(found.error());
         text += *found;
     }
-    if (text.empty()) text = listed(device::list_devices(options.others)) + ports(hand::serial_ports());
-    const Status said = print(text);
-    return said ? 0 : print_error(said.error());
+    if (text.empty())
+        text = device_list(device::list_devices(options.others)) + port_list(hand::serial_ports());
+    const Status printed = print(text);
+    return printed ? 0 : print_error(printed.error());
 }
 
 }  // namespace
 
 std::string devices_line() {
-    std::size_t usable = 0, troubled = 0;
-    for (const device::ListedDevice& l : device::list_devices()) ++(l.trouble ? troubled : usable);
+    std::size_t usable = 0, unusable = 0;
+    for (const device::ListedDevice& l : device::list_devices()) ++(l.trouble ? unusable : usable);
     const std::size_t found = hand::serial_ports().size();
-    std::string text = fmt::format("Devices: {} by USB to hold", usable + troubled);
-    if (troubled > 0) text += fmt::format(", {} of them cannot be used", troubled);
+    std::string text = fmt::format("Devices: {} by USB", usable + unusable);
+    if (unusable > 0) text += fmt::format(", {} of them cannot be used", unusable);
     return text +
-           fmt::format(", {} serial port{}; boltwright devices says more\n", found, found == 1 ? "" : "s");
+           fmt::format(", {} serial port{}; details: boltwright devices\n", found, found == 1 ? "" : "s");
 }
 
 void add_devices(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<DevicesOptions>();
     CLI::App* devices = app.add_subcommand(
-        "devices", "Say which devices are there, what they can, what is wrong with them and how to mend it");
-    devices->add_option("--device", options->device, "Open this one, by its id, and say what it can");
-    devices
-        ->add_option("--rig", options->rig, "What this rig file says of that device: its motor, its encoder")
+        "devices", "List the connected devices with their capabilities, faults and remedies");
+    devices->add_option("--device", options->device, "Id of a device to open; shows its capabilities");
+    devices->add_option("--rig", options->rig, "Configuration file of the wheel: its motor, its encoder")
         ->needs("--device");
-    devices->add_option("--glove", options->glove, "Ask the glove on this serial port what it is");
-    devices->add_flag("--all", options->others, "List keyboards and the like too");
-    devices->add_option("--seconds", options->seconds, "how long a named one is listened to")
+    devices->add_option("--glove", options->glove, "Serial port of a glove to query");
+    devices->add_flag("--all", options->others, "List devices of other kinds too, such as keyboards");
+    devices->add_option("--seconds", options->seconds, "How long to read the named device or glove")
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
     devices->callback([options, &exit_code] { exit_code = run_devices(*options); });

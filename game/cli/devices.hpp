@@ -1,11 +1,11 @@
-// What of devices doctor says.
+// The summary of the connected devices for boltwright doctor.
 #pragma once
 
 #include <string>
 
 namespace bolt::cli {
 
-// A line: how many of what are plugged in, how many cannot be used.
+// One line: the number of USB devices, of those that cannot be used, and of serial ports.
 std::string devices_line();
 
 }  // namespace bolt::cli

@@ -1,3 +1,5 @@
+// boltwright doctor: checks this machine for drawing and for the servo's timing, and lists what it would use.
+// With named devices or a glove it runs a trial of that station instead and assesses it.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -27,11 +29,11 @@
 #include "haptics/hand/glove_driver.hpp"
 #include "haptics/servo/thread.hpp"
 
-// boltwright doctor --device …: a station that is started, looked at for a while, and judged.
-
 namespace bolt::cli {
 
-struct StationOptions {
+namespace {
+
+struct TrialOptions {
     std::string assembly = "zq350";
     std::vector<std::string> devices;
     std::string rig, glove, trainee, calibrations;
@@ -40,32 +42,14 @@ struct StationOptions {
     [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty(); }
 };
 
-// Says what happens and returns the exit code: 0 it is good enough to train with, 1 it ran and is not, or why
-// it could not begin.
-int try_station(const StationOptions& options);
-
-// For whoever has not named one; empty: there is none to try.
-std::string what_to_try();
-
-}  // namespace bolt::cli
-
-// How this machine keeps the servo's time: the tick of a lesson on its thread, for a while.
-
-namespace bolt::cli {
-
-// Text for a terminal: what the thread was given, histograms at 1 kHz and 4 kHz, and whether that is good
-// enough.
-Result<std::string> examine_servo(double seconds, const std::string& assembly);
-
-namespace {
-
-// A hand that puts the wrench on the first nut once a second, eight degrees off, so that it stands on top,
-// and lifts it again: obstacles, god-object, guiding and output stage are all at work.
-servo::Input working(const servo::Setup& setup, const servo::State& state) {
+// A load for the servo: a hand that lowers the wrench onto the first nut and lifts it once a second. The
+// wrench is rotated by 8° from a fit and collides with the nut, so that contacts, god-object, guiding and
+// output stage all compute.
+servo::Input working_input(const servo::Setup& setup, const servo::State& state) {
     const servo::NutGeometry& nut = setup.nuts.front();
     const double time = static_cast<double>(state.tick) * setup.dt;
     const Vec3 at = servo::nut_centre(nut, 0.0) + nut.axis * (0.014 + 0.012 * std::cos(2.0 * pi * time));
-    // Away from the casing: out over the flange's edge.
+    // The handle points away from the casing, beyond the flange's edge.
     const double handle = setup.wrench.head_angle + to_radians(8.0) + (nut.seat.z > 0.0 ? 0.5 : 1.5) * pi;
     const double nearest =
         std::round(handle / (pi / 3.0)) * (pi / 3.0) + setup.wrench.head_angle + to_radians(8.0);
@@ -87,34 +71,35 @@ std::string describe(const servo::ThreadPrivileges& granted) {
     return text;
 }
 
-}  // namespace
-
+// Times the servo of the assembly's lesson at 1 kHz and 4 kHz for `seconds` each. Returns the thread's
+// privileges, the histograms and the assessments as text.
 Result<std::string> examine_servo(double seconds, const std::string& assembly) {
-    const content::Loaded loaded = content::load_assembly(assembly);
+    const content::LoadedAssembly loaded = content::load_assembly(assembly);
     if (!loaded.ok()) return fail(loaded.errors.front());
     std::string text;
-    std::optional<servo::ToolContact> touch;  // made once: it takes seconds
+    std::optional<servo::ToolContact> contact;  // loaded once, because it takes seconds
     for (const double rate : {1000.0, 4000.0}) {
         const servo::Setup setup =
             session::make_setup(loaded.assembly, loaded.assembly.law, force::OutputLimits{}, 0, 1.0 / rate);
         servo::State state = servo::initial_state(setup);
-        if (!touch) {
+        if (!contact) {
             BOLT_TRY_ASSIGN(auto made, session::load_tool_contact(loaded.assembly, setup));
-            touch = std::move(made);
+            contact = std::move(made);
         }
-        if (touch) servo::set_coupling(setup, *touch);
-        state.tool_contact = std::move(touch);
-        servo::tick(setup, state, working(setup, state));  // the first one proves everything anew
+        if (contact) servo::set_coupling(setup, *contact);
+        state.tool_contact = std::move(contact);
+        servo::tick(setup, state,
+                    working_input(setup, state));  // the first tick computes all distance bounds
         servo::ThreadOptions options;
         options.rate = rate;
-        BOLT_TRY_ASSIGN(auto thread, servo::Thread::start(options, [&](const servo::Deadline&) {
-                            servo::tick(setup, state, working(setup, state));
+        BOLT_TRY_ASSIGN(auto thread, servo::ServoThread::start(options, [&](const servo::Deadline&) {
+                            servo::tick(setup, state, working_input(setup, state));
                             return true;
                         }));
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
         thread.stop();
         if (text.empty()) text = describe(thread.privileges());
-        touch = std::move(state.tool_contact);
+        contact = std::move(state.tool_contact);
         const servo::HostAssessment assessment = servo::assess_host(thread.timing(), rate);
         text += fmt::format("  at {:.0f} ticks a second this machine is {}\n", rate,
                             assessment.adequate ? "good enough" : "NOT good enough");
@@ -124,62 +109,60 @@ Result<std::string> examine_servo(double seconds, const std::string& assembly) {
     return text;
 }
 
-namespace {
-
-std::string begins(const StationOptions& options, const content::Assembly& assembly,
-                   const station_setup::Planned& planned, const station::Station& station) {
+std::string trial_header(const TrialOptions& options, const content::Assembly& assembly,
+                         const station_setup::PlannedStation& planned, const station::Station& station) {
     const std::string& joint = assembly.joints.front().design.id;
-    std::string text = "Devices:\n" + station_setup::introduce(station.layout(), planned.choice);
+    std::string text = "Devices:\n" + station_setup::describe_station(station.layout(), planned.devices);
     text += fmt::format("The wrench sits on nut {} of {}, which is tight{}.\n", joint, assembly.name,
-                        planned.obstacles ? "" : "; nothing can be bumped into");
-    if (!options.glove.empty() && planned.worn)
-        text += "It is in the hand as soon as the gloved hand closes.\n";
+                        planned.obstacles ? "" : "; it has no contact models");
+    if (!options.glove.empty() && planned.calibration) text += "The gloved hand takes it by closing.\n";
     return text + fmt::format("For {:g} s from now on:\n", options.seconds);
 }
 
-}  // namespace
-
-int try_station(const StationOptions& options) {
-    const content::Loaded loaded = content::load_assembly(options.assembly);
+// Runs the trial of a station and prints its messages and report. Returns the exit code: 0 if it is fit for
+// training, 1 if it is not, or the code of the error that prevented the trial.
+int try_station(const TrialOptions& options) {
+    const content::LoadedAssembly loaded = content::load_assembly(options.assembly);
     if (!loaded.ok()) return print_error(loaded.errors);
-    device::VirtualPuck still({}, device::steady_timer());  // where there is no device that moves the tool
-    station_setup::Wanted wanted;
-    wanted.devices = options.devices;
-    wanted.rig = options.rig;
-    wanted.otherwise = still.open();
-    wanted.glove = options.glove;
-    wanted.trainee = options.trainee;
-    wanted.calibrations = options.calibrations;
-    wanted.tight = true;
+    device::VirtualPuck still({}, device::steady_timer());  // used if no device moves the tool
+    station_setup::StationRequest request;
+    request.devices = options.devices;
+    request.rig = options.rig;
+    request.fallback_mover = still.open();
+    request.glove = options.glove;
+    request.trainee = options.trainee;
+    request.calibrations = options.calibrations;
+    request.tightened = true;
 
-    Result<station_setup::Planned> planned = station_setup::make_plan(loaded.assembly, wanted);
+    Result<station_setup::PlannedStation> planned = station_setup::plan_station(loaded.assembly, request);
     if (!planned) return print_error(planned.error());
-    if (!planned->choice.mover) planned->plan.mover_buttons = {0, 0, 0, 0};
-    Result<station::Station> station = station::Station::start(std::move(planned->plan));
+    if (!planned->devices.mover) planned->options.mover_buttons = {0, 0, 0, 0};
+    Result<station::Station> station = station::Station::start(std::move(planned->options));
     if (!station) return print_error(station.error());
-    if (Status said = print(begins(options, loaded.assembly, *planned, *station)); !said)
-        return print_error(said.error());
+    if (Status printed = print(trial_header(options, loaded.assembly, *planned, *station)); !printed)
+        return print_error(printed.error());
 
     catch_interruption();
-    Status said;
-    const station_setup::Trial trial = station_setup::try_station(
-        *station, *planned, options.seconds, [&] { return interrupted() || !said; },
-        [&](double time, const std::string& words) {
-            if (said) said = print(fmt::format("  {:5.1f} s  {}\n", time, words));
+    Status printed;
+    const station_setup::StationTrial trial = station_setup::run_trial(
+        *station, *planned, options.seconds, [&] { return interrupted() || !printed; },
+        [&](double time, const std::string& message) {
+            if (printed) printed = print(fmt::format("  {:5.1f} s  {}\n", time, message));
         });
-    const std::vector<std::string> against = station_setup::against(trial);
-    if (said)
-        said = print(station_setup::report(trial) +
-                     (against.empty() ? "This station is good enough\n"
-                                      : fmt::format("This station is not good enough, because\n  {}\n",
-                                                    fmt::join(against, "\n  "))));
-    if (!said) return print_error(said.error());
-    return against.empty() ? 0 : static_cast<int>(ErrorCode::failed);
+    const std::vector<std::string> reasons = station_setup::unfit_reasons(trial);
+    if (printed)
+        printed = print(station_setup::trial_report(trial) +
+                        (reasons.empty() ? "This station is good enough\n"
+                                         : fmt::format("This station is not good enough, because\n  {}\n",
+                                                       fmt::join(reasons, "\n  "))));
+    if (!printed) return print_error(printed.error());
+    return reasons.empty() ? 0 : static_cast<int>(ErrorCode::failed);
 }
 
-std::string what_to_try() {
+// Commands that would run a trial with the connected devices; empty if there are none.
+std::string suggested_trials() {
     const std::vector<std::string> ids =
-        station_setup::ids_of(station_setup::choose_any(device::list_devices()));
+        station_setup::ids_of(station_setup::select_any_devices(device::list_devices()));
     std::string text;
     if (!ids.empty())
         text = fmt::format("  boltwright doctor --device {} tries {}\n", fmt::join(ids, " --device "),
@@ -190,12 +173,7 @@ std::string what_to_try() {
     return text;
 }
 
-// boltwright doctor: what this machine has, what of it would be used, and whether it keeps the servo's time.
-// With devices or a glove named: whether they and this machine are a station to train with.
-
-namespace {
-
-// What a window would show, and on what; or why there would be none.
+// Describes the GPU, format and refresh rate of a window; fails if no window can be opened.
 Result<std::string> examine_windows() {
     BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());
     platform::WindowOptions options;
@@ -205,20 +183,20 @@ Result<std::string> examine_windows() {
     BOLT_TRY_ASSIGN(const auto instance, gpu::Instance::create({false, extensions}));
     BOLT_TRY_ASSIGN(const auto surface, window.make_surface(instance));
     BOLT_TRY_ASSIGN(const auto found, gpu::survey_devices(instance, {"", surface.get()}));
-    if (found.choice.index < 0) return fail(ErrorCode::no_device, "no GPU can show on this display");
+    if (found.choice.index < 0) return fail(ErrorCode::no_device, "no GPU can draw to this display");
     const auto index = static_cast<std::size_t>(found.choice.index);
     gpu::SurfaceSupport offer;
-    const VkResult asked = gpu::query_surface(found.physical[index], surface.get(), offer);
-    BOLT_TRY(gpu::check(asked, "asking what a window can show"));
-    BOLT_TRY_ASSIGN(const auto plan, gpu::plan_swapchain(offer, {{1, 1}}));
+    const VkResult queried = gpu::query_surface(found.physical[index], surface.get(), offer);
+    BOLT_TRY(gpu::check(queried, "querying the surface of a window"));
+    BOLT_TRY_ASSIGN(const auto swapchain, gpu::plan_swapchain(offer, {{1, 1}}));
     return fmt::format("  drawn by {}\n  {}\n  {:.0f} pictures a second{}, scale {:.2f}\n",
-                       found.candidates[index].name, fmt::join(plan.reasons, "\n  "),
-                       1.0 / platform::period_of(window.refresh()),
-                       window.refresh() > 0.0 ? "" : " (the display does not tell)",
+                       found.candidates[index].name, fmt::join(swapchain.reasons, "\n  "),
+                       1.0 / platform::period_of(window.refresh_rate()),
+                       window.refresh_rate() > 0.0 ? "" : " (assumed; the display does not report it)",
                        static_cast<double>(window.content_scale()));
 }
 
-Status examine() {
+Status examine_drawing() {
     BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create({}));
     BOLT_TRY_ASSIGN(const auto found, gpu::survey_devices(instance, {}));
     std::string text = "Vulkan devices:\n";
@@ -233,47 +211,49 @@ Status examine() {
     BOLT_TRY(print(text));
     if (found.choice.index < 0)
         return fail(ErrorCode::no_device, "no Vulkan device can be used",
-                    "mesa-vulkan-drivers renders without a GPU");
+                    "a GPU with a Vulkan driver, or mesa-vulkan-drivers, which renders without a GPU");
     return {};
 }
 
 }  // namespace
 
 void add_doctor(CLI::App& app, int& exit_code) {
-    struct Options {
-        StationOptions station;
+    struct DoctorOptions {
+        TrialOptions station;
         std::optional<double> seconds;
     };
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DoctorOptions>();
     CLI::App* doctor = app.add_subcommand(
         "doctor",
-        "Say what this machine has for drawing, what would be used, and how it keeps the servo's time. With "
-        "a "
-        "device or a glove named: run a station with them, say how it goes and whether it is good enough "
-        "(exit code 0) or not (1); needs no display and no GPU");
-    StationOptions& station = options->station;
-    doctor->add_option("assembly", station.assembly, "What is worked on meanwhile: folder, file or name")
+        "Check this machine: GPUs, windows and the timing of the servo. With --device or --glove: run a "
+        "station with them and assess whether it is good enough for training (exit code 0) or not (1); needs "
+        "no display and no GPU");
+    TrialOptions& station = options->station;
+    doctor
+        ->add_option("assembly", station.assembly, "Assembly that the servo simulates: folder, file or name")
         ->capture_default_str();
     doctor
         ->add_option(
             "--device", station.devices,
-            "Try this one, by its id as `boltwright devices` has it; given twice: one that moves the "
-            "tool and one that turns the wrench. No force goes out unless its button is held")
+            "Id of a device to try, as listed by `boltwright devices`; may be given twice, for one that "
+            "moves "
+            "the tool and one that turns the wrench. A device renders no force unless its button is held")
         ->expected(1)
         ->take_all();
     auto* device = doctor->get_option("--device");
-    doctor->add_option("--rig", station.rig, "What this rig file says of the wheel: its motor, its encoder")
+    doctor->add_option("--rig", station.rig, "Configuration file of the wheel: its motor, its encoder")
         ->needs(device);
-    auto* glove = doctor->add_option("--glove", station.glove, "Try the glove on this serial port");
-    auto* trainee =
-        doctor->add_option("--trainee", station.trainee,
-                           "Whose hand is in it, by the calibration that `boltwright glove` keeps");
+    auto* glove = doctor->add_option("--glove", station.glove, "Serial port of a glove to try");
+    auto* trainee = doctor->add_option("--trainee", station.trainee,
+                                       "Wearer of the glove, with a calibration made by `boltwright glove`");
     trainee->needs(glove);
-    doctor->add_option("--folder", station.calibrations, "Where that is kept; else the user's data folder")
+    doctor
+        ->add_option("--folder", station.calibrations,
+                     "Folder of calibrations; default: the user's data folder")
         ->needs(trainee);
     doctor
         ->add_option("--seconds", options->seconds,
-                     "how long the station is tried (5), or the servo timed at each rate (2; 0: not at all)")
+                     "Duration of the trial (5), or of the timing at each rate of the servo (2; 0: none)")
         ->check(CLI::Range(0.0, 3600.0));
     doctor->callback([&exit_code, options] {
         if (options->station.any()) {
@@ -281,8 +261,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
             exit_code = try_station(options->station);
             return;
         }
-        const Status drawing = examine();
-        Status servo = print(devices_line() + what_to_try());
+        const Status drawing = examine_drawing();
+        Status servo = print(devices_line() + suggested_trials());
         const double seconds = options->seconds.value_or(2.0);
         if (servo && seconds > 0.0) {
             const Result<std::string> text = examine_servo(seconds, options->station.assembly);

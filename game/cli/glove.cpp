@@ -1,5 +1,5 @@
-// boltwright glove: calibrates a glove for a trainee, takes over a calibration of the vendor's, and shows
-// what a glove measures with one.
+// boltwright glove: calibrates a glove for a trainee, imports a vendor's calibration, and shows the joint
+// angles that a glove measures.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
@@ -24,11 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double patience = 10.0;      // s for a glove to give its first frame
-constexpr double port_patience = 1.0;  // s for its port to open
-constexpr auto look_again = std::chrono::milliseconds(5);
+constexpr double frame_timeout = 10.0;  // s, for the first frame of a glove
+constexpr double port_timeout = 1.0;    // s, for the port to open
+constexpr auto poll_period = std::chrono::milliseconds(5);
 
-struct GloveOptions {
+struct GloveArguments {
     std::string port, trainee, folder, file, hand = "right";
     std::size_t sensors = 18;
     double hand_length_mm = 1e3 * hand::skeleton_length;
@@ -41,14 +41,15 @@ double now() {
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr))); }
 
-Result<fs::path> kept_in(const GloveOptions& options) {
+Result<fs::path> calibration_folder(const GloveArguments& options) {
     return options.folder.empty() ? station_setup::calibrations_folder() : fs::path(options.folder);
 }
 
-// Reads every sample of a glove once.
-struct Reader {
+// Returns every sample of a glove once.
+struct GloveReader {
     hand::GloveDriver driver;
     std::uint64_t last = 0;
+    // The next sample; null: there is none yet.
     const hand::GloveSample* next() {
         const hand::GloveSample& sample = driver.sample();
         if (sample.number == last) return nullptr;
@@ -57,59 +58,62 @@ struct Reader {
     }
 };
 
-// On the port that is named, or on the only one there is, and streaming.
-Result<Reader> open(GloveOptions& options) {
+// Opens the glove on the port of the options, or on the only serial port, and waits for its first frame.
+Result<GloveReader> open(GloveArguments& options) {
     if (options.port.empty()) {
         const std::vector<fs::path> ports = hand::serial_ports();
         if (ports.size() != 1)
             return fail(ErrorCode::no_device,
-                        ports.empty() ? "there is no serial port that a glove could be on"
+                        ports.empty() ? "there is no serial port for a glove"
                                       : fmt::format("there are {} serial ports", ports.size()),
-                        ports.empty() ? "plug in the glove's adapter, or name its port with --port"
-                                      : "name the glove's with --port, such as " + ports.front().string());
+                        ports.empty()
+                            ? "the glove's adapter plugged in, or its port given with --port"
+                            : "the glove's port given with --port, such as " + ports.front().string());
         options.port = ports.front().string();
     }
-    Reader reader{hand::GloveDriver::start(options.port)};
-    for (const double from = now(); now() - from < patience; std::this_thread::sleep_for(look_again)) {
+    GloveReader reader{hand::GloveDriver::start(options.port)};
+    for (const double from = now(); now() - from < frame_timeout; std::this_thread::sleep_for(poll_period)) {
         if (reader.next() != nullptr) return reader;
-        if (!reader.driver.report().open && now() - from > port_patience) break;
+        if (!reader.driver.report().open && now() - from > port_timeout) break;
     }
     const hand::GloveReport& report = reader.driver.report();
-    return fail(ErrorCode::no_device,
-                report.trouble[0] != '\0' ? std::string(report.trouble.data())
-                                          : options.port + " gives nothing that a glove would",
-                report.open ? "is the glove switched on and plugged into its box?" : "");
+    return fail(
+        ErrorCode::no_device,
+        report.trouble[0] != '\0' ? std::string(report.trouble.data()) : options.port + ": no glove answers",
+        report.open ? "a glove that is switched on and connected to its box" : "");
 }
 
-Result<std::string> keep(const GloveOptions& options, content::GloveCalibration calibration) {
+// Completes and saves the calibration. Returns a message with its path.
+Result<std::string> save(const GloveArguments& options, content::GloveCalibration calibration) {
     calibration.trainee = options.trainee;
     calibration.date = today();
     calibration.hand_length = 1e-3 * options.hand_length_mm;
-    BOLT_TRY_ASSIGN(const auto folder, kept_in(options));
+    BOLT_TRY_ASSIGN(const auto folder, calibration_folder(options));
     std::error_code failed;
-    fs::create_directories(folder, failed);  // what goes wrong here goes wrong when the file is written
+    fs::create_directories(folder, failed);  // writing the file reports a failure
     const fs::path path = content::glove_calibration_path(folder, options.trainee, calibration.hand);
     BOLT_TRY(content::save_glove_calibration(path, calibration));
-    return "Kept in " + path.string() + "\n";
+    return "Saved to " + path.string() + "\n";
 }
 
-Result<hand::CalibrationResult> ask_for_postures(Reader& reader) {
+// Prompts for the postures until the calibration is done or has failed.
+Result<hand::CalibrationResult> record_postures(GloveReader& reader) {
     hand::CalibrationSession session;
-    std::optional<hand::Posture> asked;
-    hand::CalibrationTrouble told = hand::CalibrationTrouble::none;
+    std::optional<hand::Posture> prompted;
+    hand::CalibrationTrouble reported = hand::CalibrationTrouble::none;
     while (session.phase != hand::CalibrationPhase::done && session.phase != hand::CalibrationPhase::failed) {
-        if (asked != session.requested) {
-            asked = session.requested;
-            const std::string text = fmt::format("{}/{}  {}\n", static_cast<int>(*asked) + 1,
-                                                 hand::posture_count, hand::prompt(*asked));
+        if (prompted != session.requested) {
+            prompted = session.requested;
+            const std::string text = fmt::format("{}/{}  {}\n", static_cast<int>(*prompted) + 1,
+                                                 hand::posture_count, hand::prompt(*prompted));
             BOLT_TRY(print(text));
         }
-        if (told != session.trouble) {
-            told = session.trouble;
-            if (told != hand::CalibrationTrouble::none)
-                BOLT_TRY(print(fmt::format("     {}\n", hand::message_for(told))));
+        if (reported != session.trouble) {
+            reported = session.trouble;
+            if (reported != hand::CalibrationTrouble::none)
+                BOLT_TRY(print(fmt::format("     {}\n", hand::message_for(reported))));
         }
-        std::this_thread::sleep_for(look_again);
+        std::this_thread::sleep_for(poll_period);
         const hand::GloveSample* sample = reader.next();
         update(session, sample == nullptr ? nullptr : &sample->frame, now());
     }
@@ -118,30 +122,31 @@ Result<hand::CalibrationResult> ask_for_postures(Reader& reader) {
     return std::move(*session.result);
 }
 
-Status calibrate(GloveOptions options) {
+Status calibrate(GloveArguments options) {
     BOLT_TRY_ASSIGN(auto reader, open(options));
     const hand::GloveIdentity identity = reader.driver.report().identity;
-    if (Status said =
-            print(fmt::format("A {} glove of {} sensors. Hold each posture still until the next.\n",
+    if (Status printed =
+            print(fmt::format("A {} glove with {} sensors. Hold each posture still until the next prompt.\n",
                               identity.hand == hand::Side::left ? "left" : "right", identity.sensors));
-        !said)
-        return said;
-    BOLT_TRY_ASSIGN(const auto made, ask_for_postures(reader));
-    std::string text = fmt::format("Quality {:.2f} (1 is as good as gloves are)\n", made.score);
+        !printed)
+        return printed;
+    BOLT_TRY_ASSIGN(const auto made, record_postures(reader));
+    std::string text = fmt::format("Quality {:.2f} (best: 1)\n", made.score);
     for (const std::string& remark : made.remarks) text += "  " + remark + "\n";
     BOLT_TRY(print(text));
     if (made.score == 0.0)
-        return fail(ErrorCode::failed, "a sensor is of no use, nothing is kept", "a new calibration");
-    const Result<std::string> kept = keep(
+        return fail(ErrorCode::failed, "a sensor is unusable, so no calibration is saved",
+                    "a new calibration");
+    const Result<std::string> saved = save(
         options, {{}, options.port, identity.hand, identity.sensors, {}, made.score, 0.0, made.calibration});
-    return kept ? print(*kept) : fail(kept.error());
+    return saved ? print(*saved) : fail(saved.error());
 }
 
-Status take_over(const GloveOptions& options) {
+Status import_calibration(const GloveArguments& options) {
     BOLT_TRY_ASSIGN(const auto text, read_file(options.file, std::size_t{1} << 20U, ErrorCode::bad_content));
     BOLT_TRY_ASSIGN(const auto calibration, hand::parse_cal(text, options.file));
-    const Result<std::string> kept =
-        keep(options, {{},
+    const Result<std::string> saved =
+        save(options, {{},
                        {},
                        options.hand == "left" ? hand::Side::left : hand::Side::right,
                        options.sensors,
@@ -149,10 +154,10 @@ Status take_over(const GloveOptions& options) {
                        0.0,
                        0.0,
                        calibration});
-    return kept ? print(*kept) : fail(kept.error());
+    return saved ? print(*saved) : fail(saved.error());
 }
 
-// The hand, a line a tenth of a second: degrees of thumb and fingers.
+// One line with the angles of thumb and fingers in degrees.
 std::string line_of(const hand::Angles& a) {
     std::string text =
         fmt::format("thumb {:3.0f} {:3.0f} {:3.0f} {:3.0f}", to_degrees(a.thumb.roll),
@@ -164,27 +169,27 @@ std::string line_of(const hand::Angles& a) {
     return text + "\n";
 }
 
-Status show(GloveOptions options) {
-    BOLT_TRY_ASSIGN(const auto kept, content::load_glove_calibration(options.file));
+Status show(GloveArguments options) {
+    BOLT_TRY_ASSIGN(const auto stored, content::load_glove_calibration(options.file));
     BOLT_TRY_ASSIGN(auto reader, open(options));
     const hand::GloveIdentity identity = reader.driver.report().identity;
-    if (identity.hand != kept.hand || identity.sensors != kept.sensors)
-        return fail(ErrorCode::usage, "this calibration is of another glove",
-                    fmt::format("one of a {} hand with {} sensors",
+    if (identity.hand != stored.hand || identity.sensors != stored.sensors)
+        return fail(ErrorCode::usage, "this calibration is for another glove",
+                    fmt::format("one for a {} hand with {} sensors",
                                 identity.hand == hand::Side::left ? "left" : "right", identity.sensors));
     hand::GloveWearer wearer;
-    wearer.calibration = kept.calibration;
-    wearer.hand = hand::make_hand(kept.hand, kept.hand_length);
-    hand::MeasuredHand worn;
-    double told = 0.0;
+    wearer.calibration = stored.calibration;
+    wearer.hand = hand::make_hand(stored.hand, stored.hand_length);
+    hand::MeasuredHand measured;
+    double last_printed = 0.0;
     for (const double until = now() + options.seconds; now() < until;
-         std::this_thread::sleep_for(look_again)) {
+         std::this_thread::sleep_for(poll_period)) {
         const hand::GloveSample* sample = reader.next();
         if (sample == nullptr) continue;
-        update(worn, wearer, sample->frame, sample->time);
-        if (sample->time - told < 0.1) continue;
-        told = sample->time;
-        BOLT_TRY(print(line_of(worn.angles)));
+        update(measured, wearer, sample->frame, sample->time);
+        if (sample->time - last_printed < 0.1) continue;
+        last_printed = sample->time;
+        BOLT_TRY(print(line_of(measured.angles)));
     }
     return {};
 }
@@ -192,47 +197,50 @@ Status show(GloveOptions options) {
 }  // namespace
 
 void add_glove(CLI::App& app, int& exit_code) {
-    CLI::App* command = app.add_subcommand("glove", "Calibrate a CyberGlove for a trainee, and look at it");
+    CLI::App* command =
+        app.add_subcommand("glove", "Calibrate a CyberGlove for a trainee, or show what it measures");
     command->require_subcommand(1);
-    const auto options = std::make_shared<GloveOptions>();
-    const auto run = [&exit_code, options](CLI::App* sub, Status (*work)(GloveOptions)) {
+    const auto options = std::make_shared<GloveArguments>();
+    const auto run = [&exit_code, options](CLI::App* sub, Status (*work)(GloveArguments)) {
         sub->callback([&exit_code, options, work] {
             const Status done = work(*options);
             exit_code = done ? 0 : print_error(done.error());
         });
     };
-    const auto whose = [&](CLI::App* sub) {
-        sub->add_option("--trainee", options->trainee, "Whose hand it is")->required();
+    const auto add_wearer = [&](CLI::App* sub) {
+        sub->add_option("--trainee", options->trainee, "Name of the trainee")->required();
         sub->add_option("--hand-length-mm", options->hand_length_mm,
                         "From the crease of the wrist to the tip of the middle finger")
             ->check(CLI::Range(100.0, 300.0))
             ->capture_default_str();
-        sub->add_option("--folder", options->folder, "Where to keep it; else the user's data folder");
+        sub->add_option("--folder", options->folder,
+                        "Folder of calibrations; default: the user's data folder");
     };
-    const auto where = [&](CLI::App* sub) {
-        sub->add_option("--port", options->port, "The glove's serial port, if there are several");
+    const auto add_port = [&](CLI::App* sub) {
+        sub->add_option("--port", options->port, "The glove's serial port; default: the only one");
     };
 
-    CLI::App* made = command->add_subcommand("calibrate", "By four postures that the trainee is asked for");
-    where(made);
-    whose(made);
-    run(made, calibrate);
+    CLI::App* calibrated =
+        command->add_subcommand("calibrate", "Calibrate by four postures that the trainee is prompted for");
+    add_port(calibrated);
+    add_wearer(calibrated);
+    run(calibrated, calibrate);
 
-    CLI::App* taken = command->add_subcommand("import", "From the vendor's .cal file");
-    taken->add_option("FILE", options->file, "The .cal file")->required();
-    taken->add_option("--hand", options->hand, "left or right")
+    CLI::App* imported = command->add_subcommand("import", "Import a .cal file of the vendor");
+    imported->add_option("FILE", options->file, "The .cal file")->required();
+    imported->add_option("--hand", options->hand, "left or right")
         ->check(CLI::IsMember({"left", "right"}))
         ->capture_default_str();
-    taken->add_option("--sensors", options->sensors, "18 or 22")
+    imported->add_option("--sensors", options->sensors, "18 or 22")
         ->check(CLI::IsMember({18, 22}))
         ->capture_default_str();
-    whose(taken);
-    run(taken, [](GloveOptions o) { return take_over(o); });
+    add_wearer(imported);
+    run(imported, [](GloveArguments o) { return import_calibration(o); });
 
-    CLI::App* shown = command->add_subcommand("show", "What the glove measures, in degrees");
-    shown->add_option("FILE", options->file, "The calibration that was kept")->required();
-    where(shown);
-    shown->add_option("--seconds", options->seconds, "For how long")
+    CLI::App* shown = command->add_subcommand("show", "Show the measured joint angles, in degrees");
+    shown->add_option("FILE", options->file, "The calibration file")->required();
+    add_port(shown);
+    shown->add_option("--seconds", options->seconds, "Duration")
         ->check(CLI::Range(0.1, 3600.0))
         ->capture_default_str();
     run(shown, show);

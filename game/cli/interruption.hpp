@@ -1,12 +1,12 @@
-// Ctrl+C and a polite kill: a command that records ends its session in order.
+// SIGINT (Ctrl+C) and SIGTERM as requests to end, so that a recording command can complete its session file.
 #pragma once
 
 namespace bolt::cli {
 
-/// From now on SIGINT and SIGTERM only set what `interrupted()` tells.
+// From now on SIGINT and SIGTERM only set the flag that `interrupted()` returns.
 void catch_interruption();
 
-/// Whether somebody wants the program to end.
+// Returns true if the program was requested to end.
 [[nodiscard]] bool interrupted();
 
 }  // namespace bolt::cli

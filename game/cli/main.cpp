@@ -1,3 +1,5 @@
+// The main function of boltwright, and its handling of SIGINT and SIGTERM. The subcommands are in the other
+// files of game/cli.
 #include "game/cli/interruption.hpp"
 
 #include <csignal>
@@ -9,24 +11,22 @@
 namespace bolt::cli {
 namespace {
 
-volatile std::sig_atomic_t asked_to_end = 0;  // what a signal handler may write
+volatile std::sig_atomic_t end_requested = 0;  // written by the signal handler
 
 }  // namespace
 
 void catch_interruption() {
-    for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, [](int) { asked_to_end = 1; });
+    for (const int signal : {SIGINT, SIGTERM}) (void)std::signal(signal, [](int) { end_requested = 1; });
 }
 
-bool interrupted() { return asked_to_end != 0; }
+bool interrupted() { return end_requested != 0; }
 
 }  // namespace bolt::cli
 
-// boltwright: the trainer. The commands are in game/cli.
-
 int main(int argc, char** argv) {
-    // What OpenAL prints of devices that are not there is said once, in our words (engine/audio).
+    // Suppresses OpenAL's messages on missing devices; engine/audio reports them once.
     (void)::setenv("ALSOFT_LOGLEVEL", "0", 0);
-    // A file that may not grow is told by whoever writes it, as a full disk is.
+    // Exceeding the file size limit becomes a write error, as on a full disk.
     (void)std::signal(SIGXFSZ, SIG_IGN);
     CLI::App app("Boltwright trains people to assemble bolted joints by feel.", "boltwright");
     app.require_subcommand(1);

@@ -1,4 +1,4 @@
-// boltwright render: pictures of an assembly or of any .glb, without a display.
+// boltwright render: pictures of an assembly or of a glTF model, without a display.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -21,7 +21,7 @@
 #include "game/session/lesson_session.hpp"
 #include "game/view/labels.hpp"
 #include "game/view/pictures.hpp"
-#include "game/view/stage.hpp"
+#include "game/view/shown_model.hpp"
 
 namespace bolt::cli {
 
@@ -31,7 +31,7 @@ struct RenderOptions {
     std::string what, png = "out/render.png", timings, light = "studio", gpu;
     std::vector<std::string> views;
     std::string joint;
-    view::Marks marks;
+    view::Highlights highlights;
     std::string inset, eye, target, size = "1280x720", animation;
     double at_s = 0.0;
     double fov_deg = 35.0, level_error_px = 0.0;
@@ -43,7 +43,8 @@ Result<glm::vec3> parse_point(const std::string& text, const char* option) {
     glm::vec3 v(0.0F);
     char rest = 0;
     if (std::sscanf(text.c_str(), "%f,%f,%f%c", &v.x, &v.y, &v.z, &rest) != 3)
-        return fail(ErrorCode::usage, fmt::format("{} \"{}\" is no point", option, text), "X,Y,Z in metres");
+        return fail(ErrorCode::usage, fmt::format("{}: \"{}\" is not a point", option, text),
+                    "X,Y,Z in metres");
     return v;
 }
 
@@ -55,24 +56,24 @@ std::string file_of(const RenderOptions& options, const view::Viewpoint& view, s
         .string();
 }
 
-// By its name, or else by its index.
+// Finds the animation by its name, or else by its index.
 Result<const assets::Animation*> find_animation(const assets::Model& model, const RenderOptions& options) {
-    const std::string& wanted = options.animation;
+    const std::string& requested = options.animation;
     std::vector<std::string> names;
     for (const assets::Animation& animation : model.animations) {
-        if (animation.name == wanted) return &animation;
+        if (animation.name == requested) return &animation;
         if (!animation.name.empty()) names.push_back(animation.name);
     }
     std::size_t index = 0;
-    const auto [end, error] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), index);
-    if (error == std::errc() && end == wanted.data() + wanted.size() && index < model.animations.size())
+    const auto [end, error] = std::from_chars(requested.data(), requested.data() + requested.size(), index);
+    if (error == std::errc() && end == requested.data() + requested.size() && index < model.animations.size())
         return &model.animations[index];
-    const std::string what = fmt::format("{} has no animation \"{}\"", options.what, wanted);
+    const std::string what = fmt::format("{} has no animation \"{}\"", options.what, requested);
     if (model.animations.empty()) return fail(ErrorCode::usage, what, "a model that has animations");
-    const std::string near = nearest(wanted, names);
+    const std::string near = nearest(requested, names);
     return fail(ErrorCode::usage, what,
                 near.empty() ? fmt::format("a name or an index from 0 to {}", model.animations.size() - 1)
-                             : fmt::format("\"{}\"", near));
+                             : fmt::format("did you mean \"{}\"?", near));
 }
 
 struct FrameTime {
@@ -87,7 +88,7 @@ std::string timings_json(const std::string& device, const render::Statistics& st
     std::vector<double> sorted;
     for (const FrameTime& time : times) {
         nlohmann::ordered_json passes = nlohmann::ordered_json::object();
-        for (const gpu::PassTiming& pass : time.passes)  // several views have a pass each
+        for (const gpu::PassTiming& pass : time.passes)  // one entry per view has the same name
             passes[pass.name] = passes.value(pass.name, 0.0) + pass.milliseconds;
         json["frames"].push_back({{"ms", time.milliseconds}, {"gpu_ms", passes}});
         sorted.push_back(time.milliseconds);
@@ -97,35 +98,35 @@ std::string timings_json(const std::string& device, const render::Statistics& st
     return json.dump(1) + "\n";
 }
 
-// The eye of a view, `aside` metres to the right of where it is.
+// The eye of a view, moved to the right by `offset` m.
 render::Eye eye_of(const RenderOptions& options, const view::Viewpoint& view, const render::BoundingBox& box,
-                   float aspect, float aside = 0.0F) {
+                   float aspect, float offset = 0.0F) {
     const float fov = view.fov > 0.0F ? view.fov : static_cast<float>(to_radians(options.fov_deg));
     const render::Perspective lens = view::lens(box, view.eye, view.target, fov, aspect);
     const glm::vec3 right =
         glm::normalize(glm::vec3(glm::transpose(render::look_at(view.eye, view.target))[0]));
-    render::Eye eye = render::make_eye(view.eye + aside * right, view.target + aside * right, lens);
+    render::Eye eye = render::make_eye(view.eye + offset * right, view.target + offset * right, lens);
     eye.clip_from_world =
-        view::converging(aside, glm::distance(view.eye, view.target), lens) * eye.clip_from_world;
+        view::convergence_shear(offset, glm::distance(view.eye, view.target), lens) * eye.clip_from_world;
     return eye;
 }
 
-// The joints' names where they are, seen through parts a little.
-void name_joints(const view::Subject& subject, render::Scene& scene) {
-    for (const view::JointPlace& joint : subject.joints) {
+// Adds a label with its name at each joint; parts in front of it make it faint.
+void add_joint_labels(const view::LoadedModel& model, render::Scene& scene) {
+    for (const view::JointPosition& joint : model.joints) {
         render::Label label;
         label.text = joint.id;
-        label.position = joint.at;
-        label.before = 0.05F;  // its own bolt does not hide it
-        label.moved_px = {0.0F, 26.0F};
+        label.position = joint.position;
+        label.occlusion_margin = 0.05F;  // so that its own bolt does not hide it
+        label.offset_px = {0.0F, 26.0F};
         label.height = 14.0F;
         label.plate = {0.08F, 0.10F, 0.12F, 0.85F};
-        label.through = 0.35F;
+        label.occluded_visibility = 0.35F;
         scene.labels.push_back(label);
     }
 }
 
-// What the options say of the animation becomes the model's rest.
+// Sets the model's rest pose to the animation of the options at their time.
 Status pose(assets::Model& model, const RenderOptions& options) {
     BOLT_TRY_ASSIGN(auto animation, find_animation(model, options));
     assets::ModelPose pose = assets::rest_pose(model);
@@ -134,16 +135,17 @@ Status pose(assets::Model& model, const RenderOptions& options) {
     return {};
 }
 
-// From where: the named views, or the one that the options describe.
-Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, const view::Subject& subject,
+// The named views of the options, or else the viewpoint that they describe.
+Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, const view::LoadedModel& model,
                                                 const render::BoundingBox& box, float aspect) {
     std::vector<view::Viewpoint> views;
     for (const std::string& name : options.views) {
-        BOLT_TRY_ASSIGN(auto view, view::named_view(subject, name));
+        BOLT_TRY_ASSIGN(auto view, view::named_view(model, name));
         views.push_back(view);
     }
     if (!views.empty()) return views;
-    view::Viewpoint view = view::framed(box, static_cast<float>(to_radians(options.fov_deg)), aspect);
+    view::Viewpoint view =
+        view::default_viewpoint(box, static_cast<float>(to_radians(options.fov_deg)), aspect);
     for (const auto& [text, point, name] :
          {std::tuple{&options.target, &view.target, "--target"}, {&options.eye, &view.eye, "--eye"}}) {
         if (text->empty()) continue;
@@ -153,9 +155,9 @@ Result<std::vector<view::Viewpoint>> viewpoints(const RenderOptions& options, co
     return std::vector{view};
 }
 
-// The view that shows most of a joint's nut.
+// The name of the view with the greatest visible area of the joint's nut.
 Result<std::string> view_of_joint(const std::string& what, const std::string& id) {
-    const content::Loaded loaded = content::load_assembly(what);
+    const content::LoadedAssembly loaded = content::load_assembly(what);
     if (!loaded.ok()) return fail(loaded.errors.front());
     const content::Assembly& assembly = loaded.assembly;
     const auto joint =
@@ -166,14 +168,14 @@ Result<std::string> view_of_joint(const std::string& what, const std::string& id
         for (const content::AssemblyJoint& known : assembly.joints) ids.push_back(known.design.id);
         const std::string near = nearest(id, ids);
         return fail(ErrorCode::usage, fmt::format("{} has no joint \"{}\"", what, id),
-                    near.empty() ? "the id of one of its joints" : near);
+                    near.empty() ? "the id of one of its joints" : fmt::format("did you mean \"{}\"?", near));
     }
     const servo::Setup setup = session::make_setup(assembly, assembly.law, {}, 1, 1e-3);
-    BOLT_TRY_ASSIGN(auto touch, session::load_tool_contact(assembly, setup));
-    const auto best = touch
-                          ? session::best_view(session::views_of_nut(
-                                assembly, *touch, static_cast<std::size_t>(joint - assembly.joints.begin())))
-                          : std::nullopt;
+    BOLT_TRY_ASSIGN(auto contact, session::load_tool_contact(assembly, setup));
+    const auto best =
+        contact ? session::best_view(session::nut_views(
+                      assembly, *contact, static_cast<std::size_t>(joint - assembly.joints.begin())))
+                : std::nullopt;
     if (!best)
         return fail(ErrorCode::bad_content, fmt::format("no view of {} shows the nut of joint {}", what, id),
                     "--view, or --eye and --target");
@@ -182,20 +184,20 @@ Result<std::string> view_of_joint(const std::string& what, const std::string& id
 
 Status render_all(RenderOptions options) {
     BOLT_TRY_ASSIGN(const auto extent, view::parse_size(options.size));
-    view::LoadedSubject subject = view::load_subject(options.what);
-    if (!subject.ok()) return fail(subject.errors.front());
-    if (options.labels && subject.subject.bare)
-        return fail(ErrorCode::usage, "a bare model has no joints that could be named", "an assembly");
-    if (!options.animation.empty()) BOLT_TRY(pose(subject.subject.model, options));
+    view::ModelLoadResult loaded = view::load_model(options.what);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    if (options.labels && loaded.model.bare)
+        return fail(ErrorCode::usage, "a bare model has no joints to label", "an assembly");
+    if (!options.animation.empty()) BOLT_TRY(pose(loaded.model.model, options));
     if (!options.joint.empty()) {
-        if (subject.subject.bare)
-            return fail(ErrorCode::usage, "a bare model has no joint to look at", "an assembly");
+        if (loaded.model.bare)
+            return fail(ErrorCode::usage, "a bare model has no joint to show", "an assembly");
         BOLT_TRY_ASSIGN(auto view, view_of_joint(options.what, options.joint));
         options.views = {std::move(view)};
     }
-    std::vector<std::string> named = options.views;
-    if (!options.inset.empty()) named.push_back(options.inset);
-    for (const std::string& name : named) BOLT_TRY(view::named_view(subject.subject, name));
+    std::vector<std::string> names = options.views;
+    if (!options.inset.empty()) names.push_back(options.inset);
+    for (const std::string& name : names) BOLT_TRY(view::named_view(loaded.model, name));
     BOLT_TRY_ASSIGN(const auto radiance, view::load_light(options.light));
 
     gpu::InstanceOptions instance_options;
@@ -204,57 +206,57 @@ Status render_all(RenderOptions options) {
     if (!instance) return fail(instance.error());
     render::RendererOptions renderer_options;
     renderer_options.level_error_px = static_cast<float>(options.level_error_px);
-    BOLT_TRY_ASSIGN(auto painter, view::make_painter(*instance, {options.gpu}, renderer_options));
-    gpu::Device& device = *painter.device;
+    BOLT_TRY_ASSIGN(auto gpu_context, view::make_gpu_context(*instance, {options.gpu}, renderer_options));
+    gpu::Device& device = *gpu_context.device;
     BOLT_TRY_ASSIGN(auto light, render::upload_environment(device, radiance));
-    BOLT_TRY_ASSIGN(const auto stage, view::set_stage(device, subject.subject, light,
-                                                      {!options.no_key, options.level_error_px > 0.0}));
-    BOLT_TRY(view::mark(*stage, subject.subject, options.marks));
+    BOLT_TRY_ASSIGN(const auto shown, view::show_model(device, loaded.model, light,
+                                                       {!options.no_key, options.level_error_px > 0.0}));
+    BOLT_TRY(view::highlight(*shown, loaded.model, options.highlights));
 
     const float aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
-    BOLT_TRY_ASSIGN(const auto views, viewpoints(options, subject.subject, (stage)->box, aspect));
-    if (options.labels) name_joints(subject.subject, (stage)->scene);
-    const std::vector<render::Label> labels = (stage)->scene.labels;
+    BOLT_TRY_ASSIGN(const auto views, viewpoints(options, loaded.model, shown->box, aspect));
+    if (options.labels) add_joint_labels(loaded.model, shown->scene);
+    const std::vector<render::Label> labels = shown->scene.labels;
     std::optional<text::Fonts> fonts;
     if (!labels.empty()) {
-        BOLT_TRY_ASSIGN(auto loaded, text::load_fonts());
-        fonts = std::move(loaded);
+        BOLT_TRY_ASSIGN(auto loaded_fonts, text::load_fonts());
+        fonts = std::move(loaded_fonts);
     }
     std::vector<render::Inset> insets;
     if (!options.inset.empty()) {
-        BOLT_TRY_ASSIGN(const auto view, view::named_view(subject.subject, options.inset));
-        insets.push_back(
-            {eye_of(options, view, (stage)->box, aspect), render::inset_rectangle(extent, 0.28F)});
+        BOLT_TRY_ASSIGN(const auto view, view::named_view(loaded.model, options.inset));
+        insets.push_back({eye_of(options, view, shown->box, aspect), render::inset_rectangle(extent, 0.28F)});
     }
     for (const view::Viewpoint& view : views) {
         if (view.eye == view.target) return fail(ErrorCode::usage, "eye and target are the same point");
         std::vector<render::Eye> eyes;
-        for (const float aside : view::eyes_aside(options.stereo))
-            eyes.push_back(eye_of(options, view, (stage)->box, aspect, aside));
-        (stage)->scene.labels = labels;
+        for (const float offset : view::eye_offsets(options.stereo))
+            eyes.push_back(eye_of(options, view, shown->box, aspect, offset));
+        shown->scene.labels = labels;
         if (fonts)
-            view::move_apart(*fonts, (stage)->scene.labels, eyes.front(), {extent.width, extent.height});
+            view::separate_labels(*fonts, shown->scene.labels, eyes.front(), {extent.width, extent.height});
         std::vector<render::Picture> pictures;
         std::vector<FrameTime> times;
         for (int frame = 0; frame < options.frames; ++frame) {
             const auto start = std::chrono::steady_clock::now();
-            BOLT_TRY_ASSIGN(auto taken, render::take_pictures(device, *painter.frames, *painter.renderer,
-                                                              (stage)->scene, eyes, extent, insets));
+            BOLT_TRY_ASSIGN(auto taken,
+                            render::take_pictures(device, *gpu_context.frames, *gpu_context.renderer,
+                                                  shown->scene, eyes, extent, insets));
             pictures = std::move(taken);
             const std::chrono::duration<double, std::milli> spent = std::chrono::steady_clock::now() - start;
-            times.push_back({spent.count(), painter.frames->timings()});
+            times.push_back({spent.count(), gpu_context.frames->timings()});
         }
-        if (Status kept =
+        if (Status written =
                 view::write_picture(view::side_by_side(pictures), file_of(options, view, views.size()));
-            !kept)
-            return kept;
+            !written)
+            return written;
         if (!options.timings.empty())
-            if (Status kept = write_file(options.timings,
-                                         timings_json(device.name(), painter.renderer->statistics(), times));
-                !kept)
-                return kept;
+            if (Status written = write_file(
+                    options.timings, timings_json(device.name(), gpu_context.renderer->statistics(), times));
+                !written)
+                return written;
     }
-    (void)painter.renderer->save_pipelines();  // without them the next start is slower, no more
+    (void)gpu_context.renderer->save_pipelines();  // a failure only slows down the next start
     if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
     return {};
 }
@@ -264,41 +266,43 @@ Status render_all(RenderOptions options) {
 void add_render(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
-        app.add_subcommand("render", "Draw an assembly or a .glb into a PNG; needs no display");
+        app.add_subcommand("render", "Draw an assembly or a .glb to a PNG file; needs no display");
     command->add_option("what", options->what, "Assembly (folder, file or name) or a .glb")->required();
-    CLI::Option* views = command->add_option("--view", options->views,
-                                             "Named view of the assembly; several give several files");
-    command->add_option("--joint", options->joint, "From the named view that shows most of this joint's nut")
+    CLI::Option* views = command->add_option(
+        "--view", options->views, "Named view of the assembly; may be given several times, one file each");
+    command
+        ->add_option("--joint", options->joint,
+                     "Draw from the named view that shows most of this joint's nut")
         ->excludes(views);
-    command->add_option("--inset", options->inset,
-                        "Named view that is shown small in the lower right corner");
-    command->add_flag("--labels", options->labels, "Write the joints' names where they are");
-    command->add_option("--eye", options->eye, "Where to look from: X,Y,Z in metres");
-    command->add_option("--target", options->target, "Where to look to: X,Y,Z in metres");
+    command->add_option("--inset", options->inset, "Named view to draw small in the lower right corner");
+    command->add_flag("--labels", options->labels, "Label the joints with their names");
+    command->add_option("--eye", options->eye, "Position of the eye: X,Y,Z in metres");
+    command->add_option("--target", options->target, "Point that the eye looks at: X,Y,Z in metres");
     command->add_option("--fov", options->fov_deg, "Vertical field of view, degrees")
         ->check(CLI::Range(1.0, 150.0));
     command->add_option("--size", options->size, "WIDTHxHEIGHT in pixels");
     command->add_flag("--stereo", options->stereo, "Both eyes, side by side");
     command
         ->add_option("--level-error", options->level_error_px,
-                     "Coarser levels of detail that are this near, in pixels; 0: every triangle")
+                     "Use levels of detail with an error up to this many pixels; 0: full detail")
         ->check(CLI::Range(0.0, 100.0));
-    CLI::Option* animation =
-        command->add_option("--animation", options->animation, "Pose it by this animation: name or index");
-    command->add_option("--at", options->at_s, "At which second of the animation")
+    CLI::Option* animation = command->add_option("--animation", options->animation,
+                                                 "Animation that poses the model: name or index");
+    command->add_option("--at", options->at_s, "Time in the animation, s")
         ->check(CLI::Range(0.0, 1e6))
         ->needs(animation);
-    command->add_option("--frames", options->frames, "Draw it this often")->check(CLI::Range(1, 100000));
-    command->add_option("--timings", options->timings, "Write the frames' times to this JSON file");
-    command->add_option("--outline", options->marks.outlined, "Node that gets a line around it");
-    command->add_option("--ghost", options->marks.ghosts, "Node that is drawn transparent");
-    command->add_option("--see", options->marks.seen, "Node that is seen: what hides it fades");
-    command->add_option("--light", options->light, "studio, or a Radiance .hdr file");
-    command->add_flag("--no-key", options->no_key, "Without the lamp that is added to a model that has none");
+    command->add_option("--frames", options->frames, "Number of times to draw each picture, for timings")
+        ->check(CLI::Range(1, 100000));
+    command->add_option("--timings", options->timings, "JSON file for the times of the frames");
+    command->add_option("--outline", options->highlights.outlined, "Node to outline");
+    command->add_option("--ghost", options->highlights.ghosts, "Node to draw transparent");
+    command->add_option("--see", options->highlights.revealed, "Node to reveal; parts in front of it fade");
+    command->add_option("--light", options->light, "Environment light: studio, or a Radiance .hdr file");
+    command->add_flag("--no-key", options->no_key, "Do not add a key light to a model without lights");
     command->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
     command->add_flag("--validate", options->validate,
                       "Run under the Vulkan validation layers; any message is an error");
-    command->add_option("--png", options->png, "The picture; with several views NAME-VIEW.png");
+    command->add_option("--png", options->png, "PNG file to write; with several views NAME-VIEW.png");
     command->callback([options, &exit_code] {
         const Status done = render_all(*options);
         exit_code = done ? 0 : print_error(done.error());

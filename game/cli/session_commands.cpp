@@ -1,3 +1,4 @@
+// boltwright report, export and compare: the commands that read recorded sessions.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -21,38 +22,41 @@ namespace bolt::cli {
 namespace {
 
 int run_report(const std::vector<std::string>& files, const std::string& html, bool overview) {
-    std::vector<session::Reader> readers;
+    std::vector<session::SessionReader> readers;
     for (const std::string& file : files) {
-        if (Status apart = require_different_files(file, html); !apart) return print_error(apart.error());
-        Result<session::Reader> reader = session::Reader::open(file);
+        if (Status different = require_different_files(file, html); !different)
+            return print_error(different.error());
+        Result<session::SessionReader> reader = session::SessionReader::open(file);
         if (!reader) return print_error(reader.error());
         if (!reader->complete())
             (void)std::fputs(
-                fmt::format("{}: this session was cut short; the report shows what was kept\n", file).c_str(),
+                fmt::format("{}: this session was cut short; the report shows the recorded part\n", file)
+                    .c_str(),
                 stderr);
         readers.push_back(std::move(*reader));
     }
-    std::vector<const session::Reader*> sessions;
+    std::vector<const session::SessionReader*> sessions;
     sessions.reserve(readers.size());
-    for (const session::Reader& reader : readers) sessions.push_back(&reader);
-    Result<std::string> page =
-        report::make_report(sessions, overview ? report::Extent::overview : report::Extent::everything);
+    for (const session::SessionReader& reader : readers) sessions.push_back(&reader);
+    Result<std::string> page = report::make_report(
+        sessions, overview ? report::ReportExtent::overview : report::ReportExtent::everything);
     if (!page) return print_error(page.error());
-    if (Status kept = write_file(html, *page); !kept) return print_error(kept.error());
-    const Status said = print(html + "\n");
-    return said ? 0 : print_error(said.error());
+    if (Status written = write_file(html, *page); !written) return print_error(written.error());
+    const Status printed = print(html + "\n");
+    return printed ? 0 : print_error(printed.error());
 }
 
 int run_export(const std::string& file, const std::string& csv, std::uint64_t every) {
-    if (Status apart = require_different_files(file, csv); !apart) return print_error(apart.error());
-    Result<session::Reader> reader = session::Reader::open(file);
+    if (Status different = require_different_files(file, csv); !different)
+        return print_error(different.error());
+    Result<session::SessionReader> reader = session::SessionReader::open(file);
     if (!reader) return print_error(reader.error());
     (void)std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is an error that we report
     session::CsvOptions options;
     options.every_n = every;
     if (csv == "-") {
-        const Status kept = session::export_csv(*reader, stdout, options);
-        return kept ? 0 : print_error(kept.error());
+        const Status written = session::export_csv(*reader, stdout, options);
+        return written ? 0 : print_error(written.error());
     }
     std::FILE* out = std::fopen(csv.c_str(), "wb");
     Error error;
@@ -62,9 +66,9 @@ int run_export(const std::string& file, const std::string& csv, std::uint64_t ev
         return print_error(error);
     }
     options.out_name = csv;
-    const Status kept = session::export_csv(*reader, out, options);
+    const Status written = session::export_csv(*reader, out, options);
     const bool closed = std::fclose(out) == 0;
-    if (!kept) return print_error(kept.error());
+    if (!written) return print_error(written.error());
     if (!closed) {
         error.what = std::string("cannot be written: ") + std::strerror(errno);
         return print_error(error);
@@ -75,33 +79,33 @@ int run_export(const std::string& file, const std::string& csv, std::uint64_t ev
 }  // namespace
 
 void add_report(CLI::App& app, int& exit_code) {
-    struct Options {
+    struct ReportOptions {
         std::vector<std::string> sessions;
         std::string html;
         bool overview = false;
     };
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ReportOptions>();
     CLI::App* report =
-        app.add_subcommand("report", "A page that shows one session, or how several attempts compare");
+        app.add_subcommand("report", "Write a page about one session, or a comparison of several attempts");
     report->add_option("session", options->sessions, "Session files, oldest first")->required();
-    report->add_option("--html", options->html, "Page to write")->required();
-    report->add_flag("--overview", options->overview, "Of several sessions only how they compare");
+    report->add_option("--html", options->html, "HTML page to write")->required();
+    report->add_flag("--overview", options->overview, "Write only the comparison of several sessions");
     report->callback([options, &exit_code] {
         exit_code = run_report(options->sessions, options->html, options->overview);
     });
 }
 
 void add_export(CLI::App& app, int& exit_code) {
-    struct Options {
+    struct ExportOptions {
         std::string session;
         std::string csv;
         std::uint64_t every = 1;
     };
-    auto options = std::make_shared<Options>();
-    CLI::App* exporter = app.add_subcommand("export", "A session's ticks for other programs");
+    auto options = std::make_shared<ExportOptions>();
+    CLI::App* exporter = app.add_subcommand("export", "Export the ticks of a session as CSV");
     exporter->add_option("session", options->session, "Session file")->required();
     exporter->add_option("--csv", options->csv, "CSV file to write, - for stdout")->required();
-    exporter->add_option("--every", options->every, "One row for so many ticks")
+    exporter->add_option("--every", options->every, "Write every n-th tick only")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();
     exporter->callback(
@@ -116,23 +120,24 @@ struct CompareOptions {
 
 int run_compare(const CompareOptions& options) {
     for (const std::string& input : {options.session, options.measured})
-        if (Status apart = require_different_files(input, options.html); !apart)
-            return print_error(apart.error());
-    Result<session::Reader> reader = session::Reader::open(options.session);
+        if (Status different = require_different_files(input, options.html); !different)
+            return print_error(different.error());
+    Result<session::SessionReader> reader = session::SessionReader::open(options.session);
     if (!reader) return print_error(reader.error());
-    Result<analysis::Measured> measured = analysis::read_measured(options.measured);
+    Result<analysis::MeasuredRecord> measured = analysis::read_measured(options.measured);
     if (!measured) return print_error(measured.error());
     Result<analysis::Comparison> comparison = analysis::compare(*reader, *measured, options.joint);
     if (!comparison) return print_error(comparison.error());
-    if (Status said = print(report::console_text(*comparison)); !said) return print_error(said.error());
+    if (Status printed = print(report::console_text(*comparison)); !printed)
+        return print_error(printed.error());
 
     const std::filesystem::path page(options.html);
-    std::error_code ignored;  // a folder that cannot be made shows as a page that cannot be written
+    std::error_code ignored;  // write_file reports the error
     if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path(), ignored);
-    if (Status kept = write_file(page, report::comparison_page(*comparison)); !kept)
-        return print_error(kept.error());
-    const Status said = print(page.string() + "\n");
-    return said ? 0 : print_error(said.error());
+    if (Status written = write_file(page, report::comparison_page(*comparison)); !written)
+        return print_error(written.error());
+    const Status printed = print(page.string() + "\n");
+    return printed ? 0 : print_error(printed.error());
 }
 
 }  // namespace
@@ -140,13 +145,13 @@ int run_compare(const CompareOptions& options) {
 void add_compare(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<CompareOptions>();
     CLI::App* compare =
-        app.add_subcommand("compare", "Hold a session against a measured torque-angle record");
+        app.add_subcommand("compare", "Compare a session with a measured torque-angle record");
     compare->add_option("session", options->session, "Session file")->required();
-    compare->add_option("measured", options->measured, "CSV with angle_deg, torque_Nm and perhaps cycle")
+    compare->add_option("measured", options->measured, "CSV with angle_deg, torque_Nm and optionally cycle")
         ->required();
     compare->add_option("--joint", options->joint,
-                        "Id of one joint; all that were turned that way if not given");
-    compare->add_option("--html", options->html, "Page with the plots to write")->capture_default_str();
+                        "Id of one joint; default: all joints turned in the measured direction");
+    compare->add_option("--html", options->html, "HTML page to write")->capture_default_str();
     compare->callback([options, &exit_code] { exit_code = run_compare(*options); });
 }
 

@@ -1,4 +1,4 @@
-// A lesson that was recorded, drawn: the workplace as it was at any moment, from any view.
+// Draws the workplace of a replayed session, from a fixed view or following the work.
 #pragma once
 
 #include "engine/render/renderer.hpp"
@@ -12,48 +12,49 @@
 namespace bolt::film {
 
 struct FilmOptions {
-    hand::Side hand = hand::Side::right;  // that worked
-    words::Words words;                   // of the figures at the wrench
+    hand::Side hand = hand::Side::right;  // the working hand
+    words::Words words;                   // for the label at the wrench
 
-    std::string view;  // of the assembly; empty: follows the work
+    std::string view;  // a named view of the assembly; empty: follows the work
     VkExtent2D size{1280, 720};
     std::string gpu;
-    bool stereo = false;  // both eyes, side by side: twice as wide
+    bool stereo = false;  // both eyes side by side, twice as wide
     bool validate = false;
 };
 
 class Film {
   public:
-    // Errors: no GPU, a model that cannot be drawn, a view that the assembly has not.
-    static Result<std::unique_ptr<Film>> create(const session::Prepared& at, const FilmOptions& options);
+    // Fails without a GPU, with a model that cannot be drawn, or with an unknown view.
+    static Result<std::unique_ptr<Film>> create(const session::SessionSetup& start,
+                                                const FilmOptions& options);
     Film(const Film&) = delete;
     Film& operator=(const Film&) = delete;
     ~Film();
 
-    // The world of the replay: whoever replays writes every tick into it (world::write_snapshot).
-    [[nodiscard]] scene::World& world() { return place_.world; }
+    // The world of the replay. The caller writes every tick into it (world::write_snapshot).
+    [[nodiscard]] scene::SceneWorld& world() { return workplace_.world; }
 
-    // Draws the world as it is. `seconds`: since the picture before; the camera glides, and fingers bend,
-    // meanwhile.
-    Result<render::Picture> draw(const session::Moment& moment, double seconds);
+    // Draws the present world. `seconds`: time since the previous picture, for the motion of camera and
+    // fingers.
+    Result<render::Picture> draw(const session::ReplayTick& tick, double seconds);
 
-    // What the validation layers said, if they were asked for.
-    [[nodiscard]] Status no_messages() const;
+    // Fails with the first message of the validation layers, if there is any.
+    [[nodiscard]] Status check_validation() const;
 
   private:
-    struct OnGpu;
+    struct GpuResources;
     Film() = default;
-    void follow(const session::Moment& moment);
+    void update_camera(const session::ReplayTick& tick);
 
     FilmOptions options_;
     content::Assembly assembly_;
-    std::unique_ptr<OnGpu> on_;
-    scene::Workplace place_;
+    std::unique_ptr<GpuResources> gpu_;
+    scene::Workplace workplace_;
     scene::Postures postures_;
     render::Scene scene_;
-    view::Glide camera_;
-    motion::Sight sight_;
-    std::optional<std::size_t> followed_;
+    view::CameraGlide camera_;
+    motion::VisibilityModel visibility_;
+    std::optional<std::size_t> followed_joint_;
 };
 
 }  // namespace bolt::film

@@ -7,97 +7,91 @@ namespace bolt::lesson {
 
 namespace {
 
-using lesson::Cause;
-using words::Key;
+using words::TextKey;
 
-struct Row {
-    Cause cause;
-    Key why, what_to_do;
+struct MistakeRow {
+    MistakeKind kind;
+    TextKey text, remedy;
 };
-constexpr Row rows[] = {
-    {Cause::out_of_turn, "mistake.out_of_turn", "mistake.out_of_turn.do"},
-    {Cause::done_already, "mistake.done_already", "mistake.done_already.do"},
-    {Cause::loosened, "mistake.loosened", "mistake.loosened.do"},
-    {Cause::tightened, "mistake.tightened", "mistake.tightened.do"},
-    {Cause::over_torque, "mistake.over_torque", "mistake.over_torque.do"},
-    {Cause::slipped, "mistake.slipped", "mistake.slipped.do"},
-    {Cause::stripped, "mistake.stripped", "mistake.stripped.do"},
-    {Cause::broken, "mistake.broken", "mistake.broken.do"},
+constexpr MistakeRow rows[] = {
+    {MistakeKind::out_of_turn, "mistake.out_of_turn", "mistake.out_of_turn.do"},
+    {MistakeKind::done_already, "mistake.done_already", "mistake.done_already.do"},
+    {MistakeKind::loosened, "mistake.loosened", "mistake.loosened.do"},
+    {MistakeKind::tightened, "mistake.tightened", "mistake.tightened.do"},
+    {MistakeKind::over_torque, "mistake.over_torque", "mistake.over_torque.do"},
+    {MistakeKind::slipped, "mistake.slipped", "mistake.slipped.do"},
+    {MistakeKind::stripped, "mistake.stripped", "mistake.stripped.do"},
+    {MistakeKind::broken, "mistake.broken", "mistake.broken.do"},
 };
 
-std::optional<Mistake> mistake_of(const lesson::Lesson& lesson, const lesson::Event& event) {
-    for (const Row& row : rows) {
-        if (row.cause != event.cause) continue;
+std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event) {
+    for (const MistakeRow& row : rows) {
+        if (row.kind != event.mistake) continue;
         const auto& joints = lesson.assembly->joints;
         const content::AssemblyJoint& joint = joints[static_cast<std::size_t>(event.joint)];
-        Mistake mistake{event.cause, event.joint, row.why, row.what_to_do, {}};
-        mistake.places = {{"held", joint.design.id},
-                          {"most", words::torque_number(joint.spec.torque.high)},
-                          {"rounded", words::Number{1e3 * event.value, 2}}};
-        const lesson::Step* due = lesson.due();
+        Mistake mistake{event.mistake, event.joint, row.text, row.remedy, {}};
+        mistake.arguments = {{"held", joint.design.id},
+                             {"most", words::torque_number(joint.spec.torque.high)},
+                             {"rounded", words::Number{1e3 * event.value, 2}}};
+        const LessonStep* due = lesson.due();
         if (due != nullptr) {
-            mistake.places.push_back({"joint", joints[due->joint].design.id});
-        } else if (event.cause == Cause::out_of_turn || event.cause == Cause::done_already) {
-            return std::nullopt;  // nothing is due any more that one could go to
+            mistake.arguments.push_back({"joint", joints[due->joint].design.id});
+        } else if (event.mistake == MistakeKind::out_of_turn || event.mistake == MistakeKind::done_already) {
+            return std::nullopt;  // no due joint to name
         }
         return mistake;
     }
     return std::nullopt;
 }
 
-void show(Mistakes& mistakes, Mistake mistake) {
+void show(MistakeState& mistakes, Mistake mistake) {
     mistakes.shown = std::move(mistake);
-    mistakes.stands = 0.0;
+    mistakes.shown_for = 0.0;
 }
 
 }  // namespace
 
-void note(Mistakes& mistakes, const lesson::Lesson& lesson, const lesson::Event& event) {
-    if (lesson.mode == lesson::Mode::assessment) return;
-    if (event.kind == "back") mistakes = {};
+void add_event(MistakeState& mistakes, const Lesson& lesson, const LessonEvent& event) {
+    if (lesson.mode == Mode::assessment) return;
+    if (event.kind == EventKind::undo) mistakes = {};
     std::optional<Mistake> mistake = mistake_of(lesson, event);
     if (!mistake) return;
-    if (!mistakes.shown ||
-        (mistakes.shown->cause == mistake->cause && mistakes.shown->joint == mistake->joint))
+    if (!mistakes.shown || (mistakes.shown->kind == mistake->kind && mistakes.shown->joint == mistake->joint))
         show(mistakes, std::move(*mistake));
-    else if (mistake->cause >= mistakes.shown->cause &&
-             (!mistakes.waiting || mistake->cause >= mistakes.waiting->cause))
+    else if (mistake->kind >= mistakes.shown->kind &&
+             (!mistakes.waiting || mistake->kind >= mistakes.waiting->kind))
         mistakes.waiting = std::move(mistake);
 }
 
-const std::optional<Mistake>& update(Mistakes& mistakes, double dt) {
+const std::optional<Mistake>& update(MistakeState& mistakes, double dt) {
     if (!mistakes.shown) return mistakes.shown;
-    mistakes.stands += dt;
-    if (mistakes.waiting && mistakes.stands >= shortest_mistake) {
+    mistakes.shown_for += dt;
+    if (mistakes.waiting && mistakes.shown_for >= min_mistake_duration) {
         show(mistakes, std::move(*mistakes.waiting));
         mistakes.waiting.reset();
-    } else if (mistakes.stands >= mistake_stands) {
+    } else if (mistakes.shown_for >= mistake_duration) {
         mistakes.shown.reset();
     }
     return mistakes.shown;
 }
 
-std::string say_why(const words::Words& words, const Mistake& mistake) {
-    return words::say(words, mistake.why, mistake.places);
+std::string mistake_text(const words::Words& words, const Mistake& mistake) {
+    return words::format_text(words, mistake.text, mistake.arguments);
 }
 
-std::string say_what_to_do(const words::Words& words, const Mistake& mistake) {
-    return words::say(words, mistake.what_to_do, mistake.places);
+std::string remedy_text(const words::Words& words, const Mistake& mistake) {
+    return words::format_text(words, mistake.remedy, mistake.arguments);
 }
 
 namespace {
 
-using lesson::Fault;
-using lesson::Verdict;
-using words::Key;
+constexpr std::size_t max_advice = 3;
 
-constexpr std::size_t most_advice = 3;
-
-struct Judged {
-    Key reason, advice;
+struct JointTexts {
+    TextKey reason, advice;
 };
 
-Judged judged(const lesson::JointResult& joint) {
+JointTexts joint_texts(const JointResult& joint) {
     if (joint.condition == joint::Condition::broken) return {"reason.broken", "advice.broken"};
     if (joint.condition == joint::Condition::stripped) return {"reason.stripped", "advice.stripped"};
     if (joint.torque_verdict == Verdict::none) return {"reason.not_loosened", "advice.not_loosened"};
@@ -108,13 +102,14 @@ Judged judged(const lesson::JointResult& joint) {
     return {"reason.off_seat", "advice.off_seat"};
 }
 
-std::vector<words::Place> joint_places(const content::Specification& spec, const lesson::JointResult& joint) {
-    const bool of_angle = joint.torque_verdict == Verdict::ok;
-    const content::Window& window = of_angle ? spec.angle : spec.torque;
+std::vector<words::TextArgument> joint_arguments(const content::Specification& spec,
+                                                 const JointResult& joint) {
+    const bool by_angle = joint.torque_verdict == Verdict::ok;
+    const content::ToleranceWindow& window = by_angle ? spec.angle : spec.torque;
     const auto shown = [&](double value) {
-        return of_angle ? words::Number{std::round(to_degrees(value)), 0} : words::torque_number(value);
+        return by_angle ? words::Number{std::round(to_degrees(value)), 0} : words::torque_number(value);
     };
-    // A tenth below the window is not shown as its edge.
+    // With one decimal, a torque just below the window does not show as the window's edge.
     words::Number torque = words::torque_number(joint.torque);
     if (joint.torque < 100.0) torque.decimals = 1;
     return {{"joint", joint.id},
@@ -124,14 +119,14 @@ std::vector<words::Place> joint_places(const content::Specification& spec, const
             {"high", shown(window.high)}};
 }
 
-struct Cost {
-    Key advice;
+struct AdviceCost {
+    TextKey advice;
     double points = 0.0;
 };
 
-void add(std::vector<Cost>& costs, Key advice, double points) {
+void add(std::vector<AdviceCost>& costs, TextKey advice, double points) {
     const auto it =
-        std::find_if(costs.begin(), costs.end(), [&](const Cost& c) { return c.advice == advice; });
+        std::find_if(costs.begin(), costs.end(), [&](const AdviceCost& c) { return c.advice == advice; });
     if (it == costs.end())
         costs.push_back({advice, points});
     else
@@ -140,67 +135,67 @@ void add(std::vector<Cost>& costs, Key advice, double points) {
 
 }  // namespace
 
-Review review(const content::Assembly& assembly, const lesson::LessonResult& result) {
+Review review(const content::Assembly& assembly, const LessonResult& result) {
     Review review;
-    std::vector<Cost> costs;
-    for (const lesson::ScoreReason& reason : result.reasons) {
+    std::vector<AdviceCost> costs;
+    for (const ScoreReason& reason : result.reasons) {
         Remark remark{
             reason.points, std::nullopt, {{"count", words::Number{1.0 * reason.count, 0}}}, reason.text};
         const bool once = reason.count == 1;
-        std::optional<Key> advice;
-        switch (reason.fault) {
-            case Fault::none:
+        std::optional<TextKey> advice;
+        switch (reason.kind) {
+            case DeductionKind::none:
                 break;
-            case Fault::damaged:
-            case Fault::not_ok: {
+            case DeductionKind::damaged:
+            case DeductionKind::not_ok: {
                 const auto joint = static_cast<std::size_t>(reason.joint);
-                const Judged how = judged(result.joints[joint]);
+                const JointTexts how = joint_texts(result.joints[joint]);
                 remark.key = how.reason;
-                remark.places = joint_places(assembly.joints[joint].spec, result.joints[joint]);
+                remark.arguments = joint_arguments(assembly.joints[joint].spec, result.joints[joint]);
                 advice = how.advice;
                 break;
             }
-            case Fault::out_of_turn:
-                remark.key = once ? Key("reason.out_of_turn.one") : Key("reason.out_of_turn.many");
-                advice = Key("advice.out_of_turn");
+            case DeductionKind::out_of_turn:
+                remark.key = once ? TextKey("reason.out_of_turn.one") : TextKey("reason.out_of_turn.many");
+                advice = TextKey("advice.out_of_turn");
                 break;
-            case Fault::done_already:
-                remark.key = once ? Key("reason.done_already.one") : Key("reason.done_already.many");
-                advice = Key("advice.done_already");
+            case DeductionKind::done_already:
+                remark.key = once ? TextKey("reason.done_already.one") : TextKey("reason.done_already.many");
+                advice = TextKey("advice.done_already");
                 break;
-            case Fault::wrong_way:
-                remark.key = once ? Key("reason.wrong_way.one") : Key("reason.wrong_way.many");
-                advice = Key("advice.wrong_way");
+            case DeductionKind::wrong_way:
+                remark.key = once ? TextKey("reason.wrong_way.one") : TextKey("reason.wrong_way.many");
+                advice = TextKey("advice.wrong_way");
                 break;
-            case Fault::overdone:
-                remark.key = once ? Key("reason.overdone.one") : Key("reason.overdone.many");
-                advice = Key("advice.torque_high");
+            case DeductionKind::over_torque:
+                remark.key = once ? TextKey("reason.overdone.one") : TextKey("reason.overdone.many");
+                advice = TextKey("advice.torque_high");
                 break;
-            case Fault::slipped:
-                remark.key = once ? Key("reason.slipped.one") : Key("reason.slipped.many");
-                advice = Key("mistake.slipped.do");
+            case DeductionKind::slipped:
+                remark.key = once ? TextKey("reason.slipped.one") : TextKey("reason.slipped.many");
+                advice = TextKey("mistake.slipped.do");
                 break;
-            case Fault::unfinished:
-                remark.key = Key("reason.unfinished");
-                remark.places = {{"step", words::Number{1.0 * reason.count, 0}},
-                                 {"of", words::Number{1.0 * reason.of, 0}}};
-                advice = Key("advice.unfinished");
+            case DeductionKind::unfinished:
+                remark.key = TextKey("reason.unfinished");
+                remark.arguments = {{"step", words::Number{1.0 * reason.count, 0}},
+                                    {"of", words::Number{1.0 * reason.of, 0}}};
+                advice = TextKey("advice.unfinished");
                 break;
         }
         if (advice) add(costs, *advice, -reason.points);
         review.reasons.push_back(std::move(remark));
     }
-    // Equal costs stay in the order of the score's reasons.
+    // Stable: equal costs stay in the order of the reasons.
     std::stable_sort(costs.begin(), costs.end(),
-                     [](const Cost& a, const Cost& b) { return a.points > b.points; });
-    for (std::size_t i = 0; i < std::min(costs.size(), most_advice); ++i)
+                     [](const AdviceCost& a, const AdviceCost& b) { return a.points > b.points; });
+    for (std::size_t i = 0; i < std::min(costs.size(), max_advice); ++i)
         review.advice.push_back(costs[i].advice);
-    if (result.reasons.empty()) review.advice.push_back(Key("advice.nothing"));
+    if (result.reasons.empty()) review.advice.push_back(TextKey("advice.nothing"));
     return review;
 }
 
-std::string say(const words::Words& words, const Remark& remark) {
-    return remark.key ? words::say(words, *remark.key, remark.places) : remark.text;
+std::string remark_text(const words::Words& words, const Remark& remark) {
+    return remark.key ? words::format_text(words, *remark.key, remark.arguments) : remark.text;
 }
 
 }  // namespace bolt::lesson

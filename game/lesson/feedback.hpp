@@ -1,4 +1,4 @@
-// Text keys for the names of enumeration values.
+// Texts about the lesson: names of enumeration values, the mistake on screen, and the review of the result.
 #pragma once
 
 #include <optional>
@@ -12,89 +12,92 @@
 
 namespace bolt::lesson {
 
-constexpr words::Key term(lesson::Mode mode) {
-    constexpr words::Key keys[] = {"mode.guided", "mode.practice", "mode.assessment"};
+// Text keys of the names of enumeration values.
+constexpr words::TextKey text_key(Mode mode) {
+    constexpr words::TextKey keys[] = {"mode.guided", "mode.practice", "mode.assessment"};
     return keys[static_cast<int>(mode)];
 }
 
-constexpr words::Key term(lesson::Task task) {
-    constexpr words::Key keys[] = {"task.tighten", "task.loosen"};
+constexpr words::TextKey text_key(Task task) {
+    constexpr words::TextKey keys[] = {"task.tighten", "task.loosen"};
     return keys[static_cast<int>(task)];
 }
 
-constexpr words::Key term(lesson::StepKind kind) {
-    constexpr words::Key keys[] = {"step.run_down", "step.tighten", "step.recheck", "step.loosen"};
+constexpr words::TextKey text_key(StepKind kind) {
+    constexpr words::TextKey keys[] = {"step.run_down", "step.tighten", "step.recheck", "step.loosen"};
     return keys[static_cast<int>(kind)];
 }
 
-constexpr words::Key term(lesson::Verdict verdict) {
-    constexpr words::Key keys[] = {"verdict.none", "verdict.low", "verdict.ok", "verdict.high"};
+constexpr words::TextKey text_key(Verdict verdict) {
+    constexpr words::TextKey keys[] = {"verdict.none", "verdict.low", "verdict.ok", "verdict.high"};
     return keys[static_cast<int>(verdict)];
 }
 
-constexpr words::Key term(joint::Stage stage) {
-    constexpr words::Key keys[] = {"stage.navigation", "stage.transition", "stage.linearity", "stage.yield"};
+constexpr words::TextKey text_key(joint::Stage stage) {
+    constexpr words::TextKey keys[] = {"stage.navigation", "stage.transition", "stage.linearity",
+                                       "stage.yield"};
     return keys[static_cast<int>(stage)];
 }
 
-constexpr words::Key term(joint::Condition condition) {
-    constexpr words::Key keys[] = {"condition.sound", "condition.stripped", "condition.broken"};
+constexpr words::TextKey text_key(joint::Condition condition) {
+    constexpr words::TextKey keys[] = {"condition.sound", "condition.stripped", "condition.broken"};
     return keys[static_cast<int>(condition)];
 }
 
-// Why the device renders no force; shown in assessment too, because it is not a hint.
-constexpr words::Key term(force::Fault fault) {
-    constexpr words::Key keys[] = {"fault.none",     "fault.silent",      "fault.no_pose", "fault.jumped",
-                                   "fault.too_fast", "fault.bad_request", "fault.stopped"};
+// The reason why the device renders no force. It is shown in assessment too, because it is not a hint.
+constexpr words::TextKey text_key(force::Fault fault) {
+    constexpr words::TextKey keys[] = {"fault.none",     "fault.silent",      "fault.no_pose", "fault.jumped",
+                                       "fault.too_fast", "fault.bad_request", "fault.stopped"};
     static_assert(std::size(keys) == force::fault_kinds);
     return keys[static_cast<int>(fault)];
 }
 
-// Shows a mistake for some seconds, with its reason and its remedy. In assessment none is shown.
-
+// A mistake and its remedy as text keys.
 struct Mistake {
-    lesson::Cause cause = lesson::Cause::none;  // in the order of their gravity
-    int joint = -1;                             // of which it is said
-    words::Key why = "mistake.out_of_turn";
-    words::Key what_to_do = "mistake.out_of_turn.do";
-    std::vector<words::Place> places;
+    MistakeKind kind = MistakeKind::none;  // kinds are ordered by gravity, the gravest last
+    int joint = -1;                        // the joint that it concerns
+    words::TextKey text = "mistake.out_of_turn";
+    words::TextKey remedy = "mistake.out_of_turn.do";
+    std::vector<words::TextArgument> arguments;
 };
 
-struct Mistakes {
+// The mistake on screen. It is shown for some seconds; in assessment none is.
+struct MistakeState {
     std::optional<Mistake> shown;
-    std::optional<Mistake> waiting;  // as grave or graver: shown when the other could be read
-    double stands = 0.0;             // s that `shown` has been
+    std::optional<Mistake> waiting;  // at least as grave as `shown`; replaces it after min_mistake_duration
+    double shown_for = 0.0;          // s
 };
 
-inline constexpr double mistake_stands = 6.0;    // s
-inline constexpr double shortest_mistake = 1.5;  // s, before a graver one takes its place
+inline constexpr double mistake_duration = 6.0;      // s
+inline constexpr double min_mistake_duration = 1.5;  // s, before another mistake may replace it
 
-// Takes each event of the lesson; only mistakes and undone steps have an effect. Undoing a step hides its
+// Call with each event of the lesson; only mistakes and undone steps have an effect. Undoing a step hides its
 // mistake.
-void note(Mistakes& mistakes, const lesson::Lesson& lesson, const lesson::Event& event);
+void add_event(MistakeState& mistakes, const Lesson& lesson, const LessonEvent& event);
 
-const std::optional<Mistake>& update(Mistakes& mistakes, double dt);
+// Advances by `dt` seconds and returns the mistake to show.
+const std::optional<Mistake>& update(MistakeState& mistakes, double dt);
 
-std::string say_why(const words::Words& words, const Mistake& mistake);
-std::string say_what_to_do(const words::Words& words, const Mistake& mistake);
+std::string mistake_text(const words::Words& words, const Mistake& mistake);
+std::string remedy_text(const words::Words& words, const Mistake& mistake);
 
-// Explains the result of a lesson: why points were deducted and what to do better next time.
-
+// A deduction from the score as text.
 struct Remark {
-    double points = 0.0;  // as in the score: negative where they were taken
-    std::optional<words::Key> key;
-    std::vector<words::Place> places;
-    std::string text;  // of a session that was read again: it has no more than that
+    double points = 0.0;  // added to the score; negative for a deduction
+    std::optional<words::TextKey> key;
+    std::vector<words::TextArgument> arguments;
+    std::string text;  // used without `key`: a session read from a file stores only the text
 };
 
+// The result of a lesson explained: why points were deducted and what to do better next time.
 struct Review {
-    std::vector<Remark> reasons;     // in the order of the score's
-    std::vector<words::Key> advice;  // one to three; what cost most first
+    std::vector<Remark> reasons;         // in the order of LessonResult::reasons
+    std::vector<words::TextKey> advice;  // one to three, the costliest first
 };
 
-// `assembly`: that of the lesson, under its law (under_law), for the torque and angle windows.
-Review review(const content::Assembly& assembly, const lesson::LessonResult& result);
+// `assembly`: of the lesson, with its law applied (apply_law); it gives the torque and angle windows.
+Review review(const content::Assembly& assembly, const LessonResult& result);
 
-std::string say(const words::Words& words, const Remark& remark);
+std::string remark_text(const words::Words& words, const Remark& remark);
 
 }  // namespace bolt::lesson

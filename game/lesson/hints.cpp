@@ -7,56 +7,56 @@ namespace bolt::lesson {
 
 namespace {
 
-using words::Key;
+using words::TextKey;
 
-struct Row {
+struct HintRow {
     Situation situation;
-    Key text;
-    Motion motion;
+    TextKey text;
+    HandMotion motion;
 };
 
 // In the order of the situations.
-constexpr Row rows[] = {
-    {Situation::take_wrench, "hint.take_wrench", Motion::take},
-    {Situation::put_wrench_away, "hint.put_wrench_away", Motion::put_away},
-    {Situation::find_by_wrench, "hint.find_by_wrench", Motion::approach},
-    {Situation::find_by_fingers, "hint.find_by_fingers", Motion::reach},
-    {Situation::set_on, "hint.set_on", Motion::set_on},
-    {Situation::set_on_again, "hint.set_on_again", Motion::set_on},
-    {Situation::set_on_rounded, "hint.set_on_rounded", Motion::set_on},
-    {Situation::grip_nut, "hint.grip_nut", Motion::grip_nut},
-    {Situation::run_down, "hint.run_down", Motion::spin},
-    {Situation::run_down_by_wrench, "hint.run_down_by_wrench", Motion::pull_on},
-    {Situation::twist_back, "hint.twist_back", Motion::twist_back},
-    {Situation::seated, "hint.seated", Motion::lift},
-    {Situation::pull, "hint.pull", Motion::pull_on},
-    {Situation::pull_to_yield, "hint.pull_to_yield", Motion::pull_on},
-    {Situation::pull_to_click, "hint.pull_to_click", Motion::pull_on},
-    {Situation::set_back, "hint.set_back", Motion::set_back},
-    {Situation::ease, "hint.ease", Motion::pull_on},
-    {Situation::ease_to_yield, "hint.ease_to_yield", Motion::pull_on},
-    {Situation::stop, "hint.stop", Motion::lift},
-    {Situation::stop_at_yield, "hint.stop_at_yield", Motion::lift},
-    {Situation::stop_at_click, "hint.stop_at_click", Motion::lift},
-    {Situation::stop_too_much, "hint.stop_too_much", Motion::lift},
-    {Situation::take_off, "hint.take_off", Motion::lift},
-    {Situation::check, "hint.check", Motion::pull_on},
-    {Situation::checked, "hint.checked", Motion::lift},
-    {Situation::break_loose, "hint.break_loose", Motion::pull_off},
-    {Situation::turn_off, "hint.turn_off", Motion::pull_off},
-    {Situation::free, "hint.free", Motion::lift},
-    {Situation::wrong_joint, "hint.wrong_joint", Motion::lift},
-    {Situation::other_way_on, "hint.other_way_on", Motion::pull_on},
-    {Situation::other_way_off, "hint.other_way_off", Motion::pull_off},
-    {Situation::wrench_needed, "hint.wrench_needed", Motion::let_go},
-    {Situation::leave_broken, "hint.leave_broken", Motion::lift},
-    {Situation::leave_stripped, "hint.leave_stripped", Motion::lift},
-    {Situation::next, "hint.next", Motion::approach},
-    {Situation::round_run_down, "hint.round_run_down", Motion::reach},
-    {Situation::round_tighten, "hint.round_tighten", Motion::approach},
-    {Situation::round_recheck, "hint.round_recheck", Motion::approach},
-    {Situation::round_loosen, "hint.round_loosen", Motion::approach},
-    {Situation::all_done, "hint.all_done", Motion::none},
+constexpr HintRow rows[] = {
+    {Situation::take_wrench, "hint.take_wrench", HandMotion::take},
+    {Situation::put_wrench_away, "hint.put_wrench_away", HandMotion::put_away},
+    {Situation::find_by_wrench, "hint.find_by_wrench", HandMotion::approach},
+    {Situation::find_by_fingers, "hint.find_by_fingers", HandMotion::reach},
+    {Situation::set_on, "hint.set_on", HandMotion::set_on},
+    {Situation::set_on_again, "hint.set_on_again", HandMotion::set_on},
+    {Situation::set_on_rounded, "hint.set_on_rounded", HandMotion::set_on},
+    {Situation::grip_nut, "hint.grip_nut", HandMotion::grip_nut},
+    {Situation::run_down, "hint.run_down", HandMotion::spin},
+    {Situation::run_down_by_wrench, "hint.run_down_by_wrench", HandMotion::pull_on},
+    {Situation::twist_back, "hint.twist_back", HandMotion::twist_back},
+    {Situation::seated, "hint.seated", HandMotion::lift},
+    {Situation::pull, "hint.pull", HandMotion::pull_on},
+    {Situation::pull_to_yield, "hint.pull_to_yield", HandMotion::pull_on},
+    {Situation::pull_to_click, "hint.pull_to_click", HandMotion::pull_on},
+    {Situation::set_back, "hint.set_back", HandMotion::set_back},
+    {Situation::ease, "hint.ease", HandMotion::pull_on},
+    {Situation::ease_to_yield, "hint.ease_to_yield", HandMotion::pull_on},
+    {Situation::stop, "hint.stop", HandMotion::lift},
+    {Situation::stop_at_yield, "hint.stop_at_yield", HandMotion::lift},
+    {Situation::stop_at_click, "hint.stop_at_click", HandMotion::lift},
+    {Situation::stop_too_much, "hint.stop_too_much", HandMotion::lift},
+    {Situation::take_off, "hint.take_off", HandMotion::lift},
+    {Situation::check, "hint.check", HandMotion::pull_on},
+    {Situation::checked, "hint.checked", HandMotion::lift},
+    {Situation::break_loose, "hint.break_loose", HandMotion::pull_off},
+    {Situation::turn_off, "hint.turn_off", HandMotion::pull_off},
+    {Situation::free, "hint.free", HandMotion::lift},
+    {Situation::wrong_joint, "hint.wrong_joint", HandMotion::lift},
+    {Situation::other_way_on, "hint.other_way_on", HandMotion::pull_on},
+    {Situation::other_way_off, "hint.other_way_off", HandMotion::pull_off},
+    {Situation::wrench_needed, "hint.wrench_needed", HandMotion::let_go},
+    {Situation::leave_broken, "hint.leave_broken", HandMotion::lift},
+    {Situation::leave_stripped, "hint.leave_stripped", HandMotion::lift},
+    {Situation::next, "hint.next", HandMotion::approach},
+    {Situation::round_run_down, "hint.round_run_down", HandMotion::reach},
+    {Situation::round_tighten, "hint.round_tighten", HandMotion::approach},
+    {Situation::round_recheck, "hint.round_recheck", HandMotion::approach},
+    {Situation::round_loosen, "hint.round_loosen", HandMotion::approach},
+    {Situation::all_done, "hint.all_done", HandMotion::none},
 };
 static_assert(std::size(rows) == situation_count);
 static_assert([] {
@@ -65,259 +65,266 @@ static_assert([] {
     return true;
 }());
 
-// In the order of the motions; none has none.
-constexpr Key motion_keys[] = {
+// In the order of the motions. The entry of `none` is not used.
+constexpr TextKey motion_keys[] = {
     "how.take",    "how.take",     "how.put_away", "how.approach",   "how.reach",
     "how.set_on",  "how.grip_nut", "how.spin",     "how.twist_back", "how.let_go",
     "how.pull_on", "how.pull_off", "how.lift",     "how.set_back",
 };
 static_assert(std::size(motion_keys) == motion_count);
 
-const Row& row(Situation situation) { return rows[static_cast<std::size_t>(situation)]; }
+const HintRow& row(Situation situation) { return rows[static_cast<std::size_t>(situation)]; }
 
-// The same motion is another with fingers.
-Motion by_hand(Motion motion, const Scene& scene) {
-    if (held(scene) != Held::nut_by_fingers) return motion;
-    if (motion == Motion::lift) return Motion::let_go;
-    return motion == Motion::pull_on ? Motion::spin : motion;
+// The hand motion that replaces `motion` if the fingers hold the nut.
+HandMotion adapt_to_grip(HandMotion motion, const WorkState& work) {
+    if (held_item(work) != HeldItem::nut_by_fingers) return motion;
+    if (motion == HandMotion::lift) return HandMotion::let_go;
+    return motion == HandMotion::pull_on ? HandMotion::spin : motion;
 }
 
-std::vector<words::Place> places(const Scene& scene) {
-    const lesson::Step* due = scene.lesson.due();
+std::vector<words::TextArgument> text_arguments(const WorkState& work) {
+    const LessonStep* due = work.lesson.due();
     if (due == nullptr) return {};
-    const auto& joints = scene.lesson.assembly->joints;
-    const content::Window window = lesson::window(scene.lesson, *due);
-    std::vector<words::Place> filled{
+    const auto& joints = work.lesson.assembly->joints;
+    const content::ToleranceWindow window = torque_window(work.lesson, *due);
+    std::vector<words::TextArgument> arguments{
         {"joint", joints[due->joint].design.id},
-        {"size", words::Number{1e3 * scene.setup.nuts[due->joint].across_flats, 0}},
+        {"size", words::Number{1e3 * work.setup.nuts[due->joint].across_flats, 0}},
         {"percent", words::Number{100.0 * due->fraction, 0}},
         {"torque", words::torque_number(due->torque)},
         {"low", words::torque_number(window.low)},
         {"high", words::torque_number(window.high)},
         {"most", words::torque_number(window.high)},
     };
-    if (scene.lesson.held >= 0)
-        filled.push_back({"held", joints[static_cast<std::size_t>(scene.lesson.held)].design.id});
-    return filled;
+    if (work.lesson.held >= 0)
+        arguments.push_back({"held", joints[static_cast<std::size_t>(work.lesson.held)].design.id});
+    return arguments;
 }
 
 }  // namespace
 
-Ghost Hint::ghost() const {
-    if (level < 2) return Ghost::none;
+GhostKind Hint::ghost() const {
+    if (level < 2) return GhostKind::none;
     switch (motion) {
-        case Motion::none:
-            return Ghost::none;
-        case Motion::take:
-        case Motion::reach:
-        case Motion::grip_nut:
-        case Motion::spin:
-        case Motion::twist_back:
-        case Motion::let_go:
-            return Ghost::hand;
+        case HandMotion::none:
+            return GhostKind::none;
+        case HandMotion::take:
+        case HandMotion::reach:
+        case HandMotion::grip_nut:
+        case HandMotion::spin:
+        case HandMotion::twist_back:
+        case HandMotion::let_go:
+            return GhostKind::hand;
         default:
-            return Ghost::hand_and_wrench;
+            return GhostKind::hand_and_wrench;
     }
 }
 
-Hint make_hint(Situation situation, Situation then, int level, const Scene& scene) {
-    const lesson::Step* due = scene.lesson.due();
+Hint make_hint(Situation situation, Situation underlying, int level, const WorkState& work) {
+    const LessonStep* due = work.lesson.due();
     Hint hint;
     hint.situation = situation;
     hint.level = due == nullptr ? 0 : level;
     hint.joint = due == nullptr ? -1 : static_cast<int>(due->joint);
-    hint.motion = by_hand(row(then).motion, scene);
+    hint.motion = adapt_to_grip(row(underlying).motion, work);
     hint.text = row(situation).text;
-    hint.places = places(scene);
+    hint.arguments = text_arguments(work);
     return hint;
 }
 
-std::string say(const words::Words& words, const Hint& hint) {
-    return words::say(words, hint.text, hint.places);
+std::string hint_text(const words::Words& words, const Hint& hint) {
+    return words::format_text(words, hint.text, hint.arguments);
 }
 
-std::string say_motion(const words::Words& words, const Hint& hint, const Controls& controls) {
-    if (hint.level < 3 || hint.motion == Motion::none) return {};
+std::string motion_text(const words::Words& words, const Hint& hint, const ControlNames& controls) {
+    if (hint.level < 3 || hint.motion == HandMotion::none) return {};
     const auto motion = static_cast<std::size_t>(hint.motion);
-    return words::say(words, motion_keys[motion], {{"control", controls[motion]}});
+    return words::format_text(words, motion_keys[motion], {{"control", controls[motion]}});
 }
 
 namespace {
 
-using words::Key;
-
 struct ControlRow {
-    Motion motion;
-    Key mouse, device;
+    HandMotion motion;
+    TextKey mouse, device;
 };
 constexpr ControlRow control_rows[] = {
-    {Motion::take, "control.mouse.take", "control.device.take"},
-    {Motion::put_away, "control.mouse.put_away", "control.device.put_away"},
-    {Motion::approach, "control.mouse.go", "control.device.move"},
-    {Motion::reach, "control.mouse.go", "control.device.move"},
-    {Motion::set_on, "control.mouse.go", "control.device.move"},
-    {Motion::grip_nut, "control.mouse.go", "control.device.grip"},
-    {Motion::spin, "control.mouse.spin", "control.device.turn"},
-    {Motion::twist_back, "control.mouse.again", "control.device.twist_back"},
-    {Motion::let_go, "control.mouse.let_go", "control.device.release"},
-    {Motion::pull_on, "control.mouse.pull", "control.device.turn"},
-    {Motion::pull_off, "control.mouse.pull", "control.device.turn"},
-    {Motion::lift, "control.mouse.let_go", "control.device.move"},
-    {Motion::set_back, "control.mouse.again", "control.device.move"},
+    {HandMotion::take, "control.mouse.take", "control.device.take"},
+    {HandMotion::put_away, "control.mouse.put_away", "control.device.put_away"},
+    {HandMotion::approach, "control.mouse.go", "control.device.move"},
+    {HandMotion::reach, "control.mouse.go", "control.device.move"},
+    {HandMotion::set_on, "control.mouse.go", "control.device.move"},
+    {HandMotion::grip_nut, "control.mouse.go", "control.device.grip"},
+    {HandMotion::spin, "control.mouse.spin", "control.device.turn"},
+    {HandMotion::twist_back, "control.mouse.again", "control.device.twist_back"},
+    {HandMotion::let_go, "control.mouse.let_go", "control.device.release"},
+    {HandMotion::pull_on, "control.mouse.pull", "control.device.turn"},
+    {HandMotion::pull_off, "control.mouse.pull", "control.device.turn"},
+    {HandMotion::lift, "control.mouse.let_go", "control.device.move"},
+    {HandMotion::set_back, "control.mouse.again", "control.device.move"},
 };
-static_assert(std::size(control_rows) == motion_count - 1);  // all but none
+static_assert(std::size(control_rows) == motion_count - 1);  // all but `none`
 
-std::string& at(Controls& controls, Motion motion) { return controls.at(static_cast<std::size_t>(motion)); }
+std::string& at(ControlNames& controls, HandMotion motion) {
+    return controls.at(static_cast<std::size_t>(motion));
+}
 
-Controls controls(const words::Words& words, Key ControlRow::*of, const std::string& key) {
-    Controls said;
+ControlNames controls(const words::Words& words, TextKey ControlRow::*column, const std::string& key) {
+    ControlNames names;
     for (const ControlRow& row : control_rows)
-        at(said, row.motion) = words::say(words, row.*of, {{"key", key}});
-    return said;
+        at(names, row.motion) = words::format_text(words, row.*column, {{"key", key}});
+    return names;
 }
 
 }  // namespace
 
-Controls mouse_controls(const words::Words& words, const std::string& tool_key) {
+ControlNames mouse_controls(const words::Words& words, const std::string& tool_key) {
     return controls(words, &ControlRow::mouse, tool_key);
 }
 
-Controls device_controls(const words::Words& words, const std::string& button, const std::string& tool_key) {
-    Controls said = controls(words, &ControlRow::device, button);
-    at(said, Motion::put_away) = words::say(words, "control.device.put_away", {{"key", tool_key}});
-    return said;
+ControlNames device_controls(const words::Words& words, const std::string& button,
+                             const std::string& tool_key) {
+    ControlNames names = controls(words, &ControlRow::device, button);
+    at(names, HandMotion::put_away) =
+        words::format_text(words, "control.device.put_away", {{"key", tool_key}});
+    return names;
 }
 
 namespace {
 
-Controls pushed(const words::Words& words, const std::string& button, const std::string& tool_key, Key move,
-                Key turn) {
-    Controls said = device_controls(words, button, tool_key);
-    for (const Motion motion : {Motion::approach, Motion::reach, Motion::set_on})
-        at(said, motion) = words::say(words, move, {{"key", button}});
-    for (const Motion motion : {Motion::spin, Motion::pull_on, Motion::pull_off})
-        at(said, motion) = words::say(words, turn, {});
-    return said;
+ControlNames button_controls(const words::Words& words, const std::string& button,
+                             const std::string& tool_key, TextKey move, TextKey turn) {
+    ControlNames names = device_controls(words, button, tool_key);
+    for (const HandMotion motion : {HandMotion::approach, HandMotion::reach, HandMotion::set_on})
+        at(names, motion) = words::format_text(words, move, {{"key", button}});
+    for (const HandMotion motion : {HandMotion::spin, HandMotion::pull_on, HandMotion::pull_off})
+        at(names, motion) = words::format_text(words, turn, {});
+    return names;
 }
 
 }  // namespace
 
-Controls puck_controls(const words::Words& words, const std::string& button, const std::string& tool_key) {
-    return pushed(words, button, tool_key, "control.puck.move", "control.device.turn");
-}
-
-Controls keyboard_controls(const words::Words& words, const std::string& button,
+ControlNames puck_controls(const words::Words& words, const std::string& button,
                            const std::string& tool_key) {
-    return pushed(words, button, tool_key, "control.keys.move", "control.keys.turn");
+    return button_controls(words, button, tool_key, "control.puck.move", "control.device.turn");
+}
+
+ControlNames keyboard_controls(const words::Words& words, const std::string& button,
+                               const std::string& tool_key) {
+    return button_controls(words, button, tool_key, "control.keys.move", "control.keys.turn");
 }
 
 namespace {
 
-struct ByFingers {
-    Motion motion;
-    Key said;
+struct FingerRow {
+    HandMotion motion;
+    TextKey text;
 };
-constexpr ByFingers finger_controls[] = {{Motion::take, "control.glove.take"},
-                                         {Motion::put_away, "control.glove.put_away"},
-                                         {Motion::grip_nut, "control.glove.grip"},
-                                         {Motion::twist_back, "control.glove.twist_back"},
-                                         {Motion::let_go, "control.glove.release"}};
+constexpr FingerRow finger_controls[] = {{HandMotion::take, "control.glove.take"},
+                                         {HandMotion::put_away, "control.glove.put_away"},
+                                         {HandMotion::grip_nut, "control.glove.grip"},
+                                         {HandMotion::twist_back, "control.glove.twist_back"},
+                                         {HandMotion::let_go, "control.glove.release"}};
 
 }  // namespace
 
-Controls glove_controls(const words::Words& words, Controls moved_by) {
-    for (const ByFingers& row : finger_controls) at(moved_by, row.motion) = words::say(words, row.said, {});
+ControlNames glove_controls(const words::Words& words, ControlNames moved_by) {
+    for (const FingerRow& row : finger_controls)
+        at(moved_by, row.motion) = words::format_text(words, row.text, {});
     return moved_by;
 }
 
 namespace {
 
-constexpr double announced_for = 3.0;   // s
-constexpr double certain_after = 0.15;  // s that something is so before it is believed
-constexpr double between_after = 1.0;   // s that a hand is off the nut before it is more than a stroke's end
-constexpr double adrift_after = 3.0;    // s in which all changes all the time: then any of it is said
-constexpr double more_torque = 0.02;    // of it, and
-constexpr double some_torque = 0.05;    // N·m: progress
-constexpr double some_angle = to_radians(1.0);
-constexpr double some_way = 0.02;  // m
-constexpr int most_level = 3;
+constexpr double announcement_duration = 3.0;  // s
+constexpr double debounce = 0.15;              // s for which a situation must last before it is shown
+constexpr double stroke_debounce = 1.0;        // s, the same between the strokes on a nut
+constexpr double unstable_after = 3.0;         // s of changing situations after which the latest is shown
+// Increments that count as progress. Torque: 2 % of the best torque plus 0.05 N·m.
+constexpr double relative_torque_step = 0.02, torque_step = 0.05;  // N·m
+constexpr double angle_step = to_radians(1.0);
+constexpr double distance_step = 0.02;  // m
+constexpr int max_level = 3;
 
-// What cannot wait: the torque grows as long as nothing is said.
-bool at_once(Situation s) {
+// Hints that are shown immediately, because the torque keeps rising until the trainee reads them.
+bool immediate(Situation s) {
     return s == Situation::stop || s == Situation::stop_at_yield || s == Situation::stop_at_click ||
            s == Situation::stop_too_much || s == Situation::leave_broken || s == Situation::leave_stripped;
 }
 
+// Hints that replace another one before its minimum duration.
 bool urgent(Situation s) {
-    return at_once(s) || s == Situation::wrong_joint || s == Situation::other_way_on ||
+    return immediate(s) || s == Situation::wrong_joint || s == Situation::other_way_on ||
            s == Situation::other_way_off || s == Situation::seated || s == Situation::checked ||
            s == Situation::all_done;
 }
 
+// The hand moves to the nut; the announcement of the step may replace these.
 bool on_the_way(Situation s) {
     return s == Situation::take_wrench || s == Situation::put_wrench_away || s == Situation::find_by_wrench ||
            s == Situation::find_by_fingers;
 }
 
-Situation announcement(const lesson::Step& step, bool new_round) {
-    if (!new_round) return Situation::next;
+Situation announcement(const LessonStep& step, bool new_pass) {
+    if (!new_pass) return Situation::next;
     switch (step.kind) {
-        case lesson::StepKind::run_down:
+        case StepKind::run_down:
             return Situation::round_run_down;
-        case lesson::StepKind::tighten:
+        case StepKind::tighten:
             return Situation::round_tighten;
-        case lesson::StepKind::recheck:
+        case StepKind::recheck:
             return Situation::round_recheck;
-        case lesson::StepKind::loosen:
+        case StepKind::loosen:
             return Situation::round_loosen;
     }
     return Situation::next;
 }
 
-// Torque and angle first: when the nut has moved on, coming back to it for the next stroke is progress too.
-void note_progress(Progress& progress, const Scene& scene, Situation now, double dt) {
+// Updates torque and angle first: after the nut has moved, returning to it for the next stroke is progress
+// too.
+void update_progress(StepProgress& progress, const WorkState& work, Situation now, double dt) {
     progress.idle += dt;
-    const lesson::Step* due = scene.lesson.due();
+    const LessonStep* due = work.lesson.due();
     if (due == nullptr) return;
-    const lesson::JointTrack& track = scene.lesson.joints[due->joint];
-    const double sense = due->kind == lesson::StepKind::loosen ? -1.0 : 1.0;
-    const double angle = sense * (world::joint_at(scene.world, due->joint).angle - track.begin_angle);
-    const bool torque = track.peak_torque > (1.0 + more_torque) * progress.torque + some_torque;
-    if (torque || angle > progress.angle + some_angle) {
+    const JointTrack& track = work.lesson.joints[due->joint];
+    const double sense = due->kind == StepKind::loosen ? -1.0 : 1.0;
+    const double angle = sense * (world::joint_at(work.world, due->joint).angle - track.begin_angle);
+    const bool torque = track.peak_torque > (1.0 + relative_torque_step) * progress.torque + torque_step;
+    if (torque || angle > progress.angle + angle_step) {
         progress.torque = std::max(progress.torque, track.peak_torque);
         progress.angle = std::max(progress.angle, angle);
         progress.moved = true;
         progress.idle = 0.0;
     }
-    if (progress.moved && scene.lesson.held < 0) {
+    if (progress.moved && work.lesson.held < 0) {
         progress.moved = false;
         progress.distance = 1e9;
         progress.reached = 0;
     }
     const bool tool = now != Situation::take_wrench && now != Situation::put_wrench_away &&
                       now != Situation::wrong_joint && now != Situation::wrench_needed;
-    const int reached = scene.lesson.held == static_cast<int>(due->joint) ? 2 : tool ? 1 : 0;
+    const int reached = work.lesson.held == static_cast<int>(due->joint) ? 2 : tool ? 1 : 0;
     if (reached > progress.reached) {
         progress.reached = reached;
         progress.idle = 0.0;
     }
-    const double distance = distance_to_due(scene);
-    if (tool && distance < progress.distance - some_way) {
+    const double distance = distance_to_due(work);
+    if (tool && distance < progress.distance - distance_step) {
         progress.distance = distance;
         progress.idle = 0.0;
     }
 }
 
-void begin_step(Hints& hints, const Scene& scene) {
-    const lesson::Step* due = scene.lesson.due();
-    hints.step = scene.lesson.current;
-    hints.step_for = 0.0;
+void begin_step(HintState& hints, const WorkState& work) {
+    const LessonStep* due = work.lesson.due();
+    hints.step = work.lesson.current;
+    hints.step_time = 0.0;
     hints.progress = {};
-    hints.new_round = due != nullptr && due->pass != hints.pass;
+    hints.new_pass = due != nullptr && due->pass != hints.pass;
     if (due != nullptr) hints.pass = due->pass;
 }
 
-// 0 on the way to the nut, 1 at work on it, 2 at its end.
+// 0: moving to the nut; 1: working on it; 2: at the end of the work.
 int phase(Situation s) {
     switch (s) {
         case Situation::run_down:
@@ -341,15 +348,17 @@ bool between_strokes(Situation s) {
     return s == Situation::grip_nut || s == Situation::set_on_again || s == Situation::set_on_rounded;
 }
 
-// Whether what is seen now takes the place of what is said. Who has got on need not read to the end how to.
-bool replaces(const Hints& hints, Situation seen) {
-    if (seen == hints.situation) return false;
-    if (!hints.shown || at_once(seen)) return true;
-    if (hints.other_for >= adrift_after) return true;
-    const bool paused = phase(hints.situation) > 0 && between_strokes(seen);
-    if (hints.seen_for < (paused ? between_after : certain_after)) return false;
-    const bool got_on = phase(seen) > phase(hints.situation);
-    return urgent(seen) || hints.stands >= (got_on ? shortest_when_past : shortest_hint);
+// True if the hint for `candidate` replaces the shown one. A trainee who has advanced to the next phase need
+// not finish reading the old hint.
+bool replaces(const HintState& hints, Situation candidate) {
+    if (candidate == hints.situation) return false;
+    if (!hints.shown || immediate(candidate)) return true;
+    if (hints.differs_for >= unstable_after) return true;
+    const bool paused = phase(hints.situation) > 0 && between_strokes(candidate);
+    if (hints.candidate_for < (paused ? stroke_debounce : debounce)) return false;
+    const bool advanced = phase(candidate) > phase(hints.situation);
+    return urgent(candidate) ||
+           hints.shown_for >= (advanced ? min_duration_when_fulfilled : min_hint_duration);
 }
 
 int level_by_time(const HintTimes& times, double idle) {
@@ -360,47 +369,49 @@ int level_by_time(const HintTimes& times, double idle) {
 
 }  // namespace
 
-const std::optional<Hint>& update(Hints& hints, const Scene& scene, double dt, bool asked) {
-    if (scene.lesson.mode == lesson::Mode::assessment) {
+const std::optional<Hint>& update(HintState& hints, const WorkState& work, double dt, bool requested) {
+    if (work.lesson.mode == Mode::assessment) {
         hints = {};
         return hints.shown;
     }
-    hints.stands += dt;
-    hints.step_for += dt;
-    const bool other_step = hints.step != scene.lesson.current;
-    if (other_step) begin_step(hints, scene);
-    const Situation then = situation(scene);
-    note_progress(hints.progress, scene, then, dt);
+    hints.shown_for += dt;
+    hints.step_time += dt;
+    const bool other_step = hints.step != work.lesson.current;
+    if (other_step) begin_step(hints, work);
+    const Situation underlying = situation(work);
+    update_progress(hints.progress, work, underlying, dt);
 
-    const lesson::Step* due = scene.lesson.due();
-    const bool announces = due != nullptr && on_the_way(then) && hints.step_for < announced_for;
-    const Situation seen = announces ? announcement(*due, hints.new_round) : then;
-    hints.seen_for = seen == hints.seen ? hints.seen_for + dt : 0.0;
-    hints.other_for = seen == hints.situation ? 0.0 : hints.other_for + dt;
-    hints.seen = seen;
+    const LessonStep* due = work.lesson.due();
+    const bool announces =
+        due != nullptr && on_the_way(underlying) && hints.step_time < announcement_duration;
+    const Situation candidate = announces ? announcement(*due, hints.new_pass) : underlying;
+    hints.candidate_for = candidate == hints.candidate ? hints.candidate_for + dt : 0.0;
+    hints.differs_for = candidate == hints.situation ? 0.0 : hints.differs_for + dt;
+    hints.candidate = candidate;
     bool other = false;
-    if (other_step || replaces(hints, seen)) {
-        hints.situation = seen;
-        hints.stands = hints.other_for = 0.0;
+    if (other_step || replaces(hints, candidate)) {
+        hints.situation = candidate;
+        hints.shown_for = hints.differs_for = 0.0;
         hints.level = -1;
         other = true;
     }
 
-    const bool guided = scene.lesson.mode == lesson::Mode::guided;
+    const bool guided = work.lesson.mode == Mode::guided;
     int level =
         std::max(hints.level, level_by_time(guided ? guided_times : practice_times, hints.progress.idle));
-    if (asked) level = std::min(level + 1, most_level);
-    // The same may be said of another joint in the hand, or lead to another motion; what only goes on being
-    // said for a while keeps its words.
-    other = other || (seen == hints.situation && (scene.lesson.held != hints.held || then != hints.then));
+    if (requested) level = std::min(level + 1, max_level);
+    // The same situation may concern another joint in the hand or need another motion. A hint that merely
+    // outlasts its situation keeps its text.
+    other = other || (candidate == hints.situation &&
+                      (work.lesson.held != hints.held || underlying != hints.underlying));
     hints.level = level;
     if (level < 0) {
         hints.shown.reset();
     } else if (other || !hints.shown) {
-        if (!hints.shown) hints.stands = 0.0;
-        hints.held = scene.lesson.held;
-        hints.then = then;
-        hints.shown = make_hint(hints.situation, then, level, scene);
+        if (!hints.shown) hints.shown_for = 0.0;
+        hints.held = work.lesson.held;
+        hints.underlying = underlying;
+        hints.shown = make_hint(hints.situation, underlying, level, work);
     } else {
         hints.shown->level = hints.shown->joint < 0 ? 0 : level;
     }

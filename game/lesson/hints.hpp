@@ -1,4 +1,5 @@
-// One hint: its text, how explicit it is, and what the view shows of it.
+// Hints for the trainee: their texts and level of detail, the controls that they name, and their selection
+// over time.
 #pragma once
 
 #include <array>
@@ -11,8 +12,8 @@
 
 namespace bolt::lesson {
 
-// The motion of the hand that a hint requests. It selects the arrow and the control that is named.
-enum class Motion : std::uint8_t {
+// The hand motion that a hint requests. It selects the arrow and the control to name.
+enum class HandMotion : std::uint8_t {
     none,
     take,
     put_away,
@@ -30,49 +31,50 @@ enum class Motion : std::uint8_t {
 };
 inline constexpr std::size_t motion_count = 14;
 
-enum class Ghost : std::uint8_t { none, hand, hand_and_wrench };
+enum class GhostKind : std::uint8_t { none, hand, hand_and_wrench };
 
 struct Hint {
     Situation situation = Situation::all_done;
-    int level = 0;   // 0: text; 1: outline and arrow; 2: ghost; 3: the very motion, and what to press for it
-    int joint = -1;  // the due one; −1: none is
-    Motion motion = Motion::none;
-    words::Key text = "hint.all_done";
-    std::vector<words::Place> places;
+    int level = 0;   // 0: text; 1: outline and arrow; 2: ghost; 3: animated motion and its control
+    int joint = -1;  // the due joint; −1: none
+    HandMotion motion = HandMotion::none;
+    words::TextKey text = "hint.all_done";
+    std::vector<words::TextArgument> arguments;
 
     [[nodiscard]] int outlined() const { return level >= 1 ? joint : -1; }
-    [[nodiscard]] Motion arrow() const { return level >= 1 ? motion : Motion::none; }
-    [[nodiscard]] Ghost ghost() const;
+    [[nodiscard]] HandMotion arrow() const { return level >= 1 ? motion : HandMotion::none; }
+    [[nodiscard]] GhostKind ghost() const;
 };
 
-// The text is that of `situation`, the motion that of `then`; they differ while a step is announced.
-Hint make_hint(Situation situation, Situation then, int level, const Scene& scene);
+// `situation` gives the text, `underlying` the motion; they differ while a step is announced.
+Hint make_hint(Situation situation, Situation underlying, int level, const WorkState& work);
 
 // The control for each motion as text ("hold F and drag").
-using Controls = std::array<std::string, motion_count>;
+using ControlNames = std::array<std::string, motion_count>;
 
-std::string say(const words::Words& words, const Hint& hint);
+std::string hint_text(const words::Words& words, const Hint& hint);
 // The motion and its control as text; empty below level 3.
-std::string say_motion(const words::Words& words, const Hint& hint, const Controls& controls);
+std::string motion_text(const words::Words& words, const Hint& hint, const ControlNames& controls);
 
-// Describes, in the trainee's language, which input performs each motion of a hint. The caller names the
-// bound keys and buttons.
+// The following functions describe, in the trainee's language, which input performs each motion of a hint.
+// The caller names the bound keys and buttons.
 
 // Mouse: press on a nut and hold, drag, release. `tool_key` takes the wrench and puts it down.
-Controls mouse_controls(const words::Words& words, const std::string& tool_key);
+ControlNames mouse_controls(const words::Words& words, const std::string& tool_key);
 
 // Force-feedback device: `button` closes the hand, `tool_key` puts the wrench down.
-Controls device_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+ControlNames device_controls(const words::Words& words, const std::string& button,
+                             const std::string& tool_key);
 
 // Devices without force feedback: while `button` is held, the tool covers the last distance by itself.
-Controls puck_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
-Controls keyboard_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+ControlNames puck_controls(const words::Words& words, const std::string& button, const std::string& tool_key);
+ControlNames keyboard_controls(const words::Words& words, const std::string& button,
+                               const std::string& tool_key);
 
-// Glove: `moved_by` moves the hand; the fingers do the rest.
-Controls glove_controls(const words::Words& words, Controls moved_by);
+// Glove: `moved_by` names the controls that move the hand; the fingers replace the others.
+ControlNames glove_controls(const words::Words& words, ControlNames moved_by);
 
-// Selects hints over time: they become more explicit the longer the work makes no progress, and do not
-// flicker.
+// Hints become more explicit the longer the work makes no progress, and do not flicker.
 //
 //   guided:     text at once, then outline and arrow, then a ghost, then the animated motion
 //   practice:   the same after a long time, or one level more for each request
@@ -88,37 +90,39 @@ struct HintTimes {
 inline constexpr HintTimes guided_times{{0.0, 4.0, 9.0, 15.0}};
 inline constexpr HintTimes practice_times{{20.0, 35.0, 50.0, 65.0}};
 
-inline constexpr double shortest_hint = 1.5;       // s
-inline constexpr double shortest_when_past = 0.5;  // s, when what it asked for has been done
+inline constexpr double min_hint_duration = 1.5;            // s
+inline constexpr double min_duration_when_fulfilled = 0.5;  // s, once its request is fulfilled
 
 // The best values reached in a step; a new best is progress.
-struct Progress {
-    double torque = 0.0;    // N·m, most of it in this step
-    double angle = 0.0;     // rad, furthest in the step's sense
-    double distance = 1e9;  // m to the nut, least since the hand let go of what it had moved
-    int reached = 0;        // likewise: 1 the right tool in the hand, 2 on the nut
-    bool moved = false;     // the nut, since the hand took it
-    double idle = 0.0;      // s since the last of it
+struct StepProgress {
+    double torque = 0.0;    // N·m, highest in this step
+    double angle = 0.0;     // rad, furthest in the step's direction
+    double distance = 1e9;  // m to the nut, smallest since the hand last released a nut that it had moved
+    int reached = 0;        // over the same time: 1 the right tool is in the hand, 2 it is on the nut
+    bool moved = false;     // the hand has moved the nut since it took it
+    double idle = 0.0;      // s since the last progress
 };
 
-struct Hints {
-    std::optional<Hint> shown;                  // none: nothing is said
-    Situation situation = Situation::all_done;  // for which it is said
-    double stands = 0.0;                        // s that it has been so
-    Situation seen = Situation::all_done;       // in the last frame, and
-    double seen_for = 0.0;                      // s for which
-    double other_for = 0.0;                     // s that something else was seen than is said
-    Situation then = Situation::all_done;       // behind an announcement
+// The shown hint and the timing of its successor.
+struct HintState {
+    std::optional<Hint> shown;                   // none: no hint is shown
+    Situation situation = Situation::all_done;   // of the shown hint
+    double shown_for = 0.0;                      // s
+    Situation candidate = Situation::all_done;   // situation of the last frame
+    double candidate_for = 0.0;                  // s
+    double differs_for = 0.0;                    // s since `candidate` and `situation` differ
+    Situation underlying = Situation::all_done;  // situation while a step is announced
     std::size_t step = SIZE_MAX;
-    double step_for = 0.0;  // s
+    double step_time = 0.0;  // s since the step began
     int pass = -1;
-    bool new_round = false;
-    int level = -1;  // in this situation; −1: none yet
+    bool new_pass = false;
+    int level = -1;  // reached in this situation; −1: none yet
     int held = -1;
-    Progress progress;
+    StepProgress progress;
 };
 
-// Advances by a frame of `dt` seconds. `asked`: the trainee requested help in this frame.
-const std::optional<Hint>& update(Hints& hints, const Scene& scene, double dt, bool asked = false);
+// Advances by a frame of `dt` seconds and returns the hint to show. `requested`: the trainee requested help
+// in this frame.
+const std::optional<Hint>& update(HintState& hints, const WorkState& work, double dt, bool requested = false);
 
 }  // namespace bolt::lesson

@@ -9,7 +9,7 @@ namespace bolt::lesson {
 
 namespace {
 
-Verdict within(double value, const content::Window& window) {
+Verdict within(double value, const content::ToleranceWindow& window) {
     return value < window.low ? Verdict::low : value > window.high ? Verdict::high : Verdict::ok;
 }
 
@@ -39,14 +39,14 @@ JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::St
         result.torque_verdict = result.torque > 0.0 ? Verdict::ok : Verdict::none;
         result.overall = result.torque_verdict;
     } else {
-        // The turning torque counts, also out of its step. A joint that never had a full tightening step is
-        // judged by its peak torque.
+        // The turning torque counts even outside the joint's own step. A joint without a full tightening step
+        // is judged by its peak torque.
         result.torque = std::max(result.torque, track.turned_torque);
         if (result.torque == 0.0) result.torque = track.peak_torque;
         result.torque_verdict = within(result.torque, spec.torque);
         if (spec.has_angle) result.angle_verdict = within(result.angle, spec.angle);
         result.overall = worst(result.torque_verdict, result.angle_verdict);
-        // A nut off its seat clamps nothing, whatever its torque was.
+        // A nut off its seat has no clamp force, whatever its torque was.
         if (state.joints[joint].stage == joint::Stage::navigation) result.overall = Verdict::low;
     }
     if (result.condition != joint::Condition::sound) result.overall = Verdict::high;
@@ -64,41 +64,42 @@ LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
         JointResult joint = judge_joint(lesson, i, state);
         if (joint.condition != joint::Condition::sound)
             take_points(result, {1.5 * share, fmt::format("{} is {}", joint.id, joint::name(joint.condition)),
-                                 Fault::damaged, static_cast<int>(i), 1});
+                                 DeductionKind::damaged, static_cast<int>(i), 1});
         else if (joint.overall != Verdict::ok)
             take_points(result,
                         {share,
                          fmt::format("{}: torque {} ({:.1f} N·m), angle {}", joint.id,
                                      name(joint.torque_verdict), joint.torque, name(joint.angle_verdict)),
-                         Fault::not_ok, static_cast<int>(i), 1});
+                         DeductionKind::not_ok, static_cast<int>(i), 1});
         rehits += joint.rehits;
         order_errors += joint.order_errors;
-        wrong_ways += lesson.joints[i].wrong_ways;
-        slips += lesson.joints[i].slips;
+        wrong_ways += lesson.joints[i].wrong_way_count;
+        slips += lesson.joints[i].slip_count;
         const bool stays =
             joint.torque_verdict == Verdict::high || joint.condition != joint::Condition::sound;
-        overdone += std::max(0, lesson.joints[i].times_overdone - (stays ? 1 : 0));
+        overdone += std::max(0, lesson.joints[i].over_torque_count - (stays ? 1 : 0));
         result.joints.push_back(std::move(joint));
     }
     if (order_errors > 0)
         take_points(result, {2.0 * order_errors, times(order_errors) + " a joint out of turn",
-                             Fault::out_of_turn, -1, order_errors});
+                             DeductionKind::out_of_turn, -1, order_errors});
     if (rehits > 0)
         take_points(result, {1.0 * rehits, times(rehits) + " a joint that was done already",
-                             Fault::done_already, -1, rehits});
+                             DeductionKind::done_already, -1, rehits});
     if (wrong_ways > 0)
         take_points(result, {1.0 * wrong_ways, times(wrong_ways) + " a nut was turned the wrong way",
-                             Fault::wrong_way, -1, wrong_ways});
+                             DeductionKind::wrong_way, -1, wrong_ways});
     if (overdone > 0)
         take_points(result, {2.0 * overdone, times(overdone) + " too much torque that was made good",
-                             Fault::overdone, -1, overdone});
+                             DeductionKind::over_torque, -1, overdone});
     if (slips > 0)
-        take_points(result, {2.0 * slips, times(slips) + " the wrench slipped", Fault::slipped, -1, slips});
+        take_points(result,
+                    {2.0 * slips, times(slips) + " the wrench slipped", DeductionKind::slipped, -1, slips});
     if (!result.finished)
         take_points(result, {0.0,
                              fmt::format("the lesson was left at step {} of {}", lesson.current + 1,
                                          lesson.steps.size()),
-                             Fault::unfinished, -1, static_cast<int>(lesson.current) + 1,
+                             DeductionKind::unfinished, -1, static_cast<int>(lesson.current) + 1,
                              static_cast<int>(lesson.steps.size())});
     result.score = std::clamp(result.score, 0.0, 100.0);
     return result;

@@ -9,15 +9,15 @@ namespace bolt::lesson {
 
 namespace {
 
-constexpr double finger_drag = 0.4;  // of what fingers can give: a nut that drags more is run down by wrench
+constexpr double finger_drag = 0.4;  // share of the finger torque; a nut with more drag needs the wrench
 
-StepKind kind_of(content::StepKind kind) {
+StepKind kind_of(content::PassKind kind) {
     switch (kind) {
-        case content::StepKind::run_down:
+        case content::PassKind::run_down:
             return StepKind::run_down;
-        case content::StepKind::recheck:
+        case content::PassKind::recheck:
             return StepKind::recheck;
-        case content::StepKind::tighten:
+        case content::PassKind::tighten:
             break;
     }
     return StepKind::tighten;
@@ -25,10 +25,10 @@ StepKind kind_of(content::StepKind kind) {
 
 }  // namespace
 
-content::Assembly under_law(content::Assembly assembly, joint::Law law) {
+content::Assembly apply_law(content::Assembly assembly, joint::Law law) {
     assembly.law = law;
     if (law == joint::Law::mechanistic) return assembly;
-    const double most = 0.98 * assembly.published.T_max_Nm;
+    const double highest = 0.98 * assembly.published.T_max_Nm;
     for (content::AssemblyJoint& joint : assembly.joints) {
         joint.spec.strategy = content::Strategy::torque;
         joint.spec.has_angle = false;
@@ -38,14 +38,14 @@ content::Assembly under_law(content::Assembly assembly, joint::Law law) {
             joint.spec.snug_torque = assembly.published_targets->snug_torque;
             continue;
         }
-        joint.spec.torque.target = std::min(joint.spec.torque.target, most);
+        joint.spec.torque.target = std::min(joint.spec.torque.target, highest);
         joint.spec.torque.low = std::min(joint.spec.torque.low, 0.95 * joint.spec.torque.target);
     }
     return assembly;
 }
 
-std::vector<Step> make_plan(const content::Assembly& assembly, Task task) {
-    std::vector<Step> steps;
+std::vector<LessonStep> make_plan(const content::Assembly& assembly, Task task) {
+    std::vector<LessonStep> steps;
     if (assembly.passes.empty()) return steps;
     if (task == Task::loosen) {
         const auto& order = assembly.passes.back().order;
@@ -56,7 +56,7 @@ std::vector<Step> make_plan(const content::Assembly& assembly, Task task) {
     int number = 0;
     for (const content::Pass& pass : assembly.passes) {
         for (const std::size_t joint : pass.order) {
-            const double fraction = pass.kind == content::StepKind::tighten ? pass.fraction : 1.0;
+            const double fraction = pass.kind == content::PassKind::tighten ? pass.fraction : 1.0;
             const double torque = assembly.joints[joint].spec.torque.target * fraction;
             steps.push_back({kind_of(pass.kind), joint, torque, fraction, number});
         }
@@ -65,55 +65,57 @@ std::vector<Step> make_plan(const content::Assembly& assembly, Task task) {
     return steps;
 }
 
-bool by_fingers(const content::Assembly& assembly, const Step& step, double finger_torque) {
+bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, double finger_torque) {
     return step.kind == StepKind::run_down &&
            assembly.joints[step.joint].design.prevailing_torque < finger_drag * finger_torque;
 }
 
 namespace {
 
-constexpr double moved = to_radians(0.2);      // of nut angle: the wrench has moved it
-constexpr double turning_speed = 0.01;         // rad/s
-constexpr double wrong_way = to_radians(5.0);  // of nut angle: no play, and no wrench's own spring
-constexpr std::uint64_t hand_in_ticks = 3000;
-constexpr std::uint64_t regrip_ticks = 1000;  // in which fingers grip once more what they had
-constexpr double working_torque = 0.5;        // N·m: the wrench is used, not only touching
+constexpr double recheck_turn = to_radians(0.2);  // nut angle by which a re-check counts as moving the nut
+constexpr double turning_speed = 0.01;            // rad/s
+constexpr double wrong_way = to_radians(5.0);     // nut angle; more than play and the wrench's elasticity
+constexpr std::uint64_t assessment_end_ticks = 3000;
+constexpr std::uint64_t regrip_ticks = 1000;  // gap within which a finger re-grip continues the visit
+constexpr double working_torque = 0.5;        // N·m; less is only a touch
 
 const content::Specification& spec_of(const Lesson& lesson, std::size_t joint) {
     return lesson.assembly->joints[joint].spec;
 }
 
-void say(Lesson& lesson, std::uint64_t tick, std::string_view kind, int joint, double value,
-         std::string text) {
-    lesson.events.push_back({tick, std::string(kind), joint, value, std::move(text), Cause::none});
+void add_event(Lesson& lesson, std::uint64_t tick, EventKind kind, int joint, double value,
+               std::string text) {
+    lesson.events.push_back({tick, kind, joint, value, std::move(text), MistakeKind::none});
 }
 
-void mistake(Lesson& lesson, std::uint64_t tick, Cause cause, std::size_t joint, double value,
-             std::string text) {
-    lesson.events.push_back({tick, "mistake", static_cast<int>(joint), value, std::move(text), cause});
+void add_mistake(Lesson& lesson, std::uint64_t tick, MistakeKind kind, std::size_t joint, double value,
+                 std::string text) {
+    lesson.events.push_back(
+        {tick, EventKind::mistake, static_cast<int>(joint), value, std::move(text), kind});
 }
 
 void begin_step(Lesson& lesson, const servo::State& state) {
-    const Step* step = lesson.due();
+    const LessonStep* step = lesson.due();
     if (step == nullptr) return;
-    if (lesson.announced != step->pass) {
-        lesson.announced = step->pass;
+    if (lesson.announced_pass != step->pass) {
+        lesson.announced_pass = step->pass;
         const std::string share =
             step->kind == StepKind::tighten ? fmt::format(" to {:.0f} %", 100 * step->fraction) : "";
-        say(lesson, state.tick, "pass_begin", -1, step->pass, fmt::format("{}{}", name(step->kind), share));
+        add_event(lesson, state.tick, EventKind::pass_begin, -1, step->pass,
+                  fmt::format("{}{}", name(step->kind), share));
     }
     JointTrack& track = lesson.joints[step->joint];
     track.peak_torque = 0.0;
     track.clicked = false;
     track.begin_angle = state.joints[step->joint].nut.angle;
-    lesson.begun.resize(lesson.current);
-    lesson.begun.push_back(lesson.joints);
-    say(lesson, state.tick, "step_begin", static_cast<int>(step->joint), step->torque,
-        std::string(name(step->kind)));
+    lesson.step_starts.resize(lesson.current);
+    lesson.step_starts.push_back(lesson.joints);
+    add_event(lesson, state.tick, EventKind::step_begin, static_cast<int>(step->joint), step->torque,
+              std::string(name(step->kind)));
 }
 
 void end_step(Lesson& lesson, const servo::State& state) {
-    const Step step = *lesson.due();
+    const LessonStep step = *lesson.due();
     JointTrack& track = lesson.joints[step.joint];
     track.done_in_pass = step.pass;
     if (step.kind == StepKind::loosen) {
@@ -122,37 +124,37 @@ void end_step(Lesson& lesson, const servo::State& state) {
     } else if (step.kind == StepKind::tighten) {
         track.result.torque = track.peak_torque;
     }
-    say(lesson, state.tick, "step_end", static_cast<int>(step.joint), track.peak_torque,
-        std::string(name(step.kind)));
+    add_event(lesson, state.tick, EventKind::step_end, static_cast<int>(step.joint), track.peak_torque,
+              std::string(name(step.kind)));
     ++lesson.current;
     begin_step(lesson, state);
 }
 
-// Work on another joint than the due one.
-void work_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& state) {
-    const Step& due = *lesson.due();
+// Reports work on a joint that is not due.
+void report_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& state) {
+    const LessonStep& due = *lesson.due();
     JointTrack& track = lesson.joints[joint];
     const std::string& id = track.result.id;
     const bool done = track.done_in_pass == due.pass;
-    // A trainee who spins a nut down checks with another grip that it is seated. Fingers cannot turn a seated
-    // nut.
+    // After spinning a nut down, a trainee grips it once more to check that it is seated. Fingers cannot turn
+    // a seated nut.
     if (lesson.grip == servo::Grip::fingers &&
         (done || state.joints[joint].stage != joint::Stage::navigation))
         return;
     if (done) {
         ++track.result.rehits;
-        mistake(lesson, state.tick, Cause::done_already, joint, 0.0,
-                fmt::format("{} was done already in this pass", id));
+        add_mistake(lesson, state.tick, MistakeKind::done_already, joint, 0.0,
+                    fmt::format("{} was done already in this pass", id));
         return;
     }
     ++track.result.order_errors;
-    mistake(lesson, state.tick, Cause::out_of_turn, joint, 0.0,
-            fmt::format("{} is not the next joint; {} is", id, lesson.joints[due.joint].result.id));
+    add_mistake(lesson, state.tick, MistakeKind::out_of_turn, joint, 0.0,
+                fmt::format("{} is not the next joint; {} is", id, lesson.joints[due.joint].result.id));
 }
 
-void take(Lesson& lesson, int joint, servo::Grip grip, const servo::State& state) {
+void engage(Lesson& lesson, int joint, servo::Grip grip, const servo::State& state) {
     // Spinning a nut needs repeated grips; they are one visit.
-    const bool again = grip == servo::Grip::fingers && lesson.grip == grip && lesson.left == joint &&
+    const bool again = grip == servo::Grip::fingers && lesson.grip == grip && lesson.last_held == joint &&
                        state.tick - lesson.released_at < regrip_ticks;
     lesson.held = joint;
     lesson.grip = grip;
@@ -160,47 +162,48 @@ void take(Lesson& lesson, int joint, servo::Grip grip, const servo::State& state
     track.worked = again && track.worked;
     track.turned_back = track.seated = false;
     track.furthest = state.joints[static_cast<std::size_t>(joint)].nut.angle;
-    say(lesson, state.tick, "engage", joint, 0.0,
-        grip == servo::Grip::wrench ? "wrench on the nut" : "fingers on the nut");
+    add_event(lesson, state.tick, EventKind::engage, joint, 0.0,
+              grip == servo::Grip::wrench ? "wrench on the nut" : "fingers on the nut");
 }
 
 void release(Lesson& lesson, const servo::State& state) {
     const auto joint = static_cast<std::size_t>(lesson.held);
     JointTrack& track = lesson.joints[joint];
-    say(lesson, state.tick, "release", lesson.held, track.peak_torque, {});
+    add_event(lesson, state.tick, EventKind::release, lesson.held, track.peak_torque, {});
     track.result.clamp_at_release = state.joints[joint].clamp;
     if (track.worked && lesson.grip == servo::Grip::wrench) ++track.result.strokes;
-    lesson.left = lesson.held;
+    lesson.last_held = lesson.held;
     lesson.held = -1;
     lesson.released_at = state.tick;
-    const Step* due = lesson.due();
-    if (due != nullptr && due->joint == joint && reached(lesson, state.joints)) end_step(lesson, state);
+    const LessonStep* due = lesson.due();
+    if (due != nullptr && due->joint == joint && step_fulfilled(lesson, state.joints))
+        end_step(lesson, state);
 }
 
 // Called at the first work of a visit: checks that this joint is due.
-void first_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
+void begin_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
     lesson.joints[joint].worked = true;
-    const Step* due = lesson.due();
+    const LessonStep* due = lesson.due();
     if (due == nullptr || due->joint == joint) return;
     const bool left =
         lesson.mode == Mode::assessment && lesson.joints[due->joint].peak_torque > working_torque;
     const bool next =
         lesson.current + 1 < lesson.steps.size() && lesson.steps[lesson.current + 1].joint == joint;
     if (left && next) {
-        end_step(lesson, state);  // left as it is: judged as it was left
+        end_step(lesson, state);  // judged in its present state
         return;
     }
-    work_out_of_turn(lesson, joint, state);
+    report_out_of_turn(lesson, joint, state);
 }
 
-// Updates the turning torque, in any step, without the share of breakaway. A nut that is turned in small
-// starts breaks away each time. `breakaway` (r in mechanistic.hpp) applies to the friction part only, so this
-// subtracts slightly too much. A nut that leaves its seat resets it.
-void note_turning(Lesson& lesson, std::size_t index, const joint::JointState& joint, double work) {
+// Updates the turning torque in any step, without the share of breakaway: a nut that is turned in small
+// increments breaks away each time. `breakaway` (r in mechanistic.hpp) applies to the friction part only, so
+// this subtracts slightly too much. A nut that leaves its seat resets the torque.
+void update_turned_torque(Lesson& lesson, std::size_t index, const joint::JointState& joint, double work) {
     JointTrack& track = lesson.joints[index];
     if (lesson.task != Task::tighten) return;
     if (joint.stage == joint::Stage::navigation) {
-        track.snug = track.yielded = track.overdone = false;
+        track.snug = track.yielded = track.over_torqued = false;
         track.turned_torque = track.result.torque = track.result.angle = 0.0;
     }
     const double ratio = lesson.assembly->joints[index].design.friction.static_ratio;
@@ -209,20 +212,20 @@ void note_turning(Lesson& lesson, std::size_t index, const joint::JointState& jo
         track.turned_torque = std::max(track.turned_torque, work / breakaway);
 }
 
-// Reports excess torque once until the nut leaves its seat. Breakaway does not turn the nut and does not
-// count.
-void note_overdone(Lesson& lesson, std::size_t joint, std::uint64_t tick) {
+// Reports excess torque, once until the nut leaves its seat. Breakaway torque does not turn the nut and does
+// not count.
+void report_excess_torque(Lesson& lesson, std::size_t joint, std::uint64_t tick) {
     JointTrack& track = lesson.joints[joint];
-    const double most = spec_of(lesson, joint).torque.high;
-    if (track.overdone || track.turned_torque <= most) return;
-    track.overdone = true;
-    ++track.times_overdone;
-    mistake(lesson, tick, Cause::over_torque, joint, track.turned_torque,
-            fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, most));
+    const double highest = spec_of(lesson, joint).torque.high;
+    if (track.over_torqued || track.turned_torque <= highest) return;
+    track.over_torqued = true;
+    ++track.over_torque_count;
+    add_mistake(lesson, tick, MistakeKind::over_torque, joint, track.turned_torque,
+                fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, highest));
 }
 
-// Reported once a visit, and not after excess torque, which is corrected that way.
-void note_wrong_way(Lesson& lesson, std::size_t joint, const servo::State& state) {
+// Reports a nut turned the wrong way, once a visit. Not after excess torque: turning back corrects that.
+void report_wrong_way(Lesson& lesson, std::size_t joint, const servo::State& state) {
     JointTrack& track = lesson.joints[joint];
     const joint::JointState& now = state.joints[joint];
     const bool loosens = lesson.task == Task::loosen;
@@ -231,25 +234,25 @@ void note_wrong_way(Lesson& lesson, std::size_t joint, const servo::State& state
         track.furthest = now.nut.angle;
         track.seated = now.stage != joint::Stage::navigation;
     }
-    if (beyond > -wrong_way || !track.seated || track.turned_back || track.overdone) return;
+    if (beyond > -wrong_way || !track.seated || track.turned_back || track.over_torqued) return;
     track.turned_back = true;
-    ++track.wrong_ways;
-    mistake(lesson, state.tick, loosens ? Cause::tightened : Cause::loosened, joint, 0.0,
-            fmt::format("{} was turned the wrong way: that {} it", track.result.id,
-                        loosens ? "tightens" : "loosens"));
+    ++track.wrong_way_count;
+    add_mistake(lesson, state.tick, loosens ? MistakeKind::tightened : MistakeKind::loosened, joint, 0.0,
+                fmt::format("{} was turned the wrong way: that {} it", track.result.id,
+                            loosens ? "tightens" : "loosens"));
 }
 
-void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const servo::Output& output) {
+void observe_work(Lesson& lesson, std::size_t joint, const servo::State& state, const servo::Output& output) {
     JointTrack& track = lesson.joints[joint];
     const double torque = output.wrench_torque;
     const double work = lesson.task == Task::loosen ? -torque : torque;
     const bool fingers = lesson.grip == servo::Grip::fingers;
     if (!track.worked && (work > working_torque || (fingers && work > 0.01)))
-        first_work(lesson, joint, state);
+        begin_work(lesson, joint, state);
     track.peak_torque = std::max(track.peak_torque, work);
-    note_turning(lesson, joint, state.joints[joint], work);
-    note_overdone(lesson, joint, state.tick);
-    if (!fingers) note_wrong_way(lesson, joint, state);
+    update_turned_torque(lesson, joint, state.joints[joint], work);
+    report_excess_torque(lesson, joint, state.tick);
+    if (!fingers) report_wrong_way(lesson, joint, state);
     if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
         !fingers) {
         track.snug = true;
@@ -259,66 +262,68 @@ void watch(Lesson& lesson, std::size_t joint, const servo::State& state, const s
     if (output.stage == joint::Stage::yield) track.yielded = true;
     if (output.clicked) {
         track.clicked = true;
-        say(lesson, state.tick, "click", static_cast<int>(joint), torque, "the torque wrench clicks");
+        add_event(lesson, state.tick, EventKind::click, static_cast<int>(joint), torque,
+                  "the torque wrench clicks");
     }
     if (output.stage != track.stage) {
         track.stage = output.stage;
-        say(lesson, state.tick, "stage", static_cast<int>(joint), static_cast<double>(output.stage),
-            std::string(joint::name(output.stage)));
+        add_event(lesson, state.tick, EventKind::stage, static_cast<int>(joint),
+                  static_cast<double>(output.stage), std::string(joint::name(output.stage)));
     }
     const joint::Condition condition = state.joints[joint].condition;
     if (condition != track.result.condition) {
         track.result.condition = condition;
         track.result.torque = std::max(track.result.torque, track.peak_torque);
-        const Cause cause = condition == joint::Condition::stripped ? Cause::stripped : Cause::broken;
-        mistake(lesson, state.tick, cause, joint, torque,
-                fmt::format("{} is {}", track.result.id, joint::name(condition)));
+        const MistakeKind kind =
+            condition == joint::Condition::stripped ? MistakeKind::stripped : MistakeKind::broken;
+        add_mistake(lesson, state.tick, kind, joint, torque,
+                    fmt::format("{} is {}", track.result.id, joint::name(condition)));
     }
 }
 
 // An assessment ends when the last joint has been released for some time.
-void hand_in(Lesson& lesson, const servo::State& state) {
+void end_assessment(Lesson& lesson, const servo::State& state) {
     if (lesson.mode != Mode::assessment || lesson.held >= 0 || lesson.current + 1 != lesson.steps.size())
         return;
     const bool worked = lesson.joints[lesson.due()->joint].peak_torque > working_torque;
-    if (worked && state.tick - lesson.released_at > hand_in_ticks) end_step(lesson, state);
+    if (worked && state.tick - lesson.released_at > assessment_end_ticks) end_step(lesson, state);
 }
 
 }  // namespace
 
-content::Window window(const Lesson& lesson, const Step& step) {
-    const content::Window& whole = spec_of(lesson, step.joint).torque;
+content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& step) {
+    const content::ToleranceWindow& whole = spec_of(lesson, step.joint).torque;
     if (whole.target <= 0.0) return {step.torque, step.torque, step.torque};
     const double share = step.torque / whole.target;
     return {step.torque, share * whole.low, share * whole.high};
 }
 
-bool into_yield(const Lesson& lesson, const Step& step) {
+bool requires_yield(const Lesson& lesson, const LessonStep& step) {
     return step.kind == StepKind::tighten && step.fraction > 0.999 &&
            spec_of(lesson, step.joint).strategy == content::Strategy::yield;
 }
 
-double setting(const Lesson& lesson) {
-    const Step* step = lesson.due();
+double wrench_setting(const Lesson& lesson) {
+    const LessonStep* step = lesson.due();
     if (step == nullptr || lesson.assembly->wrench.click_swing <= 0.0) return 0.0;
     return step->kind == StepKind::tighten || step->kind == StepKind::recheck ? step->torque : 0.0;
 }
 
 namespace {
 
-bool reached(const Lesson& lesson, const Step& due, double angle, joint::Stage stage) {
-    const Step* step = &due;
+bool step_fulfilled(const Lesson& lesson, const LessonStep& due, double angle, joint::Stage stage) {
+    const LessonStep* step = &due;
     const JointTrack& track = lesson.joints[step->joint];
     const double turned = angle - track.begin_angle;
     switch (step->kind) {
         case StepKind::run_down:
             return stage != joint::Stage::navigation;
         case StepKind::tighten:
-            if (track.peak_torque < window(lesson, *step).low) return false;
-            return !into_yield(lesson, *step) || track.yielded || track.clicked ||
+            if (track.peak_torque < torque_window(lesson, *step).low) return false;
+            return !requires_yield(lesson, *step) || track.yielded || track.clicked ||
                    track.peak_torque > spec_of(lesson, step->joint).torque.high;
         case StepKind::recheck:
-            return turned > moved || track.peak_torque >= window(lesson, *step).low;
+            return turned > recheck_turn || track.peak_torque >= torque_window(lesson, *step).low;
         case StepKind::loosen:
             return stage == joint::Stage::navigation;
     }
@@ -327,16 +332,17 @@ bool reached(const Lesson& lesson, const Step& due, double angle, joint::Stage s
 
 }  // namespace
 
-bool reached(const Lesson& lesson, std::span<const joint::JointState> joints) {
-    const Step* due = lesson.due();
-    return due != nullptr && reached(lesson, *due, joints[due->joint].nut.angle, joints[due->joint].stage);
+bool step_fulfilled(const Lesson& lesson, std::span<const joint::JointState> joints) {
+    const LessonStep* due = lesson.due();
+    return due != nullptr &&
+           step_fulfilled(lesson, *due, joints[due->joint].nut.angle, joints[due->joint].stage);
 }
 
-bool reached(const Lesson& lesson, const ecs::Access<const world::Joint>& joints) {
-    const Step* due = lesson.due();
+bool step_fulfilled(const Lesson& lesson, const ecs::Access<const world::Joint>& joints) {
+    const LessonStep* due = lesson.due();
     if (due == nullptr) return false;
     const world::Joint& joint = world::joint_at(joints, due->joint);
-    return reached(lesson, *due, joint.angle, joint.stage);
+    return step_fulfilled(lesson, *due, joint.angle, joint.stage);
 }
 
 Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
@@ -358,46 +364,46 @@ void observe(Lesson& lesson, const servo::State& state, const servo::Output& out
     if (state.tick == 1) begin_step(lesson, state);
     const bool other_grip = lesson.held >= 0 && state.engagement.grip != lesson.grip;
     if (lesson.held >= 0 && (output.joint != lesson.held || other_grip)) release(lesson, state);
-    if (output.joint >= 0 && lesson.held < 0) take(lesson, output.joint, state.engagement.grip, state);
-    if (lesson.held >= 0) watch(lesson, static_cast<std::size_t>(lesson.held), state, output);
+    if (output.joint >= 0 && lesson.held < 0) engage(lesson, output.joint, state.engagement.grip, state);
+    if (lesson.held >= 0) observe_work(lesson, static_cast<std::size_t>(lesson.held), state, output);
     if (output.slipped >= 0) {
         const auto joint = static_cast<std::size_t>(output.slipped);
-        ++lesson.joints[joint].slips;
-        mistake(lesson, state.tick, Cause::slipped, joint, output.rounded,
-                fmt::format("{}: the wrench slipped, {:.2f} mm of the nut's corners are gone",
-                            lesson.joints[joint].result.id, 1e3 * output.rounded));
+        ++lesson.joints[joint].slip_count;
+        add_mistake(lesson, state.tick, MistakeKind::slipped, joint, output.rounded,
+                    fmt::format("{}: the wrench slipped, {:.2f} mm of the nut's corners are gone",
+                                lesson.joints[joint].result.id, 1e3 * output.rounded));
     }
-    hand_in(lesson, state);
+    end_assessment(lesson, state);
     // The step of a broken bolt cannot be done; the lesson continues with the next one.
-    const Step* due = lesson.due();
+    const LessonStep* due = lesson.due();
     if (due != nullptr && lesson.held < 0 &&
         lesson.joints[due->joint].result.condition != joint::Condition::sound)
         end_step(lesson, state);
 }
 
-bool back(Lesson& lesson, const servo::State& state, std::size_t steps) {
+bool undo_steps(Lesson& lesson, const servo::State& state, std::size_t steps) {
     if (lesson.mode == Mode::assessment || steps > lesson.current) return false;
     const std::size_t to = lesson.current - steps;
-    if (to >= lesson.begun.size()) return false;  // done with all, or not begun
+    if (to >= lesson.step_starts.size()) return false;  // all steps are done, or none has begun
     if (lesson.held >= 0) {
         const auto joint = static_cast<std::size_t>(lesson.held);
-        say(lesson, state.tick, "release", lesson.held, lesson.joints[joint].peak_torque, {});
+        add_event(lesson, state.tick, EventKind::release, lesson.held, lesson.joints[joint].peak_torque, {});
         lesson.held = -1;
         lesson.released_at = state.tick;
     }
-    std::vector<JointTrack> tracks = lesson.begun[to];
+    std::vector<JointTrack> tracks = lesson.step_starts[to];
     for (std::size_t i = 0; i < tracks.size(); ++i) {
         tracks[i].result.rehits = lesson.joints[i].result.rehits;
         tracks[i].result.order_errors = lesson.joints[i].result.order_errors;
-        tracks[i].wrong_ways = lesson.joints[i].wrong_ways;
-        tracks[i].times_overdone = lesson.joints[i].times_overdone;
-        tracks[i].slips = lesson.joints[i].slips;
+        tracks[i].wrong_way_count = lesson.joints[i].wrong_way_count;
+        tracks[i].over_torque_count = lesson.joints[i].over_torque_count;
+        tracks[i].slip_count = lesson.joints[i].slip_count;
         tracks[i].result.condition = state.joints[i].condition;
     }
     lesson.joints = std::move(tracks);
     lesson.current = to;
-    say(lesson, state.tick, "back", static_cast<int>(lesson.steps[to].joint), static_cast<double>(steps),
-        fmt::format("back to step {} of {}", to + 1, lesson.steps.size()));
+    add_event(lesson, state.tick, EventKind::undo, static_cast<int>(lesson.steps[to].joint),
+              static_cast<double>(steps), fmt::format("back to step {} of {}", to + 1, lesson.steps.size()));
     begin_step(lesson, state);
     return true;
 }

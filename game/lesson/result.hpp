@@ -1,8 +1,9 @@
-// Results of joints and lessons as plain data: judged by game/lesson, stored by game/session, shown by
+// Results of joints and lessons as plain data: computed by game/lesson, stored by game/session, shown by
 // game/report.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,14 +21,14 @@ constexpr std::string_view name(Verdict verdict) {
 
 struct JointResult {
     std::string id;
-    double torque = 0.0;  // N·m, highest of the tightening step or of any pull that turned the nut on since
+    double torque = 0.0;  // N·m, highest of the tightening step or of any later pull that turned the nut on
     double angle = 0.0;   // rad from snug
     double clamp =
         0.0;  // N, when the result was last updated (end of lesson: after embedding and cross-talk)
     double clamp_at_release = 0;  // N, when the wrench last left the nut
     Verdict torque_verdict = Verdict::none;
     Verdict angle_verdict = Verdict::none;
-    Verdict overall = Verdict::none;  // OK only if all that is judged is OK and the joint is sound
+    Verdict overall = Verdict::none;  // OK only if each judged quantity is OK and the joint is sound
     joint::Condition condition = joint::Condition::sound;
     int strokes = 0;
     int rehits = 0;        // visits to a joint whose step was done already
@@ -35,14 +36,14 @@ struct JointResult {
 };
 
 // The reason for a deduction. A session file stores its text only.
-enum class Fault : std::uint8_t {
+enum class DeductionKind : std::uint8_t {
     none,
     damaged,
     not_ok,
     out_of_turn,
     done_already,
     wrong_way,
-    overdone,  // and made good: what still is too much is `not_ok`
+    over_torque,  // corrected since; excess torque that remains is `not_ok`
     slipped,
     unfinished
 };
@@ -51,42 +52,71 @@ enum class Fault : std::uint8_t {
 struct ScoreReason {
     double points = 0.0;
     std::string text;
-    Fault fault = Fault::none;
-    int joint = -1;  // index, of what is a single joint's fault
-    int count = 0;   // how often; unfinished: the step that was due, from 1
-    int of = 0;      // unfinished: how many steps there are
+    DeductionKind kind = DeductionKind::none;
+    int joint = -1;  // index, if it concerns one joint; −1: several or none
+    int count = 0;   // number of occurrences; unfinished: the due step, counted from 1
+    int of = 0;      // unfinished: number of steps
 };
 
 struct LessonResult {
     double duration = 0.0;  // s
     double score = 0.0;     // 0…100
-    bool finished = false;  // every step done
+    bool finished = false;  // every step is done
     std::vector<JointResult> joints;
     std::vector<ScoreReason> reasons;
 };
 
 // The kind of a mistake, for texts in any language. A session file stores the English text only.
-enum class Cause : std::uint8_t {
+enum class MistakeKind : std::uint8_t {
     none,
     out_of_turn,
     done_already,
-    loosened,   // turned back, in a lesson that tightens
-    tightened,  // turned on, in one that loosens
+    loosened,   // in a tightening lesson
+    tightened,  // in a loosening lesson
     over_torque,
     slipped,
     stripped,
     broken
 };
 
-// An event of a lesson, for reports and replay. Kinds: step_begin, step_end, engage, release, stage,
-// mistake, pass_begin, back, click, note.
-struct Event {
+// The comment gives the meaning of LessonEvent::value.
+enum class EventKind : std::uint8_t {
+    pass_begin,  // number of the pass
+    step_begin,  // target torque, N·m
+    step_end,    // peak torque, N·m
+    engage,
+    release,     // peak torque of the step, N·m
+    stage,       // joint::Stage
+    click,       // torque at the click, N·m
+    mistake,     // depends on LessonEvent::mistake
+    undo,        // number of steps undone
+    visibility,  // visible fraction of the due nut, 0 … 1
+    note
+};
+
+// As session files store it.
+constexpr std::string_view name(EventKind kind) {
+    constexpr std::string_view names[] = {"pass_begin", "step_begin", "step_end", "engage",
+                                          "release",    "stage",      "click",    "mistake",
+                                          "back",       "sight",      "note"};
+    return names[static_cast<int>(kind)];
+}
+
+// The inverse of name(); empty for any other text.
+constexpr std::optional<EventKind> event_kind(std::string_view text) {
+    for (int i = 0; i <= static_cast<int>(EventKind::note); ++i)
+        if (text == name(static_cast<EventKind>(i))) return static_cast<EventKind>(i);
+    return std::nullopt;
+}
+
+// An event of a lesson, for reports and replay.
+struct LessonEvent {
     std::uint64_t tick = 0;
-    std::string kind;
+    EventKind kind = EventKind::note;
     int joint = -1;      // index, −1: none
-    double value = 0.0;  // what the kind says: torque at release, stage number …
-    std::string text;    // in words
-    Cause cause = Cause::none;
+    double value = 0.0;  // see EventKind
+    std::string text;    // English description
+    MistakeKind mistake = MistakeKind::none;
 };
 
 }  // namespace bolt::lesson

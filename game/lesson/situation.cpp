@@ -6,27 +6,25 @@ namespace bolt::lesson {
 
 namespace {
 
-using lesson::StepKind;
+constexpr double near = 0.06;                // m from the nut: the trainee has found it
+constexpr double worn = 0.2e-3;              // m of wear at each corner
+constexpr double no_room = to_radians(3.0);  // remaining swing of the handle
+constexpr double last_part = 0.8;            // share of the lowest valid torque from which to pull slowly
+constexpr double let_go_share = 0.5;         // share of the peak torque below which the pull has ended
+constexpr double let_go_clicked = 0.15;      // the same after a click, which drops the torque by itself
+constexpr double broken_loose = to_radians(2.0);
+constexpr double turning = 0.02;         // rad/s
+constexpr double fingers_turning = 0.3;  // rad/s
+constexpr double wrong_torque = 1.0;     // N·m; more than the wrench's elasticity returns
+constexpr double wrong_share = 0.2;      // share of the step's torque
+constexpr double worked_torque = 0.5;    // N·m
 
-constexpr double near = 0.06;                // m from the nut: it is no longer looked for
-constexpr double worn = 0.2e-3;              // m off its corners
-constexpr double no_room = to_radians(3.0);  // of swing
-constexpr double last_part = 0.8;            // of the least torque: from here on it is pulled slowly
-constexpr double let_go_share = 0.5;         // of the peak: below it the hand has stopped pulling
-constexpr double let_go_clicked = 0.15;      // after a click, which lets the torque fall by itself
-constexpr double given = to_radians(2.0);    // turned off: it has broken loose
-constexpr double turning = 0.02;             // rad/s
-constexpr double fingers_turning = 0.3;      // rad/s
-constexpr double wrong_torque = 1.0;         // N·m: more than a wrench's own spring gives back
-constexpr double wrong_share = 0.2;          // of the step's torque
-constexpr double worked_torque = 0.5;        // N·m
-
-bool out_of_room(const Scene& s) {
-    const world::Hand& hand = s.world.only<world::Hand>();
-    return hand.doing == world::Doing::holding && hand.room < no_room;
+bool out_of_room(const WorkState& s) {
+    const world::WorkingHand& hand = s.world.only<world::WorkingHand>();
+    return hand.action == world::HandAction::holding && hand.room < no_room;
 }
 
-Situation without_nut(const Scene& s, const lesson::Step& due, bool fingers) {
+Situation without_nut(const WorkState& s, const LessonStep& due, bool fingers) {
     const bool wrench = wrench_in_hand(s);
     if (fingers && wrench) return Situation::put_wrench_away;
     if (!fingers && !wrench) return Situation::take_wrench;
@@ -37,9 +35,9 @@ Situation without_nut(const Scene& s, const lesson::Step& due, bool fingers) {
     return again ? Situation::set_on_again : Situation::set_on;
 }
 
-Situation running_down(const Scene& s, const world::Joint& joint, bool fingers) {
-    if (lesson::reached(s.lesson, s.world)) return Situation::seated;
-    const bool by_wrench = held(s) == Held::nut_by_wrench;
+Situation running_down(const WorkState& s, const world::Joint& joint, bool fingers) {
+    if (step_fulfilled(s.lesson, s.world)) return Situation::seated;
+    const bool by_wrench = held_item(s) == HeldItem::nut_by_wrench;
     if (by_wrench && fingers) return Situation::put_wrench_away;
     if (!by_wrench && !fingers) return Situation::wrench_needed;
     if (joint.speed < -fingers_turning) return Situation::other_way_on;
@@ -47,13 +45,13 @@ Situation running_down(const Scene& s, const world::Joint& joint, bool fingers) 
     return fingers ? Situation::run_down : Situation::run_down_by_wrench;
 }
 
-Situation tightening(const Scene& s, const lesson::Step& due, const world::Joint& joint) {
-    if (held(s) == Held::nut_by_fingers) return Situation::wrench_needed;
-    const lesson::JointTrack& track = s.lesson.joints[due.joint];
-    const content::Window window = lesson::window(s.lesson, due);
+Situation tightening(const WorkState& s, const LessonStep& due, const world::Joint& joint) {
+    if (held_item(s) == HeldItem::nut_by_fingers) return Situation::wrench_needed;
+    const JointTrack& track = s.lesson.joints[due.joint];
+    const content::ToleranceWindow window = torque_window(s.lesson, due);
     const bool checks = due.kind == StepKind::recheck;
-    const bool to_yield = lesson::into_yield(s.lesson, due);
-    if (lesson::reached(s.lesson, s.world)) {
+    const bool to_yield = requires_yield(s.lesson, due);
+    if (step_fulfilled(s.lesson, s.world)) {
         if (checks) return Situation::checked;
         const double still = track.clicked ? let_go_clicked : let_go_share;
         if (joint.torque < still * track.peak_torque) return Situation::take_off;
@@ -66,58 +64,58 @@ Situation tightening(const Scene& s, const lesson::Step& due, const world::Joint
     if (turns_off || joint.torque < -wrong_torque - wrong_share * due.torque) return Situation::other_way_on;
     if (out_of_room(s)) return Situation::set_back;
     if (checks) return Situation::check;
-    if (lesson::setting(s.lesson) > 0.0) return Situation::pull_to_click;
+    if (wrench_setting(s.lesson) > 0.0) return Situation::pull_to_click;
     const bool eases = joint.torque > last_part * window.low;
     if (to_yield) return eases ? Situation::ease_to_yield : Situation::pull_to_yield;
     return eases ? Situation::ease : Situation::pull;
 }
 
-Situation loosening(const Scene& s, const lesson::Step& due, const world::Joint& joint) {
-    if (lesson::reached(s.lesson, s.world)) return Situation::free;
-    if (held(s) == Held::nut_by_fingers) return Situation::wrench_needed;
+Situation loosening(const WorkState& s, const LessonStep& due, const world::Joint& joint) {
+    if (step_fulfilled(s.lesson, s.world)) return Situation::free;
+    if (held_item(s) == HeldItem::nut_by_fingers) return Situation::wrench_needed;
     const double turned = s.lesson.joints[due.joint].begin_angle - joint.angle;
     if (joint.torque > wrong_torque && joint.speed > turning) return Situation::other_way_off;
     if (joint.torque > wrong_torque + wrong_share * s.lesson.assembly->joints[due.joint].spec.torque.target)
         return Situation::other_way_off;
     if (out_of_room(s)) return Situation::set_back;
-    return turned > given ? Situation::turn_off : Situation::break_loose;
+    return turned > broken_loose ? Situation::turn_off : Situation::break_loose;
 }
 
 }  // namespace
 
-bool wrench_in_hand(const Scene& scene) { return scene.world.only<world::Hand>().wrench; }
+bool wrench_in_hand(const WorkState& work) { return work.world.only<world::WorkingHand>().wrench; }
 
-Held held(const Scene& scene) {
-    if (scene.lesson.held >= 0)
-        return scene.lesson.grip == servo::Grip::fingers ? Held::nut_by_fingers : Held::nut_by_wrench;
-    return wrench_in_hand(scene) ? Held::wrench : Held::nothing;
+HeldItem held_item(const WorkState& work) {
+    if (work.lesson.held >= 0)
+        return work.lesson.grip == servo::Grip::fingers ? HeldItem::nut_by_fingers : HeldItem::nut_by_wrench;
+    return wrench_in_hand(work) ? HeldItem::wrench : HeldItem::nothing;
 }
 
-double distance_to_due(const Scene& scene) {
-    const lesson::Step* due = scene.lesson.due();
+double distance_to_due(const WorkState& work) {
+    const LessonStep* due = work.lesson.due();
     if (due == nullptr) return std::numeric_limits<double>::infinity();
-    const Vec3 nut = world::nut_centre(scene.world, scene.setup, due->joint);
-    return glm::distance(scene.world.only<world::Tool>().pose.position, nut);
+    const Vec3 nut = world::nut_centre(work.world, work.setup, due->joint);
+    return glm::distance(work.world.only<world::HeldTool>().pose.position, nut);
 }
 
-Situation situation(const Scene& scene) {
-    const lesson::Step* due = scene.lesson.due();
+Situation situation(const WorkState& work) {
+    const LessonStep* due = work.lesson.due();
     if (due == nullptr) return Situation::all_done;
-    const servo::NutGeometry& nut = scene.setup.nuts[due->joint];
-    const bool fingers = lesson::by_fingers(*scene.lesson.assembly, *due, scene.setup.finger_torque(nut));
-    if (scene.lesson.held < 0) return without_nut(scene, *due, fingers);
-    if (scene.lesson.held != static_cast<int>(due->joint)) return Situation::wrong_joint;
-    const world::Joint& joint = world::joint_at(scene.world, due->joint);
+    const servo::NutGeometry& nut = work.setup.nuts[due->joint];
+    const bool fingers = uses_fingers(*work.lesson.assembly, *due, work.setup.finger_torque(nut));
+    if (work.lesson.held < 0) return without_nut(work, *due, fingers);
+    if (work.lesson.held != static_cast<int>(due->joint)) return Situation::wrong_joint;
+    const world::Joint& joint = world::joint_at(work.world, due->joint);
     if (joint.condition == joint::Condition::broken) return Situation::leave_broken;
     if (joint.condition == joint::Condition::stripped) return Situation::leave_stripped;
     switch (due->kind) {
         case StepKind::run_down:
-            return running_down(scene, joint, fingers);
+            return running_down(work, joint, fingers);
         case StepKind::tighten:
         case StepKind::recheck:
-            return tightening(scene, *due, joint);
+            return tightening(work, *due, joint);
         case StepKind::loosen:
-            return loosening(scene, *due, joint);
+            return loosening(work, *due, joint);
     }
     return Situation::all_done;
 }

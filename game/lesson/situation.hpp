@@ -1,4 +1,5 @@
-// The situation of the trainee, from the lesson, the joints and the hand of one tick. hints.hpp adds time.
+// Classifies what the trainee has to do next, from the lesson, the joints and the hand of one tick. hints.hpp
+// selects hints from it over time.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +19,17 @@ enum class Situation : std::uint8_t {
     find_by_wrench,
     find_by_fingers,
     set_on,
-    set_on_again,    // the pulls before were not enough
-    set_on_rounded,  // on corners that a slipping jaw has worn
+    set_on_again,    // earlier pulls were not enough
+    set_on_rounded,  // onto corners that a slipping jaw has worn
     grip_nut,
     run_down,
     run_down_by_wrench,
-    twist_back,  // the fingers have no more way
+    twist_back,  // the fingers cannot turn further
     seated,
     pull,
     pull_to_yield,
     pull_to_click,
-    set_back,  // the handle has no more room
+    set_back,  // the handle has no room left to swing
     ease,
     ease_to_yield,
     stop,
@@ -44,10 +45,10 @@ enum class Situation : std::uint8_t {
     wrong_joint,
     other_way_on,
     other_way_off,
-    wrench_needed,  // fingers hold what they cannot do
+    wrench_needed,  // fingers hold a nut that needs the wrench
     leave_broken,
     leave_stripped,
-    next,  // these five are said when a step begins
+    next,  // this and the next four announce a step
     round_run_down,
     round_tighten,
     round_recheck,
@@ -56,21 +57,21 @@ enum class Situation : std::uint8_t {
 };
 inline constexpr std::size_t situation_count = 40;
 
-// The work after a tick: the lesson that has observed it, and the world as haptic_system has written it.
-struct Scene {
-    const lesson::Lesson& lesson;
+// The state after a tick: the lesson after observe(), and the world after write_snapshot().
+struct WorkState {
+    const Lesson& lesson;
     const servo::Setup& setup;
-    ecs::Access<const world::Joint, const world::Tool, const world::Hand> world;
+    ecs::Access<const world::Joint, const world::HeldTool, const world::WorkingHand> world;
 };
 
-bool wrench_in_hand(const Scene& scene);  // also while it is on no nut
+bool wrench_in_hand(const WorkState& work);  // on a nut or not
 
-enum class Held : std::uint8_t { nothing, wrench, nut_by_fingers, nut_by_wrench };
-Held held(const Scene& scene);
+enum class HeldItem : std::uint8_t { nothing, wrench, nut_by_fingers, nut_by_wrench };
+HeldItem held_item(const WorkState& work);
 
-Situation situation(const Scene& scene);
+Situation situation(const WorkState& work);
 
-// Distance from the tool to the due nut, m; infinite if no nut is due.
-double distance_to_due(const Scene& scene);
+// Distance from the tool to the due nut, m; infinite if no step is due.
+double distance_to_due(const WorkState& work);
 
 }  // namespace bolt::lesson

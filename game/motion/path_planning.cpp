@@ -6,7 +6,7 @@
 
 namespace bolt::motion {
 
-Quat orientation_of(const servo::NutGeometry& nut, double handle_angle, bool flipped) {
+Quat tool_orientation(const servo::NutGeometry& nut, double handle_angle, bool flipped) {
     const Vec3 x = std::cos(-handle_angle) * nut.e1 + std::sin(-handle_angle) * nut.e2;
     const Vec3 z = flipped ? -nut.axis : nut.axis;
     return glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
@@ -14,35 +14,36 @@ Quat orientation_of(const servo::NutGeometry& nut, double handle_angle, bool fli
 
 namespace {
 
-constexpr double beyond_grip = 1.12;  // the wrench's length over that from jaw to grip
+constexpr double beyond_grip = 1.12;  // wrench length / distance from jaw to grip
 constexpr double swing_step = to_radians(5.0);
-constexpr double margin = to_radians(3.0);  // kept from where a handle would meet something
-constexpr double yields = 4e-3;             // m that the hand lets the wrench stay behind
-constexpr double yields_turn = to_radians(4.0);
-constexpr double keeps_off = 0.012;                          // m, from what it goes by
+constexpr double swing_margin = to_radians(3.0);  // between handle and obstacles
+constexpr double max_lead = 4e-3;                 // m by which the hand may lead the wrench
+constexpr double max_turn_lead = to_radians(4.0);
+constexpr double clearance = 0.012;                          // m between wrench and obstacles along a path
 constexpr std::array rises{0.05, 0.1, 0.15, 0.2, 0.3, 0.4};  // m
-constexpr std::array lifts{0.06, 0.12, 0.2, 0.35};           // m, straight up before it goes across
-constexpr std::array heights{0.03, 0.08, 0.15};              // m above a nut, where a wrench comes down to it
-constexpr double least_above = 0.015, above_step = 2e-3;     // m
-constexpr double cramped = 2.0;  // rad that it would rather turn away than squeeze by
+constexpr std::array lifts{0.06, 0.12, 0.2, 0.35};           // m, straight up before moving across
+constexpr std::array heights{0.03, 0.08, 0.15};              // m above a nut, checked for the approach
+constexpr double min_height = 0.015, height_step = 2e-3;     // m
+constexpr double squeeze_cost = 2.0;  // rad, cost of an angle with an obstructed approach
 
-struct Seen {
+// Collision queries for a wrench among the obstacles, by line-of-sight tests between points of its outline.
+struct FreeSpace {
     const servo::Setup& setup;
-    const servo::ToolContact& touch;
-    double length;                    // m, of the wrench
-    double broad = 0.0, thick = 0.0;  // m, half of its handle's width and of its head's thickness
-    std::array<Vec3, 8> rim{};        // of its head, what reaches furthest to each side
+    const servo::ToolContact& contact;
+    double length;                                  // m, of the wrench
+    double half_width = 0.0, half_thickness = 0.0;  // m, of the handle and of the head
+    std::array<Vec3, 8> rim{};  // points of the head that reach furthest in each direction
 
-    Seen(const servo::Setup& s, const servo::ToolContact& t)
-        : setup(s), touch(t), length(beyond_grip * s.wrench.handle_length) {
+    FreeSpace(const servo::Setup& s, const servo::ToolContact& t)
+        : setup(s), contact(t), length(beyond_grip * s.wrench.handle_length) {
         std::array<double, 8> furthest{};
         for (const auto& triangle : t.wrench.solid.corners)
             for (const Vec3 p : triangle) {
                 if (p.x > 0.3 * length) {
-                    broad = std::max(broad, std::abs(p.y));
+                    half_width = std::max(half_width, std::abs(p.y));
                     continue;
                 }
-                thick = std::max(thick, std::abs(p.z));
+                half_thickness = std::max(half_thickness, std::abs(p.z));
                 for (std::size_t k = 0; k < rim.size(); ++k) {
                     const double angle = static_cast<double>(k) * pi / 4.0;
                     const double far = p.x * std::cos(angle) + p.y * std::sin(angle);
@@ -53,77 +54,80 @@ struct Seen {
             }
     }
 
-    // Where the wrench is and where it has just been: both its faces, `clear` beyond all its sides.
-    [[nodiscard]] bool step_is_free(const Pose& before, const Pose& pose, double clear) const {
-        const auto blocked = [&](const Vec3& a, const Vec3& b) { return servo::occluded(touch, a, b, -1); };
+    // True if no obstacle is between the poses: tests both faces of the wrench, enlarged by `distance` m.
+    [[nodiscard]] bool step_is_free(const Pose& before, const Pose& pose, double distance) const {
+        const auto blocked = [&](const Vec3& a, const Vec3& b) { return servo::occluded(contact, a, b, -1); };
         for (const double face : {-1.0, 1.0}) {
-            const Vec3 off(0.0, 0.0, face * (thick + clear));
+            const Vec3 off(0.0, 0.0, face * (half_thickness + distance));
             const Vec3 middle = pose * (Vec3(0.5 * length, 0.0, 0.0) + off);
             for (const Vec3& side : rim) {
-                const Vec3 point = side * (1.0 + clear / glm::length(side)) + off;
+                const Vec3 point = side * (1.0 + distance / glm::length(side)) + off;
                 if (blocked(before * point, pose * point) || blocked(middle, pose * point)) return false;
             }
             for (const double side : {-1.0, 1.0}) {
-                const Vec3 end = Vec3(length, side * (broad + clear), 0.0) + off;
+                const Vec3 end = Vec3(length, side * (half_width + distance), 0.0) + off;
                 if (blocked(before * end, pose * end) || blocked(middle, pose * end)) return false;
             }
         }
         return true;
     }
 
-    [[nodiscard]] bool way_is_free(const Pose& from, const Pose& to, const Vec3& bulge) const {
+    [[nodiscard]] bool path_is_free(const Pose& from, const Pose& to, const Vec3& bulge) const {
         Pose before = from;
         for (int i = 1; i <= 24; ++i) {
             const double s = static_cast<double>(i) / 24.0;
-            const Pose pose = along(from, to, s, bulge);
-            // Where it begins and ends it is as near as it is; in between nobody goes by a hair's breadth.
-            if (!step_is_free(before, pose, keeps_off * 4.0 * s * (1.0 - s))) return false;
+            const Pose pose = arc_pose(from, to, s, bulge);
+            // No clearance at both ends, where the wrench may be close to obstacles; the full one in between.
+            if (!step_is_free(before, pose, clearance * 4.0 * s * (1.0 - s))) return false;
             before = pose;
         }
         return true;
     }
 
-    // Whether a handle at this angle, `above` the nut, has nothing in it; beside it and over it too.
+    // True if a handle at this angle, `above` m over the nut, meets no obstacle. Tests its edges and heights
+    // too.
     [[nodiscard]] bool handle_is_free(std::size_t joint, double nut_angle, double angle, double above) const {
         const servo::NutGeometry& nut = setup.nuts[joint];
         const Vec3 centre = servo::nut_centre(nut, nut_angle) + above * nut.axis;
         const Vec3 out = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;
         const Vec3 across = glm::cross(nut.axis, out);
-        for (const double side : {-broad, 0.0, broad})
+        for (const double side : {-half_width, 0.0, half_width})
             for (const double height : {-0.35, 0.0, 0.35}) {
                 const Vec3 beside = side * across + height * nut.height * nut.axis;
-                if (servo::occluded(touch, centre + nut.across_flats * out + beside,
+                if (servo::occluded(contact, centre + nut.across_flats * out + beside,
                                     centre + length * out + beside, static_cast<int>(joint)))
                     return false;
             }
         return true;
     }
 
-    // rad that a handle may swing before it meets something, at most `most`; below zero: not even there.
+    // The angle in rad by which a handle can swing before it meets an obstacle, at most `most`; negative if
+    // it meets one at the start.
     [[nodiscard]] double swing_room(std::size_t joint, double nut_angle, double angle, double sign,
                                     double most) const {
         if (!handle_is_free(joint, nut_angle, angle, 0.0)) return -1.0;
         double room = 0.0;
-        while (room < most && handle_is_free(joint, nut_angle, angle + sign * (room + margin), 0.0))
+        while (room < most && handle_is_free(joint, nut_angle, angle + sign * (room + swing_margin), 0.0))
             room += swing_step;
         return std::min(room, most);
     }
 };
 
-// Into a gap that is not open above: straight in from the side, and to there over the top.
-std::optional<Way> from_beside(const Seen& seen, const Pose& from, const Pose& to, const Vec3& up,
-                               const std::function<Vec3(int)>& aside) {
+// For a gap that is closed above: over the top to a pose beside it, then straight in from the side.
+std::optional<ReachPath> side_approach(const FreeSpace& space, const Pose& from, const Pose& to,
+                                       const Vec3& up, const std::function<Vec3(int)>& aside) {
     for (const double far : {0.25, 0.4, 0.6})
         for (int i = 0; i < 8; ++i) {
             const Pose beside{to.position + far * aside(i), to.orientation};
-            if (!seen.way_is_free(beside, to, Vec3(0.0))) continue;
+            if (!space.path_is_free(beside, to, Vec3(0.0))) continue;
             for (const double high : lifts) {
                 const Pose lifted{from.position + high * up, from.orientation};
                 const Pose over{beside.position + glm::dot(lifted.position - beside.position, up) * up,
                                 to.orientation};
-                if (seen.way_is_free(from, lifted, Vec3(0.0)) && seen.way_is_free(lifted, over, Vec3(0.0)) &&
-                    seen.way_is_free(over, beside, Vec3(0.0)))
-                    return Way{Vec3(0.0), {lifted, over, beside}};
+                if (space.path_is_free(from, lifted, Vec3(0.0)) &&
+                    space.path_is_free(lifted, over, Vec3(0.0)) &&
+                    space.path_is_free(over, beside, Vec3(0.0)))
+                    return ReachPath{Vec3(0.0), {lifted, over, beside}};
             }
         }
     return std::nullopt;
@@ -131,12 +135,12 @@ std::optional<Way> from_beside(const Seen& seen, const Pose& from, const Pose& t
 
 }  // namespace
 
-Way way_round(const servo::Setup& setup, const servo::ToolContact& touch, const Pose& from, const Pose& to,
-              const Vec3& up, double least) {
-    const Seen seen(setup, touch);
-    if (seen.way_is_free(from, to, least * up)) return {least * up, {}};
+ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contact, const Pose& from,
+                     const Pose& to, const Vec3& up, double min_bulge) {
+    const FreeSpace space(setup, contact);
+    if (space.path_is_free(from, to, min_bulge * up)) return {min_bulge * up, {}};
     for (const double rise : rises)
-        if (rise > least && seen.way_is_free(from, to, rise * up)) return {rise * up, {}};
+        if (rise > min_bulge && space.path_is_free(from, to, rise * up)) return {rise * up, {}};
     const Vec3 helper = std::abs(up.x) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
     const Vec3 e1 = glm::normalize(helper - up * glm::dot(helper, up)), e2 = glm::cross(up, e1);
     const auto aside = [&](int eighth) {
@@ -144,81 +148,82 @@ Way way_round(const servo::Setup& setup, const servo::ToolContact& touch, const 
     };
     for (const double rise : {0.1, 0.2, 0.4})
         for (int i = 0; i < 8; ++i)
-            if (const Vec3 bulge = rise * (up + aside(i)); seen.way_is_free(from, to, bulge))
+            if (const Vec3 bulge = rise * (up + aside(i)); space.path_is_free(from, to, bulge))
                 return {bulge, {}};
-    const auto over_it = [&](double high) -> Way {
+    const auto path_over = [&](double high) -> ReachPath {
         return {Vec3(0.0),
                 {{from.position + high * up, from.orientation}, {to.position + high * up, to.orientation}}};
     };
     for (const double high : lifts) {
-        const Way way = over_it(high);
-        const Pose &lifted = way.stations[0], &above = way.stations[1];
-        if (seen.way_is_free(from, lifted, Vec3(0.0)) && seen.way_is_free(lifted, above, Vec3(0.0)) &&
-            seen.way_is_free(above, to, Vec3(0.0)))
-            return way;
+        const ReachPath path = path_over(high);
+        const Pose &lifted = path.waypoints[0], &above = path.waypoints[1];
+        if (space.path_is_free(from, lifted, Vec3(0.0)) && space.path_is_free(lifted, above, Vec3(0.0)) &&
+            space.path_is_free(above, to, Vec3(0.0)))
+            return path;
     }
     const Vec3 middle = 0.5 * (from.position + to.position);
     for (const double high : {0.2, 0.5})
         for (const double far : {0.0, 0.3, 0.6})
             for (int i = 0; i < (far > 0.0 ? 8 : 1); ++i) {
-                const Vec3 open = middle + high * up + far * aside(i);
-                const Pose as_it_is{open, from.orientation}, turned{open, to.orientation};
-                if (seen.way_is_free(from, as_it_is, Vec3(0.0)) &&
-                    seen.way_is_free(as_it_is, turned, Vec3(0.0)) && seen.way_is_free(turned, to, Vec3(0.0)))
-                    return {Vec3(0.0), {as_it_is, turned}};
+                const Vec3 centre = middle + high * up + far * aside(i);
+                const Pose unturned{centre, from.orientation}, turned{centre, to.orientation};
+                if (space.path_is_free(from, unturned, Vec3(0.0)) &&
+                    space.path_is_free(unturned, turned, Vec3(0.0)) &&
+                    space.path_is_free(turned, to, Vec3(0.0)))
+                    return {Vec3(0.0), {unturned, turned}};
             }
-    if (std::optional<Way> way = from_beside(seen, from, to, up, aside)) return *std::move(way);
-    return over_it(lifts.back());
+    if (std::optional<ReachPath> path = side_approach(space, from, to, up, aside)) return *std::move(path);
+    return path_over(lifts.back());
 }
 
-GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* touch, std::size_t joint,
-                      double nut_angle, double wanted, double sign, double stroke) {
-    std::optional<Seen> seen;
-    if (touch != nullptr) seen.emplace(setup, *touch);
+GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
+                      double nut_angle, double preferred, double sign, double stroke) {
+    std::optional<FreeSpace> space;
+    if (contact != nullptr) space.emplace(setup, *contact);
     GripAngle best;
-    double least = 1e9;
+    double lowest_cost = 1e9;
     for (const bool flip : {false, true}) {
         const double head = flip ? setup.wrench.head_angle : -setup.wrench.head_angle;
-        const double nearest = wanted + wrap(nut_angle - head - wanted, pi / 3.0);
+        const double nearest = preferred + wrap(nut_angle - head - preferred, pi / 3.0);
         for (int sixth = -3; sixth < 3; ++sixth) {
-            const double candidate = nearest + (touch != nullptr ? sixth * pi / 3.0 : 0.0);
-            double swing = stroke, squeeze = 0.0;
-            if (seen) {
-                swing = seen->swing_room(joint, nut_angle, candidate, sign, stroke);
+            const double candidate = nearest + (contact != nullptr ? sixth * pi / 3.0 : 0.0);
+            double swing = stroke, penalty = 0.0;
+            if (space) {
+                swing = space->swing_room(joint, nut_angle, candidate, sign, stroke);
                 for (const double above : heights)
-                    if (!seen->handle_is_free(joint, nut_angle, candidate, above)) squeeze = cramped;
+                    if (!space->handle_is_free(joint, nut_angle, candidate, above)) penalty = squeeze_cost;
             }
-            // Room for the pull counts more than where the arm would like to be.
-            const double cost = std::abs(candidate - wanted) + 4.0 * (stroke - swing) + squeeze;
-            if (cost >= least) continue;
-            least = cost;
+            // Room for the pull has more weight than the preferred angle.
+            const double cost = std::abs(candidate - preferred) + 4.0 * (stroke - swing) + penalty;
+            if (cost >= lowest_cost) continue;
+            lowest_cost = cost;
             best = {candidate, flip, std::max(swing, to_radians(15.0))};
         }
     }
     return best;
 }
 
-double room_above(const servo::Setup& setup, const servo::ToolContact& touch, std::size_t joint,
-                  double nut_angle, const GripAngle& grip, double most) {
-    const Seen seen(setup, touch);
+double hover_height(const servo::Setup& setup, const servo::ToolContact& contact, std::size_t joint,
+                    double nut_angle, const GripAngle& grip, double max_height) {
+    const FreeSpace space(setup, contact);
     const servo::NutGeometry& nut = setup.nuts[joint];
-    const Quat held = orientation_of(nut, grip.handle, grip.flipped);
-    for (double above = most; above > least_above; above -= above_step) {
+    const Quat held = tool_orientation(nut, grip.handle, grip.flipped);
+    for (double above = max_height; above > min_height; above -= height_step) {
         const Pose pose{servo::nut_centre(nut, nut_angle) + above * nut.axis, held};
-        if (seen.step_is_free(pose, pose, 0.5 * above_step)) return above;
+        if (space.step_is_free(pose, pose, 0.5 * height_step)) return above;
     }
-    return most;
+    return max_height;
 }
 
-Pose give_way(const Pose& wanted, const Pose& wrench) {
-    const Vec3 ahead = wanted.position - wrench.position;
+Pose yield_to_wrench(const Pose& commanded, const Pose& wrench) {
+    const Vec3 ahead = commanded.position - wrench.position;
     const Vec3 turn =
-        rotation_vector(glm::normalize(wanted.orientation * glm::conjugate(wrench.orientation)));
+        rotation_vector(glm::normalize(commanded.orientation * glm::conjugate(wrench.orientation)));
     const double far = glm::length(ahead), round = glm::length(turn);
-    Pose pose = wanted;
-    if (far > yields) pose.position = wrench.position + ahead * (yields / far);
-    if (round > yields_turn)
-        pose.orientation = glm::normalize(rotation(turn * (yields_turn / round)) * wrench.orientation);
+    Pose pose = commanded;
+    if (far > max_lead) pose.position = wrench.position + ahead * (max_lead / far);
+    if (round > max_turn_lead)
+        pose.orientation = glm::normalize(rotation(turn * (max_turn_lead / round)) * wrench.orientation);
     return pose;
 }
 

@@ -1,4 +1,5 @@
-// How a hand moves: minimum-jerk reaches and physiological tremor.
+// Motion of a simulated hand: reaches on an arc, physiological tremor, and path planning around the obstacles
+// of the contact simulation.
 #pragma once
 
 #include <cmath>
@@ -13,14 +14,13 @@ namespace bolt::motion {
 
 using bolt::minimum_jerk;
 
-// From one pose to another at share s of the way, on an arc that is `bulge` off the straight way at its
-// middle.
-inline Pose along(const Pose& from, const Pose& to, double s, const Vec3& bulge) {
+// The pose at fraction s of a reach, on an arc that is `bulge` off the straight line at its middle.
+inline Pose arc_pose(const Pose& from, const Pose& to, double s, const Vec3& bulge) {
     return {glm::mix(from.position, to.position, s) + bulge * (4.0 * s * (1.0 - s)),
             glm::slerp(from.orientation, to.orientation, s)};
 }
 
-// Two incommensurate sines per axis in the 8–12 Hz band, unit amplitude each axis, phases by seed.
+// Tremor as two incommensurate sines per axis in the 8–12 Hz band, with unit amplitude and random phases.
 class Tremor {
   public:
     explicit Tremor(Random& random) {
@@ -41,41 +41,39 @@ class Tremor {
     double phase_[count];
 };
 
-// Path planning for a simulated hand: free room for a handle and collision-free reaches. Queries the
-// obstacles of the contact simulation.
+// Orientation of a tool whose handle is at the given angle about the bolt, rad (tightening positive).
+Quat tool_orientation(const servo::NutGeometry& nut, double handle_angle, bool flipped);
 
-// Orientation of a tool whose handle stands at the given angle about the bolt (tightening positive).
-Quat orientation_of(const servo::NutGeometry& nut, double handle_angle, bool flipped);
-
-struct Way {
-    Vec3 bulge{0.0};             // m, off the straight way (minimum_jerk.hpp)
-    std::vector<Pose> stations;  // poses to go to first, straight: where it cannot be reached in one go
+struct ReachPath {
+    Vec3 bulge{0.0};              // m, as for arc_pose()
+    std::vector<Pose> waypoints;  // poses to reach first, on straight lines; empty if one reach suffices
 };
 
-// A reach from one pose to the other in which the wrench meets nothing that can be seen: off the straight way
-// along `up` by `least` or more, else to a side too, else straight up, across and down, else by way of a
-// place in the open where the wrench is turned; over the top as high as was tried if there is none.
-Way way_round(const servo::Setup& setup, const servo::ToolContact& touch, const Pose& from, const Pose& to,
-              const Vec3& up, double least);
+// Plans a reach in which the wrench touches no obstacle. Tries in this order: an arc with a bulge of at least
+// `min_bulge` m along `up`; an arc with a bulge to a side too; straight up, across and down; a detour through
+// open space where the wrench is turned; a straight approach from beside. If all fail, returns the highest
+// path over the top.
+ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contact, const Pose& from,
+                     const Pose& to, const Vec3& up, double min_bulge);
 
 struct GripAngle {
-    double handle = 0.0;  // rad, about the bolt
+    double handle = 0.0;  // rad about the bolt, tightening positive
     bool flipped = false;
-    double room = 0.0;  // rad that the handle may swing from there
+    double room = 0.0;  // rad by which the handle can swing from there
 };
 
-// Of the angles at which the jaw fits (every 60°, and 30° between with the wrench flipped), the one nearest
-// to `wanted` that has room for a pull of `stroke` in the sense of `sign` (tightening positive), and to get
-// there. Without obstacles all have.
-GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* touch, std::size_t joint,
-                      double nut_angle, double wanted, double sign, double stroke);
+// Chooses among the angles at which the jaw fits (every 60°, and 30° between these with the wrench flipped)
+// the one nearest to `preferred` with room for a pull of `stroke` rad in the direction of `sign` (tightening
+// positive) and for the approach. Without obstacles every angle has room.
+GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
+                      double nut_angle, double preferred, double sign, double stroke);
 
-// m above its nut where a wrench that is to go onto it waits: at most `most`, less where something stands
-// over the nut.
-double room_above(const servo::Setup& setup, const servo::ToolContact& touch, std::size_t joint,
-                  double nut_angle, const GripAngle& grip, double most);
+// Height above the nut, m, at which a wrench waits before it is lowered: `max_height`, or less if an obstacle
+// is above the nut.
+double hover_height(const servo::Setup& setup, const servo::ToolContact& contact, std::size_t joint,
+                    double nut_angle, const GripAngle& grip, double max_height);
 
-// A hand is not stronger than this: where the wrench stays behind, it does too.
-Pose give_way(const Pose& wanted, const Pose& wrench);
+// Limits how far the hand leads a blocked wrench, because a hand is not stronger than that.
+Pose yield_to_wrench(const Pose& commanded, const Pose& wrench);
 
 }  // namespace bolt::motion

@@ -13,48 +13,52 @@
 
 namespace bolt::motion {
 
-struct Sight {
-    Vec3 eye{0.0};                                           // m, where the head is
-    std::vector<std::vector<collision::SurfacePoint>> nuts;  // by joint; empty: not looked at yet
+// The eye of a simulated trainee, and cached surface samples for visibility queries.
+struct VisibilityModel {
+    Vec3 eye{0.0};                                           // m
+    std::vector<std::vector<collision::SurfacePoint>> nuts;  // by joint; empty: not sampled yet
     std::vector<collision::SurfacePoint> head;               // of the wrench
 };
 
-// 0…1 of a nut, past all obstacles; the wrench is none, it has to be there. 1 where the nut has no model.
-double nut_seen(Sight& sight, const servo::ToolContact& touch, std::size_t joint, const Vec3& eye);
+// The fraction 0…1 of a nut that the obstacles do not hide. The wrench does not count as an obstacle, because
+// it has to be there. 1 if the nut has no model.
+double nut_visibility(VisibilityModel& model, const servo::ToolContact& contact, std::size_t joint,
+                      const Vec3& eye);
 
-// The lesser of nut and wrench head, with the wrench at `wrench`.
-double place_seen(Sight& sight, const servo::Setup& setup, const servo::ToolContact& touch, std::size_t joint,
-                  const Pose& wrench, const Vec3& eye);
+// The smaller visible fraction of nut and wrench head, for a wrench at `wrench`.
+double target_visibility(VisibilityModel& model, const servo::Setup& setup, const servo::ToolContact& contact,
+                         std::size_t joint, const Pose& wrench, const Vec3& eye);
 
 struct HeadMove {
     Vec3 eye{0.0};
-    double turn = 0.0;  // rad about the place that is looked at, with all ways that were gone in vain
-    int glances = 0;
+    double turn = 0.0;  // rad, total movement about the nut, with the unsuccessful attempts
+    int glances = 0;    // directions tried
 };
 
-// Looks for a place for the head from where as much as `content` of the place is seen, by going there: nobody
-// knows what is seen from where they are not. It goes on one way about the place while more is seen, else
-// back and another way, and is content with the best if it is worse wherever it goes. None: it is well where
-// it is.
-std::optional<HeadMove> look_round(Sight& sight, const servo::Setup& setup, const servo::ToolContact& touch,
-                                   std::size_t joint, const Pose& wrench, double content, Random& random);
+// Searches for an eye with a target visibility of at least `sufficient` by moving the head, since a trainee
+// sees only from the present position. The head moves about the nut in one direction while the visibility
+// increases, then returns and tries another direction, and stops at the best position if no direction is
+// better. None: the present visibility suffices.
+std::optional<HeadMove> improve_view(VisibilityModel& model, const servo::Setup& setup,
+                                     const servo::ToolContact& contact, std::size_t joint, const Pose& wrench,
+                                     double sufficient, Random& random);
 
-// Standard deviation, m, of where a tool is placed by who sees that share of the place: sight and touch each
-// count by their precision (van Beers, Sittig and Denier van der Gon, J. Neurophysiol. 81 (1999) 1355).
-// `sharp`: with all of it seen; `tries`: times that it has felt for the place.
-double placing_noise(double sharp, double share, int tries);
+// Standard deviation, m, of the placement of a tool at a target with the visible fraction `share`. Vision and
+// touch are weighted by their precision (van Beers, Sittig and Denier van der Gon, J. Neurophysiol. 81 (1999)
+// 1355). `sharp`: standard deviation at full visibility, m; `tries`: earlier attempts by touch.
+double placement_noise(double sharp, double share, int tries);
 
-// The program's help with the view for a simulated trainee: returns an eye from which the nut is visible.
-
-struct ViewAsk {
+// A request for the program's help with the view for a simulated trainee.
+struct ViewRequest {
     const servo::Setup& setup;
-    const servo::ToolContact& touch;
+    const servo::ToolContact& contact;
     std::size_t joint = 0;
-    Vec3 nut{0.0};  // m, its middle
-    Pose wrench;    // where it is going to be
-    Vec3 eye{0.0};  // m, where it is now
+    Vec3 nut{0.0};  // m, centre
+    Pose wrench;    // its pose on the nut
+    Vec3 eye{0.0};  // m, present position
 };
 
-using ViewHelp = std::function<Vec3(const ViewAsk&)>;  // m, the eye in the new view
+// Returns an eye, m, from which the nut is visible.
+using ViewHelper = std::function<Vec3(const ViewRequest&)>;
 
 }  // namespace bolt::motion

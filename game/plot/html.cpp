@@ -11,19 +11,18 @@ namespace {
 constexpr std::string_view replacement = "\xEF\xBF\xBD";
 constexpr std::string_view minus = "\xE2\x88\x92";
 
-bool continues(std::string_view text, std::size_t at) {
+bool is_continuation(std::string_view text, std::size_t at) {
     return at < text.size() && (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U;
 }
 
-// Length of the well-formed UTF-8 sequence at `at`, 0 if there is none (overlong forms and surrogates are
-// none).
+// Length of the UTF-8 sequence at `at`; 0 if it is invalid, overlong or a surrogate.
 std::size_t sequence_length(std::string_view text, std::size_t at) {
     const auto lead = static_cast<unsigned char>(text[at]);
     if (lead < 0x80U) return 1;
     if (lead < 0xC2U || lead > 0xF4U) return 0;
     const std::size_t length = lead < 0xE0U ? 2 : lead < 0xF0U ? 3 : 4;
     for (std::size_t i = 1; i < length; ++i)
-        if (!continues(text, at + i)) return 0;
+        if (!is_continuation(text, at + i)) return 0;
     const auto second = static_cast<unsigned char>(text[at + 1]);
     const bool overlong = (lead == 0xE0U && second < 0xA0U) || (lead == 0xF0U && second < 0x90U);
     const bool beyond = (lead == 0xEDU && second > 0x9FU) || (lead == 0xF4U && second > 0x8FU);
@@ -215,15 +214,15 @@ std::string fact(std::string_view name, std::string_view value) {
 
 std::string path_fact(std::string_view name, std::string_view path) {
     if (path.empty()) return {};
-    std::string words;
+    std::string html;
     for (std::size_t from = 0; from < path.size();) {
         const std::size_t slash = path.find('/', from);
         const std::size_t end = slash == std::string_view::npos ? path.size() : slash + 1;
-        if (from > 0) words += "<wbr/>";
-        words += escape(path.substr(from, end - from));
+        if (from > 0) html += "<wbr/>";
+        html += escape(path.substr(from, end - from));
         from = end;
     }
-    return fmt::format("<div class=\"path\"><dt>{}</dt><dd>{}</dd></div>\n", name, words);
+    return fmt::format("<div class=\"path\"><dt>{}</dt><dd>{}</dd></div>\n", name, html);
 }
 
 }  // namespace bolt::plot

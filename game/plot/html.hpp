@@ -1,4 +1,5 @@
-// Text and numbers as a page shows them: escaped, and independent of the locale.
+// HTML of the report pages: escaped text, numbers independent of the locale, the style sheet, and the frame
+// of a page.
 #pragma once
 
 #include <string>
@@ -6,31 +7,28 @@
 
 namespace bolt::plot {
 
-// For HTML and SVG, text and attribute values alike. Bytes that are no UTF-8 and controls that XML forbids
-// become U+FFFD.
+// Escapes text and attribute values for HTML and SVG. Replaces invalid UTF-8 and the control characters that
+// XML forbids by U+FFFD.
 std::string escape(std::string_view text);
 
-// A number with a true minus sign and no "−0.0"; a dash for what is not a finite number.
+// A number with the minus sign U+2212 and without "−0.0". A value that is not finite gives a dash.
 std::string number(double value, int decimals);
 std::string signed_number(double value, int decimals);  // "+2.0"
 
 // "3 min 24.5 s"
 std::string duration_text(double seconds);
 
-// The style sheet of every page and drawing: light, dark and paper, one accent, figures in columns.
-
+// The style sheet of all pages and drawings, for light and dark screens and for paper.
 std::string_view style_sheet();
 
-// The frame of a page, and the few pieces that all pages use.
-
-// A whole document, with nothing from outside and no script. `body` is HTML already.
+// A complete document without external resources or scripts. `body`: HTML.
 std::string page(std::string_view title, std::string_view body);
 
-// A drawing with its heading and caption; both are HTML already and may be empty.
+// A drawing with heading and caption; both are HTML and may be empty.
 std::string figure(std::string_view heading, std::string_view svg, std::string_view caption);
 
-// An entry of a list of facts, from plain text; nothing for an empty value. A path takes a line of its own
-// and breaks only after a '/'.
+// An entry of a list of facts, from plain text. An empty value gives an empty string. A path has a line of
+// its own and breaks only after a '/'.
 std::string fact(std::string_view name, std::string_view value);
 std::string path_fact(std::string_view name, std::string_view path);
 

@@ -1,4 +1,4 @@
-// An x–y plot, stated as data and drawn in one go.
+// An x–y plot, described as data and drawn in one call.
 #pragma once
 
 #include <optional>
@@ -11,60 +11,60 @@
 namespace bolt::plot {
 
 // Styles are names of CSS classes (game/plot/html.cpp).
-struct Axis {
-    Ticks ticks;
+struct PlotAxis {
+    AxisTicks ticks;
     std::string label;
 };
 
-struct Line {
-    std::vector<Point> points;  // a NaN breaks the line
+struct PlotLine {
+    std::vector<SvgPoint> points;  // in data units; a NaN interrupts the line
     std::string_view style;
     bool second_axis = false;
 };
 
-// A stretch of x (over the full height) or of y (over the full width).
-struct Band {
-    Range range;
+// An interval of x (over the full height) or of y (over the full width).
+struct PlotBand {
+    AxisRange range;
     std::string_view style;
-    std::string label;  // bands of the same name that are too narrow for it share one
-    bool of_y = false;
-    bool strip = false;  // of x: only along the axis, so that it hides nothing
+    std::string label;   // narrow bands of the same label share one text
+    bool of_y = false;   // `range` is of y
+    bool strip = false;  // of x: only a strip along the axis, which hides no curve
 };
 
-// A thin line at one x or y.
-struct Rule {
-    double at = 0.0;
+// A thin line at one value of x or y.
+struct ReferenceLine {
+    double value = 0.0;
     std::string_view style;
     std::string label;
-    bool of_y = false;
+    bool of_y = false;  // `value` is of y
 };
 
-enum class Shape { dot, ring, square, triangle };
+enum class MarkerShape { dot, ring, square, triangle };
 
-struct Mark {
-    Point at;
-    Shape shape = Shape::dot;
+struct Marker {
+    SvgPoint position;  // in data units
+    MarkerShape shape = MarkerShape::dot;
     std::string_view style;
     std::string label;
     bool second_axis = false;
-    bool quiet = false;  // small print to the lower right; else bold, above; elsewhere where that is taken
+    bool small_label = false;  // small, preferably to the lower right; otherwise bold, preferably above
 };
 
 struct Plot {
     double width = 480.0, height = 300.0;
     std::string title;
-    Axis x, y;
-    std::optional<Axis> y2;
-    std::vector<Band> bands;  // first drawn lies lowest
-    std::vector<Rule> rules;
-    std::vector<Line> lines;
-    std::vector<Mark> marks;
+    PlotAxis x, y;
+    std::optional<PlotAxis> y2;
+    std::vector<PlotBand> bands;  // drawn in this order, below everything else
+    std::vector<ReferenceLine> reference_lines;
+    std::vector<PlotLine> lines;
+    std::vector<Marker> markers;
 };
 
-// Where the axes enclose the curves.
-Box plot_area(const Plot& plot);
+// The area of the curves, between the axes.
+SvgBox plot_area(const Plot& plot);
 
-// Draws into `svg`, whose size is the plot's.
+// Draws into `svg`, which must have the plot's size.
 void draw_into(Svg& svg, const Plot& plot);
 std::string draw(const Plot& plot);
 

@@ -14,27 +14,28 @@ namespace bolt::plot {
 
 namespace {
 
-// A range that can be divided: finite, not empty, not so narrow that the ticks would be equal numbers.
-Range sane(double low, double high) {
+// Returns a range that ticks can divide: finite, not empty, and wide enough for distinct numbers.
+AxisRange valid_range(double low, double high) {
     if (!std::isfinite(low) || !std::isfinite(high)) return {0.0, 1.0};
     if (low > high) std::swap(low, high);
     const double least = 1e-9 * std::max({std::abs(low), std::abs(high), 1e-3});
     if (high - low < least)
-        return low == 0.0 ? Range{0.0, 1.0} : Range{low - 0.5 * std::abs(low), high + 0.5 * std::abs(high)};
+        return low == 0.0 ? AxisRange{0.0, 1.0}
+                          : AxisRange{low - 0.5 * std::abs(low), high + 0.5 * std::abs(high)};
     return {low, high};
 }
 
-double decimal_step(double span, int about) {
-    const double rough = span / std::max(1, about);
+double decimal_step(double span, int count) {
+    const double rough = span / std::max(1, count);
     const double decade = std::pow(10.0, std::floor(std::log10(rough)));
     for (const double factor : {1.0, 2.0, 2.5, 5.0})
         if (rough <= factor * decade * 1.0000001) return factor * decade;
     return 10.0 * decade;
 }
 
-double degree_step(double span, int about) {
-    const double rough = span / std::max(1, about);
-    if (rough < 1.0) return decimal_step(span, about);
+double degree_step(double span, int count) {
+    const double rough = span / std::max(1, count);
+    if (rough < 1.0) return decimal_step(span, count);
     for (const double step : {1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0})
         if (rough <= step) return step;
     return 360.0 * std::ceil(rough / 360.0);
@@ -48,15 +49,15 @@ int decimals_of(double step) {
     return decimals;
 }
 
-Ticks ticks_between(Range range, double first, double last, double step) {
-    Ticks ticks;
+AxisTicks ticks_between(AxisRange range, double first, double last, double step) {
+    AxisTicks ticks;
     ticks.range = range;
     ticks.decimals = decimals_of(step);
-    for (double k = first; k <= last + 0.5; k += 1.0) ticks.at.push_back(k * step);
+    for (double k = first; k <= last + 0.5; k += 1.0) ticks.values.push_back(k * step);
     return ticks;
 }
 
-Ticks inside(Range range, double step) {
+AxisTicks inside(AxisRange range, double step) {
     constexpr double slack = 1e-9;  // a tick on the border is drawn
     return ticks_between(range, std::ceil(range.low / step - slack), std::floor(range.high / step + slack),
                          step);
@@ -64,37 +65,37 @@ Ticks inside(Range range, double step) {
 
 }  // namespace
 
-Ticks covering_ticks(double low, double high, int about) {
-    const Range range = sane(low, high);
-    const double step = decimal_step(range.span(), about);
+AxisTicks covering_ticks(double low, double high, int count) {
+    const AxisRange range = valid_range(low, high);
+    const double step = decimal_step(range.span(), count);
     const double first = std::floor(range.low / step + 1e-9);
     const double last = std::ceil(range.high / step - 1e-9);
     return ticks_between({first * step, last * step}, first, last, step);
 }
 
-Ticks inner_ticks(Range range, int about) {
-    const Range r = sane(range.low, range.high);
-    return inside(r, decimal_step(r.span(), about));
+AxisTicks inner_ticks(AxisRange range, int count) {
+    const AxisRange r = valid_range(range.low, range.high);
+    return inside(r, decimal_step(r.span(), count));
 }
 
-Ticks degree_ticks(Range range, int about) {
-    const Range r = sane(range.low, range.high);
-    return inside(r, degree_step(r.span(), about));
+AxisTicks degree_ticks(AxisRange range, int count) {
+    const AxisRange r = valid_range(range.low, range.high);
+    return inside(r, degree_step(r.span(), count));
 }
 
-Ticks count_ticks(int low, int high, int most) {
+AxisTicks count_ticks(int low, int high, int most) {
     const int count = std::max(1, high - low + 1);
     const int step = (count + std::max(1, most) - 1) / std::max(1, most);
-    Ticks ticks;
+    AxisTicks ticks;
     ticks.range = {low - 0.5, std::max(low, high) + 0.5};
-    for (int i = low; i <= std::max(low, high); i += step) ticks.at.push_back(i);
+    for (int i = low; i <= std::max(low, high); i += step) ticks.values.push_back(i);
     return ticks;
 }
 
 namespace {
 
-// Two decimals of a unit that is about a pixel, without trailing zeros; far outside the drawing it is cut
-// off, as renderers lose precision there.
+// Two decimals without trailing zeros; the unit is about a pixel. Clamped far outside the drawing, where
+// renderers lose precision.
 std::string coordinate(double value) {
     if (!std::isfinite(value)) value = 0.0;
     std::string text = fmt::format("{:.2f}", std::clamp(value, -1e5, 1e5));
@@ -112,12 +113,12 @@ Svg::Svg(double width, double height, std::string_view title) {
     fmt::format_to(std::back_inserter(text_), "<title>{}</title>", escape(title));
 }
 
-void Svg::line(Point a, Point b, std::string_view style) {
+void Svg::line(SvgPoint a, SvgPoint b, std::string_view style) {
     fmt::format_to(std::back_inserter(text_), R"(<line x1="{}" y1="{}" x2="{}" y2="{}" class="{}"/>)",
                    coordinate(a.x), coordinate(a.y), coordinate(b.x), coordinate(b.y), escape(style));
 }
 
-void Svg::rect(Box box, std::string_view style, double radius) {
+void Svg::rect(SvgBox box, std::string_view style, double radius) {
     fmt::format_to(std::back_inserter(text_), R"(<rect x="{}" y="{}" width="{}" height="{}")",
                    coordinate(box.x), coordinate(box.y), coordinate(std::max(0.0, box.width)),
                    coordinate(std::max(0.0, box.height)));
@@ -125,64 +126,64 @@ void Svg::rect(Box box, std::string_view style, double radius) {
     fmt::format_to(std::back_inserter(text_), R"( class="{}"/>)", escape(style));
 }
 
-void Svg::circle(Point centre, double radius, std::string_view style) {
+void Svg::circle(SvgPoint centre, double radius, std::string_view style) {
     fmt::format_to(std::back_inserter(text_), R"(<circle cx="{}" cy="{}" r="{}" class="{}"/>)",
                    coordinate(centre.x), coordinate(centre.y), coordinate(radius), escape(style));
 }
 
-void Svg::text(Point at, std::string_view style, std::string_view words) {
-    fmt::format_to(std::back_inserter(text_), R"(<text x="{}" y="{}" class="{}">{}</text>)", coordinate(at.x),
-                   coordinate(at.y), escape(style), escape(words));
+void Svg::text(SvgPoint position, std::string_view style, std::string_view text) {
+    fmt::format_to(std::back_inserter(text_), R"(<text x="{}" y="{}" class="{}">{}</text>)",
+                   coordinate(position.x), coordinate(position.y), escape(style), escape(text));
 }
 
-void Svg::path(std::span<const Point> points, std::string_view style, bool closed) {
+void Svg::path(std::span<const SvgPoint> points, std::string_view style, bool closed) {
     std::string data;
-    bool down = false;
-    for (const Point& p : points) {
+    bool pen_down = false;
+    for (const SvgPoint& p : points) {
         if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-            down = false;
+            pen_down = false;
             continue;
         }
-        fmt::format_to(std::back_inserter(data), "{}{} {}", down ? "L" : "M", coordinate(p.x),
+        fmt::format_to(std::back_inserter(data), "{}{} {}", pen_down ? "L" : "M", coordinate(p.x),
                        coordinate(p.y));
-        down = true;
+        pen_down = true;
     }
     if (data.empty()) return;
     if (closed) data += "Z";
     fmt::format_to(std::back_inserter(text_), R"(<path d="{}" class="{}"/>)", data, escape(style));
 }
 
-void Svg::enter(Box box) {
+void Svg::begin_clip(SvgBox box) {
     fmt::format_to(std::back_inserter(text_), R"(<svg x="{}" y="{}" width="{}" height="{}">)",
                    coordinate(box.x), coordinate(box.y), coordinate(box.width), coordinate(box.height));
-    ++open_;
+    ++open_clips_;
 }
 
-void Svg::leave() {
-    if (open_ == 0) return;
+void Svg::end_clip() {
+    if (open_clips_ == 0) return;
     text_ += "</svg>";
-    --open_;
+    --open_clips_;
 }
 
 std::string Svg::finish() {
-    while (open_ > 0) leave();
+    while (open_clips_ > 0) end_clip();
     return text_ + "</svg>\n";
 }
 
 std::string standalone(std::string_view svg, std::string_view style_sheet) {
     const std::size_t after_title = svg.find("</title>");
     const std::size_t at = after_title == std::string_view::npos ? svg.find('>') + 1 : after_title + 8;
-    // In CDATA, as a style sheet may hold '>' and '&'.
+    // A style sheet may contain '>' and '&', hence CDATA.
     return fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}<style><![CDATA[{}]]></style>{}",
                        svg.substr(0, at), style_sheet, svg.substr(at));
 }
 
 namespace {
 
-bool is_gap(const Point& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); }
+bool is_gap(const SvgPoint& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); }
 
-void append_run(std::vector<Point>& out, std::span<const Point> run) {
-    const auto by_y = [](const Point& a, const Point& b) { return a.y < b.y; };
+void append_run(std::vector<SvgPoint>& out, std::span<const SvgPoint> run) {
+    const auto by_y = [](const SvgPoint& a, const SvgPoint& b) { return a.y < b.y; };
     const auto [low, high] = std::minmax_element(run.begin(), run.end(), by_y);
     std::ptrdiff_t keep[] = {0, low - run.begin(), high - run.begin(), std::ssize(run) - 1};
     std::sort(std::begin(keep), std::end(keep));
@@ -195,8 +196,8 @@ void append_run(std::vector<Point>& out, std::span<const Point> run) {
 
 }  // namespace
 
-std::vector<Point> decimate(std::span<const Point> points, double column) {
-    std::vector<Point> out;
+std::vector<SvgPoint> decimate(std::span<const SvgPoint> points, double column) {
+    std::vector<SvgPoint> out;
     for (std::size_t begin = 0; begin < points.size();) {
         if (is_gap(points[begin]) || !(column > 0.0)) {
             out.push_back(points[begin++]);
@@ -212,12 +213,12 @@ std::vector<Point> decimate(std::span<const Point> points, double column) {
     return out;
 }
 
-std::vector<Point> within(std::span<const Point> points, Range x) {
+std::vector<SvgPoint> points_within(std::span<const SvgPoint> points, AxisRange x) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    std::vector<Point> out;
+    std::vector<SvgPoint> out;
     bool drawing = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const Point& p = points[i];
+        const SvgPoint& p = points[i];
         const bool gap = is_gap(p);
         const bool inside = !gap && p.x >= x.low && p.x <= x.high;
         if (inside && !drawing && i > 0 && !is_gap(points[i - 1])) out.push_back(points[i - 1]);
@@ -230,49 +231,52 @@ std::vector<Point> within(std::span<const Point> points, Range x) {
 
 namespace {
 
-double shared(double a, double a_size, double b, double b_size) {
+double overlap_length(double a, double a_size, double b, double b_size) {
     return std::max(0.0, std::min(a + a_size, b + b_size) - std::max(a, b));
 }
 
-double shared_area(const Box& a, const Box& b) {
-    return shared(a.x, a.width, b.x, b.width) * shared(a.y, a.height, b.y, b.height);
+double overlap_area(const SvgBox& a, const SvgBox& b) {
+    return overlap_length(a.x, a.width, b.x, b.width) * overlap_length(a.y, a.height, b.y, b.height);
 }
 
 }  // namespace
 
-double text_width(std::string_view words, double size) {
-    const auto starts = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
-    return 0.58 * size * static_cast<double>(std::count_if(words.begin(), words.end(), starts));
+double text_width(std::string_view text, double size) {
+    const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
+    return 0.58 * size * static_cast<double>(std::count_if(text.begin(), text.end(), starts_character));
 }
 
-Box words_box(const Spot& spot, std::string_view words, double size) {
-    const double width = text_width(words, size);
-    const double share = spot.anchor == Anchor::start ? 0.0 : spot.anchor == Anchor::middle ? 0.5 : 1.0;
-    return {spot.at.x - share * width, spot.at.y - 0.8 * size, width, size};
+SvgBox text_box(const LabelPosition& position, std::string_view text, double size) {
+    const double width = text_width(text, size);
+    const double share = position.anchor == TextAnchor::start    ? 0.0
+                         : position.anchor == TextAnchor::middle ? 0.5
+                                                                 : 1.0;
+    return {position.baseline.x - share * width, position.baseline.y - 0.8 * size, width, size};
 }
 
-std::string_view anchor_style(Anchor anchor) {
-    return anchor == Anchor::start ? "" : anchor == Anchor::middle ? " mid" : " end";
+std::string_view anchor_class(TextAnchor anchor) {
+    return anchor == TextAnchor::start ? "" : anchor == TextAnchor::middle ? " mid" : " end";
 }
 
-double Placer::in_the_way(const Box& box) const {
-    double area = box.width * box.height - shared_area(box, page_);
-    for (const Box& other : taken_) area += shared_area(box, other);
+double LabelLayout::overlap(const SvgBox& box) const {
+    double area = box.width * box.height - overlap_area(box, page_);
+    for (const SvgBox& other : occupied_) area += overlap_area(box, other);
     return area;
 }
 
-std::size_t Placer::choose(std::span<const Box> boxes) {
+std::size_t LabelLayout::place(std::span<const SvgBox> boxes) {
     std::size_t best = 0;
     for (std::size_t i = 1; i < boxes.size(); ++i)
-        if (in_the_way(boxes[i]) < in_the_way(boxes[best]) - 1e-6) best = i;
-    if (!boxes.empty()) take(boxes[best]);
+        if (overlap(boxes[i]) < overlap(boxes[best]) - 1e-6) best = i;
+    if (!boxes.empty()) occupy(boxes[best]);
     return best;
 }
 
-Spot Placer::choose(std::span<const Spot> spots, std::string_view words, double size) {
-    std::vector<Box> boxes;
-    for (const Spot& spot : spots) boxes.push_back(words_box(spot, words, size));
-    return spots.empty() ? Spot{} : spots[choose(boxes)];
+LabelPosition LabelLayout::place(std::span<const LabelPosition> positions, std::string_view text,
+                                 double size) {
+    std::vector<SvgBox> boxes;
+    for (const LabelPosition& position : positions) boxes.push_back(text_box(position, text, size));
+    return positions.empty() ? LabelPosition{} : positions[place(boxes)];
 }
 
 }  // namespace bolt::plot

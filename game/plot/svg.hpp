@@ -1,4 +1,4 @@
-// Scales: a range, and ticks on it that a person can read.
+// SVG drawing: axis scales and ticks, an SVG writer, decimation of lines, and placement of labels.
 #pragma once
 
 #include <span>
@@ -8,71 +8,71 @@
 
 namespace bolt::plot {
 
-struct Range {
+struct AxisRange {
     double low = 0.0;
     double high = 1.0;
     [[nodiscard]] double span() const { return high - low; }
 };
 
-struct Ticks {
-    std::vector<double> at;  // rising
-    int decimals = 0;        // that tell neighbouring ticks apart
-    Range range;             // what the ticks, or the caller, ask to be drawn
+struct AxisTicks {
+    std::vector<double> values;  // ascending
+    int decimals = 0;            // for the labels, so that neighbouring ticks differ
+    AxisRange range;             // to be drawn; set by the ticks or by the caller
 };
 
-// Ticks 1, 2, 2.5 or 5 · 10ⁿ apart, about `about` of them, whose first and last cover [low, high].
-Ticks covering_ticks(double low, double high, int about = 5);
+// Returns about `count` ticks, 1, 2, 2.5 or 5 · 10ⁿ apart. The first and last one cover [low, high].
+AxisTicks covering_ticks(double low, double high, int count = 5);
 
-// Ticks inside the range, which stays as it is. Degrees step by divisors and multiples of a turn (…, 15, 30,
-// 45, 90 …).
-Ticks inner_ticks(Range range, int about = 6);
-Ticks degree_ticks(Range range, int about = 6);
+// Return about `count` ticks inside the range, which stays as it is. Degrees step by divisors and multiples
+// of a turn (…, 15, 30, 45, 90 …).
+AxisTicks inner_ticks(AxisRange range, int count = 6);
+AxisTicks degree_ticks(AxisRange range, int count = 6);
 
-// Whole numbers low … high, thinned to at most `most`: attempts, counts.
-Ticks count_ticks(int low, int high, int most = 12);
+// Returns integers low … high, thinned to at most `most`; for attempts and counts.
+AxisTicks count_ticks(int low, int high, int most = 12);
 
-// An SVG drawing, element by element. Text is escaped here and nowhere else; colours are CSS classes, so that
-// one drawing serves light, dark and paper.
-
-struct Point {
+// In units of the drawing, x from the left and y from the top; or in the units of a plot's data.
+struct SvgPoint {
     double x = 0.0;
     double y = 0.0;
 };
 
-struct Box {
+struct SvgBox {
     double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
 };
 
-// x from the left, y from the top, in the drawing's own units.
+// Writes an SVG drawing element by element. It alone escapes text. `style` is a list of CSS classes; they
+// define the colours, so that one drawing serves light, dark and paper.
 class Svg {
   public:
-    // `title` is read out and shown as a tooltip.
+    // `title` is read aloud by screen readers and shown as a tooltip.
     Svg(double width, double height, std::string_view title);
 
-    void line(Point a, Point b, std::string_view style);
-    void rect(Box box, std::string_view style, double radius = 0.0);
-    void circle(Point centre, double radius, std::string_view style);
-    void text(Point at, std::string_view style, std::string_view words);  // anchor by class: "mid", "end"
-    void path(std::span<const Point> points, std::string_view style,
-              bool closed = false);  // a NaN lifts the pen
+    void line(SvgPoint a, SvgPoint b, std::string_view style);
+    void rect(SvgBox box, std::string_view style, double radius = 0.0);
+    void circle(SvgPoint centre, double radius, std::string_view style);
+    // `position`: of the baseline's start, or of its middle or end with the class "mid" or "end".
+    void text(SvgPoint position, std::string_view style, std::string_view text);
+    void path(std::span<const SvgPoint> points, std::string_view style,
+              bool closed = false);  // a NaN interrupts the path
 
-    // What is drawn until leave() is clipped to the box; coordinates inside start at its corner.
-    void enter(Box box);
-    void leave();
+    // Until end_clip() the drawing is clipped to `box`, and coordinates are relative to its top left corner.
+    void begin_clip(SvgBox box);
+    void end_clip();
 
-    [[nodiscard]] std::string finish();  // for use inside a page, which brings the style sheet
+    [[nodiscard]] std::string finish();  // for use inside a page, which has the style sheet
 
   private:
     std::string text_;
-    int open_ = 0;
+    int open_clips_ = 0;
 };
 
-// The same drawing as a file of its own, with the style sheet inside.
+// Returns the drawing as a file of its own, which contains the style sheet.
 std::string standalone(std::string_view svg, std::string_view style_sheet);
 
-// Maps a range to a length; `flip` for y, which grows upwards on paper.
-struct Scale {
-    Range range;
+// Maps a range to a length. `flip`: for y, which points upwards in plots and downwards in drawings.
+struct AxisScale {
+    AxisRange range;
     double length = 1.0;
     bool flip = false;
     [[nodiscard]] double operator()(double value) const {
@@ -81,51 +81,49 @@ struct Scale {
     }
 };
 
-// Fewer points for the same picture. Highest and lowest points are never lost.
+// Reduces a line to the first, lowest, highest and last point of each run of points that falls into one
+// column of width `column` (the M4 rule: Jugel et al., VLDB 2014). The drawing looks the same. A NaN ends a
+// run and is kept. The order is kept.
+std::vector<SvgPoint> decimate(std::span<const SvgPoint> points, double column);
 
-// Of each run of points that falls into one column `column` wide, the first, lowest, highest and last (the M4
-// rule: Jugel et al., VLDB 2014). A NaN ends a run and is kept. Order is kept.
-std::vector<Point> decimate(std::span<const Point> points, double column);
+// Returns the points whose x is within the range, and the neighbour on either side of each stretch: the
+// points that a clipped line needs.
+std::vector<SvgPoint> points_within(std::span<const SvgPoint> points, AxisRange x);
 
-// The points within [low, high] in x, and the neighbour on either side of each stretch: what a clipped line
-// needs.
-std::vector<Point> within(std::span<const Point> points, Range x);
+// Estimate for a wide typeface, in proportion to the number of UTF-8 characters. On narrow screens the style
+// sheet uses larger letters, so pass their size.
+double text_width(std::string_view text, double size);
 
-// Words in a drawing, placed so that they touch neither each other nor what is drawn.
+// Alignment of a text with its position: the style sheet's "mid" and "end", otherwise the start.
+enum class TextAnchor { start, middle, end };
 
-// Roughly, in a wide typeface and letter by letter of UTF-8. On narrow screens the style sheet takes larger
-// letters, so ask for those.
-double text_width(std::string_view words, double size);
-
-// Where words stand for an anchor: the style sheet's "mid" and "end", else they start at it.
-enum class Anchor { start, middle, end };
-
-struct Spot {
-    Point at;  // of the words' base line
-    Anchor anchor = Anchor::start;
+struct LabelPosition {
+    SvgPoint baseline;
+    TextAnchor anchor = TextAnchor::start;
 };
 
-Box words_box(const Spot& spot, std::string_view words, double size);
-std::string_view anchor_style(Anchor anchor);  // " mid", " end" or nothing
+SvgBox text_box(const LabelPosition& position, std::string_view text, double size);
+std::string_view anchor_class(TextAnchor anchor);  // " mid", " end" or ""
 
-class Placer {
+// Places labels so that they overlap neither each other nor occupied boxes, as far as possible.
+class LabelLayout {
   public:
-    explicit Placer(Box page) : page_(page) {}
+    explicit LabelLayout(SvgBox page) : page_(page) {}
 
-    void take(const Box& box) { taken_.push_back(box); }
+    void occupy(const SvgBox& box) { occupied_.push_back(box); }
 
-    // The first of the boxes that lies on the page and touches nothing taken, else the one that is least in
-    // the way. It is taken then.
-    std::size_t choose(std::span<const Box> boxes);
+    // Returns the index of the box with the least area outside the page or on occupied boxes, the first one
+    // of equals, and occupies it.
+    std::size_t place(std::span<const SvgBox> boxes);
 
-    // The same for words.
-    Spot choose(std::span<const Spot> spots, std::string_view words, double size);
+    // Does the same for a text at one of `positions`.
+    LabelPosition place(std::span<const LabelPosition> positions, std::string_view text, double size);
 
   private:
-    [[nodiscard]] double in_the_way(const Box& box) const;
+    [[nodiscard]] double overlap(const SvgBox& box) const;
 
-    Box page_;
-    std::vector<Box> taken_;
+    SvgBox page_;
+    std::vector<SvgBox> occupied_;
 };
 
 }  // namespace bolt::plot

@@ -19,14 +19,14 @@ namespace {
 
 constexpr std::string_view unnamed_person = "person without a name";
 
-// "2.1 %"; a dash alone where there is none.
+// "2.1 %", or a dash if the share is not finite.
 std::string percent(double share) {
     return std::isfinite(share) ? plot::number(100.0 * share, 1) + " %" : plot::number(share, 1);
 }
 
-// What a reader has to know about the names in the table.
+// Notes on the trainees' names in the table.
 std::string trainee_note(std::span<const Attempt> attempts) {
-    const auto any = [&](const auto& holds) { return std::any_of(attempts.begin(), attempts.end(), holds); };
+    const auto any = [&](const auto& test) { return std::any_of(attempts.begin(), attempts.end(), test); };
     std::string out;
     if (any([](const Attempt& a) { return a.operator_kind == session::OperatorKind::unrecorded; }))
         out +=
@@ -113,30 +113,30 @@ Attempt attempt_of(const analysis::SessionData& session) {
     a.duration = session.duration;
     a.summary = analysis::summarise(session);
 
-    const analysis::Feel& feel = session.feel;
-    constexpr double unknown = analysis::Moment::nan;
-    a.guided = feel.guided;
+    const analysis::HapticMetrics& metrics = session.metrics;
+    constexpr double unknown = analysis::ForceJump::nan;
+    a.guided = metrics.guided;
     a.view_help = session.header.view_help == "on";
-    a.obstacles = feel.obstacles;
-    std::vector<double> waited, placing;
-    double seen = 0.0, looked = 0.0;
-    for (const analysis::Arrival& arrival : feel.arrivals)
+    a.obstacles = metrics.obstacles;
+    std::vector<double> times_to_nut, times_near_nut;
+    double visible_time = 0.0, near_time = 0.0;
+    for (const analysis::Arrival& arrival : metrics.arrivals)
         if (arrival.wrench) {
-            waited.push_back(arrival.waited);
-            placing.push_back(arrival.placing);
-            if (!std::isfinite(arrival.seen)) continue;
-            seen += arrival.seen;
-            looked += arrival.placing;
+            times_to_nut.push_back(arrival.duration);
+            times_near_nut.push_back(arrival.near_nut);
+            if (!std::isfinite(arrival.nut_visible)) continue;
+            visible_time += arrival.nut_visible;
+            near_time += arrival.near_nut;
         }
-    a.seen = looked > 0.0 ? seen / looked : unknown;
-    a.to_nut = analysis::quartiles(std::move(waited)).median;
-    a.near_nut = analysis::quartiles(std::move(placing)).median;
-    a.bumps = feel.recorded ? static_cast<double>(feel.bumps.size()) : unknown;
-    a.bump_time = feel.recorded ? 0.0 : unknown;
-    for (const analysis::Bump& bump : feel.bumps) a.bump_time += bump.length;
-    const double greatest = feel.device ? feel.device->force : unknown;
-    a.greatest_change = feel.force.greatest / greatest;
-    a.usual_change = feel.force.p99 / greatest;
+    a.visible_share = near_time > 0.0 ? visible_time / near_time : unknown;
+    a.time_to_nut = analysis::quartiles(std::move(times_to_nut)).median;
+    a.time_near_nut = analysis::quartiles(std::move(times_near_nut)).median;
+    a.bumps = metrics.recorded ? static_cast<double>(metrics.bumps.size()) : unknown;
+    a.bump_time = metrics.recorded ? 0.0 : unknown;
+    for (const analysis::Bump& bump : metrics.bumps) a.bump_time += bump.length;
+    const double greatest = metrics.device ? metrics.device->force : unknown;
+    a.greatest_change = metrics.force.greatest / greatest;
+    a.usual_change = metrics.force.p99 / greatest;
     return a;
 }
 
@@ -166,17 +166,19 @@ void put(std::string& out, fmt::format_string<Values...> format, Values&&... val
     fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
 }
 
-struct Measure {
+// A quantity that a study compares.
+struct StudyMeasure {
     std::string_view name, unit;
     double Attempt::*value;
     double scale;
     int decimals;
 };
 
-constexpr Measure measures[] = {
-    {"Time to get onto the nut", "s, median over the steps", &Attempt::to_nut, 1.0, 2},
-    {"Time near the nut until it is held", "s, median over the steps", &Attempt::near_nut, 1.0, 2},
-    {"Nut in sight meanwhile", "% of the time, with 60 % of it seen or more", &Attempt::seen, 100.0, 0},
+constexpr StudyMeasure measures[] = {
+    {"Time to get onto the nut", "s, median over the steps", &Attempt::time_to_nut, 1.0, 2},
+    {"Time near the nut until it is held", "s, median over the steps", &Attempt::time_near_nut, 1.0, 2},
+    {"Nut in sight meanwhile", "% of the time, with 60 % of it seen or more", &Attempt::visible_share, 100.0,
+     0},
     {"Bumps", "in a lesson", &Attempt::bumps, 1.0, 1},
     {"Time against something", "s in a lesson", &Attempt::bump_time, 1.0, 2},
     {"Duration of the lesson", "min", &Attempt::duration, 1.0 / 60.0, 2},
@@ -186,36 +188,37 @@ constexpr Measure measures[] = {
      100.0, 3},
 };
 
-// What is with some lessons and not with others.
-struct Factor {
+// An aid that some attempts have and others have not.
+struct StudyFactor {
     std::string_view heading, title, with, without;
     bool Attempt::*has;
-    std::string_view model;  // how simulated trainees have it
+    std::string_view model;  // how it works for simulated trainees
 };
 
-constexpr Factor guiding{"guiding", "with and without guiding", "guided", "not guided", &Attempt::guided, ""};
-constexpr Factor view{
-    "view help",
-    "with and without view help",
-    "view help",
-    "by hand",
-    &Attempt::view_help,
-    " Whoever sees less of nut and jaw than they want presses V: after a glance of 0.3 s and 0.35 s of "
-    "gliding "
-    "the eye is where the program's search puts it, and what is still not seen to their content is looked "
-    "for by "
-    "hand. By hand the eye begins in the assembly's first view and is moved about the place at 60° a second: "
-    "up, down or "
-    "aside by chance and after a glance of 0.3 s, on while more is seen, back after 30° in vain and another "
-    "way, "
-    "until they are content or it is worse everywhere. The hand waits meanwhile; who sees less places the "
-    "wrench "
-    "worse. Nothing else differs: that people forget the key, tire, or lose their way in a view is not "
-    "modelled."};
+constexpr StudyFactor guiding{"guiding",    "with and without guiding", "guided",
+                              "not guided", &Attempt::guided,           ""};
+constexpr StudyFactor view{"view help",
+                           "with and without view help",
+                           "view help",
+                           "by hand",
+                           &Attempt::view_help,
+                           " A trainee that sees less of nut and jaw than it wants presses V: after a glance "
+                           "of 0.3 s and a transition of "
+                           "0.35 s the eye is in the view that the program found. If that shows too little "
+                           "as well, the trainee moves its head "
+                           "as without the help. Without the help the eye begins in the assembly's first "
+                           "view and moves about the nut at 60° a "
+                           "second: after a glance of 0.3 s up, down or to a side at random, on while more "
+                           "becomes visible, and back after 30° "
+                           "without gain to try another direction, until enough is visible or every "
+                           "direction is worse. The hand waits "
+                           "meanwhile. The less is visible, the less accurately the wrench is placed. "
+                           "Nothing else differs: that people forget "
+                           "the key, tire, or lose their way in a view is not modelled."};
 
-using Group = std::vector<const Attempt*>;
+using AttemptList = std::vector<const Attempt*>;
 
-std::vector<double> values_of(const Group& group, const Measure& measure) {
+std::vector<double> values_of(const AttemptList& group, const StudyMeasure& measure) {
     std::vector<double> values;
     for (const Attempt* a : group) {
         const double value = a->*measure.value * measure.scale;
@@ -224,9 +227,9 @@ std::vector<double> values_of(const Group& group, const Measure& measure) {
     return values;
 }
 
-// Dots that would cover each other stand on top of each other, within the row; how many they are is said
-// where there is no room for that.
-void draw_row(plot::Svg& svg, const std::vector<double>& values, const plot::Scale& x, double left,
+// Draws the box of the quartiles and one dot per value. Dots that would overlap are stacked within the row;
+// more than five equal values also get a text with their number.
+void draw_row(plot::Svg& svg, const std::vector<double>& values, const plot::AxisScale& x, double left,
               double middle, std::string_view dot) {
     constexpr double radius = 2.6, room = 11.0;
     const analysis::Quartiles q = analysis::quartiles(values);
@@ -235,11 +238,11 @@ void draw_row(plot::Svg& svg, const std::vector<double>& values, const plot::Sca
     svg.line({left + x(q.median), middle - room - 2.0}, {left + x(q.median), middle + room + 2.0}, "me1");
     std::vector<double> sorted = values;
     std::sort(sorted.begin(), sorted.end());
-    std::vector<plot::Point> drawn;
+    std::vector<plot::SvgPoint> drawn;
     for (const double value : sorted) {
-        plot::Point p{left + x(value), middle};
+        plot::SvgPoint p{left + x(value), middle};
         for (int step = 1; step < 9; ++step) {
-            const bool covered = std::any_of(drawn.begin(), drawn.end(), [&](const plot::Point& d) {
+            const bool covered = std::any_of(drawn.begin(), drawn.end(), [&](const plot::SvgPoint& d) {
                 return std::hypot(d.x - p.x, d.y - p.y) < 2.0 * radius;
             });
             if (!covered) break;
@@ -257,17 +260,17 @@ void draw_row(plot::Svg& svg, const std::vector<double>& values, const plot::Sca
     }
 }
 
-std::string strip_plot(const Group& with, const Group& without, const Measure& measure,
-                       const Factor& factor) {
+std::string strip_plot(const AttemptList& with, const AttemptList& without, const StudyMeasure& measure,
+                       const StudyFactor& factor) {
     const std::vector<double> a = values_of(with, measure), b = values_of(without, measure);
     if (a.empty() || b.empty()) return {};
     const double high =
         std::max(*std::max_element(a.begin(), a.end()), *std::max_element(b.begin(), b.end()));
     constexpr double width = 460.0, height = 112.0, left = 82.0, right = 22.0;
-    const plot::Ticks ticks = plot::covering_ticks(0.0, high > 0.0 ? high : 1.0, 5);
-    const plot::Scale x{ticks.range, width - left - right, false};
+    const plot::AxisTicks ticks = plot::covering_ticks(0.0, high > 0.0 ? high : 1.0, 5);
+    const plot::AxisScale x{ticks.range, width - left - right, false};
     plot::Svg svg(width, height, fmt::format("{}, {}, {}", measure.name, measure.unit, factor.title));
-    for (const double at : ticks.at) {
+    for (const double at : ticks.values) {
         svg.line({left + x(at), 4.0}, {left + x(at), 80.0}, "gr");
         svg.text({left + x(at), 93.0}, "tk mid", plot::number(at, ticks.decimals));
     }
@@ -284,13 +287,13 @@ std::string quartile_text(const analysis::Quartiles& q, int decimals) {
                        plot::number(q.low, decimals), plot::number(q.high, decimals));
 }
 
-std::string part(const Group& with, const Group& without, const Factor& factor) {
+std::string study_part(const AttemptList& with, const AttemptList& without, const StudyFactor& factor) {
     const Attempt& first = *with.front();
     const bool simulated = first.operator_kind == session::OperatorKind::simulated;
     std::string out;
     put(out, "<h2>With and without {}: {}, {}{}</h2>\n", factor.heading, plot::escape(first.title),
         plot::escape(first.trainee), first.obstacles ? "" : ", without obstacles");
-    const auto finished = [](const Group& group) {
+    const auto finished = [](const AttemptList& group) {
         return std::count_if(group.begin(), group.end(), [](const Attempt* a) { return a->finished; });
     };
     put(out, "<p>{}n = {} {} and {} {}; finished: {} and {}.{}</p>\n",
@@ -306,7 +309,7 @@ std::string part(const Group& with, const Group& without, const Factor& factor) 
         "<div class=\"scroll\"><table><thead><tr><th>median (quartiles)</th><th class=\"n\">{}</th><th "
         "class=\"n\">{}</th></tr></thead><tbody>\n",
         factor.with, factor.without);
-    for (const Measure& m : measures) {
+    for (const StudyMeasure& m : measures) {
         const analysis::Quartiles a = analysis::quartiles(values_of(with, m)),
                                   b = analysis::quartiles(values_of(without, m));
         if (a.n + b.n == 0) continue;
@@ -314,27 +317,27 @@ std::string part(const Group& with, const Group& without, const Factor& factor) 
             m.name, m.unit, quartile_text(a, m.decimals), quartile_text(b, m.decimals));
     }
     out += "</tbody></table></div>\n<div class=\"grid\">\n";
-    for (const Measure& m : measures) out += strip_plot(with, without, m, factor);
+    for (const StudyMeasure& m : measures) out += strip_plot(with, without, m, factor);
     return out +
            "</div>\n<p class=\"note\">Each dot is a lesson; the box is from the lower to the upper quartile "
            "(type 7), the line is the median.</p>\n";
 }
 
-std::string study(std::span<const Attempt> attempts, const Factor& factor, bool Attempt::*alike_in) {
+std::string study(std::span<const Attempt> attempts, const StudyFactor& factor, bool Attempt::*equal_in) {
     const auto key = [&](const Attempt& a) {
         return std::tie(a.assembly, a.title, a.task, a.variant, a.law, a.mode, a.trainee, a.operator_kind,
-                        a.obstacles, a.*alike_in);
+                        a.obstacles, a.*equal_in);
     };
     std::string out;
-    Group seen;
+    AttemptList compared;
     for (const Attempt& attempt : attempts) {
-        const auto alike = [&](const Attempt* other) { return key(*other) == key(attempt); };
-        if (std::any_of(seen.begin(), seen.end(), alike)) continue;
-        seen.push_back(&attempt);
-        Group with, without;
+        const auto comparable = [&](const Attempt* other) { return key(*other) == key(attempt); };
+        if (std::any_of(compared.begin(), compared.end(), comparable)) continue;
+        compared.push_back(&attempt);
+        AttemptList with, without;
         for (const Attempt& a : attempts)
-            if (a.complete && alike(&a)) (a.*factor.has ? with : without).push_back(&a);
-        if (!with.empty() && !without.empty()) out += part(with, without, factor);
+            if (a.complete && comparable(&a)) (a.*factor.has ? with : without).push_back(&a);
+        if (!with.empty() && !without.empty()) out += study_part(with, without, factor);
     }
     return out;
 }

@@ -16,88 +16,90 @@ namespace {
 using plot::escape;
 using plot::number;
 
-constexpr std::size_t most_small_plots = 40;  // cycles of one joint that get a drawing of their own
+constexpr std::size_t most_small_plots = 40;  // of single cycles of a joint
 
-struct View {
-    plot::Range angle;   // degrees from the common point
-    plot::Range torque;  // N·m
+// The axes' ranges of a plot.
+struct CurveExtent {
+    plot::AxisRange angle;   // degrees from the common point
+    plot::AxisRange torque;  // N·m
 };
 
-// Degrees from the common point of the first cycle, in which frame ours does not move.
-double our_zero(const analysis::JointComparison& joint) {
+// The angle, rad, of the virtual curve at the common point of the first cycle: the plots' 0°.
+double common_angle(const analysis::JointComparison& joint) {
     return joint.cycles.empty() ? 0.0 : joint.cycles[0].alignment.our_angle;
 }
 
-std::vector<plot::Point> our_points(const analysis::JointComparison& joint) {
-    std::vector<plot::Point> points;
+std::vector<plot::SvgPoint> virtual_points(const analysis::JointComparison& joint) {
+    std::vector<plot::SvgPoint> points;
     for (std::size_t i = 0; i < joint.ours.size(); ++i)
-        points.push_back({to_degrees(joint.ours.angle[i] - our_zero(joint)), joint.ours.torque[i]});
+        points.push_back({to_degrees(joint.ours.angle[i] - common_angle(joint)), joint.ours.torque[i]});
     return points;
 }
 
-std::vector<plot::Point> cycle_points(const analysis::Comparison& c, const analysis::JointComparison& joint,
-                                      std::size_t cycle) {
-    const analysis::Curve& curve = c.measured[cycle].curve;
-    const double shift = joint.cycles[cycle].alignment.shift - our_zero(joint);
-    std::vector<plot::Point> points;
+std::vector<plot::SvgPoint> cycle_points(const analysis::Comparison& c,
+                                         const analysis::JointComparison& joint, std::size_t cycle) {
+    const analysis::TorqueCurve& curve = c.measured[cycle].curve;
+    const double shift = joint.cycles[cycle].alignment.shift - common_angle(joint);
+    std::vector<plot::SvgPoint> points;
     for (std::size_t i = 0; i < curve.size(); ++i)
         points.push_back({to_degrees(curve.angle[i] + shift), curve.torque[i]});
     return points;
 }
 
-// Where a curve carries load: from its first to its last sample above a share of its peak that noise does not
-// reach.
-void include_loaded(View& view, const std::vector<plot::Point>& points) {
+// Extends the range of torques by the whole curve, and the range of angles by the samples under load: those
+// above 8 % of the peak, which noise does not reach.
+void add_curve(CurveExtent& extent, const std::vector<plot::SvgPoint>& points) {
     double peak = 0.0;
-    for (const plot::Point& p : points) peak = std::max(peak, std::abs(p.y));
-    for (const plot::Point& p : points) {
-        view.torque = {std::min(view.torque.low, p.y), std::max(view.torque.high, p.y)};
+    for (const plot::SvgPoint& p : points) peak = std::max(peak, std::abs(p.y));
+    for (const plot::SvgPoint& p : points) {
+        extent.torque = {std::min(extent.torque.low, p.y), std::max(extent.torque.high, p.y)};
         if (std::abs(p.y) < 0.08 * peak) continue;
-        view.angle = {std::min(view.angle.low, p.x), std::max(view.angle.high, p.x)};
+        extent.angle = {std::min(extent.angle.low, p.x), std::max(extent.angle.high, p.x)};
     }
 }
 
-plot::Plot framed(View view, std::string title, double width, double height) {
-    const double margin = std::max(2.0, 0.2 * view.angle.span());
-    view.angle = {view.angle.low - margin, view.angle.high + margin};
+plot::Plot plot_with_extent(CurveExtent extent, std::string title, double width, double height) {
+    const double margin = std::max(2.0, 0.2 * extent.angle.span());
+    extent.angle = {extent.angle.low - margin, extent.angle.high + margin};
     plot::Plot plot;
     plot.width = width;
     plot.height = height;
     plot.title = std::move(title);
-    plot.x = {plot::degree_ticks(view.angle, width > 400.0 ? 8 : 4), "angle from the common point, °"};
-    plot.x.ticks.range = view.angle;
-    plot.y = {plot::covering_ticks(view.torque.low, view.torque.high, width > 400.0 ? 6 : 3), "torque, N·m"};
+    plot.x = {plot::degree_ticks(extent.angle, width > 400.0 ? 8 : 4), "angle from the common point, °"};
+    plot.x.ticks.range = extent.angle;
+    plot.y = {plot::covering_ticks(extent.torque.low, extent.torque.high, width > 400.0 ? 6 : 3),
+              "torque, N·m"};
     return plot;
 }
 
 void add_stages(plot::Plot& plot, const analysis::JointComparison& joint) {
     constexpr std::string_view styles[] = {"s0", "s1", "s2", "s3"};
-    const analysis::Curve& ours = joint.ours;
+    const analysis::TorqueCurve& ours = joint.ours;
     for (std::size_t i = 0; i < ours.size();) {
         std::size_t end = i;
         while (end + 1 < ours.size() && ours.stage[end + 1] == ours.stage[i]) ++end;
         const std::size_t to = std::min(end + 1, ours.size() - 1);
-        plot.bands.push_back(
-            {{to_degrees(ours.angle[i] - our_zero(joint)), to_degrees(ours.angle[to] - our_zero(joint))},
-             styles[static_cast<std::size_t>(ours.stage[i])],
-             std::string(joint::name(ours.stage[i]))});
+        plot.bands.push_back({{to_degrees(ours.angle[i] - common_angle(joint)),
+                               to_degrees(ours.angle[to] - common_angle(joint))},
+                              styles[static_cast<std::size_t>(ours.stage[i])],
+                              std::string(joint::name(ours.stage[i]))});
         i = end + 1;
     }
 }
 
-// Everything of one joint, in one frame: the small plots share it, so that they can be compared.
-View view_of(const analysis::Comparison& c, const analysis::JointComparison& joint) {
-    View view{{0.0, 0.0}, {0.0, 0.0}};
-    include_loaded(view, our_points(joint));
-    for (std::size_t i = 0; i < joint.cycles.size(); ++i) include_loaded(view, cycle_points(c, joint, i));
-    return view;
+// The extent of all curves of one joint. The small plots share it, so that they can be compared.
+CurveExtent curve_extent(const analysis::Comparison& c, const analysis::JointComparison& joint) {
+    CurveExtent extent{{0.0, 0.0}, {0.0, 0.0}};
+    add_curve(extent, virtual_points(joint));
+    for (std::size_t i = 0; i < joint.cycles.size(); ++i) add_curve(extent, cycle_points(c, joint, i));
+    return extent;
 }
 
 plot::Plot cycle_plot(const analysis::Comparison& c, const analysis::JointComparison& joint,
-                      std::size_t cycle, const View& view) {
-    plot::Plot plot = framed(view, fmt::format("cycle {}", c.measured[cycle].name), 220.0, 150.0);
+                      std::size_t cycle, const CurveExtent& extent) {
+    plot::Plot plot = plot_with_extent(extent, fmt::format("cycle {}", c.measured[cycle].name), 220.0, 150.0);
     plot.x.label.clear();
-    plot.lines.push_back({our_points(joint), "ln p2", false});
+    plot.lines.push_back({virtual_points(joint), "ln p2", false});
     plot.lines.push_back({cycle_points(c, joint, cycle), "ln me1", false});
     return plot;
 }
@@ -106,7 +108,7 @@ std::string error_value(const analysis::StageError& e, double value) {
     return e.count > 0 ? number(value, 5) : "–";
 }
 
-std::string error_table(const analysis::Errors& errors) {
+std::string error_table(const analysis::TorqueErrors& errors) {
     std::string out =
         "<div class=\"scroll\"><table><thead><tr><th>stage</th><th class=\"n\">MRE</th><th "
         "class=\"n\">MAPE</th>"
@@ -138,19 +140,19 @@ std::string cycle_table(const analysis::Comparison& c, const analysis::JointComp
         "<th class=\"n\">all<br/>MRE / MAPE</th><th class=\"n\">samples</th><th class=\"n\">left "
         "out</th></tr></thead><tbody>\n";
     for (std::size_t i = 0; i < joint.cycles.size(); ++i) {
-        const analysis::Errors& e = joint.cycles[i].errors;
+        const analysis::TorqueErrors& e = joint.cycles[i].errors;
         const std::string& name = c.measured[i].name;
         out += fmt::format(
             "<tr><td>{}</td><td class=\"n\">{}°</td><td class=\"n\">{}</td><td class=\"n\">{}</td>",
             name.empty() ? fmt::format("{}", i + 1) : escape(name),
             number(to_degrees(joint.cycles[i].alignment.shift), 1),
-            number(analysis::floor_of(c.measured[i].curve, 1.0), 3), number(e.floor, 3));
+            number(analysis::torque_floor(c.measured[i].curve, 1.0), 3), number(e.floor, 3));
         for (const analysis::StageError& s : e.stage)
             out += fmt::format("<td class=\"n\">{} / {}</td>", error_value(s, s.mre), error_value(s, s.mape));
         out +=
             fmt::format("<td class=\"n\">{} / {}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
                         error_value(e.all, e.all.mre), error_value(e.all, e.all.mape), e.all.count,
-                        e.all.below + e.outside + c.measured[i].curve.passed_over);
+                        e.all.below + e.outside + c.measured[i].curve.skipped);
     }
     return out + "</tbody></table></div></details>\n";
 }
@@ -164,14 +166,14 @@ std::string joint_section(const analysis::Comparison& c, std::size_t index) {
     out += plot::figure("", plot::draw(overlay_plot(c, index)), escape(caption));
     out += "<div>" + error_table(joint.errors) + "</div></div>\n" + cycle_table(c, joint);
     if (c.joints.size() > 1 || c.measured.size() < 2) return out;
-    const View view = view_of(c, joint);
+    const CurveExtent extent = curve_extent(c, joint);
     out += "<h2>Cycle by cycle</h2>\n<div class=\"grid tiny\">\n";
     for (std::size_t i = 0; i < std::min(c.measured.size(), most_small_plots); ++i) {
         const analysis::StageError& all = joint.cycles[i].errors.all;
         out +=
             plot::figure(fmt::format("<h3>{}</h3><span class=\"note\">MAPE {}</span>",
                                      escape(c.measured[i].name), all.count > 0 ? number(all.mape, 3) : "–"),
-                         plot::draw(cycle_plot(c, joint, i, view)), "");
+                         plot::draw(cycle_plot(c, joint, i, extent)), "");
     }
     out += "</div>\n";
     if (c.measured.size() > most_small_plots)
@@ -188,13 +190,13 @@ std::string source_line(const analysis::Comparison& c) {
 
 plot::Plot overlay_plot(const analysis::Comparison& c, std::size_t index) {
     const analysis::JointComparison& joint = c.joints[index];
-    plot::Plot plot =
-        framed(view_of(c, joint), fmt::format("{}: virtual and measured torque", joint.joint), 480.0, 320.0);
+    plot::Plot plot = plot_with_extent(
+        curve_extent(c, joint), fmt::format("{}: virtual and measured torque", joint.joint), 480.0, 320.0);
     add_stages(plot, joint);
     const std::string_view style = joint.cycles.size() == 1 ? "ln me1" : "ln me";
     for (std::size_t i = 0; i < joint.cycles.size(); ++i)
         plot.lines.push_back({cycle_points(c, joint, i), style, false});
-    plot.lines.push_back({our_points(joint), "ln p2", false});
+    plot.lines.push_back({virtual_points(joint), "ln p2", false});
     return plot;
 }
 
@@ -227,9 +229,7 @@ std::string comparison_page(const analysis::Comparison& c) {
 
 namespace {
 
-using plot::number;
-
-double highest_of(const analysis::Curve& curve) { return analysis::floor_of(curve, 1.0); }
+double peak_of(const analysis::TorqueCurve& curve) { return analysis::torque_floor(curve, 1.0); }
 
 std::string span_text(double low, double high) {
     const std::string a = number(low, 2), b = number(high, 2);
@@ -242,23 +242,24 @@ std::vector<std::string> remarks(const analysis::Comparison& c) {
     std::vector<std::string> texts;
     double least = 0.0, most = 0.0;
     for (const analysis::MeasuredCurve& cycle : c.measured) {
-        const double peak = highest_of(cycle.curve);
+        const double peak = peak_of(cycle.curve);
         least = least == 0.0 ? peak : std::min(least, peak);
         most = std::max(most, peak);
     }
-    double ours_least = 0.0, ours_most = 0.0;
+    double virtual_least = 0.0, virtual_most = 0.0;
     for (const analysis::JointComparison& joint : c.joints) {
-        const double peak = highest_of(joint.ours);
-        ours_least = ours_least == 0.0 ? peak : std::min(ours_least, peak);
-        ours_most = std::max(ours_most, peak);
+        const double peak = peak_of(joint.ours);
+        virtual_least = virtual_least == 0.0 ? peak : std::min(virtual_least, peak);
+        virtual_most = std::max(virtual_most, peak);
     }
     texts.push_back(fmt::format("Highest torque: measured {} N·m, virtual {} N·m.", span_text(least, most),
-                                span_text(ours_least, ours_most)));
-    const double ratio = std::max(ours_most / std::max(least, 1e-12), most / std::max(ours_least, 1e-12));
+                                span_text(virtual_least, virtual_most)));
+    const double ratio =
+        std::max(virtual_most / std::max(least, 1e-12), most / std::max(virtual_least, 1e-12));
     if (ratio > 3.0)
         texts.push_back(
             fmt::format("The peaks differ by a factor of up to {}: these are not the same joint, and the "
-                        "relative errors say so.",
+                        "relative errors show it.",
                         number(ratio, 1)));
     for (std::size_t i = 0; i < c.errors.stage.size(); ++i) {
         const analysis::StageError& stage = c.errors.stage[i];
@@ -296,7 +297,7 @@ std::string console_text(const analysis::Comparison& c) {
                        c.joints.size() == 1 ? "" : "s", c.law);
     out += fmt::format("{:<12} {:<12} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "joint", "stage", "MRE", "MAPE",
                        "samples", "floor", "outside");
-    const auto rows = [&](const std::string& joint, const analysis::Errors& errors) {
+    const auto rows = [&](const std::string& joint, const analysis::TorqueErrors& errors) {
         const auto row = [&](std::string_view stage, const analysis::StageError& e,
                              const std::string& outside) {
             const auto value = [&](double v) {

@@ -1,4 +1,5 @@
-// A comparison for the reader: on the console, as a page, as one drawing a joint.
+// Output of a comparison of virtual and measured torque: console text, HTML page, and an SVG drawing for each
+// joint.
 #pragma once
 
 #include <string>
@@ -10,19 +11,19 @@ namespace bolt::report {
 
 std::string console_text(const analysis::Comparison& comparison);
 
-// Ours and every measured cycle, shifted onto each other; 0° is the point they are aligned by.
+// The virtual curve and all measured cycles, aligned; 0° is the common point.
 plot::Plot overlay_plot(const analysis::Comparison& comparison, std::size_t joint);
 
-// One joint as an SVG file of its own, with the source named in it.
+// One joint as a standalone SVG file that names the source.
 std::string overlay_svg(const analysis::Comparison& comparison, std::size_t joint);
 
-// A whole HTML document that needs nothing else.
+// A complete HTML document without external resources.
 std::string comparison_page(const analysis::Comparison& comparison);
 
-// What one should know before trusting the figures: peaks that differ by a factor, stages without a sample.
+// Limits of the comparison: peaks that differ by a large factor, stages without samples.
 std::vector<std::string> remarks(const analysis::Comparison& comparison);
 
-// How the curves were laid upon each other and what the errors mean.
+// How the curves were aligned and how the errors are defined.
 std::string method_text(const analysis::Comparison& comparison);
 
 }  // namespace bolt::report

@@ -1,4 +1,4 @@
-// The joints seen along their bolts: in which order they were taken, and what clamp force each holds.
+// Drawings of all joints of an assembly: maps, seen along the bolts, and rows of clamp forces.
 #pragma once
 
 #include <string>
@@ -9,19 +9,24 @@
 
 namespace bolt::report {
 
-// Joints seen from the nuts, scaled into the width; the height follows.
-struct PlanLayout {
-    std::vector<plot::Point> at;
+// Positions of the joints, seen from the nuts and scaled to the width; the height follows from them.
+struct JointMapLayout {
+    std::vector<plot::SvgPoint> positions;  // by joint
     double width = 480.0, height = 200.0;
-    double radius = 12.0;  // of a joint's disc, so that neighbours do not touch
+    double radius = 12.0;  // of a joint's disc; neighbouring discs do not touch
 };
-PlanLayout plan_layout(const content::Assembly& assembly, double width, double margin);
+JointMapLayout joint_map_layout(const content::Assembly& assembly, double width, double margin);
 
-std::string order_plan(const analysis::SessionData& session, const analysis::PassOrder& order);
-std::string clamp_plan(const analysis::SessionData& session);
+// The planned and the actual order of one pass.
+std::string order_map(const analysis::SessionData& session, const analysis::PassOrder& order);
 
-// One row a joint: force when released and in the end, against the target and the mean.
+// The clamp force of each joint against its target.
+std::string clamp_map(const analysis::SessionData& session);
+
+// One row per joint: the clamp force at the release and at the end, the target, and the mean of all joints.
 std::string clamp_rows(const analysis::SessionData& session);
-bool released_apart(const analysis::SessionData& session);  // some row shows that the two differ
+
+// Returns true if a row shows a difference between the forces at the release and at the end.
+bool has_release_differences(const analysis::SessionData& session);
 
 }  // namespace bolt::report

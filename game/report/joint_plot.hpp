@@ -1,4 +1,4 @@
-// Torque and clamp force over the nut angle for one joint, from a little before the first contact.
+// The plot of one joint: torque and clamp force over the nut angle, from shortly before the first contact.
 #pragma once
 
 #include <string>
@@ -8,19 +8,19 @@
 
 namespace bolt::report {
 
-// What the plot leaves out and where it counts from, in words for its caption.
-struct JointView {
-    double zero = 0.0;       // rad, nut angle that is drawn as 0
-    plot::Range shown;       // degrees from zero
-    std::string zero_name;   // "snug", "first contact", "start"
-    bool cut = false;        // the run-down is left out
-    bool cut_after = false;  // what was turned of a loose nut is not all drawn
+// The range of angles that the plot shows.
+struct JointPlotFrame {
+    double origin = 0.0;      // rad, nut angle that is drawn as 0
+    plot::AxisRange range;    // degrees from the origin
+    std::string origin_name;  // "snug", "first contact" or "start"
+    bool cut_before = false;  // the run-down is not drawn
+    bool cut_after = false;   // the end of the free rotation while loosening is not drawn
 };
-JointView joint_view(const analysis::SessionData& session, std::size_t joint);
+JointPlotFrame joint_plot_frame(const analysis::SessionData& session, std::size_t joint);
 
 plot::Plot joint_plot(const analysis::SessionData& session, std::size_t joint);
 
-// The plot with the whole run, from the hand-started nut on, as a small inset.
+// The plot, with a small inset of the whole run from the hand-started nut on if the run-down is cut.
 std::string joint_figure(const analysis::SessionData& session, std::size_t joint);
 
 std::string run_down_text(const analysis::RunDown& run);

@@ -82,18 +82,18 @@ std::string trainee_plot(const TaskAttempts& task, const Indices& trainee, const
     const std::string better = measure.better.empty() ? "" : fmt::format(", {}", measure.better);
     plot.y = {plot::covering_ticks(0.0, highest_value(task, measure), 4),
               fmt::format("{}{}", measure.unit, better)};
-    plot::Line median{{}, "ln cl"}, curve{{}, "ln p2"};
+    plot::PlotLine median{{}, "ln cl"}, curve{{}, "ln p2"};
     for (std::size_t n = 0; n < task.most_attempts; ++n) {
         const double value = median_of_trainees(task, measure, first.operator_kind, n);
         if (std::isfinite(value)) median.points.push_back({static_cast<double>(n + 1), value});
     }
     for (std::size_t n = 0; n < trainee.size(); ++n) {
         const Attempt& attempt = task.attempts[trainee[n]];
-        const plot::Point p{static_cast<double>(n + 1), measure.value(attempt)};
+        const plot::SvgPoint p{static_cast<double>(n + 1), measure.value(attempt)};
         curve.points.push_back(p);
         if (!std::isfinite(p.y)) continue;
-        plot.marks.push_back({p, attempt.complete ? plot::Shape::dot : plot::Shape::ring,
-                              attempt.complete ? "mpeak" : "mclamp", "", false});
+        plot.markers.push_back({p, attempt.complete ? plot::MarkerShape::dot : plot::MarkerShape::ring,
+                                attempt.complete ? "mpeak" : "mclamp", "", false});
     }
     if (median.points.size() > 1) plot.lines.push_back(std::move(median));
     plot.lines.push_back(std::move(curve));

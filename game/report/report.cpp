@@ -11,7 +11,7 @@
 #include "engine/base/math.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
-#include "game/report/feel_section.hpp"
+#include "game/report/haptics_section.hpp"
 #include "game/report/joint_map.hpp"
 #include "game/report/joint_plot.hpp"
 
@@ -50,17 +50,18 @@ void put_heading(std::string& out, const analysis::SessionData& s, std::size_t i
 
     out += plot::fact("task", s.header.task);
     out += plot::fact("mode", s.header.mode);
-    if (s.feel.recorded) {
-        out += plot::fact("guiding force", s.feel.guided ? "on" : "off");
+    if (s.metrics.recorded) {
+        out += plot::fact("guiding force", s.metrics.guided ? "on" : "off");
         if (!s.header.view_help.empty()) out += plot::fact("view help", s.header.view_help);
-        out += plot::fact("obstacles", s.feel.obstacles ? "met" : "none");
+        out += plot::fact("obstacles", s.metrics.obstacles ? "met" : "none");
     }
     out += plot::fact("law", s.header.law);
     out += plot::fact("variant", s.header.variant);
     if (!s.header.tool.empty()) out += plot::fact("tool", s.header.tool);
     out += plot::fact("duration", plot::duration_text(s.duration));
     out += plot::fact("seed", fmt::format("{}", s.header.seed));
-    if (index > 0) out += plot::path_fact("session", s.file);  // one alone is known by where its report lies
+    if (index > 0)
+        out += plot::path_fact("session", s.file);  // the report of a single session lies beside it
     out += "</dl>\n";
 }
 
@@ -107,24 +108,24 @@ void put_joint_row(std::string& out, const analysis::SessionData& s, std::size_t
 }
 
 constexpr std::string_view loosening_note =
-    "<p class=\"note\">Breakaway: highest torque at the wrench while the joint was loosened; no value is "
-    "asked "
-    "of it. Clamp: at the end of the session.</p>\n";
+    "<p class=\"note\">Breakaway: highest torque at the wrench while the joint was loosened; it is "
+    "not judged. Clamp: at the end of the session.</p>\n";
 
 std::string judging_note(const analysis::SessionData& s) {
     const std::vector<content::AssemblyJoint>& joints = s.assembly.joints;
     const bool angle =
         std::any_of(joints.begin(), joints.end(), [](const auto& j) { return j.spec.has_angle; });
     const bool recheck = std::any_of(s.assembly.passes.begin(), s.assembly.passes.end(),
-                                     [](const auto& p) { return p.kind == content::StepKind::recheck; });
+                                     [](const auto& p) { return p.kind == content::PassKind::recheck; });
     std::string out = fmt::format(
         "<p class=\"note\">Judged: {}; clamp force is shown, a wrench cannot measure it. Torque: highest at "
         "the wrench in the 100\u00a0% tightening pass.",
         angle ? "torque and angle" : "torque");
     if (recheck)
         out +=
-            " A re-check, like any other pull, counts only if it turned the nut on by more than 2°: one that "
-            "only sees the nut begin to move shows its breakaway torque, which is higher by the static "
+            " A re-check, like any other pull, counts only if it turned the nut further by more than 2°: one "
+            "in which "
+            "the nut only begins to move shows its breakaway torque, which is higher by the static "
             "friction and is not judged.";
     out += " Clamp: at the end of the session.";
     if (std::any_of(joints.begin(), joints.end(), [](const auto& j) { return j.spec.target_clamp <= 0.0; }))
@@ -152,47 +153,50 @@ void put_joints(std::string& out, const analysis::SessionData& s) {
 }
 
 std::string order_verdict(const analysis::PassOrder& order) {
-    if (order.asked.empty()) return "<span class=\"v vn\">no order asked</span>";
+    if (order.planned.empty()) return "<span class=\"v vn\">no order asked</span>";
     if (!order.in_turn()) return "<span class=\"v vl\">▲ not as asked</span>";
-    if (order.left_out() == 0) return "<span class=\"v vo\">✓ as asked</span>";
-    return fmt::format("<span class=\"v vl\">▼ {} left out</span>", order.left_out());
+    if (order.skipped_joints() == 0) return "<span class=\"v vo\">✓ as asked</span>";
+    return fmt::format("<span class=\"v vl\">▼ {} left out</span>", order.skipped_joints());
 }
 
-std::string counted(std::size_t passes) {
+std::string number_word(std::size_t passes) {
     constexpr std::string_view words[] = {"two", "three", "four", "five", "six", "seven", "eight", "nine"};
     return passes >= 2 && passes <= 9 ? std::string(words[passes - 2]) : fmt::format("{}", passes);
 }
 
-// One drawing of all that went as asked, one of each pass that did not.
+// Draws one map for all passes that followed the planned order, and one for each other pass.
 void put_order(std::string& out, const analysis::SessionData& s) {
     const std::vector<analysis::PassOrder> orders = analysis::pass_orders(s);
     const std::vector<analysis::OrderDrawing> drawings = analysis::order_drawings(orders);
-    const auto any = [&](auto is) { return std::any_of(drawings.begin(), drawings.end(), is); };
-    const auto any_turn = [&](bool analysis::Turn::*is) {
+    const auto any = [&](auto test) { return std::any_of(drawings.begin(), drawings.end(), test); };
+    const auto any_turn = [&](bool analysis::OrderEntry::*flag) {
         return any([&](const analysis::OrderDrawing& d) {
-            return std::any_of(d.order.followed.begin(), d.order.followed.end(),
-                               [&](const analysis::Turn& t) { return t.*is; });
+            return std::any_of(d.order.actual.begin(), d.order.actual.end(),
+                               [&](const analysis::OrderEntry& t) { return t.*flag; });
         });
     };
     out += "<h2>Order</h2>\n<p class=\"note\">Seen from the nuts. Numbers and solid line: the order followed";
-    if (any([](const analysis::OrderDrawing& d) { return !d.order.asked.empty() && !d.order.as_asked(); }))
+    if (any([](const analysis::OrderDrawing& d) {
+            return !d.order.planned.empty() && !d.order.as_planned();
+        }))
         out += "; dotted line: the order asked";
-    if (any([](const analysis::OrderDrawing& d) { return d.order.left_out() > 0; })) out += "; –: left out";
-    if (any_turn(&analysis::Turn::out_of_turn))
+    if (any([](const analysis::OrderDrawing& d) { return d.order.skipped_joints() > 0; }))
+        out += "; –: left out";
+    if (any_turn(&analysis::OrderEntry::out_of_turn))
         out += "; ▲: out of turn, the fewest joints that would have to move";
-    if (any_turn(&analysis::Turn::again)) out += "; 2×: taken twice";
+    if (any_turn(&analysis::OrderEntry::repeated)) out += "; 2×: taken twice";
     out += ".</p>\n<div class=\"grid small\">\n";
     for (const analysis::OrderDrawing& drawing : drawings) {
         const bool all = drawing.passes > 1 && drawing.passes == orders.size();
-        const std::string label =
-            all ? fmt::format("all {} passes", counted(drawing.passes)) : plot::escape(drawing.order.label);
+        const std::string label = all ? fmt::format("all {} passes", number_word(drawing.passes))
+                                      : plot::escape(drawing.order.label);
         out += plot::figure(fmt::format("<h3>{}</h3>{}", label, order_verdict(drawing.order)),
-                            order_plan(s, drawing.order), "");
+                            order_map(s, drawing.order), "");
     }
     out += "</div>\n";
     std::string not_begun;
     for (const analysis::PassOrder& order : orders)
-        if (order.followed.empty()) not_begun += (not_begun.empty() ? "" : ", ") + order.label;
+        if (order.actual.empty()) not_begun += (not_begun.empty() ? "" : ", ") + order.label;
     if (!not_begun.empty()) put(out, "<p class=\"note\">Not begun: {}.</p>\n", plot::escape(not_begun));
 }
 
@@ -210,10 +214,10 @@ void put_clamp(std::string& out, const analysis::SessionData& s) {
         out += ".</p>\n";
     }
     out += "<div class=\"grid\">\n";
-    out += plot::figure("<h3>On the flange</h3>", clamp_plan(s),
+    out += plot::figure("<h3>On the flange</h3>", clamp_map(s),
                         "Clamp force, kN; green line: target; colour: verdict of the joint.");
     std::string rows = "Dot: in the end, after embedding and the neighbours";
-    if (released_apart(s)) rows += "; open dot: when the wrench left";
+    if (has_release_differences(s)) rows += "; open dot: when the wrench left";
     rows += ". Green line: target.";
     if (std::isfinite(m.clamp_deviation)) rows += " Dashed and shaded: mean ± standard deviation.";
     out += plot::figure("<h3>Joint by joint</h3>", clamp_rows(s), rows);
@@ -225,24 +229,24 @@ bool is_worked(const analysis::JointCurve& curve) {
                        [](const analysis::Visit& v) { return v.worked; });
 }
 
-// Styles of all that the plots of a session show.
+// Returns the styles of all visible elements in the plots of a session.
 std::set<std::string_view> drawn_styles(const analysis::SessionData& s) {
     std::set<std::string_view> styles;
     for (std::size_t j = 0; j < s.curves.size(); ++j) {
         if (!is_worked(s.curves[j])) continue;
         const plot::Plot plot = joint_plot(s, j);
-        const plot::Range x = plot.x.ticks.range;
-        const auto meets = [&](const plot::Range& r) {
+        const plot::AxisRange x = plot.x.ticks.range;
+        const auto visible = [&](const plot::AxisRange& r) {
             return std::max(r.low, r.high) > x.low && std::min(r.low, r.high) < x.high;
         };
-        for (const plot::Band& band : plot.bands)
-            if (band.of_y || meets(band.range)) styles.insert(band.style);
-        for (const plot::Line& line : plot.lines)
-            if (std::any_of(line.points.begin(), line.points.end(), [&](const plot::Point& p) {
+        for (const plot::PlotBand& band : plot.bands)
+            if (band.of_y || visible(band.range)) styles.insert(band.style);
+        for (const plot::PlotLine& line : plot.lines)
+            if (std::any_of(line.points.begin(), line.points.end(), [&](const plot::SvgPoint& p) {
                     return std::isfinite(p.y) && p.x >= x.low && p.x <= x.high;
                 }))
                 styles.insert(line.style);
-        for (const plot::Mark& mark : plot.marks) styles.insert(mark.style);
+        for (const plot::Marker& marker : plot.markers) styles.insert(marker.style);
     }
     return styles;
 }
@@ -251,18 +255,18 @@ std::string legend(const analysis::SessionData& s) {
     const std::set<std::string_view> drawn = drawn_styles(s);
     const bool loosening = s.direction() == joint::Direction::loosen;
     std::string out = "<ul class=\"legend\">";
-    const auto item = [&](std::string_view style, std::string_view drawing, std::string_view words) {
-        if (drawn.contains(style)) put(out, "<li><svg viewBox=\"0 0 22 14\">{}</svg>{}</li>", drawing, words);
+    const auto item = [&](std::string_view style, std::string_view drawing, std::string_view text) {
+        if (drawn.contains(style)) put(out, "<li><svg viewBox=\"0 0 22 14\">{}</svg>{}</li>", drawing, text);
     };
-    const auto box = [&](std::string_view style, std::string_view words) {
+    const auto box = [&](std::string_view style, std::string_view text) {
         item(style,
              fmt::format(
                  "<rect x=\".5\" y=\".5\" width=\"21\" height=\"13\" class=\"{}\" stroke=\"var(--rule)\"/>",
                  style),
-             words);
+             text);
     };
-    const auto line = [&](std::string_view style, std::string_view words) {
-        item(style, fmt::format("<path d=\"M1 7L21 7\" class=\"{}\"/>", style), words);
+    const auto line = [&](std::string_view style, std::string_view text) {
+        item(style, fmt::format("<path d=\"M1 7L21 7\" class=\"{}\"/>", style), text);
     };
     line("ln p2", loosening ? "torque" : "torque, last pass");
     line(drawn.contains("ln p0") ? "ln p0" : "ln p1", "earlier passes");
@@ -326,13 +330,13 @@ std::string verdict_mark(const lesson::JointResult& result) {
     constexpr std::string_view styles[] = {"vn", "vl", "vo", "vh"};
     constexpr std::string_view shapes[] = {"–", "▼ LOW", "✓ OK", "▲ HIGH"};
     const auto i = static_cast<std::size_t>(result.overall);
-    std::string about;
+    std::string judged;
     const bool wrong = result.overall == Verdict::low || result.overall == Verdict::high;
     if (wrong && result.angle_verdict != Verdict::none) {
-        if (result.torque_verdict == result.overall) about = " torque";
-        if (result.angle_verdict == result.overall) about += about.empty() ? " angle" : " and angle";
+        if (result.torque_verdict == result.overall) judged = " torque";
+        if (result.angle_verdict == result.overall) judged += judged.empty() ? " angle" : " and angle";
     }
-    return fmt::format("<span class=\"v {}\">{}{}</span>", styles[i], shapes[i], about);
+    return fmt::format("<span class=\"v {}\">{}{}</span>", styles[i], shapes[i], judged);
 }
 
 std::string bolt_text(const content::AssemblyJoint& joint) {
@@ -352,47 +356,50 @@ std::string session_section(const analysis::SessionData& session, std::size_t nu
     put_order(out, session);
     if (session.direction() == joint::Direction::tighten) put_clamp(out, session);
     put_joint_figures(out, session);
-    out += feel_section(session);
+    out += haptics_section(session);
     put_method(out, session);
     return out + "</section>\n";
 }
 
 namespace {
 
-struct Pages {
+// Collects the parts of a page.
+struct ReportBuilder {
     std::vector<Attempt> attempts;
     std::string sections;
 
-    void add(const analysis::SessionData& session, bool alone, Extent extent = Extent::everything) {
+    void add(const analysis::SessionData& session, bool alone,
+             ReportExtent extent = ReportExtent::everything) {
         attempts.push_back(attempt_of(session));
-        if (alone || extent == Extent::everything)
+        if (alone || extent == ReportExtent::everything)
             sections += session_section(session, alone ? 0 : attempts.size());
     }
 
-    [[nodiscard]] std::string finish(Extent extent = Extent::everything) const {
+    [[nodiscard]] std::string finish(ReportExtent extent = ReportExtent::everything) const {
         if (attempts.size() == 1) return plot::page(attempts.front().title + " – training report", sections);
         return plot::page(fmt::format("{} attempts – training report", attempts.size()),
-                          attempts_section(attempts, extent == Extent::overview) + sections);
+                          attempts_section(attempts, extent == ReportExtent::overview) + sections);
     }
 };
 
 }  // namespace
 
-Result<std::string> make_report(std::span<const session::Reader* const> sessions, Extent extent) {
+Result<std::string> make_report(std::span<const session::SessionReader* const> sessions,
+                                ReportExtent extent) {
     if (sessions.empty())
         return fail(ErrorCode::usage, "no session was given to report", "one or more session files");
-    Pages pages;
-    for (const session::Reader* session : sessions) {
+    ReportBuilder builder;
+    for (const session::SessionReader* session : sessions) {
         BOLT_TRY_ASSIGN(const auto data, analysis::read_session(*session));
-        pages.add(data, sessions.size() == 1, extent);
+        builder.add(data, sessions.size() == 1, extent);
     }
-    return pages.finish(extent);
+    return builder.finish(extent);
 }
 
 std::string make_report(std::span<const analysis::SessionData> sessions) {
-    Pages pages;
-    for (const analysis::SessionData& session : sessions) pages.add(session, sessions.size() == 1);
-    return pages.finish();
+    ReportBuilder builder;
+    for (const analysis::SessionData& session : sessions) builder.add(session, sessions.size() == 1);
+    return builder.finish();
 }
 
 }  // namespace bolt::report

@@ -1,4 +1,4 @@
-// One session as a section of the page.
+// The report as an HTML page (report.html): one session, or a comparison of several attempts.
 #pragma once
 
 #include <cstdint>
@@ -11,27 +11,25 @@
 
 namespace bolt::report {
 
-// "M16×180 · 8.8"; with the pitch, "M12×1.25×70 · 8.8", where it is not the size's coarse one.
+// "M16×180 · 8.8", or with a pitch other than the coarse one "M12×1.25×70 · 8.8".
 std::string bolt_text(const content::AssemblyJoint& joint);
 
-// HTML: "✓ OK", "▲ HIGH torque", "▼ LOW": shape, word and colour. Names torque and angle if both were judged;
-// a joint that is not sound shows its condition instead.
+// HTML: "✓ OK", "▲ HIGH torque", "▼ LOW" as shape, word and colour. Names torque and angle if both were
+// judged. A damaged joint shows its condition instead.
 std::string verdict_mark(const lesson::JointResult& result);
 
-// `number` counts from 1 and is the anchor's name; 0: the only session.
+// HTML of one session. `number` counts from 1 and is part of the anchor's name; 0: the only session.
 std::string session_section(const analysis::SessionData& session, std::size_t number);
 
-// report.html: what was done in one session, or how several attempts compare. One file that needs nothing
-// else.
+// overview: without the sections of the single sessions, if there are several.
+enum class ReportExtent : std::uint8_t { everything, overview };
 
-// `overview`: of several sessions only how they compare.
-enum class Extent : std::uint8_t { everything, overview };
+// Returns the page, a single file without external resources. Fails without sessions, or if one cannot be
+// read. Holds the curves of one session at a time.
+Result<std::string> make_report(std::span<const session::SessionReader* const> sessions,
+                                ReportExtent extent = ReportExtent::everything);
 
-// Sessions in the order given; at least one. Holds one session's curves at a time.
-Result<std::string> make_report(std::span<const session::Reader* const> sessions,
-                                Extent extent = Extent::everything);
-
-// The same from data that was read already.
+// The same for data that is already read.
 std::string make_report(std::span<const analysis::SessionData> sessions);
 
 }  // namespace bolt::report

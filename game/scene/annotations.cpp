@@ -12,52 +12,53 @@ namespace bolt::scene {
 
 namespace {
 
-constexpr int around = 20, along_arc = 18, along_head = 6;
-constexpr float line_opacity = 0.55F;
+constexpr int segments = 20, along_arc = 18, along_head = 6;
+constexpr float outline_opacity = 0.55F;
 
-// What of an arrow's length is its head, and how thick shaft and head are.
-struct Shape {
+// Dimensions relative to the arrow's scale; `head` is a fraction of its length.
+struct ArrowProfile {
     double head = 0.0, shaft_radius = 0.0, head_radius = 0.0, length = 1.0;
-    std::function<Pose(double)> spine;  // 0 … 1: a point, its z on along the arrow
+    std::function<Pose(double)> spine;  // at 0 … 1 along the arrow; its z is the direction of the arrow
 };
 
-// A ring of vertices; `lean`: of the normal, 0 outward, ±1 along the arrow.
+// A ring of vertices. `lean`: component of the normal along the arrow, −1 … 1; 0: radial.
 struct Ring {
     double at = 0.0, radius = 0.0, lean = 0.0;
 };
 
-void add_ring(assets::Primitive& mesh, const Shape& shape, const Ring& ring, bool joined) {
-    const Pose place = shape.spine(ring.at);
+void add_ring(assets::Primitive& mesh, const ArrowProfile& profile, const Ring& ring, bool joined) {
+    const Pose pose = profile.spine(ring.at);
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const double outward = std::sqrt(1.0 - ring.lean * ring.lean);
-    for (int i = 0; i <= around; ++i) {
-        const double phi = 2.0 * pi * i / around;
+    for (int i = 0; i <= segments; ++i) {
+        const double phi = 2.0 * pi * i / segments;
         const Vec3 out(std::cos(phi), std::sin(phi), 0.0);
-        mesh.positions.emplace_back(place * (ring.radius * out));
-        mesh.normals.emplace_back(place.orientation * (outward * out + ring.lean * Vec3(0, 0, 1)));
+        mesh.positions.emplace_back(pose * (ring.radius * out));
+        mesh.normals.emplace_back(pose.orientation * (outward * out + ring.lean * Vec3(0, 0, 1)));
     }
     if (!joined) return;
-    constexpr std::uint32_t row = around + 1;
-    for (std::uint32_t i = 0; i < around; ++i) {
+    constexpr std::uint32_t row = segments + 1;
+    for (std::uint32_t i = 0; i < segments; ++i) {
         const std::uint32_t a = first - row + i, b = first + i;
         for (const std::uint32_t index : {a, a + 1, b, b, a + 1, b + 1}) mesh.indices.push_back(index);
     }
 }
 
-// Its end, the shaft, the shoulder and the head; each with normals of its own.
-assets::Primitive arrow_mesh(const Shape& shape) {
+// The rear face, the shaft, the shoulder and the head; they share no vertices, because their normals differ.
+assets::Primitive arrow_mesh(const ArrowProfile& profile) {
     assets::Primitive mesh;
-    const double neck = 1.0 - shape.head;
-    add_ring(mesh, shape, {0.0, 0.0, -1.0}, false);
-    add_ring(mesh, shape, {0.0, shape.shaft_radius, -1.0}, true);
+    const double neck = 1.0 - profile.head;
+    add_ring(mesh, profile, {0.0, 0.0, -1.0}, false);
+    add_ring(mesh, profile, {0.0, profile.shaft_radius, -1.0}, true);
     for (int i = 0; i <= along_arc; ++i)
-        add_ring(mesh, shape, {neck * i / along_arc, shape.shaft_radius, 0.0}, i > 0);
-    add_ring(mesh, shape, {neck, shape.shaft_radius, -1.0}, false);
-    add_ring(mesh, shape, {neck, shape.head_radius, -1.0}, true);
-    const double slope = shape.head_radius / std::hypot(shape.head_radius, shape.head * shape.length);
+        add_ring(mesh, profile, {neck * i / along_arc, profile.shaft_radius, 0.0}, i > 0);
+    add_ring(mesh, profile, {neck, profile.shaft_radius, -1.0}, false);
+    add_ring(mesh, profile, {neck, profile.head_radius, -1.0}, true);
+    const double slope = profile.head_radius / std::hypot(profile.head_radius, profile.head * profile.length);
     for (int i = 0; i <= along_head; ++i) {
         const double share = static_cast<double>(i) / along_head;
-        add_ring(mesh, shape, {neck + shape.head * share, shape.head_radius * (1.0 - share), slope}, i > 0);
+        add_ring(mesh, profile, {neck + profile.head * share, profile.head_radius * (1.0 - share), slope},
+                 i > 0);
     }
     mesh.material = 0;
     return mesh;
@@ -99,99 +100,104 @@ assets::Model arrow_model() {
     return model;
 }
 
-Arrow straight_arrow(const Vec3& from, const Vec3& to, const glm::vec4& color) {
+MotionArrow straight_arrow(const Vec3& from, const Vec3& to, const glm::vec4& color) {
     const double length = glm::distance(from, to);
     const Vec3 z = (to - from) / length;
     const Vec3 x = glm::normalize(glm::cross(std::abs(z.y) < 0.9 ? Vec3(0, 1, 0) : Vec3(1, 0, 0), z));
     return {ArrowShape::straight, matrix(x, glm::cross(z, x), z, from, length), color};
 }
 
-Arrow round_arrow(const Turn& turn, const glm::vec4& color) {
-    const Vec3 x = glm::normalize(turn.from - turn.axis * glm::dot(turn.axis, turn.from));
-    return {ArrowShape::round, matrix(x, glm::cross(turn.axis, x), turn.axis, turn.middle, turn.radius),
-            color};
+MotionArrow round_arrow(const ArrowArc& arc, const glm::vec4& color) {
+    const Vec3 x = glm::normalize(arc.from - arc.axis * glm::dot(arc.axis, arc.from));
+    return {ArrowShape::round, matrix(x, glm::cross(arc.axis, x), arc.axis, arc.middle, arc.radius), color};
 }
 
-void show_arrow(World& world, const std::optional<Arrow>& arrow) {
-    world.view<Pointer, Placement>().each([&](ecs::Entity entity, Pointer& pointer, Placement& placement) {
-        pointer.shown = arrow && arrow->shape == pointer.shape;
-        if (!pointer.shown) {
-            world.remove<Outlined>(entity);
-            return;
-        }
-        placement.world = glm::mat4(arrow->world);
-        pointer.color = arrow->color;
-        world.add<Outlined>(entity, glm::vec4(glm::vec3(arrow->color), line_opacity));
-    });
+void show_arrow(SceneWorld& world, const std::optional<MotionArrow>& arrow) {
+    world.view<ArrowMarker, Transform>().each(
+        [&](ecs::Entity entity, ArrowMarker& marker, Transform& transform) {
+            marker.shown = arrow && arrow->shape == marker.shape;
+            if (!marker.shown) {
+                world.remove<Outline>(entity);
+                return;
+            }
+            transform.world = glm::mat4(arrow->world);
+            marker.color = arrow->color;
+            world.add<Outline>(entity, glm::vec4(glm::vec3(arrow->color), outline_opacity));
+        });
 }
 
 namespace {
 
 constexpr glm::vec4 plate_color{0.06F, 0.07F, 0.08F, 0.82F};
 
-// How a torque lies to what is asked for now, by a sign and by colour; what is still below it is only a
-// number. Breakaway turns nothing (`turned`: with what the nut was turned), and is not too much.
-void show_standing(render::Label& label, const content::Window& window, double torque, double turned,
-                   const view::Palette& palette) {
+// Adds the symbol and colour of the verdict on the torque; a torque below the window gets none. Breakaway
+// friction does not count as too much, so the greatest torque `turned` that turned the nut must exceed the
+// window as well.
+void add_verdict(render::Label& label, const content::ToleranceWindow& window, double torque, double turned,
+                 const view::Palette& palette) {
     if (torque < window.low) return;
     const bool too_much = torque > window.high && turned > window.high;
     label.color = too_much ? palette.wrong : palette.right;
-    label.text = fmt::format("{} {}", view::sign_of(too_much ? lesson::Verdict::high : lesson::Verdict::ok),
+    label.text = fmt::format("{} {}", view::symbol_of(too_much ? lesson::Verdict::high : lesson::Verdict::ok),
                              label.text);
 }
 
-// Since when a nut's angle counts: out of its turn, and not snug, it says nothing.
-std::optional<double> counted_from(const lesson::Lesson& lesson, std::size_t joint) {
+// The nut angle from which the displayed angle counts, rad; none if the joint is neither snug nor due.
+std::optional<double> angle_origin(const lesson::Lesson& lesson, std::size_t joint) {
     const lesson::JointTrack& track = lesson.joints[joint];
     if (track.snug) return track.snug_angle;
-    const lesson::Step* due = lesson.due();
+    const lesson::LessonStep* due = lesson.due();
     return due != nullptr && due->joint == joint ? std::optional(track.begin_angle) : std::nullopt;
 }
 
-std::string figures(const words::Words& words, const lesson::Lesson& lesson, const world::Joint& joint,
-                    bool wrench) {
+std::string work_text(const words::Words& words, const lesson::Lesson& lesson, const world::Joint& joint,
+                      bool wrench) {
     if (!wrench)
-        return words::say(words, "hud.turns", {{"turns", words::Number{joint.angle / (2.0 * pi), 1}}});
-    std::string said = words::say(words, words::Number{std::abs(joint.torque), 0}) + " N·m   ";
-    const auto from = counted_from(lesson, joint.index);
-    if (from) said += fmt::format("{:+.0f}°   ", to_degrees(joint.angle - *from));
-    return said + words[lesson::term(joint.stage)];
+        return words::format_text(words, "hud.turns",
+                                  {{"turns", words::Number{joint.angle / (2.0 * pi), 1}}});
+    std::string text = words::format_number(words, words::Number{std::abs(joint.torque), 0}) + " N·m   ";
+    const auto from = angle_origin(lesson, joint.index);
+    if (from) text += fmt::format("{:+.0f}°   ", to_degrees(joint.angle - *from));
+    return text + words[lesson::text_key(joint.stage)];
 }
 
 }  // namespace
 
-render::Label plate(std::string text, const Vec3& at, float height) {
+render::Label plate_label(std::string text, const Vec3& position, float height) {
     render::Label label;
     label.text = std::move(text);
-    label.position = glm::vec3(at);
+    label.position = glm::vec3(position);
     label.height = height;
     label.anchor = {0.5F, 0.0F};
     label.plate = plate_color;
     label.color = label_color;
-    label.through = 1.0F;
+    label.occluded_visibility = 1.0F;
     return label;
 }
 
-Vec3 above_nut(const servo::Setup& setup, const ecs::Access<const world::Joint>& joints, std::size_t joint) {
+Vec3 label_position(const servo::Setup& setup, const ecs::Access<const world::Joint>& joints,
+                    std::size_t joint) {
     return world::nut_centre(joints, setup, joint) + 0.03 * setup.nuts[joint].axis;
 }
 
 std::optional<render::Label> work_label(const words::Words& words, const lesson::Lesson& lesson,
                                         const servo::Setup& setup, const WorkAccess& world,
                                         const view::Palette& palette) {
-    const std::int16_t engaged = world.only<world::ToolContact>().joint;
+    const std::int16_t engaged = world.only<world::ContactState>().joint;
     if (engaged < 0) return std::nullopt;
     const auto joint = static_cast<std::size_t>(engaged);
     const world::Joint& now = world::joint_at(world, joint);
-    const bool wrench = world.only<world::Hand>().wrench;
-    const lesson::Step* due = lesson.due();
+    const bool wrench = world.only<world::WorkingHand>().wrench;
+    const lesson::LessonStep* due = lesson.due();
     const double torque = std::abs(now.torque);
-    const bool fits = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::tighten;
-    render::Label label = plate(figures(words, lesson, now, wrench), above_nut(setup, world, joint), 22.0F);
+    const bool is_due = due != nullptr && due->joint == joint && due->kind == lesson::StepKind::tighten;
+    render::Label label =
+        plate_label(work_text(words, lesson, now, wrench), label_position(setup, world, joint), 22.0F);
     if (wrench && lesson.mode != lesson::Mode::assessment)
-        show_standing(label, fits ? lesson::window(lesson, *due) : lesson.assembly->joints[joint].spec.torque,
-                      torque, lesson.joints[joint].turned_torque, palette);
-    label.moved_px = {0.0F, 34.0F};
+        add_verdict(label,
+                    is_due ? lesson::torque_window(lesson, *due) : lesson.assembly->joints[joint].spec.torque,
+                    torque, lesson.joints[joint].turned_torque, palette);
+    label.offset_px = {0.0F, 34.0F};
     return label;
 }
 
@@ -199,10 +205,10 @@ render::Label clamp_label(const words::Words& words, const content::Assembly& as
                           const servo::Setup& setup, const ecs::Access<const world::Joint>& joints,
                           std::size_t joint) {
     const double clamp = world::joint_at(joints, joint).clamp;
-    const std::string force = words::say(words, words::Number{clamp / 1e3, 1});
-    render::Label label = plate(fmt::format("{} {} kN", assembly.joints[joint].design.id, force),
-                                above_nut(setup, joints, joint), 15.0F);
-    label.moved_px = {0.0F, 8.0F};
+    const std::string force = words::format_number(words, words::Number{clamp / 1e3, 1});
+    render::Label label = plate_label(fmt::format("{} {} kN", assembly.joints[joint].design.id, force),
+                                      label_position(setup, joints, joint), 15.0F);
+    label.offset_px = {0.0F, 8.0F};
     return label;
 }
 

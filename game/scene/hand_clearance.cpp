@@ -9,27 +9,28 @@ namespace bolt::scene {
 
 namespace {
 
-constexpr double margin = 2.5e-3;     // m that the search keeps free
+constexpr double margin = 2.5e-3;     // m, distance that the search keeps
 constexpr double follow_s = 0.12;     // s, time constant of `shown`
-constexpr double stuck_depth = 1e-3;  // m: a deeper goal is searched for from other starts
-constexpr double good_enough = 3.0;   // mm², of the cost: other starts are not tried
-constexpr double cuff_begins = 0.012, cuff_ends = 0.064, least_cuff = 0.1;  // m behind the wrist; share
-constexpr double better = 0.8;  // cost ratio that makes another start's solution the goal
-constexpr int steps_a_frame = 2, steps_a_start = 12;
+constexpr double stuck_depth = 1e-3;  // m: at a greater depth other starting points are tried
+constexpr double good_enough = 3.0;   // mm², cost below which no other starting point is tried
+constexpr double cuff_begin = 0.012, cuff_end = 0.064;  // m behind the wrist
+constexpr double min_cuff = 0.1;                        // fraction of the cuff's length
+constexpr double better = 0.8;  // cost ratio at which the result of another starting point becomes the goal
+constexpr int steps_per_frame = 2, steps_per_start = 12;
 
 constexpr std::size_t parameters = std::tuple_size_v<HandDeparture>;
-// Departures that cost as much as one point that is 1 mm within the margin, and the largest ones.
-struct Range {
+// Limits of the departure. `scale`: the departure that costs as much as one point 1 mm within the margin.
+struct DepartureRange {
     HandDeparture low, high, scale;
 };
-constexpr Range on_handle{{-1.3, -0.12, -0.12, -0.035, -0.9, -0.45},
-                          {1.3, 0.12, 0.12, 0.035, 0.9, 0.45},
-                          {0.35, 0.05, 0.05, 0.012, 0.35, 0.2}};
-constexpr Range at_nut{{-0.7, -0.9, -1.7, 0.0, -0.9, -0.45},
-                       {0.7, 0.9, 1.7, 0.012, 0.9, 0.45},
-                       {0.3, 0.3, 0.5, 0.004, 0.35, 0.2}};
+constexpr DepartureRange on_handle{{-1.3, -0.12, -0.12, -0.035, -0.9, -0.45},
+                                   {1.3, 0.12, 0.12, 0.035, 0.9, 0.45},
+                                   {0.35, 0.05, 0.05, 0.012, 0.35, 0.2}};
+constexpr DepartureRange at_nut{{-0.7, -0.9, -1.7, 0.0, -0.9, -0.45},
+                                {0.7, 0.9, 1.7, 0.012, 0.9, 0.45},
+                                {0.3, 0.3, 0.5, 0.004, 0.35, 0.2}};
 
-const Range& range_of(HandTask task) { return task == HandTask::on_handle ? on_handle : at_nut; }
+const DepartureRange& range_of(HandTask task) { return task == HandTask::on_handle ? on_handle : at_nut; }
 
 Vec3 slide_axis(HandTask task) { return task == HandTask::on_handle ? Vec3(1, 0, 0) : Vec3(0, 0, 1); }
 
@@ -54,21 +55,21 @@ Matrices skin_matrices(const Pose& at, const hand::Skeleton& skeleton,
 }
 
 struct Evaluation {
-    double cost = 0.0;             // mm²
-    double depth = -margin;        // m, of the deepest point
-    double hand_depth = -margin;   // m, without the cuff
-    double cuff_free = cuff_ends;  // m behind the wrist, from where on the cuff is inside
+    double cost = 0.0;            // mm²
+    double depth = -margin;       // m, of the deepest point
+    double hand_depth = -margin;  // m, without the cuff
+    double cuff_free = cuff_end;  // m behind the wrist where the cuff enters a solid
     std::array<std::array<double, parameters>, parameters> normal{};
     std::array<double, parameters> gradient{};
 };
 
-class Search {
+class ClearanceSearch {
   public:
-    Search(const HandSurroundings& around, const hand::Skeleton& posture)
+    ClearanceSearch(const HandSurroundings& around, const hand::Skeleton& posture)
         : around_(around), posture_(posture), range_(range_of(around.task)) {}
 
     [[nodiscard]] Evaluation evaluate(const HandDeparture& by) const {
-        const hand::Skeleton skeleton = departed(posture_, by, around_.task, around_.pivot);
+        const hand::Skeleton skeleton = apply_departure(posture_, by, around_.task, around_.pivot);
         const Matrices matrices = skin_matrices(around_.at, skeleton, around_.inverse_bind);
         const Vec3 pivot = around_.at * around_.pivot;
         const Vec3 wrist = around_.at * skeleton.position[hand::wrist];
@@ -77,19 +78,19 @@ class Search {
         Evaluation found;
         for (const SkinPoint& point : around_.skin) {
             glm::vec3 skinned(0.0F);
-            double of_wrist = 0.0;
+            double wrist_weight = 0.0;
             for (int k = 0; k < 4; ++k) {
                 if (point.weights[k] == 0.0F || point.joints[k] >= hand::joint_count) continue;
                 skinned +=
-                    point.weights[k] * glm::vec3(matrices[point.joints[k]] * glm::vec4(point.at, 1.0F));
-                if (point.joints[k] == hand::wrist) of_wrist += static_cast<double>(point.weights[k]);
+                    point.weights[k] * glm::vec3(matrices[point.joints[k]] * glm::vec4(point.position, 1.0F));
+                if (point.joints[k] == hand::wrist) wrist_weight += static_cast<double>(point.weights[k]);
             }
             const Vec3 at(skinned);
             Vec3 out(0.0);
-            const double depth = depth_in(*around_.solids, at, margin, out);
+            const double depth = penetration_depth(*around_.solids, at, margin, out);
             found.depth = std::max(found.depth, depth);
-            const double behind_wrist = static_cast<double>(point.at.z);
-            if (behind_wrist < cuff_begins)
+            const double behind_wrist = static_cast<double>(point.position.z);
+            if (behind_wrist < cuff_begin)
                 found.hand_depth = std::max(found.hand_depth, depth);
             else if (depth > 0.0)
                 found.cuff_free = std::min(found.cuff_free, behind_wrist);
@@ -104,8 +105,8 @@ class Search {
                     glm::dot(out, glm::cross(around_.at.orientation * unit, at - pivot));
             }
             slope[3] = glm::dot(out, slide);
-            slope[4] = of_wrist * glm::dot(out, glm::cross(wrist_turn * Vec3(1, 0, 0), at - wrist));
-            slope[5] = of_wrist * glm::dot(out, glm::cross(wrist_turn * Vec3(0, 1, 0), at - wrist));
+            slope[4] = wrist_weight * glm::dot(out, glm::cross(wrist_turn * Vec3(1, 0, 0), at - wrist));
+            slope[5] = wrist_weight * glm::dot(out, glm::cross(wrist_turn * Vec3(0, 1, 0), at - wrist));
             for (std::size_t i = 0; i < parameters; ++i) slope[i] *= 1e3 * range_.scale[i];
             for (std::size_t i = 0; i < parameters; ++i) {
                 found.gradient[i] += slope[i] * residual;
@@ -121,7 +122,7 @@ class Search {
         return found;
     }
 
-    // Improves `by` in place; the cost never rises.
+    // Improves `by` in place; the cost never increases.
     Evaluation improve(HandDeparture& by, int steps) const {
         Evaluation now = evaluate(by);
         double damping = 0.03;
@@ -167,7 +168,7 @@ class Search {
 
     const HandSurroundings& around_;
     const hand::Skeleton& posture_;
-    const Range& range_;
+    const DepartureRange& range_;
 };
 
 constexpr std::array<HandDeparture, 7> starts_on_handle{{{},
@@ -195,12 +196,13 @@ std::span<const HandDeparture> starts_of(HandTask task) {
     return starts_at_nut;
 }
 
-HandDeparture best_of_all(const Search& search, HandTask task) {
+// The best result of all starting points; stops at the first that is good enough.
+HandDeparture search_all_starts(const ClearanceSearch& search, HandTask task) {
     HandDeparture best{};
     double least = std::numeric_limits<double>::infinity();
     for (const HandDeparture& start : starts_of(task)) {
         HandDeparture by = start;
-        const double cost = search.improve(by, steps_a_start).cost;
+        const double cost = search.improve(by, steps_per_start).cost;
         if (cost < least) best = by;
         least = std::min(least, cost);
         if (least < good_enough) break;
@@ -208,18 +210,18 @@ HandDeparture best_of_all(const Search& search, HandTask task) {
     return best;
 }
 
-// A few steps of the start that is tried now. It becomes the goal when it has come to something better.
-void try_another(HandClearance& clearance, const Search& search, double cost) {
+// Refines the current starting point by one step. Its result becomes the goal if it is clearly better.
+void refine_next_start(HandClearance& clearance, const ClearanceSearch& search, double cost) {
     if (clearance.start_steps == 0) clearance.candidate = starts_of(clearance.task)[clearance.start];
     const double found = search.improve(clearance.candidate, 1).cost;
     if (found < better * cost) clearance.goal = clearance.candidate;
-    if (++clearance.start_steps < steps_a_start && found >= better * cost) return;
+    if (++clearance.start_steps < steps_per_start && found >= better * cost) return;
     clearance.start_steps = 0;
     clearance.start = (clearance.start + 1) % starts_of(clearance.task).size();
 }
 
-// How far `shown` still is from the goal; 1: a departure's scale.
-double behind(const HandClearance& clearance) {
+// The largest remaining departure from `shown` to the goal, in units of its scale.
+double remaining(const HandClearance& clearance) {
     double furthest = 0.0;
     for (std::size_t i = 0; i < parameters; ++i)
         furthest = std::max(
@@ -227,7 +229,8 @@ double behind(const HandClearance& clearance) {
     return furthest;
 }
 
-bool moved(const HandClearance& clearance, const HandSurroundings& around, const hand::Skeleton& posture) {
+bool inputs_changed(const HandClearance& clearance, const HandSurroundings& around,
+                    const hand::Skeleton& posture) {
     return clearance.task != around.task || clearance.at.position != around.at.position ||
            clearance.at.orientation != around.at.orientation ||
            clearance.posture.position != posture.position || clearance.posture.rotation != posture.rotation;
@@ -235,7 +238,7 @@ bool moved(const HandClearance& clearance, const HandSurroundings& around, const
 
 }  // namespace
 
-std::vector<SkinPoint> spread_skin_points(const assets::Model& hand, std::size_t count) {
+std::vector<SkinPoint> sample_skin(const assets::Model& hand, std::size_t count) {
     std::vector<SkinPoint> all;
     for (const assets::Mesh& mesh : hand.meshes)
         for (const assets::Primitive& p : mesh.primitives) {
@@ -244,15 +247,15 @@ std::vector<SkinPoint> spread_skin_points(const assets::Model& hand, std::size_t
                 all.push_back({p.positions[i], p.joints[i], p.weights[i]});
         }
     if (all.size() <= count) return all;
-    // Each next point is the furthest from those chosen.
+    // Farthest-point sampling.
     std::vector<SkinPoint> chosen;
     std::vector<float> nearest(all.size(), std::numeric_limits<float>::infinity());
     std::size_t next = 0;
     while (chosen.size() < count) {
         chosen.push_back(all[next]);
-        const glm::vec3 at = all[next].at;
+        const glm::vec3 at = all[next].position;
         for (std::size_t i = 0; i < all.size(); ++i) {
-            const glm::vec3 away = all[i].at - at;
+            const glm::vec3 away = all[i].position - at;
             nearest[i] = std::min(nearest[i], glm::dot(away, away));
         }
         next = static_cast<std::size_t>(std::max_element(nearest.begin(), nearest.end()) - nearest.begin());
@@ -260,19 +263,20 @@ std::vector<SkinPoint> spread_skin_points(const assets::Model& hand, std::size_t
     return chosen;
 }
 
-double depth_in(const collision::World& solids, const Vec3& point, double margin, Vec3& out) {
+double penetration_depth(const collision::CollisionWorld& solids, const Vec3& point, double margin,
+                         Vec3& out) {
     double deepest = -margin;
     for (const collision::Body& body : solids.bodies) {
         if (!body.on) continue;
-        const collision::Shape& shape = solids.shapes[body.shape];
+        const collision::CollisionShape& shape = solids.shapes[body.shape];
         const Vec3 local = inverse(body.pose) * point;
         const Vec3 beside = glm::max(shape.solid.box.low - local, local - shape.solid.box.high);
         if (std::max({beside.x, beside.y, beside.z}) >= -deepest) continue;
-        const collision::OctreeQuery seen = collision::query(shape.octree, local);
-        if (seen.lower >= -deepest) continue;
+        const collision::OctreeQuery bounds = collision::query(shape.octree, local);
+        if (bounds.lower >= -deepest) continue;
         std::array<collision::SeparatingPlane, 1> plane;
         const collision::PointQueryResult near =
-            collision::query_point(shape.solid, local, seen.upper, margin, plane);
+            collision::query_point(shape.solid, local, bounds.upper, margin, plane);
         if (near.planes == 0 || -near.distance <= deepest) continue;
         deepest = -near.distance;
         out = body.pose.orientation * plane[0].normal;
@@ -280,8 +284,8 @@ double depth_in(const collision::World& solids, const Vec3& point, double margin
     return deepest;
 }
 
-hand::Skeleton departed(const hand::Skeleton& posture, const HandDeparture& by, HandTask task,
-                        const Vec3& pivot) {
+hand::Skeleton apply_departure(const hand::Skeleton& posture, const HandDeparture& by, HandTask task,
+                               const Vec3& pivot) {
     if (by == HandDeparture{}) return posture;
     const Pose moved = Pose{pivot + by[3] * slide_axis(task), turn_by(by)} * Pose{-pivot};
     hand::Skeleton skeleton;
@@ -296,27 +300,27 @@ hand::Skeleton departed(const hand::Skeleton& posture, const HandDeparture& by, 
 
 void advance(HandClearance& clearance, const HandSurroundings& around, const hand::Skeleton& posture,
              double seconds) {
-    const bool has_moved = moved(clearance, around, posture);
-    if (clearance.started && clearance.settled && !has_moved) return;
+    const bool changed = inputs_changed(clearance, around, posture);
+    if (clearance.started && clearance.settled && !changed) return;
     const bool first = !clearance.started, other_task = clearance.task != around.task;
     clearance.started = true;
     clearance.task = around.task;
     clearance.at = around.at;
     clearance.posture = posture;
-    const Search search(around, posture);
+    const ClearanceSearch search(around, posture);
     const HandDeparture before = clearance.goal;
     bool stuck = false;
     if (first) {
-        clearance.goal = clearance.shown = best_of_all(search, around.task);
+        clearance.goal = clearance.shown = search_all_starts(search, around.task);
     } else {
         if (other_task) clearance.goal = {};
-        if (other_task || has_moved) clearance.start_steps = 0;
-        const Evaluation found = search.improve(clearance.goal, steps_a_frame);
+        if (other_task || changed) clearance.start_steps = 0;
+        const Evaluation found = search.improve(clearance.goal, steps_per_frame);
         stuck = found.depth > stuck_depth;
-        if (stuck) try_another(clearance, search, found.cost);
+        if (stuck) refine_next_start(clearance, search, found.cost);
     }
     const double share = 1.0 - std::exp(-seconds / follow_s);
-    if (behind(clearance) < 1e-3) {
+    if (remaining(clearance) < 1e-3) {
         clearance.shown = clearance.goal;
     } else {
         for (std::size_t i = 0; i < parameters; ++i)
@@ -324,8 +328,7 @@ void advance(HandClearance& clearance, const HandSurroundings& around, const han
     }
     const Evaluation drawn = search.evaluate(clearance.shown);
     clearance.depth = drawn.hand_depth;
-    const double cuff =
-        std::clamp((drawn.cuff_free - cuff_begins) / (cuff_ends - cuff_begins), least_cuff, 1.0);
+    const double cuff = std::clamp((drawn.cuff_free - cuff_begin) / (cuff_end - cuff_begin), min_cuff, 1.0);
     clearance.cuff += (first ? 1.0 : share) * (cuff - clearance.cuff);
     if (std::abs(cuff - clearance.cuff) < 1e-3) clearance.cuff = cuff;
     clearance.settled = clearance.goal == before && clearance.shown == clearance.goal &&

@@ -1,9 +1,9 @@
-// Keeps the drawn hand out of solids: turns it about what it holds, slides it along the handle and bends its
-// wrist. Affects pictures only; the servo never reads any of this.
+// Keeps the displayed hand out of solids: rotates it about the held object, slides it along the handle and
+// bends the wrist. It affects the pictures only; the servo does not read the result.
 //
-// The search is damped least squares (Levenberg 1944, Marquardt 1963) over six parameters. A point of the
-// hand's skin that is nearer to a solid than a margin adds the square of what is missing, and a departure
-// from the natural posture adds its own square. A frame continues from the solution of the frame before.
+// The search is damped least squares (Levenberg 1944, Marquardt 1963) over six parameters. A skin point that
+// is nearer to a solid than a margin adds the square of the missing distance to the cost, and a departure
+// from the natural posture adds its own square. Each frame starts from the solution of the frame before.
 #pragma once
 
 #include <array>
@@ -16,29 +16,30 @@
 
 namespace bolt::scene {
 
-// A vertex of the hand's mesh with the joints that move it.
+// A vertex of the hand's mesh with its skinning joints and weights.
 struct SkinPoint {
-    glm::vec3 at{0.0F};  // m, in the bind pose
+    glm::vec3 position{0.0F};  // m, in the bind pose
     glm::u16vec4 joints{0};
     glm::vec4 weights{0.0F};
 };
 
-// At most `count` vertices, spread evenly over the skin. The same for the same model.
-std::vector<SkinPoint> spread_skin_points(const assets::Model& hand, std::size_t count);
+// Samples at most `count` vertices evenly over the skin (farthest-point sampling). Deterministic.
+std::vector<SkinPoint> sample_skin(const assets::Model& hand, std::size_t count);
 
-// What the hand does; decides how it may depart from its posture.
+// The task of the hand; selects the limits of its departure from the posture.
 enum class HandTask : std::uint8_t { on_handle, at_nut };
 
-// The departure from a posture: rotation vector about the pivot (rad), slide (m; along the handle, or away
+// The departure from a posture: rotation vector about the pivot (3, rad), slide (m; along the handle, or away
 // from the nut), flexion and deviation of the wrist (rad).
 using HandDeparture = std::array<double, 6>;
 
 struct HandClearance {
-    HandDeparture goal{}, shown{};  // `shown` follows `goal`
-    double depth = 0.0;  // m, of the deepest point of the hand proper at `shown`; negative: outside
-    double cuff = 1.0;   // the share of the cuff's length that is drawn
+    HandDeparture goal{}, shown{};  // `shown` follows `goal` with a time constant
+    double depth =
+        0.0;  // m, penetration of the deepest skin point without the cuff at `shown`; negative: outside
+    double cuff = 1.0;  // 0 … 1, displayed fraction of the cuff's length
 
-    // Of the search. While the goal is not clear, other starts are refined in turn.
+    // State of the search. While the goal penetrates solids, other starting points are refined in turn.
     bool started = false, settled = false;
     HandTask task = HandTask::at_nut;
     std::size_t start = 0;
@@ -48,9 +49,9 @@ struct HandClearance {
     hand::Skeleton posture;
 };
 
-// What a frame's search reads.
+// The inputs of the search in a frame.
 struct HandSurroundings {
-    const collision::World* solids = nullptr;
+    const collision::CollisionWorld* solids = nullptr;
     Pose at;  // from the frame of the posture to the assembly's
     HandTask task = HandTask::at_nut;
     Vec3 pivot{0.0};  // m, in the frame of the posture
@@ -58,18 +59,19 @@ struct HandSurroundings {
     std::span<const glm::mat4> inverse_bind;
 };
 
-// A frame of `seconds`. The first frame searches from all starts and shows the best at once; later frames do
-// a bounded amount of work, and `shown` moves continuously. A frame in which nothing has moved costs nothing
-// once the search has settled.
+// Advances the search by a frame of `seconds`. The first frame searches from all starting points and shows
+// the best result immediately; later frames do a bounded amount of work and move `shown` continuously.
+// Returns early if the search has settled and its inputs are unchanged.
 void advance(HandClearance& clearance, const HandSurroundings& around, const hand::Skeleton& posture,
              double seconds);
 
-// The posture with the departure applied.
-hand::Skeleton departed(const hand::Skeleton& posture, const HandDeparture& by, HandTask task,
-                        const Vec3& pivot);
+// Applies the departure to the posture.
+hand::Skeleton apply_departure(const hand::Skeleton& posture, const HandDeparture& by, HandTask task,
+                               const Vec3& pivot);
 
-// m: how deep a point is inside the solids, negative outside; exact only within `margin` outside. `out`:
-// unit, the way to the nearest surface's outside; written where the point is inside or within the margin.
-double depth_in(const collision::World& solids, const Vec3& point, double margin, Vec3& out);
+// Penetration depth of a point in the solids, m; negative outside, at least −margin. `out`: outward unit
+// normal at the nearest surface, written only if the point is inside or within the margin.
+double penetration_depth(const collision::CollisionWorld& solids, const Vec3& point, double margin,
+                         Vec3& out);
 
 }  // namespace bolt::scene

@@ -7,43 +7,46 @@ namespace bolt::scene {
 
 namespace {
 
-constexpr double follows = 0.09, trembles = 0.012;  // s, time constants
-constexpr double lively = 6.0;                      // tremor of so much of a change
-constexpr double rest = 1e-3;                       // below it nothing is strained any more
+constexpr double slow_time = 0.09, fast_time = 0.012;  // s, time constants
+constexpr double tremor_gain = 6.0;
+constexpr double rest = 1e-3;  // effort below which it is reset to zero
 
-void follow(double& value, double to, double dt, double time) {
+// First-order low-pass filter.
+void filter(double& value, double to, double dt, double time) {
     value += (to - value) * (1.0 - std::exp(-dt / time));
 }
 
 }  // namespace
 
-double effort(const servo::Setup& setup, const EffortAccess& world) {
-    const std::int16_t engaged = world.only<world::ToolContact>().joint;
+double relative_torque(const servo::Setup& setup, const EffortAccess& world) {
+    const std::int16_t engaged = world.only<world::ContactState>().joint;
     if (engaged < 0) return 0.0;
     const world::Joint& joint = world::joint_at(world, static_cast<std::size_t>(engaged));
-    const double most = world.only<world::Hand>().wrench ? setup.wrench.stiffness * to_radians(2.5)
-                                                         : setup.finger_torque(setup.nuts[joint.index]);
+    const double most = world.only<world::WorkingHand>().wrench
+                            ? setup.wrench.stiffness * to_radians(2.5)
+                            : setup.finger_torque(setup.nuts[joint.index]);
     return std::clamp(joint.torque / most, -1.0, 1.0);
 }
 
-void strain(Strain& s, const servo::Setup& setup, const EffortAccess& world) {
-    const double now = effort(setup, world);
-    follow(s.quick, now, setup.dt, trembles);
-    follow(s.slow, now, setup.dt, follows);
-    follow(s.share, std::abs(now), setup.dt, follows);
-    s.tremor = std::clamp(lively * (s.quick - s.slow), -1.0, 1.0) * std::min(1.0, 3.0 * s.share);
-    if (now == 0.0 && s.share < rest && std::abs(s.slow) < rest && std::abs(s.quick) < rest) s = {};
+void update_effort(Effort& effort, const servo::Setup& setup, const EffortAccess& world) {
+    const double now = relative_torque(setup, world);
+    filter(effort.fast, now, setup.dt, fast_time);
+    filter(effort.slow, now, setup.dt, slow_time);
+    filter(effort.share, std::abs(now), setup.dt, slow_time);
+    effort.tremor =
+        std::clamp(tremor_gain * (effort.fast - effort.slow), -1.0, 1.0) * std::min(1.0, 3.0 * effort.share);
+    if (now == 0.0 && effort.share < rest && std::abs(effort.slow) < rest && std::abs(effort.fast) < rest)
+        effort = {};
 }
 
 namespace {
 
 constexpr double deg = pi / 180.0;
-constexpr double glove = 2.5e-3;  // m, of the drawn hand beyond the pads
-constexpr double pad_lift =
-    3e-3;  // m, of the pads above the middle of a nut: their lower edge clears its seat
+constexpr double glove = 2.5e-3;   // m, thickness of the displayed glove over the finger pads
+constexpr double pad_lift = 3e-3;  // m, of the pads above the nut's centre, so that they clear its seat
 constexpr double strained_wrist = 11.0 * deg;
 
-// Fingers bent by a share of a fist's, the thumb opposed. Chosen by eye.
+// Fingers bent by a fraction of a fist's angles, the thumb opposed; tuned by eye.
 hand::Angles closed(double share) {
     hand::Angles a;
     for (hand::FingerAngles& f : a.fingers)
@@ -53,8 +56,8 @@ hand::Angles closed(double share) {
     return a;
 }
 
-// Thumb against index and middle finger, with the other two stretched over what lies beside the nut.
-hand::Angles pinched(double thumb_abduction) {
+// Thumb against index and middle finger; the other two are stretched to clear the surroundings of the nut.
+hand::Angles pinch_angles(double thumb_abduction) {
     hand::Angles a = closed(0.25);
     a.fingers[0] = {62.0 * deg, 32.0 * deg, 14.0 * deg, 0.0};
     a.fingers[1] = {64.0 * deg, 34.0 * deg, 16.0 * deg, 0.0};
@@ -68,38 +71,38 @@ Vec3 between_pads(const hand::Hand& hand, const hand::Angles& angles) {
     return hand::pad(hand, joints, 1) - hand::pad(hand, joints, 0);
 }
 
-// The pinch whose pads just touch the corners of a nut that is `width` (m) across flats: the nut turns
-// between them.
-hand::Angles pinched_on(const hand::Hand& hand, double width) {
-    const double wanted = 2.0 / std::sqrt(3.0) * width + 2.0 * (hand::pad_radius + glove);
+// The pinch whose pads touch the corners of a nut of that width (m across flats), since the nut turns between
+// them. Bisection over the abduction of the thumb.
+hand::Angles pinch_for_width(const hand::Hand& hand, double width) {
+    const double goal = 2.0 / std::sqrt(3.0) * width + 2.0 * (hand::pad_radius + glove);
     double narrow = 5.0 * deg, wide = 65.0 * deg;
     for (int i = 0; i < 40; ++i) {
         const double middle = 0.5 * (narrow + wide);
-        (glm::length(between_pads(hand, pinched(middle))) < wanted ? narrow : wide) = middle;
+        (glm::length(between_pads(hand, pinch_angles(middle))) < goal ? narrow : wide) = middle;
     }
-    return pinched(0.5 * (narrow + wide));
+    return pinch_angles(0.5 * (narrow + wide));
 }
 
-// Of a right wrist: the line between the pads lies across the nut's axis and towards −x, the back of the hand
-// is up (+z).
-Quat over_nut(const Vec3& between_pads) {
+// The rotation of a right wrist that puts the line between the pads along −x and the back of the hand up
+// (+z).
+Quat wrist_over_nut(const Vec3& between_pads) {
     const Vec3 line = glm::normalize(between_pads);
     const Vec3 back = glm::normalize(Vec3(0, 1, 0) - line.y * line);
     const glm::dmat3 own(line, back, glm::cross(line, back));
-    const glm::dmat3 wanted(Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 1, 0));
-    return glm::normalize(glm::quat_cast(wanted * glm::transpose(own)));
+    const glm::dmat3 goal(Vec3(-1, 0, 0), Vec3(0, 0, 1), Vec3(0, 1, 0));
+    return glm::normalize(glm::quat_cast(goal * glm::transpose(own)));
 }
 
-// A left hand is a right one in a mirror across the tool, in its plane y = 0, and its own frame is mirrored
-// in x (hand::mirrored): both together are a turn again.
+// Converts the pose of a right wrist for a left one: mirrored in the tool's plane y = 0, with a frame
+// mirrored in x (hand::mirrored). The two reflections make a rotation.
 Pose on_side(const Pose& of_right, hand::Side side) {
     if (side == hand::Side::right) return of_right;
     const Quat& q = of_right.orientation;
     return {of_right.position * Vec3(1.0, -1.0, 1.0), Quat(q.w, -q.x, q.y, -q.z) * Quat(0.0, 0.0, 0.0, 1.0)};
 }
 
-// Fingertips that press are bent back, and the joints before them bend for it.
-hand::Angles pinched_hard(hand::Angles a) {
+// Bends the fingertips back as under pressure, and the joints before them forward.
+hand::Angles pressed(hand::Angles a) {
     for (std::size_t i = 0; i < 2; ++i) {
         a.fingers[i].pip += 16.0 * deg;
         a.fingers[i].dip -= 24.0 * deg;
@@ -109,8 +112,8 @@ hand::Angles pinched_hard(hand::Angles a) {
     return a;
 }
 
-// Opened a little.
-hand::Angles eased(const hand::Angles& angles) {
+// Opens the fingers slightly.
+hand::Angles relaxed_angles(const hand::Angles& angles) {
     constexpr double of_fingers = 0.86, of_thumb = 0.8;
     hand::Angles a = angles;
     for (hand::FingerAngles& f : a.fingers) f = {of_fingers * f.mcp, of_fingers * f.pip, f.dip, f.side};
@@ -119,67 +122,66 @@ hand::Angles eased(const hand::Angles& angles) {
     return a;
 }
 
-// Across a handle that lies along the tool's x and is broad in y: the palm from above, the thumb's side
-// towards the jaw.
-Pose wrist_on_handle(double grip_at) {
+// A wrist at a handle along the tool's x that is broad in y: the palm from above, the thumb towards the jaw.
+Pose wrist_on_handle(double grip_distance) {
     const Pose across = inverse({Vec3(0.0, -28e-3, -98e-3), rotation({0.0, -17.5 * deg, 0.0})});
-    const Pose stands{Vec3(0.0), glm::angleAxis(0.5 * pi, Vec3(1, 0, 0))};
-    Pose wrist = stands * across;
-    wrist.position.x += grip_at;
+    const Pose upright{Vec3(0.0), glm::angleAxis(0.5 * pi, Vec3(1, 0, 0))};
+    Pose wrist = upright * across;
+    wrist.position.x += grip_distance;
     return wrist;
 }
 
 }  // namespace
 
-Postures make_postures(const collision::ToolShape* wrench, double grip_at, hand::Side side,
+Postures make_postures(const collision::ToolShape* wrench, double grip_distance, hand::Side side,
                        double nut_width) {
     const hand::Hand hand = hand::make_hand(side);
     Postures postures;
-    postures.grip_at = grip_at;
-    const Pose on_handle = on_side(wrist_on_handle(grip_at), side);
-    const auto closed_on = [&](const Pose& wrist) {
+    postures.grip_distance = grip_distance;
+    const Pose on_handle = on_side(wrist_on_handle(grip_distance), side);
+    const auto closed_angles = [&](const Pose& wrist) {
         return wrench != nullptr ? hand::close_fingers(*wrench, hand, closed(1.0), wrist).angles
                                  : closed(0.75);
     };
     for (std::size_t i = 0; i < postures.on_handle.size(); ++i) {
-        // Over to the other face, and about the handle's middle to the other end.
+        // Rotations to the other face, and about the middle of the handle to the other direction.
         const Quat over = glm::angleAxis((i & 1U) != 0 ? pi : 0.0, Vec3(1, 0, 0));
         const Quat round = glm::angleAxis((i & 2U) != 0 ? pi : 0.0, Vec3(0, 0, 1));
-        const Pose middle{Vec3(grip_at, 0.0, 0.0)};
+        const Pose middle{Vec3(grip_distance, 0.0, 0.0)};
         const Pose wrist = middle * Pose{Vec3(0.0), over * round} * inverse(middle) * on_handle;
-        const hand::Angles angles = closed_on(wrist);
+        const hand::Angles angles = closed_angles(wrist);
         postures.on_handle[i] = hand::joints(hand, angles, wrist);
-        postures.at_ease[i] = hand::joints(hand, eased(angles), wrist);
-        // About the knuckles, which stay where they are.
+        postures.relaxed[i] = hand::joints(hand, relaxed_angles(angles), wrist);
+        // Rotates the wrist about the knuckles.
         const Vec3 knuckles = postures.on_handle[i].position[hand::middle_proximal];
         const Quat bent = glm::angleAxis(strained_wrist, wrist.orientation * Vec3(1, 0, 0));
         const Pose hard{knuckles + bent * (wrist.position - knuckles), bent * wrist.orientation};
-        postures.strained[i] = hand::joints(hand, closed_on(hard), hard);
+        postures.strained[i] = hand::joints(hand, closed_angles(hard), hard);
     }
 
-    // The pads are on either side of the tool's origin, the forearm is on the handle's side.
+    // The pads lie on either side of the tool's origin, and the forearm on the side of the handle.
     const hand::Hand right = hand::make_hand(hand::Side::right);
-    const hand::Angles pinch = pinched_on(right, nut_width);
-    const Quat over = on_side({Vec3(0.0), over_nut(between_pads(right, pinch))}, side).orientation;
-    const auto meeting = [&](const hand::Angles& bent, double lift) {
-        const hand::Skeleton flat = hand::joints(hand, bent, Pose{});
+    const hand::Angles pinch = pinch_for_width(right, nut_width);
+    const Quat over = on_side({Vec3(0.0), wrist_over_nut(between_pads(right, pinch))}, side).orientation;
+    const auto centred = [&](const hand::Angles& angles, double lift) {
+        const hand::Skeleton flat = hand::joints(hand, angles, Pose{});
         const Vec3 middle = 0.5 * (hand::pad(hand, flat, 0) + hand::pad(hand, flat, 1));
-        return hand::joints(hand, bent, Pose{Vec3(0.0, 0.0, lift) - over * middle, over});
+        return hand::joints(hand, angles, Pose{Vec3(0.0, 0.0, lift) - over * middle, over});
     };
-    postures.on_nut = meeting(pinch, pad_lift);
-    postures.on_nut_strained = meeting(pinched_hard(pinch), pad_lift);
-    postures.open = meeting(closed(0.25), 0.02);
+    postures.on_nut = centred(pinch, pad_lift);
+    postures.on_nut_strained = centred(pressed(pinch), pad_lift);
+    postures.open = centred(closed(0.25), 0.02);
     return postures;
 }
 
-hand::Skeleton holding(const Postures& postures, std::size_t way, double strain) {
-    const double share = 2.0 * std::clamp(strain, 0.0, 1.0);
-    return share < 1.0 ? between(postures.at_ease.at(way), postures.on_handle.at(way), share)
-                       : between(postures.on_handle.at(way), postures.strained.at(way), share - 1.0);
+hand::Skeleton handle_posture(const Postures& postures, std::size_t grip, double effort) {
+    const double share = 2.0 * std::clamp(effort, 0.0, 1.0);
+    return share < 1.0 ? interpolate(postures.relaxed.at(grip), postures.on_handle.at(grip), share)
+                       : interpolate(postures.on_handle.at(grip), postures.strained.at(grip), share - 1.0);
 }
 
-hand::Skeleton pinching(const Postures& postures, double strain) {
-    return between(postures.on_nut, postures.on_nut_strained, std::clamp(strain, 0.0, 1.0));
+hand::Skeleton pinch_posture(const Postures& postures, double effort) {
+    return interpolate(postures.on_nut, postures.on_nut_strained, std::clamp(effort, 0.0, 1.0));
 }
 
 std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3& up, const Vec3& shoulder) {
@@ -188,9 +190,9 @@ std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3&
     for (std::size_t i = 0; i < postures.on_handle.size(); ++i) {
         const hand::Skeleton& s = postures.on_handle[i];
         const Quat wrist = tool.orientation * s.rotation[hand::wrist];
-        const Vec3 way = shoulder - tool * s.position[hand::wrist];
+        const Vec3 arm = shoulder - tool * s.position[hand::wrist];
         const double palm_down = glm::dot(wrist * Vec3(0, 1, 0), up);
-        const double forearm = glm::dot(wrist * Vec3(0, 0, 1), way) / glm::length(way);
+        const double forearm = glm::dot(wrist * Vec3(0, 0, 1), arm) / glm::length(arm);
         if (2.0 * palm_down + forearm <= most) continue;
         most = 2.0 * palm_down + forearm;
         best = i;
@@ -198,7 +200,7 @@ std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3&
     return best;
 }
 
-Pose towards(const Pose& tool, const Vec3& shoulder, double twisted) {
+Pose frame_towards(const Pose& tool, const Vec3& shoulder, double twisted) {
     const Vec3 axis = tool.orientation * Vec3(0, 0, 1);
     Vec3 out = shoulder - tool.position;
     out -= axis * glm::dot(out, axis);
@@ -208,7 +210,7 @@ Pose towards(const Pose& tool, const Vec3& shoulder, double twisted) {
     return {tool.position, glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(axis, x), axis)))};
 }
 
-hand::Skeleton between(const hand::Skeleton& a, const hand::Skeleton& b, double share) {
+hand::Skeleton interpolate(const hand::Skeleton& a, const hand::Skeleton& b, double share) {
     hand::Skeleton s;
     for (std::size_t i = 0; i < hand::joint_count; ++i) {
         s.position[i] = glm::mix(a.position[i], b.position[i], share);

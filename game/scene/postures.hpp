@@ -1,5 +1,5 @@
-// How hard the hand that is shown works, where no device lets it be felt. Only of what a tick put out: the
-// same session shows the same hand.
+// The postures of the displayed hand without a glove, and its visible effort, which replaces a force that no
+// device renders. Both depend only on the output of the ticks, so a replay shows the same hand.
 #pragma once
 
 #include <array>
@@ -10,53 +10,51 @@
 
 namespace bolt::scene {
 
-struct Strain {
-    double share = 0.0;   // 0 at rest … 1: the most that this hand can
-    double tremor = 0.0;  // −1 … 1, of the muscles: what changes in the torque faster than a hand follows
-    double quick = 0.0;   // the same share, less smooth, with the torque's sign
+struct Effort {
+    double share = 0.0;   // 0 at rest … 1 at the greatest torque of the hand; low-pass filtered
+    double tremor = 0.0;  // −1 … 1, from torque changes faster than the hand follows
+    double fast = 0.0;    // relative torque, signed, with a short and a long filter time constant
     double slow = 0.0;
 };
 
-// What the wrench bears at most is what its spring gives at 2.5 degrees (hud.cpp), fingers slip before
-// that. −1 … 1, tightening positive; 0 with nothing in the hand.
-using EffortAccess = ecs::Access<const world::Joint, const world::ToolContact, const world::Hand>;
-double effort(const servo::Setup& setup, const EffortAccess& world);
+// The torque on the nut relative to the greatest of the hand, −1 … 1, tightening positive; 0 if no nut is
+// engaged. The greatest is the torque of the wrench's spring at 2.5°, or the one at which fingers slip.
+using EffortAccess = ecs::Access<const world::Joint, const world::ContactState, const world::WorkingHand>;
+double relative_torque(const servo::Setup& setup, const EffortAccess& world);
 
-// A tick.
-void strain(Strain& strain, const servo::Setup& setup, const EffortAccess& world);
+// Call it once a tick.
+void update_effort(Effort& effort, const servo::Setup& setup, const EffortAccess& world);
 
-// How a hand is bent about what it holds, when nobody wears a glove: around the wrench's handle, with thumb
-// and index finger on a nut, or open.
-
-// The 26 joints in the frame of the tool (servo::DeviceSample). A handle can be held four ways: palm on the
-// one face or the other, thumb towards the jaw or away from it.
+// Skeletons of the 26 joints in the frame of the tool (servo::DeviceSample). There are four grips of a
+// handle: the palm on either face, the thumb towards the jaw or away from it.
 struct Postures {
     std::array<hand::Skeleton, 4> on_handle;
     hand::Skeleton on_nut, open;
-    // The same without any force, and with all that a hand has: fingers that only lie on the handle, and a
-    // wrist rolled over it with the fingers after; fingertips bent back on the nut.
-    std::array<hand::Skeleton, 4> at_ease, strained;
+    // Without effort, with the fingers slightly opened; and at the greatest effort: the wrist bent over the
+    // handle, or the fingertips bent back on the nut.
+    std::array<hand::Skeleton, 4> relaxed, strained;
     hand::Skeleton on_nut_strained;
-    double grip_at = 0.0;  // m, from the jaw's middle along the handle
+    double grip_distance = 0.0;  // m, from the jaw's centre along the handle
 };
 
-// On the handle held that way, with so much of the force that there is (0 … 1); likewise on a nut.
-hand::Skeleton holding(const Postures& postures, std::size_t way, double strain);
-hand::Skeleton pinching(const Postures& postures, double strain);
+// The posture at an effort of 0 … 1. `grip`: index of the grip of the handle.
+hand::Skeleton handle_posture(const Postures& postures, std::size_t grip, double effort);
+hand::Skeleton pinch_posture(const Postures& postures, double effort);
 
-// The way that suits somebody whose shoulder is there, with the tool so: back of the hand up, forearm towards
-// the shoulder.
+// The most comfortable grip of a tool for a shoulder position (m): back of the hand up, forearm towards the
+// shoulder.
 std::size_t natural_grip(const Postures& postures, const Pose& tool, const Vec3& up, const Vec3& shoulder);
 
-// A tool's frame for fingers on a nut: they come from the shoulder's side, however far they have twisted it.
-Pose towards(const Pose& tool, const Vec3& shoulder, double twisted);
+// The frame for fingers at a tool: the position and z axis of the tool, x towards the shoulder, then rotated
+// about z by `twisted` rad.
+Pose frame_towards(const Pose& tool, const Vec3& shoulder, double twisted);
 
-// `grip_at`: m from the jaw's middle along the handle. The fingers close on the wrench as far as it lets
-// them, and on a nut that is `nut_width` (m) across flats.
-Postures make_postures(const collision::ToolShape* wrench, double grip_at,
+// Closes the fingers on the wrench as far as contact allows, and on a nut of width `nut_width` (m across
+// flats). `wrench` null: a fixed closure. `grip_distance`: m from the jaw's centre along the handle.
+Postures make_postures(const collision::ToolShape* wrench, double grip_distance,
                        hand::Side side = hand::Side::right, double nut_width = 0.024);
 
-// Between two of them.
-hand::Skeleton between(const hand::Skeleton& a, const hand::Skeleton& b, double share);
+// Interpolates positions linearly and rotations spherically; share 0 … 1 from a to b.
+hand::Skeleton interpolate(const hand::Skeleton& a, const hand::Skeleton& b, double share);
 
 }  // namespace bolt::scene

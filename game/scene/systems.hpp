@@ -1,4 +1,5 @@
-// What moves and draws a workplace, a frame at a time: free functions over its entities.
+// The systems of a workplace: free functions that move its entities and collect what the renderer draws, once
+// a frame.
 #pragma once
 
 #include "game/scene/postures.hpp"
@@ -6,54 +7,57 @@
 
 namespace bolt::scene {
 
-// Nuts, wrench and hand to where the servo has them. `tool`: where obstacles let it be; `rest`: where the
-// wrench lies while it is not in the hand.
-struct Held {
-    Pose tool;
-    bool wrench = false;  // in the hand
-    Pose rest;
-    bool pinches = false;  // fingers are closed on a nut, without a wrench
-    Pose fingers;          // what they are shown in, without a wrench
-    std::size_t grip = 0;  // of Postures::on_handle
-    double seconds = 0.0;  // since the last frame: a hand changes its posture in no time, but not at once
-    double strain = 0.0;   // 0 … 1, of the hand (strain.hpp)
-    double tremor = 0.0;   // −1 … 1, likewise
-    // Of a hand in a glove, in the frame of the wrench, in the hand or where it lies.
+// The state of tool and hand in a frame. Poses are in the assembly's frame.
+struct ToolAndHand {
+    Pose tool;             // limited by obstacles
+    bool wrench = false;   // the wrench is in the hand
+    Pose rest;             // of a wrench that is not in the hand
+    bool pinches = false;  // without a wrench: the fingers are closed on a nut
+    Pose fingers;          // without a wrench: the frame of the hand
+    std::size_t grip = 0;  // index in Postures::on_handle
+    double seconds = 0.0;  // since the last frame; changes of posture are smoothed over time
+    double effort = 0.0;   // 0 … 1, Effort::share
+    double tremor = 0.0;   // −1 … 1, Effort::tremor
+    // The measured skeleton of a gloved hand in the frame of the wrench; null: no glove.
     const hand::Skeleton* gloved = nullptr;
-    // The drawn hand stays out of these; null: there are none.
-    const collision::World* solids = nullptr;
+    // The displayed hand stays out of these solids; null: no solids.
+    const collision::CollisionWorld* solids = nullptr;
 };
-void place_nuts(World& world, const servo::Setup& setup);
-void place_tool(World& world, const Held& held);
-// m across flats of the widest nut.
+
+// Moves nuts, wrench and hand to their poses in the simulation.
+void place_nuts(SceneWorld& world, const servo::Setup& setup);
+void place_tool(SceneWorld& world, const ToolAndHand& state);
+void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& state);
+
+// Width across flats of the widest nut, m.
 double widest_nut(const servo::Setup& setup);
-void place_hand(World& world, const Postures& postures, const Held& held);
 
-// The ghosts of the wrench, with its jaw there, and of a hand bent like this in the frame of the tool.
-void show_ghost(World& world, const Pose& tool);
-void show_hand_ghost(World& world, const Pose& tool, const hand::Skeleton& bent);
-void hide_ghosts(World& world);
+// Displays a transparent wrench at the pose, or a transparent hand with the skeleton `posture` in that frame.
+void show_wrench_ghost(SceneWorld& world, const Pose& tool);
+void show_hand_ghost(SceneWorld& world, const Pose& tool, const hand::Skeleton& posture);
+void hide_ghosts(SceneWorld& world);
 
-// Lines around what belongs to a joint; none for a colour without alpha.
-void outline_joint(World& world, std::size_t joint, const glm::vec4& color);
-void outline_tool(World& world, const glm::vec4& color);
+// Outlines the parts of a joint or of the tool; alpha 0 removes the outline.
+void outline_joint(SceneWorld& world, std::size_t joint, const glm::vec4& color);
+void outline_tool(SceneWorld& world, const glm::vec4& color);
 
-// What hides a nut fades: the machine, other joints and the hand, or only a hand that waits, and more of
-// that.
-enum class Hides : std::uint8_t { all, hand };
-void keep_in_sight(World& world, render::Scene& scene, const servo::Setup& setup, std::size_t joint,
-                   Hides hides = Hides::all);
+// Selects what fades in front of a nut: everything but its own joint, or only the hand, which then fades in a
+// larger area.
+enum class Occluders : std::uint8_t { all, hand };
+void fade_occluders(SceneWorld& world, render::Scene& scene, const servo::Setup& setup, std::size_t joint,
+                    Occluders occluders = Occluders::all);
 
-// An arm so near to the eye (m, the assembly's frame) that it would fill the picture is seen through.
-void thin_near_arms(World& world, const Vec3& eye);
+// Fades an arm that would fill the picture because it is near to the eye (m, assembly frame).
+void fade_near_arms(SceneWorld& world, const Vec3& eye);
 
-// A scene without anything in it yet, in the workshop's light and a lamp's over the left shoulder.
-render::Scene lit(const Workplace& place, const render::EnvironmentLight& light);
+// A scene without objects: the environment light, and a key light over the viewer's left shoulder.
+render::Scene make_lit_scene(const Workplace& workplace, const render::EnvironmentLight& light);
 
-// Destroys what is drawn, because its models are lost with the GPU; the state of the work stays.
-void remove_pictures(World& world);
+// Destroys the drawable entities, because a GPU loss destroys their models; the state of the simulation
+// remains.
+void destroy_drawables(SceneWorld& world);
 
-// Everything there is, as the renderer takes it; lights, labels and background are left as they are.
-void present(World& world, render::Scene& scene);
+// Replaces the objects of the scene by the drawable entities; leaves lights, labels and background unchanged.
+void collect_objects(SceneWorld& world, render::Scene& scene);
 
 }  // namespace bolt::scene

@@ -16,7 +16,7 @@
 
 namespace bolt::session {
 
-HexagonLie lie_of(const servo::NutGeometry& nut, std::span<const glm::dvec3> points) {
+HexagonPose find_hexagon(const servo::NutGeometry& nut, std::span<const glm::dvec3> points) {
     std::complex<double> sixfold = 0.0;
     double low = 1e9;
     for (const Vec3& p : points) {
@@ -31,12 +31,12 @@ HexagonLie lie_of(const servo::NutGeometry& nut, std::span<const glm::dvec3> poi
 
 namespace {
 
-struct Piece {
+struct MeshNode {
     std::string node;
     std::vector<glm::dvec3> points;  // three a triangle, in the model's frame
 };
 
-Error bad(const std::filesystem::path& file, std::string what) {
+Error content_error(const std::filesystem::path& file, std::string what) {
     Error error;
     error.code = ErrorCode::bad_content;
     error.what = std::move(what);
@@ -44,9 +44,9 @@ Error bad(const std::filesystem::path& file, std::string what) {
     return error;
 }
 
-Result<std::vector<Piece>> read_pieces(const std::filesystem::path& file) {
+Result<std::vector<MeshNode>> read_mesh_nodes(const std::filesystem::path& file) {
     BOLT_TRY_ASSIGN(auto model, assets::read_gltf(file));
-    std::vector<Piece> pieces;
+    std::vector<MeshNode> nodes;
     const std::function<Status(int, const glm::dmat4&)> visit = [&](int index,
                                                                     const glm::dmat4& above) -> Status {
         const assets::Node& node = model.nodes[static_cast<std::size_t>(index)];
@@ -54,15 +54,15 @@ Result<std::vector<Piece>> read_pieces(const std::filesystem::path& file) {
                                  glm::mat4_cast(Quat(node.rotation)) *
                                  glm::scale(glm::dmat4(1.0), Vec3(node.scale));
         if (node.mesh >= 0) {
-            Piece piece{node.name, {}};
+            MeshNode mesh_node{node.name, {}};
             for (const assets::Primitive& p : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
                 if (p.topology != assets::Topology::triangles || p.indices.empty())
-                    return fail(
-                        bad(file, fmt::format("node \"{}\" is not made of indexed triangles", node.name)));
+                    return fail(content_error(
+                        file, fmt::format("node \"{}\" is not made of indexed triangles", node.name)));
                 for (const std::uint32_t i : p.indices)
-                    piece.points.emplace_back(world * glm::dvec4(Vec3(p.positions[i]), 1.0));
+                    mesh_node.points.emplace_back(world * glm::dvec4(Vec3(p.positions[i]), 1.0));
             }
-            pieces.push_back(std::move(piece));
+            nodes.push_back(std::move(mesh_node));
         }
         for (const int child : node.children) {
             BOLT_TRY(visit(child, world));
@@ -72,28 +72,31 @@ Result<std::vector<Piece>> read_pieces(const std::filesystem::path& file) {
     for (const int root : model.roots) {
         BOLT_TRY(visit(root, glm::dmat4(1.0)));
     }
-    return pieces;
+    return nodes;
 }
 
-Result<collision::ContactMesh> mesh_of(const Piece& piece, const std::filesystem::path& file,
+Result<collision::ContactMesh> mesh_of(const MeshNode& mesh_node, const std::filesystem::path& file,
                                        const std::function<Vec3(const Vec3&)>& move) {
     std::vector<glm::vec3> vertices;
     std::vector<std::uint32_t> indices;
-    for (const Vec3& p : piece.points) {
+    for (const Vec3& p : mesh_node.points) {
         indices.push_back(static_cast<std::uint32_t>(vertices.size()));
         vertices.emplace_back(move(p));
     }
     Result<collision::ContactMesh> mesh = collision::make_contact_mesh(vertices, indices);
-    if (!mesh) return fail(bad(file, fmt::format("node \"{}\": {}", piece.node, mesh.error().what)));
+    if (!mesh)
+        return fail(content_error(file, fmt::format("node \"{}\": {}", mesh_node.node, mesh.error().what)));
     return mesh;
 }
 
-std::function<Vec3(const Vec3&)> to_nut(const servo::NutGeometry& nut, const Piece& piece) {
-    return [nut, lies = lie_of(nut, piece.points)](const Vec3& p) { return to_own_frame(nut, lies, p); };
+std::function<Vec3(const Vec3&)> to_nut(const servo::NutGeometry& nut, const MeshNode& mesh_node) {
+    return [nut, hexagon = find_hexagon(nut, mesh_node.points)](const Vec3& p) {
+        return to_nut_frame(nut, hexagon, p);
+    };
 }
 
-// The least distance to the wrench along the line from the jaw's middle out of its mouth, m.
-double mouth(const collision::Solid& wrench, double head_angle, double jaw) {
+// Smallest distance to the wrench along the line from the jaw's centre out of its mouth, m.
+double mouth_clearance(const collision::Solid& wrench, double head_angle, double jaw) {
     double least = jaw;
     for (int i = 0; i <= 20; ++i) {
         const double r = jaw * static_cast<double>(i) / 20.0;
@@ -110,20 +113,21 @@ std::filesystem::path wrench_file(const content::WrenchDesign& design) {
     return std::filesystem::exists(own) ? own : std::filesystem::path(design.model);
 }
 
-// Rotates a point of the wrench's model into the tool's frame. `side` = −1 also turns the wrench over, for a
-// head that points to the other side.
-Vec3 turned(const glm::dvec3& low, const glm::dvec3& high, double side, const Vec3& p) {
-    const bool lies = high.y - low.y < high.z - low.z;
-    const Vec3 q = lies ? Vec3(p.x, -p.z, p.y) : p;
+// Rotates a point of the wrench's model, with bounds low…high, into the tool's frame. `side` = −1 also turns
+// the wrench over, for a head that points to the other side.
+Vec3 to_tool_frame(const glm::dvec3& low, const glm::dvec3& high, double side, const Vec3& p) {
+    const bool flat = high.y - low.y < high.z - low.z;
+    const Vec3 q = flat ? Vec3(p.x, -p.z, p.y) : p;
     return {q.x, side * q.y, side * q.z};
 }
 
 struct WrenchModel {
     std::vector<collision::ContactMesh> meshes;
-    Quat turn;  // from the model's frame to the tool's
+    Quat rotation;  // from the model's frame to the tool's
 };
 
-// "NAME SIZE bytes, fnv1a SUM" identifies the file's content. (FNV-1a, 64 bits: Fowler, Noll, Vo.)
+// Returns "NAME SIZE bytes, fnv1a SUM", which identifies the file's content (64-bit FNV-1a of Fowler, Noll
+// and Vo).
 Result<std::string> identity_of(const std::filesystem::path& file) {
     const Result<std::string> bytes = read_file(file, std::size_t{1} << 30U, ErrorCode::bad_content);
     if (!bytes) return fail(bytes.error());
@@ -134,117 +138,117 @@ Result<std::string> identity_of(const std::filesystem::path& file) {
 
 Result<WrenchModel> read_wrench(const content::WrenchDesign& design) {
     const std::filesystem::path file = wrench_file(design);
-    BOLT_TRY_ASSIGN(const auto pieces, read_pieces(file));
+    BOLT_TRY_ASSIGN(const auto nodes, read_mesh_nodes(file));
     glm::dvec3 low(1e9), high(-1e9);
-    for (const Piece& piece : pieces)
-        for (const glm::dvec3& p : piece.points) low = glm::min(low, p), high = glm::max(high, p);
-    // A model may lie flat, as import-step turns it, or stand; and its head may point to either side of the
-    // handle.
+    for (const MeshNode& mesh_node : nodes)
+        for (const glm::dvec3& p : mesh_node.points) low = glm::min(low, p), high = glm::max(high, p);
+    // A model may lie flat, as import-step rotates it, or stand upright. Its head may point to either side of
+    // the handle.
     for (const double side : {1.0, -1.0}) {
         std::vector<collision::ContactMesh> meshes;
-        for (const Piece& piece : pieces) {
-            BOLT_TRY_ASSIGN(auto mesh,
-                            mesh_of(piece, file, [&](const Vec3& p) { return turned(low, high, side, p); }));
+        for (const MeshNode& mesh_node : nodes) {
+            BOLT_TRY_ASSIGN(auto mesh, mesh_of(mesh_node, file, [&](const Vec3& p) {
+                                return to_tool_frame(low, high, side, p);
+                            }));
             meshes.push_back(std::move(mesh));
         }
         const Result<collision::Solid> solid = collision::make_solid(meshes);
-        if (!solid) return fail(bad(file, solid.error().what));
-        if (side < 0.0 ||
-            mouth(*solid, design.head_angle, design.jaw) >= mouth(*solid, -design.head_angle, design.jaw))
+        if (!solid) return fail(content_error(file, solid.error().what));
+        if (side < 0.0 || mouth_clearance(*solid, design.head_angle, design.jaw) >=
+                              mouth_clearance(*solid, -design.head_angle, design.jaw))
             return WrenchModel{std::move(meshes),
-                               glm::quat_cast(glm::dmat3(turned(low, high, side, Vec3(1, 0, 0)),
-                                                         turned(low, high, side, Vec3(0, 1, 0)),
-                                                         turned(low, high, side, Vec3(0, 0, 1))))};
+                               glm::quat_cast(glm::dmat3(to_tool_frame(low, high, side, Vec3(1, 0, 0)),
+                                                         to_tool_frame(low, high, side, Vec3(0, 1, 0)),
+                                                         to_tool_frame(low, high, side, Vec3(0, 0, 1))))};
     }
-    return fail(bad(file, "the wrench has no triangles"));
+    return fail(content_error(file, "the wrench has no triangles"));
 }
 
 }  // namespace
 
-Result<Quat> wrench_turn(const content::WrenchDesign& design) {
+Result<Quat> wrench_rotation(const content::WrenchDesign& design) {
     BOLT_TRY_ASSIGN(const auto wrench, read_wrench(design));
-    return wrench.turn;
+    return wrench.rotation;
 }
 
 std::optional<Error> missing_contact_model(const content::Assembly& assembly) {
-    Error missing = bad(assembly.file, {});
+    Error missing = content_error(assembly.file, {});
     if (assembly.models.contact.empty()) {
-        missing.what = "the assembly names no contact model";
-        missing.expected = "\"contact_model\": the .glb of what the wrench touches, closed meshes";
+        missing.what = "the assembly has no contact model";
+        missing.expected = "\"contact_model\": a .glb of the obstacles as closed meshes";
         return missing;
     }
     if (!assembly.wrench.model.empty()) return std::nullopt;
     const bool usual = assembly.tools.empty() || assembly.tool == assembly.tools.front().name;
     missing.pointer = usual ? "/tool" : "/more_tools/" + assembly.tool;
-    missing.what =
-        fmt::format("the tool \"{}\" names no model that could meet the contact model", assembly.tool);
+    missing.what = fmt::format("the tool \"{}\" has no model", assembly.tool);
     missing.expected = "\"model\": the .glb of the wrench";
     return missing;
 }
 
-Result<std::optional<TouchModels>> load_touch_models(const content::Assembly& assembly,
-                                                     const servo::Setup& setup) {
+Result<std::optional<ContactModels>> load_contact_models(const content::Assembly& assembly,
+                                                         const servo::Setup& setup) {
     if (missing_contact_model(assembly)) return std::nullopt;
     const std::filesystem::path file = assembly.models.contact;
-    BOLT_TRY_ASSIGN(const auto pieces, read_pieces(file));
+    BOLT_TRY_ASSIGN(const auto nodes, read_mesh_nodes(file));
     const Result<WrenchModel> wrench = read_wrench(assembly.wrench);
     if (!wrench) return fail(wrench.error());
-    BOLT_TRY_ASSIGN(const auto about_file, identity_of(file));
-    BOLT_TRY_ASSIGN(const auto about_wrench, identity_of(wrench_file(assembly.wrench)));
+    BOLT_TRY_ASSIGN(const auto file_identity, identity_of(file));
+    BOLT_TRY_ASSIGN(const auto wrench_identity, identity_of(wrench_file(assembly.wrench)));
 
-    TouchModels models;
-    models.files = about_file + "; " + about_wrench;
-    std::vector<collision::ContactMesh> still, nuts(setup.nuts.size());
-    for (const Piece& piece : pieces) {
+    ContactModels models;
+    models.files = file_identity + "; " + wrench_identity;
+    std::vector<collision::ContactMesh> fixed, nuts(setup.nuts.size());
+    for (const MeshNode& mesh_node : nodes) {
         std::size_t joint = 0;
-        while (joint < assembly.joints.size() && piece.node != assembly.joints[joint].design.id + "_nut")
+        while (joint < assembly.joints.size() && mesh_node.node != assembly.joints[joint].design.id + "_nut")
             ++joint;
         const bool is_nut = joint < setup.nuts.size() && joint < assembly.joints.size();
         BOLT_TRY_ASSIGN(auto mesh,
-                        mesh_of(piece, file,
-                                is_nut ? to_nut(setup.nuts[joint], piece)
+                        mesh_of(mesh_node, file,
+                                is_nut ? to_nut(setup.nuts[joint], mesh_node)
                                        : std::function<Vec3(const Vec3&)>([](const Vec3& p) { return p; })));
         const auto id =
-            is_nut ? collision::ObstacleId::nut(joint) : collision::ObstacleId::fixed(still.size());
+            is_nut ? collision::ObstacleId::nut(joint) : collision::ObstacleId::fixed(fixed.size());
         if (!file_number(id))
-            return fail(bad(
-                file, fmt::format("has more parts than a session can number; expected at most {} parts that "
-                                  "do not move and {} nuts",
-                                  most_fixed, most_nuts)));
-        models.names.push_back({id, piece.node});
+            return fail(content_error(
+                file, fmt::format("has more parts than a session can number; expected at most {} fixed "
+                                  "parts and {} nuts",
+                                  max_fixed, max_nuts)));
+        models.names.push_back({id, mesh_node.node});
         if (is_nut)
             nuts[joint] = std::move(mesh);
         else
-            still.push_back(std::move(mesh));
+            fixed.push_back(std::move(mesh));
     }
-    Result<servo::ToolContact> touch = servo::make_tool_contact(setup, {still, nuts, wrench->meshes});
-    if (!touch) return fail(bad(file, touch.error().what));
-    models.tool_contact = std::move(*touch);
-    return std::optional<TouchModels>(std::move(models));
+    Result<servo::ToolContact> contact = servo::make_tool_contact(setup, {fixed, nuts, wrench->meshes});
+    if (!contact) return fail(content_error(file, contact.error().what));
+    models.tool_contact = std::move(*contact);
+    return std::optional<ContactModels>(std::move(models));
 }
 
 Result<collision::ToolShape> load_wrench(const content::Assembly& assembly) {
     if (assembly.wrench.model.empty())
-        return fail(bad(assembly.file, "the assembly's wrench has no model, so no hand can close on it"));
+        return fail(content_error(assembly.file, "the assembly's wrench has no model"));
     BOLT_TRY_ASSIGN(const auto parts, read_wrench(assembly.wrench));
     Result<collision::ToolShape> tool = collision::make_tool(parts.meshes);
-    if (!tool) return fail(bad(wrench_file(assembly.wrench), tool.error().what));
+    if (!tool) return fail(content_error(wrench_file(assembly.wrench), tool.error().what));
     return tool;
 }
 
 Result<std::optional<servo::ToolContact>> load_tool_contact(const content::Assembly& assembly,
                                                             const servo::Setup& setup) {
-    BOLT_TRY_ASSIGN(auto models, load_touch_models(assembly, setup));
+    BOLT_TRY_ASSIGN(auto models, load_contact_models(assembly, setup));
     if (!models.has_value()) return std::nullopt;
     return std::optional<servo::ToolContact>(std::move(models->tool_contact));
 }
 
 namespace {
 
-constexpr std::size_t spots = 400;       // sample points on the nut: within 5 %, enough to choose a view
-constexpr double narrowest = 4.0 / 3.0;  // aspect ratio of a picture
+constexpr std::size_t nut_samples = 400;  // visibility within 5 %, enough to choose a view
+constexpr double narrowest = 4.0 / 3.0;   // aspect ratio of a picture
 
-bool in_picture(const content::View& view, const Vec3& point) {
+bool in_picture(const content::Viewpoint& view, const Vec3& point) {
     const Vec3 ahead = glm::normalize(view.target - view.eye);
     const Vec3 right = glm::normalize(glm::cross(ahead, Vec3(0.0, 1.0, 0.0)));
     const Vec3 to = point - view.eye;
@@ -255,26 +259,26 @@ bool in_picture(const content::View& view, const Vec3& point) {
 
 }  // namespace
 
-void seat_nuts(const servo::Setup& setup, servo::ToolContact& touch) {
-    for (std::size_t i = 0; i < touch.nut_bodies.size(); ++i)
-        if (touch.nut_bodies[i])
-            touch.world.bodies[*touch.nut_bodies[i]].pose =
+void seat_nuts(const servo::Setup& setup, servo::ToolContact& contact) {
+    for (std::size_t i = 0; i < contact.nut_bodies.size(); ++i)
+        if (contact.nut_bodies[i])
+            contact.world.bodies[*contact.nut_bodies[i]].pose =
                 servo::nut_pose(setup.nuts[i], setup.nuts[i].start_gap / setup.nuts[i].lead);
 }
 
-std::vector<NutView> views_of_nut(const content::Assembly& assembly, const servo::ToolContact& touch,
-                                  std::size_t joint) {
-    std::vector<NutView> all;
-    if (joint >= touch.nut_bodies.size() || !touch.nut_bodies[joint]) return all;
-    const std::size_t body = *touch.nut_bodies[joint];
-    const std::vector<collision::SurfacePoint> on_nut =
-        collision::sample_outer_surface(touch.world.shapes[touch.world.bodies[body].shape].solid, spots);
-    for (const content::View& view : assembly.views) {
-        const collision::Visibility seen = collision::visibility_of(touch.world, body, on_nut, view.eye);
-        all.push_back({seen.share, seen.angle / square(2.0 * std::tan(0.5 * view.field_of_view)),
-                       in_picture(view, touch.world.bodies[body].pose.position)});
+std::vector<NutView> nut_views(const content::Assembly& assembly, const servo::ToolContact& contact,
+                               std::size_t joint) {
+    std::vector<NutView> views;
+    if (joint >= contact.nut_bodies.size() || !contact.nut_bodies[joint]) return views;
+    const std::size_t body = *contact.nut_bodies[joint];
+    const std::vector<collision::SurfacePoint> samples = collision::sample_outer_surface(
+        contact.world.shapes[contact.world.bodies[body].shape].solid, nut_samples);
+    for (const content::Viewpoint& view : assembly.views) {
+        const collision::Visibility seen = collision::visibility_of(contact.world, body, samples, view.eye);
+        views.push_back({seen.share, seen.angle / square(2.0 * std::tan(0.5 * view.field_of_view)),
+                         in_picture(view, contact.world.bodies[body].pose.position)});
     }
-    return all;
+    return views;
 }
 
 std::optional<std::size_t> best_view(std::span<const NutView> views) {

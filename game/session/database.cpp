@@ -18,7 +18,7 @@ namespace bolt::session {
 namespace {
 
 constexpr int max_value_bytes =
-    64 << 20;  // no text or chunk of ours comes near it; a damaged file may claim it
+    64 << 20;  // far above any text or chunk; limits the allocation for a damaged file
 constexpr int busy_timeout_ms = 2000;
 
 tl::unexpected<Error> database_error(sqlite3* database, const std::string& name) {
@@ -30,7 +30,7 @@ tl::unexpected<Error> database_error(sqlite3* database, const std::string& name)
     return file_error(name, std::move(what));
 }
 
-// "file:" with everything escaped that has a meaning in a URI: names may hold '?', '#' or '%'.
+// A "file:" URI. Escapes characters with a meaning in URIs, since names may contain '?', '#' or '%'.
 std::string uri(const std::filesystem::path& path, std::string_view query) {
     std::string text = "file:";
     for (const char c : path.string()) {
@@ -127,7 +127,7 @@ std::span<const std::byte> Statement::bytes(int column) const {
     return {data, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
 
-void Database::Close::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
+void Database::CloseDatabase::operator()(sqlite3* database) const { sqlite3_close_v2(database); }
 
 Database::Database(sqlite3* database, std::string name) : database_(database), name_(std::move(name)) {}
 
@@ -147,9 +147,9 @@ Result<Database> Database::open_with(const std::string& file, std::string name, 
 }
 
 Result<Database> Database::create(const std::filesystem::path& path, std::string name) {
-    // SQLite tries again to read what it cannot make, and then says that there is nothing to read.
+    // SQLite would retry to read a file that it cannot create, and then report that the file is missing.
     const int made = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (made < 0) return file_error(name, "cannot be made: " + std::generic_category().message(errno));
+    if (made < 0) return file_error(name, "cannot be created: " + std::generic_category().message(errno));
     (void)::close(made);
     return open(path, std::move(name));
 }
@@ -158,11 +158,10 @@ Result<Database> Database::open(const std::filesystem::path& path, std::string n
     return open_with(path.string(), std::move(name), SQLITE_OPEN_READWRITE, nullptr);
 }
 
-Result<Database> Database::open_to_read(const std::filesystem::path& path, std::string name) {
+Result<Database> Database::open_read_only(const std::filesystem::path& path, std::string name) {
     constexpr const char* probe = "SELECT count(*) FROM sqlite_schema";
     if (!has_content(path, "-wal") && !has_content(path, "-journal")) {
-        // Nobody writes on it and nothing has to be recovered: no locks, and no -wal and -shm files made
-        // beside it.
+        // There is no writer and nothing to recover, so no locks and no -wal and -shm files are needed.
         BOLT_TRY_ASSIGN(auto database, open_with(uri(path, "immutable=1"), std::move(name),
                                                  SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, nullptr));
         BOLT_TRY(database.execute(probe));
@@ -173,9 +172,8 @@ Result<Database> Database::open_to_read(const std::filesystem::path& path, std::
     if (read) return shared;
     const int code = sqlite3_errcode(shared.database_.get());
     if (code != SQLITE_CANTOPEN && code != SQLITE_READONLY) return fail(read.error());
-    // The shared index of the -wal file cannot be made where nothing can be written. One kept in memory
-    // serves as well, without locks, which means nobody may be writing; a writer could not be in such a
-    // folder.
+    // The shared index of the -wal file cannot be created in a read-only folder. Keep it in memory, without
+    // locks; there can be no writer in such a folder.
     BOLT_TRY_ASSIGN(auto alone, open_with(path.string(), std::move(name), SQLITE_OPEN_READONLY, "unix-none"));
     sqlite3_db_config(alone.database_.get(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
     BOLT_TRY(alone.execute("PRAGMA locking_mode = EXCLUSIVE"));
@@ -205,7 +203,7 @@ constexpr int max_attempts = 100;
 
 std::string reason_of(int number) { return std::generic_category().message(number); }
 
-// Whether `path` names the open file.
+// True if `path` names the open file.
 bool is_at(int handle, const std::filesystem::path& path) {
     struct stat open {};
     struct stat named {};
@@ -221,7 +219,7 @@ bool is_empty_file(int handle) {
 
 }  // namespace
 
-Result<FileLock> FileLock::take(const std::filesystem::path& path, const std::string& file) {
+Result<FileLock> FileLock::acquire(const std::filesystem::path& path, const std::string& file) {
     constexpr const char* taken = "another program is recording into this file";
     const std::filesystem::path place = path.string() + ".lock";
     for (int attempt = 0; attempt < max_attempts; ++attempt) {
@@ -232,14 +230,14 @@ Result<FileLock> FileLock::take(const std::filesystem::path& path, const std::st
             if (::lstat(place.c_str(), &there) == 0)
                 return file_error(
                     file, fmt::format("its lock {} cannot be opened: {}", place.string(), reason_of(reason)));
-            return file_error(file, "nothing can be written in its folder: " + reason_of(reason));
+            return file_error(file, "its folder is not writable: " + reason_of(reason));
         }
         if (::flock(lock.handle_, LOCK_EX | LOCK_NB) != 0) {
             if (errno == EWOULDBLOCK) return file_error(file, taken);
             if (errno == EINTR) continue;
             return file_error(file, "cannot be locked: " + reason_of(errno));
         }
-        // Its holder may have removed it since it was opened; a removed file locks nothing.
+        // The previous holder may have removed the file since it was opened; a removed file locks nothing.
         if (!is_at(lock.handle_, place)) continue;
         if (!is_empty_file(lock.handle_))
             return file_error(
@@ -261,7 +259,7 @@ FileLock& FileLock::operator=(FileLock&& other) noexcept {
 
 FileLock::~FileLock() {
     if (handle_ < 0) return;
-    // Remove the name before the lock is released, so that no other program has acquired it in between.
+    // Remove the name before the lock is released, so that no other program can have acquired it.
     if (!held_.empty() && is_at(handle_, held_)) (void)::unlink(held_.c_str());
     (void)::close(handle_);
 }

@@ -1,4 +1,5 @@
-// An SQLite database and its statements as move-only handles. Every failure is an Error that names the file.
+// An SQLite database and its statements as move-only handles, and the lock of a file that is being recorded.
+// Every error names the file.
 #pragma once
 
 #include <concepts>
@@ -17,13 +18,13 @@ struct sqlite3_stmt;
 
 namespace bolt::session {
 
-// `what` is wrong with `file`.
+// An error about `file`.
 tl::unexpected<Error> file_error(const std::string& file, std::string what);
 
 class Statement {
   public:
-    // Indices count from 1, as in SQL. Text and bytes are not copied: they have to live until the statement
-    // has run.
+    // Indices count from 1, as in SQL. Text and bytes are not copied; they must live until the statement has
+    // run.
     Statement& bind(int index, std::int64_t value);
     Statement& bind(int index, std::integral auto value) {
         return bind(index, static_cast<std::int64_t>(value));
@@ -32,11 +33,11 @@ class Statement {
     Statement& bind(int index, std::string_view value);
     Statement& bind(int index, std::span<const std::byte> value);
 
-    Result<bool>
-    step();        // true: there is a row; false: there are no more, and the statement can be run again
-    Status run();  // for statements that give no rows
+    // True: there is a row. False: there are no more rows, and the statement can be run again.
+    Result<bool> step();
+    Status run();  // for statements without rows
 
-    // Runs it with a value for each parameter.
+    // Runs the statement with a value for each parameter.
     template <class... Values>
     Status run_with(const Values&... values) {
         int index = 0;
@@ -46,7 +47,7 @@ class Statement {
 
     // Columns of the row count from 0. Text and bytes live until the next step.
     [[nodiscard]] std::int64_t integer(int column) const;
-    [[nodiscard]] double real(int column) const;  // NaN where SQL has null: SQLite keeps no NaN
+    [[nodiscard]] double real(int column) const;  // NaN for an SQL null, as which SQLite stores NaN
     [[nodiscard]] std::string_view text(int column) const;
     [[nodiscard]] std::span<const std::byte> bytes(int column) const;
 
@@ -64,38 +65,35 @@ class Statement {
 
 class Database {
   public:
-    // `name` is what errors call the file.
-    static Result<Database> create(const std::filesystem::path& path,
-                                   std::string name);  // makes it; an error if it is there
-    static Result<Database> open(const std::filesystem::path& path, std::string name);  // to write on
-    // Never changes the file. What a killed writer left in the -wal file beside it is seen, in a folder where
-    // nothing can be written too.
-    static Result<Database> open_to_read(const std::filesystem::path& path, std::string name);
+    // `name` is the file's name in errors. create() fails if the file exists; open() opens it for writing.
+    static Result<Database> create(const std::filesystem::path& path, std::string name);
+    static Result<Database> open(const std::filesystem::path& path, std::string name);
+    // Never changes the file. Reads also the -wal file that a killed writer left beside it, even in a
+    // read-only folder.
+    static Result<Database> open_read_only(const std::filesystem::path& path, std::string name);
 
     Status execute(const char* sql);
     Result<Statement> prepare(std::string_view sql);
-    [[nodiscard]] bool was_busy() const;  // the last call failed because another connection is in the way
+    [[nodiscard]] bool was_busy() const;  // the last call failed because of another connection
 
   private:
-    struct Close {
+    struct CloseDatabase {
         void operator()(sqlite3* database) const;
     };
     static Result<Database> open_with(const std::string& file, std::string name, int flags, const char* vfs);
     Database(sqlite3* database, std::string name);
 
-    std::unique_ptr<sqlite3, Close> database_;
+    std::unique_ptr<sqlite3, CloseDatabase> database_;
     std::string name_;
 };
 
-// Lets one program of this machine at a time record into a file.
-
-// Held from take() until destruction or the end of the process. It locks an empty file beside `path`, named
-// with an additional ".lock". That file is removed with the lock; one that a killed process leaves does no
-// harm.
+// Lets one program of this machine at a time record into a file. The lock is held from acquire() until
+// destruction or the end of the process. It locks an empty file beside `path`, named with an additional
+// ".lock". That file is removed with the lock; one that a killed process leaves is harmless.
 class FileLock {
   public:
     // Does not wait. `file` names the file in errors, which give the system's reason.
-    static Result<FileLock> take(const std::filesystem::path& path, const std::string& file);
+    static Result<FileLock> acquire(const std::filesystem::path& path, const std::string& file);
     FileLock(FileLock&& other) noexcept;
     FileLock& operator=(FileLock&& other) noexcept;
     ~FileLock();

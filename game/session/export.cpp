@@ -23,9 +23,9 @@ double rounded(double value, double digits) { return std::round(value * digits) 
 
 }  // namespace
 
-std::string summary_json(const content::Assembly& assembly, const CourseOptions& options,
-                         const Played& played) {
-    const lesson::LessonResult& result = played.result;
+std::string summary_json(const content::Assembly& assembly, const LessonOptions& options,
+                         const LessonOutcome& outcome) {
+    const lesson::LessonResult& result = outcome.result;
     nlohmann::ordered_json json;
     json["assembly"] = assembly.name;
     json["variant"] = assembly.variant;
@@ -34,7 +34,7 @@ std::string summary_json(const content::Assembly& assembly, const CourseOptions&
     json["mode"] = lesson::name(options.mode);
     json["task"] = lesson::name(options.task);
     json["guide"] = options.guide && options.mode == lesson::Mode::guided;
-    json["obstacles"] = played.obstacles;
+    json["obstacles"] = outcome.obstacles;
     json["operator"] = options.operator_name;
     json["trainee"] = options.trainee;
     json["seed"] = options.seed;
@@ -60,15 +60,15 @@ std::string summary_table(const content::Assembly& assembly, const lesson::Lesso
     table += fmt::format("{:<8} {:<8} {:>9} {:>9} {:>8} {:>8}\n", "", "", "N·m", "kN", "N·m", "deg");
     for (std::size_t i = 0; i < result.joints.size(); ++i) {
         const lesson::JointResult& joint = result.joints[i];
-        const content::AssemblyJoint& given = assembly.joints[i];
+        const content::AssemblyJoint& planned = assembly.joints[i];
         std::string verdict(lesson::name(joint.overall));
         if (joint.condition != joint::Condition::sound)
             verdict += fmt::format(" ({})", joint::name(joint.condition));
         if (joint.order_errors > 0) verdict += fmt::format(", {}× out of turn", joint.order_errors);
         if (joint.rehits > 0) verdict += fmt::format(", {}× again", joint.rehits);
         table += fmt::format("{:<8} {:<8} {:>8.1f} {:>9.2f} {:>8.1f} {:>8.1f}  {}\n", joint.id,
-                             given.design.thread.size.name, joint.torque, joint.clamp / 1e3,
-                             given.spec.torque.target, to_degrees(joint.angle), verdict);
+                             planned.design.thread.size.name, joint.torque, joint.clamp / 1e3,
+                             planned.spec.torque.target, to_degrees(joint.angle), verdict);
     }
     table += fmt::format("{:.1f} s, score {:.1f} of 100\n", result.duration, result.score);
     for (const lesson::ScoreReason& reason : result.reasons)
@@ -99,7 +99,7 @@ std::string quoted(const std::string& text) {
     return field += '"';
 }
 
-// Fields for numbers that have names; −1 is empty. A number without a name stands as "#number".
+// Fields for numbers that have names. −1 gives an empty field; a number without a name, "#number".
 class NamedFields {
   public:
     void add(std::int32_t number, const std::string& name) { names_[number] = quoted(name); }
@@ -143,7 +143,7 @@ tl::unexpected<Error> write_error(const std::string& out_name, int reason) {
 
 }  // namespace
 
-Status export_csv(const Reader& session, std::FILE* out, const CsvOptions& options) {
+Status export_csv(const SessionReader& session, std::FILE* out, const CsvOptions& options) {
     if (options.every_n == 0) return fail(ErrorCode::usage, "the export interval is 0 ticks", "1 or more");
     BOLT_TRY_ASSIGN(const auto result, session.result());
     Names names;
@@ -154,15 +154,16 @@ Status export_csv(const Reader& session, std::FILE* out, const CsvOptions& optio
     const double dt = session.header().dt;
 
     std::string text(header_row);
-    std::optional<int> failure;  // errno of the first write that failed: the rest is not even formatted
+    std::optional<int> failure;  // errno of the first write that failed; the rest is not formatted
     const auto write_out = [&] {
         if (!failure && std::fwrite(text.data(), 1, text.size(), out) != text.size()) failure = errno;
         text.clear();
     };
     Status read = session.for_each_chunk([&](std::uint64_t first, std::span<const TickRecord> ticks) {
         if (failure) return;
-        const std::uint64_t past = first % options.every_n;
-        for (std::uint64_t i = past == 0 ? 0 : options.every_n - past; i < ticks.size(); i += options.every_n)
+        const std::uint64_t remainder = first % options.every_n;
+        for (std::uint64_t i = remainder == 0 ? 0 : options.every_n - remainder; i < ticks.size();
+             i += options.every_n)
             append_row(text, static_cast<double>(first + i) * dt, ticks[i], names);
         write_out();
     });

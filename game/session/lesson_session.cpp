@@ -13,10 +13,10 @@ namespace bolt::session {
 servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const force::OutputLimits& limits,
                         std::uint64_t seed, double dt) {
     std::vector<joint::JointDesign> designs;
-    double greatest = 0.0;
+    double highest_torque = 0.0;
     for (const content::AssemblyJoint& joint : assembly.joints) {
         designs.push_back(joint.design);
-        greatest = std::max(greatest, joint.spec.torque.high);
+        highest_torque = std::max(highest_torque, joint.spec.torque.high);
     }
     const content::FlangeDesign& f = assembly.flange;
     joint::FlangePlate plate;
@@ -33,7 +33,7 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     description.jaw_tip = assembly.wrench.jaw_tip;
     description.head_angle = assembly.wrench.head_angle;
     description.handle_length = assembly.wrench.handle_length;
-    description.greatest_torque = greatest;
+    description.greatest_torque = highest_torque;
     description.click_swing = assembly.wrench.click_swing;
     description.click_accuracy = assembly.wrench.click_accuracy;
     description.limits = limits;
@@ -44,42 +44,42 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
 
 Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, servo::State& state) {
     constexpr double speed = to_radians(120.0);
-    constexpr int longest = 4'000'000;
+    constexpr int max_steps = 4'000'000;
     for (const std::size_t i : assembly.passes.back().order) {
         const double target = assembly.joints[i].spec.torque.target;
         joint::JointState& joint = state.joints[i];
         int steps = 0;
-        // Into yield as the specification has it: where the yield stage begins, and not on to a torque.
+        // With strategy `yield`, tighten to the beginning of the yield stage instead of a torque.
         const bool into_yield = assembly.joints[i].spec.strategy == content::Strategy::yield;
-        const auto tight = [&] {
+        const auto tightened = [&] {
             return joint.torque >= target || (into_yield && joint.stage == joint::Stage::yield);
         };
-        while (!tight() && joint.condition == joint::Condition::sound && ++steps < longest) {
-            const bool near = joint.stage != joint::Stage::navigation;
-            const double step = (near ? 0.1 : 1.0) * speed * setup.dt;
+        while (!tightened() && joint.condition == joint::Condition::sound && ++steps < max_steps) {
+            const bool contact = joint.stage != joint::Stage::navigation;
+            const double step = (contact ? 0.1 : 1.0) * speed * setup.dt;
             joint::turn_nut(setup.group, state.joints, i, joint.nut.angle + step, 1.0, setup.dt);
         }
-        if (!tight())
+        if (!tightened())
             return fail(ErrorCode::bad_content,
                         fmt::format("joint {} cannot be tightened to {:.1f} N·m: it is {}",
                                     assembly.joints[i].design.id, target, joint::name(joint.condition)));
         joint.nut.speed = 0.0;
     }
     for (double rest = 0.0; rest < 10.0; rest += setup.dt)
-        joint::step_group(setup.group, state.joints, -1, joint::Handle{}, setup.dt);
+        joint::step_group(setup.group, state.joints, -1, joint::DriveHandle{}, setup.dt);
     return {};
 }
 
 namespace {
 
-session::Header header_of(const Prepared& at, const CourseOptions& options) {
-    const content::Assembly& assembly = at.assembly;
-    session::Header header;
+Header header_of(const SessionSetup& start, const LessonOptions& options) {
+    const content::Assembly& assembly = start.assembly;
+    Header header;
     header.guide = options.guide && options.mode == lesson::Mode::guided ? "on" : "off";
     header.view_help = options.view_help;
-    header.obstacles = at.obstacles;
-    header.obstacle_names = at.obstacle_names;
-    header.device = session::text_of(options.device);
+    header.obstacles = start.obstacles;
+    header.obstacle_names = start.obstacle_names;
+    header.device = limits_text(options.device);
     header.servo = options.servo;
     header.assembly = assembly.name;
     header.assembly_file = assembly.file;
@@ -99,18 +99,18 @@ session::Header header_of(const Prepared& at, const CourseOptions& options) {
     return header;
 }
 
-Result<std::optional<TouchModels>> obstacles_of(const content::Assembly& assembly, const servo::Setup& setup,
-                                                Obstacles wanted) {
-    if (wanted == Obstacles::none) return std::nullopt;
-    Result<std::optional<TouchModels>> models = load_touch_models(assembly, setup);
-    if (models && !models->has_value() && wanted == Obstacles::required)
+Result<std::optional<ContactModels>> obstacles_of(const content::Assembly& assembly,
+                                                  const servo::Setup& setup, Obstacles obstacles) {
+    if (obstacles == Obstacles::none) return std::nullopt;
+    Result<std::optional<ContactModels>> models = load_contact_models(assembly, setup);
+    if (models && !models->has_value() && obstacles == Obstacles::required)
         return fail(*missing_contact_model(assembly));
     return models;
 }
 
 // Compares all bits of the outputs, also those that the session file does not store.
-bool same(const servo::Input& input, const servo::Output& a, const servo::Output& b) {
-    return session::same_output(session::make_record(input, a), session::make_record(input, b)) &&
+bool same_tick(const servo::Input& input, const servo::Output& a, const servo::Output& b) {
+    return same_output(make_record(input, a), make_record(input, b)) &&
            std::memcmp(&a.tool, &b.tool, sizeof a.tool) == 0 && a.slipped == b.slipped &&
            a.clicked == b.clicked && a.undone == b.undone &&
            std::memcmp(&a.rounded, &b.rounded, sizeof a.rounded) == 0;
@@ -118,120 +118,127 @@ bool same(const servo::Input& input, const servo::Output& a, const servo::Output
 
 }  // namespace
 
-void follow(LessonTracker& tracker, const servo::State& state, const servo::Output& output) {
+void advance(LessonTracker& tracker, const servo::State& state, const servo::Output& output) {
     lesson::Lesson& lesson = tracker.lesson;
     lesson::observe(lesson, state, output);
-    for (const lesson::Event& event : lesson.events) tracker.begun += event.kind == "step_begin" ? 1U : 0U;
+    for (const lesson::LessonEvent& event : lesson.events)
+        tracker.steps_begun += event.kind == lesson::EventKind::step_begin ? 1U : 0U;
     if (output.undone == 0) return;
-    const std::uint32_t unmarked = tracker.begun - (state.checkpoint_count + output.undone - 1U);
+    const std::uint32_t unsaved = tracker.steps_begun - (state.checkpoint_count + output.undone - 1U);
     // The last checkpoint belongs to the due step, or to the last step once all are done.
     const std::uint32_t done = lesson.due() == nullptr ? 1U : 0U;
-    (void)lesson::back(lesson, state, output.undone - 1U + unmarked + done);
-    tracker.begun = state.checkpoint_count;  // the step it returned to has its checkpoint
+    (void)lesson::undo_steps(lesson, state, output.undone - 1U + unsaved + done);
+    tracker.steps_begun = state.checkpoint_count;  // one for the step it returned to
 }
 
-Course::~Course() = default;
+LessonSession::~LessonSession() = default;
 
-Result<Prepared> prepare(const content::Assembly& given, const CourseOptions& options) {
-    Prepared at;
-    at.assembly = lesson::under_law(given, options.law);
-    at.setup = make_setup(at.assembly, options.law, options.device, options.seed, options.dt);
-    at.state = servo::initial_state(at.setup);
+Result<SessionSetup> prepare(const content::Assembly& given, const LessonOptions& options) {
+    SessionSetup start;
+    start.assembly = lesson::apply_law(given, options.law);
+    start.setup = make_setup(start.assembly, options.law, options.device, options.seed, options.dt);
+    start.state = servo::initial_state(start.setup);
     if (options.task == lesson::Task::loosen) {
-        BOLT_TRY(pretighten(at.assembly, at.setup, at.state));
+        BOLT_TRY(pretighten(start.assembly, start.setup, start.state));
     }
-    BOLT_TRY_ASSIGN(auto models, obstacles_of(at.assembly, at.setup, options.obstacles));
-    if (!models.has_value()) return at;
-    at.obstacles = models->files;
-    at.obstacle_names = std::move(models->names);
-    at.state.tool_contact = std::move(models->tool_contact);
-    return at;
+    BOLT_TRY_ASSIGN(auto models, obstacles_of(start.assembly, start.setup, options.obstacles));
+    if (!models.has_value()) return start;
+    start.obstacles = models->files;
+    start.obstacle_names = std::move(models->names);
+    start.state.tool_contact = std::move(models->tool_contact);
+    return start;
 }
 
-void use_device(const CourseOptions& options, Prepared& at) {
-    at.setup = make_setup(at.assembly, options.law, options.device, options.seed, options.dt);
-    if (at.state.tool_contact) servo::set_coupling(at.setup, *at.state.tool_contact);
+void set_device(const LessonOptions& options, SessionSetup& start) {
+    start.setup = make_setup(start.assembly, options.law, options.device, options.seed, options.dt);
+    if (start.state.tool_contact) servo::set_coupling(start.setup, *start.state.tool_contact);
 }
 
-Result<std::unique_ptr<Course>> Course::begin(const content::Assembly& given, const CourseOptions& options,
-                                              const std::filesystem::path& file) {
-    BOLT_TRY_ASSIGN(auto prepared, prepare(given, options));
-    return begin(std::move(prepared), options, file);
+Result<std::unique_ptr<LessonSession>> LessonSession::begin(const content::Assembly& given,
+                                                            const LessonOptions& options,
+                                                            const std::filesystem::path& file) {
+    BOLT_TRY_ASSIGN(auto start, prepare(given, options));
+    return begin(std::move(start), options, file);
 }
 
-Result<std::unique_ptr<Course>> Course::begin(Prepared prepared, const CourseOptions& options,
-                                              const std::filesystem::path& file) {
-    std::unique_ptr<Course> course(new Course);
-    Course& c = *course;
-    c.at_ = std::move(prepared);
-    BOLT_TRY_ASSIGN(auto created, session::Writer::create(file, header_of(c.at_, options)));
-    c.writer_.emplace(std::move(created));
+Result<std::unique_ptr<LessonSession>> LessonSession::begin(SessionSetup start, const LessonOptions& options,
+                                                            const std::filesystem::path& file) {
+    std::unique_ptr<LessonSession> session(new LessonSession);
+    LessonSession& s = *session;
+    s.current_ = std::move(start);
+    BOLT_TRY_ASSIGN(auto created, SessionWriter::create(file, header_of(s.current_, options)));
+    s.writer_.emplace(std::move(created));
 
-    lesson::Lesson& lesson = c.tracker_.lesson;
-    lesson = lesson::begin(c.at_.assembly, options.mode, options.task);
+    lesson::Lesson& lesson = s.tracker_.lesson;
+    lesson = lesson::begin(s.current_.assembly, options.mode, options.task);
     lesson.guides = lesson.guides && options.guide;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
-        BOLT_TRY(c.writer_->update(lesson::judge_joint(lesson, i, c.at_.state)));
+        BOLT_TRY(s.writer_->update(lesson::judge_joint(lesson, i, s.current_.state)));
     }
-    return course;
+    return session;
 }
 
-Status Course::keep_events() {
-    for (const lesson::Event& event : events_) {
+Status LessonSession::record_events() {
+    for (const lesson::LessonEvent& event : events_) {
         BOLT_TRY(writer_->add(event));
-        if (event.kind != "step_end" && event.kind != "release") continue;
+        if (event.kind != lesson::EventKind::step_end && event.kind != lesson::EventKind::release) continue;
         const auto joint = static_cast<std::size_t>(event.joint);
-        BOLT_TRY(writer_->update(lesson::judge_joint(lesson(), joint, at_.state)));
+        BOLT_TRY(writer_->update(lesson::judge_joint(lesson(), joint, current_.state)));
     }
     return {};
 }
 
-Result<servo::Output> Course::step(const servo::Input& given, std::vector<lesson::Event> noticed) {
+Result<servo::Output> LessonSession::step(const servo::Input& given,
+                                          std::vector<lesson::LessonEvent> extra_events) {
     servo::Input input = given;
-    const auto back = std::exchange(back_, std::nullopt);
-    input.undo = marks() != kept_ ? servo::save_checkpoint : back ? undo_by(*back) : std::uint8_t{0};
-    input.setting = static_cast<float>(lesson::setting(lesson()));
-    return tick(input, std::move(noticed));
+    const auto undo = std::exchange(requested_undo_, std::nullopt);
+    input.undo = target_checkpoints() != checkpoints_saved_ ? servo::save_checkpoint
+                 : undo                                     ? undo_input(*undo)
+                                                            : std::uint8_t{0};
+    input.setting = static_cast<float>(lesson::wrench_setting(lesson()));
+    return tick(input, std::move(extra_events));
 }
 
-std::uint8_t Course::undo_by(std::size_t steps) const {
+std::uint8_t LessonSession::undo_input(std::size_t steps) const {
     const lesson::Lesson& l = lesson();
-    const std::size_t marks = steps + (over() ? 0 : 1);  // as in follow()
-    const bool may =
-        l.mode != lesson::Mode::assessment && marks <= servo::max_checkpoints && steps <= l.current;
-    return may ? static_cast<std::uint8_t>(marks) : std::uint8_t{0};
+    const std::size_t checkpoints = steps + (finished() ? 0 : 1);  // as in advance()
+    const bool allowed =
+        l.mode != lesson::Mode::assessment && checkpoints <= servo::max_checkpoints && steps <= l.current;
+    return allowed ? static_cast<std::uint8_t>(checkpoints) : std::uint8_t{0};
 }
 
-Status Course::take(const servo::Input& input, const servo::Output& output,
-                    std::vector<lesson::Event> noticed) {
-    BOLT_TRY_ASSIGN(const auto again, tick(input, std::move(noticed)));
-    if (same(input, again, output)) return {};
+Status LessonSession::repeat(const servo::Input& input, const servo::Output& output,
+                             std::vector<lesson::LessonEvent> extra_events) {
+    BOLT_TRY_ASSIGN(const auto again, tick(input, std::move(extra_events)));
+    if (same_tick(input, again, output)) return {};
     return fail(ErrorCode::failed,
                 fmt::format("at {:.3f} s the servo and the lesson got different outputs from the same inputs",
                             time()),
                 "equal bits; the recording until then is kept");
 }
 
-Result<servo::Output> Course::tick(const servo::Input& input, std::vector<lesson::Event>&& noticed) {
-    const servo::Output output = servo::tick(at_.setup, at_.state, input);
-    kept_ += input.undo == servo::save_checkpoint ? 1U : 0U;
-    follow(tracker_, at_.state, output);
+Result<servo::Output> LessonSession::tick(const servo::Input& input,
+                                          std::vector<lesson::LessonEvent>&& extra_events) {
+    const servo::Output output = servo::tick(current_.setup, current_.state, input);
+    checkpoints_saved_ += input.undo == servo::save_checkpoint ? 1U : 0U;
+    advance(tracker_, current_.state, output);
     events_.clear();
     std::swap(events_, tracker_.lesson.events);
-    for (lesson::Event& seen : noticed) events_.push_back(std::move(seen));
-    BOLT_TRY(writer_->append(session::make_record(input, output)));
-    BOLT_TRY(keep_events());
+    for (lesson::LessonEvent& event : extra_events) events_.push_back(std::move(event));
+    BOLT_TRY(writer_->append(make_record(input, output)));
+    BOLT_TRY(record_events());
     return output;
 }
 
-Played Course::judged() const {
-    return {lesson::judge(lesson(), at_.state, at_.setup.dt), at_.state.tool_contact.has_value()};
+LessonOutcome LessonSession::outcome() const {
+    return {lesson::judge(lesson(), current_.state, current_.setup.dt),
+            current_.state.tool_contact.has_value()};
 }
 
-Result<Played> Course::finish() {
-    Played played = judged();
-    BOLT_TRY(writer_->finish(played.result));
-    return played;
+Result<LessonOutcome> LessonSession::finish() {
+    LessonOutcome result = outcome();
+    BOLT_TRY(writer_->finish(result.result));
+    return result;
 }
 
 }  // namespace bolt::session

@@ -77,7 +77,7 @@ Result<Meta> read_meta(Database& database, const std::string& file) {
     Meta meta;
     BOLT_TRY(for_each_row(database, file, "meta", "SELECT key, value FROM meta", [&](const Statement& row) {
         const auto [entry, isnew] = meta.emplace(row.text(0), row.text(1));
-        return std::optional(sum_of_meta(entry->first, row.text(1)));
+        return std::optional(meta_row_hash(entry->first, row.text(1)));
     }));
     return meta;
 }
@@ -127,7 +127,7 @@ Status read_obstacles(Database& database, const std::string& file, std::vector<O
                             if (number != row.integer(0) || id.is_none() || !file_number(id))
                                 return std::nullopt;
                             names.push_back({id, std::string(row.text(1))});
-                            return sum_of(names.back());
+                            return row_hash(names.back());
                         });
 }
 
@@ -142,7 +142,7 @@ Result<std::uint64_t> count_ticks(Database& database, const std::string& file) {
                               if (first != ticks || count == 0 || count > max_chunk_ticks)
                                   return std::nullopt;
                               ticks += count;
-                              return sum_of_chunk(first, count);
+                              return chunk_row_hash(first, count);
                           }));
     return ticks;
 }
@@ -169,12 +169,12 @@ std::optional<lesson::JointResult> joint_of(const Statement& row) {
     return joint;
 }
 
-struct Session {
+struct OpenedFile {
     Database database;
     std::int64_t format = 0;
 };
 
-Result<Session> open_session(const std::filesystem::path& path, const std::string& file) {
+Result<OpenedFile> open_session(const std::filesystem::path& path, const std::string& file) {
     std::error_code status;
     const std::filesystem::path real = std::filesystem::canonical(path, status);
     if (status) return file_error(file, "cannot be opened: " + status.message());
@@ -182,7 +182,7 @@ Result<Session> open_session(const std::filesystem::path& path, const std::strin
     if (std::filesystem::file_size(real, status) == 0 && !status)
         return file_error(file, "is empty, not a session file");
 
-    auto database = Database::open_to_read(real, file);
+    auto database = Database::open_read_only(real, file);
     if (!database) return file_error(file, "cannot be read as a session: " + database.error().what);
     // One snapshot of the file for the reader's lifetime, also while a lesson is still being recorded.
     BOLT_TRY(database->execute("BEGIN"));
@@ -196,12 +196,12 @@ Result<Session> open_session(const std::filesystem::path& path, const std::strin
             file, fmt::format("was written by a newer version (its format is {}, this program reads {})",
                               *version, format_version));
     if (*version < oldest_format) return file_error(file, fmt::format("has the unknown format {}", *version));
-    return Session{std::move(*database), *version};
+    return OpenedFile{std::move(*database), *version};
 }
 
 }  // namespace
 
-struct Reader::State {
+struct SessionReader::State {
     Database database;
     std::int64_t format = 0;
     std::string file;
@@ -213,12 +213,12 @@ struct Reader::State {
     bool finished = false;
 };
 
-Reader::Reader(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Reader::Reader(Reader&& other) noexcept = default;
-Reader& Reader::operator=(Reader&& other) noexcept = default;
-Reader::~Reader() = default;
+SessionReader::SessionReader(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SessionReader::SessionReader(SessionReader&& other) noexcept = default;
+SessionReader& SessionReader::operator=(SessionReader&& other) noexcept = default;
+SessionReader::~SessionReader() = default;
 
-Result<Reader> Reader::open(const std::filesystem::path& path) {
+Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
     const std::string file = path.string();
     BOLT_TRY_ASSIGN(auto session, open_session(path, file));
     Database& database = session.database;
@@ -235,17 +235,17 @@ Result<Reader> Reader::open(const std::filesystem::path& path) {
         BOLT_TRY(read_obstacles(database, file, header.obstacle_names));
     }
     const double recorded = static_cast<double>(ticks) * header.dt;
-    return Reader(
+    return SessionReader(
         std::make_unique<State>(State{std::move(database), session.format, file, std::move(header), complete,
                                       ticks, duration.value_or(recorded), score.value_or(0.0), finished}));
 }
 
-const Header& Reader::header() const { return state_->header; }
-bool Reader::complete() const { return state_->complete; }
-std::uint64_t Reader::tick_count() const { return state_->ticks; }
-std::string Reader::file() const { return state_->file; }
+const Header& SessionReader::header() const { return state_->header; }
+bool SessionReader::complete() const { return state_->complete; }
+std::uint64_t SessionReader::tick_count() const { return state_->ticks; }
+std::string SessionReader::file() const { return state_->file; }
 
-Result<lesson::LessonResult> Reader::result() const {
+Result<lesson::LessonResult> SessionReader::result() const {
     lesson::LessonResult result;
     result.duration = state_->duration;
     result.score = state_->score;
@@ -259,34 +259,36 @@ Result<lesson::LessonResult> Reader::result() const {
                          auto joint = joint_of(row);
                          if (!joint) return std::nullopt;
                          result.joints.push_back(std::move(*joint));
-                         return sum_of(static_cast<std::uint64_t>(row.integer(0)), result.joints.back());
+                         return row_hash(static_cast<std::uint64_t>(row.integer(0)), result.joints.back());
                      }));
     BOLT_TRY(for_each_row(
         state_->database, state_->file, "score_reason",
         "SELECT ordinal, points, text FROM score_reason ORDER BY ordinal", [&](const Statement& row) {
             result.reasons.push_back({row.real(1), std::string(row.text(2))});
-            return std::optional(sum_of(static_cast<std::uint64_t>(row.integer(0)), result.reasons.back()));
+            return std::optional(row_hash(static_cast<std::uint64_t>(row.integer(0)), result.reasons.back()));
         }));
     return result;
 }
 
-Result<std::vector<lesson::Event>> Reader::events() const {
-    std::vector<lesson::Event> events;
+Result<std::vector<lesson::LessonEvent>> SessionReader::events() const {
+    std::vector<lesson::LessonEvent> events;
     BOLT_TRY(for_each_row(state_->database, state_->file, "event",
                           "SELECT ordinal, tick, kind, joint, value, text FROM event ORDER BY ordinal",
-                          [&](const Statement& row) {
-                              lesson::Event& event = events.emplace_back();
+                          [&](const Statement& row) -> std::optional<std::uint64_t> {
+                              const auto kind = lesson::event_kind(row.text(2));
+                              if (!kind) return std::nullopt;
+                              lesson::LessonEvent& event = events.emplace_back();
                               event.tick = static_cast<std::uint64_t>(row.integer(1));
-                              event.kind = row.text(2);
+                              event.kind = *kind;
                               event.joint = static_cast<int>(row.integer(3));
                               event.value = row.real(4);
                               event.text = row.text(5);
-                              return std::optional(sum_of(static_cast<std::uint64_t>(row.integer(0)), event));
+                              return row_hash(static_cast<std::uint64_t>(row.integer(0)), event);
                           }));
     return events;
 }
 
-Result<std::optional<servo::Timing>> Reader::timing() const {
+Result<std::optional<servo::Timing>> SessionReader::timing() const {
     if (state_->format < 2) return std::nullopt;
     std::optional<servo::Timing> timing;
     BOLT_TRY(for_each_row(state_->database, state_->file, "servo_time",
@@ -300,13 +302,13 @@ Result<std::optional<servo::Timing>> Reader::timing() const {
                                                     row.real(4),
                                                     {bins.begin(), bins.end()}};
                               if (!timing) timing.emplace();
-                              if (!take_row(*timing, found)) return std::nullopt;
-                              return sum_of(found);
+                              if (!read_row(*timing, found)) return std::nullopt;
+                              return row_hash(found);
                           }));
     return timing;
 }
 
-Status Reader::for_each_chunk(
+Status SessionReader::for_each_chunk(
     const std::function<void(std::uint64_t, std::span<const TickRecord>)>& visit) const {
     BOLT_TRY_ASSIGN(
         auto statement,

@@ -13,7 +13,7 @@ namespace bolt::session {
 
 namespace {
 
-Error cannot(const session::Reader& session, std::string what, std::string expected = {}) {
+Error replay_error(const SessionReader& session, std::string what, std::string expected = {}) {
     Error error;
     error.code = ErrorCode::bad_content;
     error.file = session.file();
@@ -32,30 +32,30 @@ std::optional<Value> named(const std::array<Value, count>& values, const std::st
 constexpr std::array modes{lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment};
 constexpr std::array tasks{lesson::Task::tighten, lesson::Task::loosen};
 
-// The text is the session's; the models that it names lie where the assembly is now. A session in which
-// nothing was bumped into needs no model, so its assembly may be gone.
-Result<content::Assembly> assembly_of(const session::Header& header) {
-    const bool there = std::filesystem::exists(header.assembly_file);
-    content::Loaded now =
-        content::load_assembly(there ? header.assembly_file : header.assembly, header.variant);
-    if (!now.ok() && header.obstacles != "none") return fail(now.errors.front());
-    if (now.ok() && now.assembly.text == header.assembly_text) return std::move(now.assembly);
-    content::Loaded then =
+// The assembly of the session's text, with the models of the present assembly. A session without obstacles
+// needs no model, so the present assembly may be missing.
+Result<content::Assembly> assembly_of(const Header& header) {
+    const bool exists = std::filesystem::exists(header.assembly_file);
+    content::LoadedAssembly present =
+        content::load_assembly(exists ? header.assembly_file : header.assembly, header.variant);
+    if (!present.ok() && header.obstacles != "none") return fail(present.errors.front());
+    if (present.ok() && present.assembly.text == header.assembly_text) return std::move(present.assembly);
+    content::LoadedAssembly recorded =
         content::parse_assembly(header.assembly_text, header.assembly_file, header.variant);
-    if (!then.ok()) return fail(then.errors.front());
-    then.assembly.name = header.assembly;
-    if (!now.ok()) return std::move(then.assembly);
-    then.assembly.models = now.assembly.models;
-    for (content::Tool& tool : then.assembly.tools)
-        for (const content::Tool& there_now : now.assembly.tools)
-            if (there_now.name == tool.name) tool.wrench.model = there_now.wrench.model;
-    return std::move(then.assembly);
+    if (!recorded.ok()) return fail(recorded.errors.front());
+    recorded.assembly.name = header.assembly;
+    if (!present.ok()) return std::move(recorded.assembly);
+    recorded.assembly.models = present.assembly.models;
+    for (content::Tool& tool : recorded.assembly.tools)
+        for (const content::Tool& present_tool : present.assembly.tools)
+            if (present_tool.name == tool.name) tool.wrench.model = present_tool.wrench.model;
+    return std::move(recorded.assembly);
 }
 
-lesson::Lesson begin_again(const session::Reader& session, const Prepared& at) {
-    const session::Header& header = session.header();
+lesson::Lesson restore_lesson(const SessionReader& session, const SessionSetup& start) {
+    const Header& header = session.header();
     lesson::Lesson lesson =
-        lesson::begin(at.assembly, named(modes, header.mode).value_or(lesson::Mode::guided),
+        lesson::begin(start.assembly, named(modes, header.mode).value_or(lesson::Mode::guided),
                       named(tasks, header.task).value_or(lesson::Task::tighten));
     lesson.guides = header.guide == "on";
     return lesson;
@@ -63,17 +63,17 @@ lesson::Lesson begin_again(const session::Reader& session, const Prepared& at) {
 
 }  // namespace
 
-Result<Prepared> prepare_again(const session::Reader& session) {
-    const session::Header& header = session.header();
-    const auto device = session::limits_of(header.device);
+Result<SessionSetup> restore_setup(const SessionReader& session) {
+    const Header& header = session.header();
+    const auto device = parse_limits(header.device);
     const auto mode = named(modes, header.mode);
     const auto task = named(tasks, header.task);
     if (!device || !mode || !task)
-        return fail(cannot(session, "the session does not record its device, mode or task",
-                           "a session of format 2 or later"));
+        return fail(replay_error(session, "the session does not record its device, mode or task",
+                                 "a session of format 2 or later"));
     BOLT_TRY_ASSIGN(auto assembly, assembly_of(header));
     BOLT_TRY(content::choose_tool(assembly, header.tool));
-    CourseOptions options;
+    LessonOptions options;
     options.mode = *mode;
     options.task = *task;
     options.law =
@@ -82,33 +82,33 @@ Result<Prepared> prepare_again(const session::Reader& session) {
     options.dt = header.dt;
     options.device = *device;
     options.obstacles = header.obstacles == "none" ? Obstacles::none : Obstacles::required;
-    Result<Prepared> at = prepare(assembly, options);
-    if (!at) return at;
-    if (at->obstacles != header.obstacles)
-        return fail(cannot(session,
-                           fmt::format("the contact models have changed: recorded with {}, found {}",
-                                       header.obstacles, at->obstacles),
-                           "the content that the session was recorded with"));
-    return at;
+    Result<SessionSetup> start = prepare(assembly, options);
+    if (!start) return start;
+    if (start->obstacles != header.obstacles)
+        return fail(replay_error(session,
+                                 fmt::format("the contact models have changed: recorded with {}, found {}",
+                                             header.obstacles, start->obstacles),
+                                 "the content that the session was recorded with"));
+    return start;
 }
 
-Result<Replayed> replay(const session::Reader& session, Prepared at,
-                        const std::function<bool(const Moment&)>& visit) {
-    LessonTracker tracker{begin_again(session, at)};
+Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
+                            const std::function<bool(const ReplayTick&)>& visit) {
+    LessonTracker tracker{restore_lesson(session, start)};
     lesson::Lesson& lesson = tracker.lesson;
-    Replayed replayed;
-    bool go_on = true;
-    BOLT_TRY(session.for_each_chunk([&](std::uint64_t, std::span<const session::TickRecord> chunk) {
-        for (const session::TickRecord& recorded : chunk) {
-            if (!go_on) return;
-            const servo::Input input = session::input_of(recorded);
-            const servo::Output output = servo::tick(at.setup, at.state, input);
-            follow(tracker, at.state, output);
-            if (!session::same_output(session::make_record(input, output), recorded) && replayed.wrong++ == 0)
-                replayed.first_wrong = replayed.ticks;
+    ReplayResult replayed;
+    bool proceed = true;
+    BOLT_TRY(session.for_each_chunk([&](std::uint64_t, std::span<const TickRecord> chunk) {
+        for (const TickRecord& recorded : chunk) {
+            if (!proceed) return;
+            const servo::Input input = input_of(recorded);
+            const servo::Output output = servo::tick(start.setup, start.state, input);
+            advance(tracker, start.state, output);
+            if (!same_output(make_record(input, output), recorded) && replayed.mismatches++ == 0)
+                replayed.first_mismatch = replayed.ticks;
             ++replayed.ticks;
-            const double time = static_cast<double>(at.state.tick) * at.setup.dt;
-            go_on = visit({at.setup, at.state, lesson, input, output, time});
+            const double time = static_cast<double>(start.state.tick) * start.setup.dt;
+            proceed = visit({start.setup, start.state, lesson, input, output, time});
             lesson.events.clear();
         }
     }));
@@ -117,7 +117,7 @@ Result<Replayed> replay(const session::Reader& session, Prepared at,
 
 namespace {
 
-struct Sample {
+struct RecordedSample {
     servo::DeviceSample device;
     std::uint32_t buttons = 0;
     std::uint64_t tick = 0;
@@ -131,8 +131,8 @@ Pose recorded_pose(const servo::DeviceSample& s) {
 
 }  // namespace
 
-Result<RecordedHand> replay_device(const Reader& session) {
-    const auto samples = std::make_shared<std::vector<Sample>>();
+Result<RecordedHand> replay_device(const SessionReader& session) {
+    const auto samples = std::make_shared<std::vector<RecordedSample>>();
     samples->reserve(session.tick_count());
     BOLT_TRY(session.for_each_chunk([&](std::uint64_t first, std::span<const TickRecord> ticks) {
         for (std::size_t i = 0; i < ticks.size(); ++i) {
@@ -145,26 +145,26 @@ Result<RecordedHand> replay_device(const Reader& session) {
         }
     }));
     if (samples->empty())
-        return fail(ErrorCode::failed, session.file() + ": has no ticks with a fresh device sample",
-                    "a session that was played");
+        return fail(ErrorCode::failed, session.file() + ": has no tick with a fresh device sample",
+                    "a session with device input");
 
     RecordedHand hand;
     device::Description& d = hand.description;
     d.name = "the hand of " + session.file();
     d.id = "recording";
     d.sensing = device::Sensing::pose;
-    if (const auto limits = limits_of(session.header().device)) d.limits = *limits;
+    if (const auto limits = parse_limits(session.header().device)) d.limits = *limits;
     for (std::size_t i = 0; i < 6; ++i) d.renders[i] = (i < 3 ? d.limits.force : d.limits.torque) > 0.0;
     d.rate = 1.0 / session.header().dt;
     d.buttons = 3;
     hand.first = recorded_pose(samples->front().device);
     hand.recording = [samples, dt = session.header().dt](std::size_t i) -> std::optional<device::Sample> {
         if (i >= samples->size()) return std::nullopt;
-        const Sample& now = (*samples)[i];
+        const RecordedSample& recorded = (*samples)[i];
         device::Sample sample;
-        sample.pose = recorded_pose(now.device);
-        sample.buttons = now.buttons;
-        sample.time = static_cast<double>(now.tick) * dt;
+        sample.pose = recorded_pose(recorded.device);
+        sample.buttons = recorded.buttons;
+        sample.time = static_cast<double>(recorded.tick) * dt;
         return sample;
     };
     return hand;

@@ -10,12 +10,12 @@
 
 namespace bolt::session {
 
-// The initial state of a recorded lesson: its assembly from the recorded text, its models from the files that
-// exist now. Fails if the session does not hold enough (format 1), or if a contact model is missing or has
-// changed.
-Result<Prepared> prepare_again(const session::Reader& session);
+// Restores the initial state of a recorded lesson: its assembly from the recorded text, its models from the
+// present files. Fails if the session lacks data (format 1), or if a contact model is missing or has changed.
+Result<SessionSetup> restore_setup(const SessionReader& session);
 
-struct Moment {
+// The state after a replayed tick.
+struct ReplayTick {
     const servo::Setup& setup;
     const servo::State& state;
     const lesson::Lesson& lesson;  // with the events of this tick
@@ -24,29 +24,28 @@ struct Moment {
     double time = 0.0;  // s, after the tick
 };
 
-struct Replayed {
+struct ReplayResult {
     std::uint64_t ticks = 0;
-    std::uint64_t wrong = 0;  // ticks whose output differs from the recorded one
-    std::uint64_t first_wrong = 0;
+    std::uint64_t mismatches = 0;  // ticks whose output differs from the recorded one
+    std::uint64_t first_mismatch = 0;
 };
 
-// Replays each tick from the initial state `at`; `visit` returns whether to continue.
-Result<Replayed> replay(const session::Reader& session, Prepared at,
-                        const std::function<bool(const Moment&)>& visit);
+// Replays each tick from the initial state `start`; `visit` returns false to stop.
+Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
+                            const std::function<bool(const ReplayTick&)>& visit);
 
 // The recorded hand of a session as a device that repeats its motion (haptics/device/virtual_devices.hpp), in
 // the assembly's frame. For a station with an identity workspace mapping whose tool starts at `first`.
-
 struct RecordedHand {
     device::Description description;  // with the limits of the recorded device
     device::Recording recording;      // ticks without a fresh sample are gaps
     Pose first;
 };
 
-// Bits of its buttons.
+// Bits of the recorded device's buttons.
 inline constexpr std::uint32_t button_held = 1, button_stop = 2, button_reset = 4;
 
 // Reads the whole session into memory, 40 bytes for each tick. Fails if it is damaged or has no tick.
-Result<RecordedHand> replay_device(const Reader& session);
+Result<RecordedHand> replay_device(const SessionReader& session);
 
 }  // namespace bolt::session

@@ -9,7 +9,7 @@ namespace bolt::session {
 
 namespace {
 
-// Every limit and its name, in the order in which they are written.
+// Visits each limit with its name, in the order of the text.
 template <class Limits, class Visit>
 void for_each_limit(Limits& l, Visit visit) {
     visit("force_N", l.force), visit("torque_Nm", l.torque);
@@ -23,12 +23,12 @@ void for_each_limit(Limits& l, Visit visit) {
     visit("silence_s", l.silence), visit("recovery_s", l.recovery);
 }
 
-// Every double of the description is told; a new one has to get a name above.
+// The list above names every member; a new member must be added to it.
 static_assert(sizeof(force::OutputLimits) == 17 * sizeof(double));
 
 }  // namespace
 
-std::string text_of(const force::OutputLimits& limits) {
+std::string limits_text(const force::OutputLimits& limits) {
     std::string text;
     for_each_limit(limits, [&](const char* name, auto value) {
         text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, value);
@@ -36,7 +36,7 @@ std::string text_of(const force::OutputLimits& limits) {
     return text;
 }
 
-std::optional<force::OutputLimits> limits_of(std::string_view text) {
+std::optional<force::OutputLimits> parse_limits(std::string_view text) {
     force::OutputLimits limits;
     bool sound = true;
     for_each_limit(limits, [&](std::string_view name, auto& value) {

@@ -1,14 +1,14 @@
 // The session file: one SQLite database, written while the lesson runs. It stays readable if the process dies
 // at any moment.
 //
-// Tables: meta(key, value), header and state; obstacle(id, name), what the wrench could collide with;
-// tick_chunk(first_tick, count, data), up to one second of ticks (chunk.hpp); event(...); joint_result(...),
+// Tables: meta(key, value), header and state; obstacle(id, name), the possible obstacles of the wrench;
+// tick_chunk(first_tick, count, data), up to one second of ticks (tick.hpp); event(...); joint_result(...),
 // by joint index; score_reason(...); servo_time(...), the timing of the servo's thread, if one ran;
 // seal(name, rows, sum), the checksum of each table. Each second is one commit, so a killed process loses at
 // most the last second. meta 'state' is 'recording' until finish() sets 'complete'.
 //
-// While it is recorded, and after a kill, the newest part is in a -wal file beside it; finish() leaves one
-// file. A -shm and a .lock file exist during the recording; if a kill leaves them, they do no harm.
+// During the recording, and after a kill, the newest part is in a -wal file beside it; finish() leaves one
+// file. A -shm and a .lock file exist during the recording; they are harmless if a kill leaves them.
 //
 // The next recording keeps the previous one: "a.session" becomes "a.previous.session", complete or cut short,
 // and replaces an older "a.previous.session".
@@ -38,7 +38,7 @@ struct ObstacleName {
     std::string name;
 };
 
-// Who held the tool. `unrecorded`: a session of an older program that does not say.
+// The kind of trainee. `unrecorded`: the session is from an older program, which did not record it.
 enum class OperatorKind : std::uint8_t { unrecorded, person, simulated };
 
 struct Header {
@@ -57,65 +57,68 @@ struct Header {
     // Further inputs of the ticks; all empty in format 1, which does not store them.
     std::string guide;      // "on", "off": the guiding force towards the due joint
     std::string obstacles;  // "none", or the contact model files, each with its size and checksum
-    std::string device;     // its limits (device_text.hpp)
+    std::string device;     // its limits (limits_text)
     std::string servo;      // "virtual time", or the rate of the thread as text
     std::vector<ObstacleName> obstacle_names;
 
     std::string view_help;  // "on", "off" for a simulated trainee; empty for a person or if unknown
-    std::string tool;       // its name in the assembly; empty before format 4: the assembly's first tool
+    std::string tool;       // name in the assembly; empty before format 4: the assembly's first tool
     std::string hand;       // "left", "right": the working hand; empty if unknown
 
-    // The name given with --trainee, which may be empty. None in sessions of older programs, which put the
-    // typed name of a person into `operator_name`.
+    // The name given with --trainee, which may be empty. None in sessions of older programs, which stored a
+    // person's typed name in `operator_name`.
     std::optional<std::string> trainee;
 };
 
-// From what the session records, never from the trainee's name. A session without the key `trainee`:
-// simulated if its view help is recorded, since only simulated trainees record it; a person if its operator
+// Determines the kind of trainee without using the trainee's name. A session without the key `trainee` is
+// `simulated` if its view help is recorded, since only simulated trainees record it; `person` if its operator
 // is "person", or if it has the tool of format 4, since every simulated trainee recorded the view help by
-// then; otherwise unrecorded.
+// then; otherwise `unrecorded`.
 OperatorKind operator_kind(const Header& header);
 
-// The trainee's name, empty where none is recorded. A simulated trainee has one only if --trainee gave it.
+// The trainee's name; empty if none is recorded. A simulated trainee has one only if --trainee gave it.
 std::string trainee_name(const Header& header);
 
 // Move-only. All errors name the file. After an error everything committed before stays readable, and each
 // later call returns the same error. A commit blocks on the file system, so never call this from the servo
 // thread. Joints are numbered in the order of their first update(). Destruction without finish() commits the
 // ticks collected so far.
-class Writer {
+class SessionWriter {
   public:
-    // Creates a missing folder. An existing file at `path` is kept beside it as <stem>.previous<extension>,
-    // merged into one file, and replaces an earlier one of that name. Only a session without any tick is not
-    // kept. Fails, and changes nothing, if another writer in this or another program is recording into `path`
-    // or has it open. If several create it at the same time, one succeeds and holds the file until finish()
-    // or its destruction.
-    static Result<Writer> create(const std::filesystem::path& path, const Header& header);
-    Writer(Writer&& other) noexcept;
-    Writer& operator=(Writer&& other) noexcept;
-    ~Writer();
+    // Creates a missing folder. Keeps an existing file at `path` beside it as <stem>.previous<extension>,
+    // merged into one file, and replaces an earlier one of that name; a session without any tick is not kept.
+    // Fails, and changes nothing, if another writer in this or another program is recording into `path` or
+    // has it open. If several writers create it at the same time, one succeeds and holds the file until
+    // finish() or its destruction.
+    static Result<SessionWriter> create(const std::filesystem::path& path, const Header& header);
+    SessionWriter(SessionWriter&& other) noexcept;
+    SessionWriter& operator=(SessionWriter&& other) noexcept;
+    ~SessionWriter();
 
-    Status append(const TickRecord& tick);   // commits after each full second
-    Status add(const lesson::Event& event);  // committed with the current second
-    Status update(
-        const lesson::JointResult& result);    // replaces the joint's state, by id; committed likewise
-    Status keep(const servo::Timing& timing);  // replaces the servo thread's timing; committed likewise
-    Status finish(
-        const lesson::LessonResult& result);  // commits, writes all results, marks the session complete
+    // Commits after each full second. The data of the next three functions is committed with the current
+    // second.
+    Status append(const TickRecord& tick);
+    Status add(const lesson::LessonEvent& event);
+    // Replaces the result of the joint with the same id.
+    Status update(const lesson::JointResult& result);
+    // Replaces the timing of the servo's thread.
+    Status record_timing(const servo::Timing& timing);
+    // Commits, writes all results and marks the session as complete.
+    Status finish(const lesson::LessonResult& result);
 
   private:
     struct State;
-    explicit Writer(std::unique_ptr<State> state);
+    explicit SessionWriter(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
 
-class Reader {
+class SessionReader {
   public:
     // Opens a complete or cut-short session; fails if the file is not a session.
-    static Result<Reader> open(const std::filesystem::path& path);
-    Reader(Reader&& other) noexcept;
-    Reader& operator=(Reader&& other) noexcept;
-    ~Reader();
+    static Result<SessionReader> open(const std::filesystem::path& path);
+    SessionReader(SessionReader&& other) noexcept;
+    SessionReader& operator=(SessionReader&& other) noexcept;
+    ~SessionReader();
 
     [[nodiscard]] const Header& header() const;
     [[nodiscard]] bool complete() const;  // false: the session was cut short
@@ -123,25 +126,23 @@ class Reader {
     [[nodiscard]] std::string file() const;
 
     Result<lesson::LessonResult> result() const;  // as far as recorded, if cut short
-    Result<std::vector<lesson::Event>> events() const;
-    Result<std::optional<servo::Timing>> timing() const;  // none if no thread ran or format 1
+    Result<std::vector<lesson::LessonEvent>> events() const;
+    Result<std::optional<servo::Timing>> timing() const;  // none if no thread ran, or in format 1
 
     // Calls `visit(first_tick, ticks)` for each chunk in order; fails at a damaged chunk and names it.
     Status for_each_chunk(const std::function<void(std::uint64_t, std::span<const TickRecord>)>& visit) const;
 
   private:
     struct State;
-    explicit Reader(std::unique_ptr<State> state);
+    explicit SessionReader(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
 
-// The limits of a haptic device as one line of text in the session header. A replay needs them to the last
-// bit.
+// The limits of a haptic device as one line of text for the session header: "force_N=20 torque_Nm=2 …", each
+// limit by name, as the shortest number that reads back the same, because a replay needs all bits.
+std::string limits_text(const force::OutputLimits& limits);
 
-// "force_N=20 torque_Nm=2 …": each limit by name, as the shortest number that reads back the same.
-std::string text_of(const force::OutputLimits& limits);
-
-// None if a name is missing or unknown, or a value is not a number.
-std::optional<force::OutputLimits> limits_of(std::string_view text);
+// Parses the text of limits_text(). None if a name is missing or unknown, or a value is not a number.
+std::optional<force::OutputLimits> parse_limits(std::string_view text);
 
 }  // namespace bolt::session

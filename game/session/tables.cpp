@@ -54,7 +54,7 @@ std::array<TimingRow, timing_rows> rows_of(const servo::Timing& timing) {
             row_of("period", timing.period), TimingRow{"missed", timing.missed, 0, 0, 0.0, {}}};
 }
 
-bool take_row(servo::Timing& timing, const TimingRow& row) {
+bool read_row(servo::Timing& timing, const TimingRow& row) {
     if (row.name == "missed") {
         timing.missed = row.count;
         return row.bins.empty();
@@ -76,20 +76,20 @@ bool take_row(servo::Timing& timing, const TimingRow& row) {
 namespace {
 
 // The hash of one table row: typed values in a fixed byte order.
-class Hash {
+class RowHash {
   public:
-    explicit Hash(std::string_view table) { add(table); }
+    explicit RowHash(std::string_view table) { add(table); }
 
-    Hash& add(std::uint64_t value) {
+    RowHash& add(std::uint64_t value) {
         for (unsigned i = 0; i < 8; ++i) hash_.add(static_cast<std::uint8_t>(value >> (8 * i)));
         return *this;
     }
-    Hash& add(int value) { return add(static_cast<std::uint64_t>(value)); }
-    Hash& add(double value) {
+    RowHash& add(int value) { return add(static_cast<std::uint64_t>(value)); }
+    RowHash& add(double value) {
         if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();
         return add(std::bit_cast<std::uint64_t>(value + 0.0));
     }
-    Hash& add(std::string_view text) {
+    RowHash& add(std::string_view text) {
         add(std::uint64_t{text.size()});
         hash_.add(text);
         return *this;
@@ -103,36 +103,36 @@ class Hash {
 
 }  // namespace
 
-std::uint64_t sum_of_meta(std::string_view key, std::string_view value) {
-    return Hash("meta").add(key).add(value).value();
+std::uint64_t meta_row_hash(std::string_view key, std::string_view value) {
+    return RowHash("meta").add(key).add(value).value();
 }
 
-std::uint64_t sum_of_chunk(std::uint64_t first_tick, std::uint64_t count) {
-    return Hash("tick_chunk").add(first_tick).add(count).value();
+std::uint64_t chunk_row_hash(std::uint64_t first_tick, std::uint64_t count) {
+    return RowHash("tick_chunk").add(first_tick).add(count).value();
 }
 
-std::uint64_t sum_of(const ObstacleName& obstacle) {
-    return Hash("obstacle")
+std::uint64_t row_hash(const ObstacleName& obstacle) {
+    return RowHash("obstacle")
         .add(std::int32_t{file_number(obstacle.id).value_or(-1)})
         .add(std::string_view(obstacle.name))
         .value();
 }
 
-std::uint64_t sum_of(const TimingRow& row) {
+std::uint64_t row_hash(const TimingRow& row) {
     const std::string_view bins(reinterpret_cast<const char*>(row.bins.data()), row.bins.size());
-    Hash hash("servo_time");
+    RowHash hash("servo_time");
     hash.add(std::string_view(row.name)).add(row.count).add(row.least).add(row.greatest).add(row.sum);
     return hash.add(bins).value();
 }
 
-std::uint64_t sum_of(std::uint64_t ordinal, const lesson::Event& event) {
-    Hash hash("event");
-    hash.add(ordinal).add(event.tick).add(std::string_view(event.kind)).add(event.joint);
+std::uint64_t row_hash(std::uint64_t ordinal, const lesson::LessonEvent& event) {
+    RowHash hash("event");
+    hash.add(ordinal).add(event.tick).add(lesson::name(event.kind)).add(event.joint);
     return hash.add(event.value).add(std::string_view(event.text)).value();
 }
 
-std::uint64_t sum_of(std::uint64_t ordinal, const lesson::JointResult& result) {
-    Hash hash("joint_result");
+std::uint64_t row_hash(std::uint64_t ordinal, const lesson::JointResult& result) {
+    RowHash hash("joint_result");
     hash.add(ordinal).add(std::string_view(result.id));
     hash.add(result.torque).add(result.angle).add(result.clamp).add(result.clamp_at_release);
     hash.add(static_cast<int>(result.torque_verdict)).add(static_cast<int>(result.angle_verdict));
@@ -140,15 +140,15 @@ std::uint64_t sum_of(std::uint64_t ordinal, const lesson::JointResult& result) {
     return hash.add(result.strokes).add(result.rehits).add(result.order_errors).value();
 }
 
-std::uint64_t sum_of(std::uint64_t ordinal, const lesson::ScoreReason& reason) {
-    return Hash("score_reason").add(ordinal).add(reason.points).add(std::string_view(reason.text)).value();
+std::uint64_t row_hash(std::uint64_t ordinal, const lesson::ScoreReason& reason) {
+    return RowHash("score_reason").add(ordinal).add(reason.points).add(std::string_view(reason.text)).value();
 }
 
 namespace {
 
 Status put_meta(Database& database, std::string_view key, std::string_view value, TableChecksum& checksum) {
     BOLT_TRY_ASSIGN(auto statement, database.prepare("INSERT INTO meta VALUES(?, ?)"));
-    checksum.add(sum_of_meta(key, value));
+    checksum.add(meta_row_hash(key, value));
     return statement.run_with(key, value);
 }
 
@@ -195,7 +195,7 @@ Status put_header(Database& database, const Header& header, TableChecksums& chec
                 fmt::format("obstacle \"{}\" has index {}; expected an index that a session can number",
                             named.name, named.id.index()));
         BOLT_TRY(obstacle->run_with(std::int32_t{*number}, std::string_view(named.name)));
-        checksums.obstacle.add(sum_of(named));
+        checksums.obstacle.add(row_hash(named));
     }
     return {};
 }
@@ -203,18 +203,19 @@ Status put_header(Database& database, const Header& header, TableChecksums& chec
 Status put_chunk(Database& database, std::uint64_t first_tick, std::size_t count,
                  std::span<const std::byte> data, TableChecksums& checksums) {
     BOLT_TRY_ASSIGN(auto statement, database.prepare("INSERT INTO tick_chunk VALUES(?, ?, ?)"));
-    checksums.chunk.add(sum_of_chunk(first_tick, count));
+    checksums.chunk.add(chunk_row_hash(first_tick, count));
     return statement.run_with(first_tick, count, data);
 }
 
-Status put_events(Database& database, std::uint64_t first_ordinal, std::span<const lesson::Event> events,
-                  TableChecksums& checksums) {
+Status put_events(Database& database, std::uint64_t first_ordinal,
+                  std::span<const lesson::LessonEvent> events, TableChecksums& checksums) {
     if (events.empty()) return {};
     BOLT_TRY_ASSIGN(auto statement, database.prepare("INSERT INTO event VALUES(?, ?, ?, ?, ?, ?)"));
     std::uint64_t ordinal = first_ordinal;
-    for (const lesson::Event& event : events) {
-        BOLT_TRY(statement.run_with(ordinal, event.tick, event.kind, event.joint, event.value, event.text));
-        checksums.event.add(sum_of(ordinal++, event));
+    for (const lesson::LessonEvent& event : events) {
+        BOLT_TRY(statement.run_with(ordinal, event.tick, lesson::name(event.kind), event.joint, event.value,
+                                    event.text));
+        checksums.event.add(row_hash(ordinal++, event));
     }
     return {};
 }
@@ -226,7 +227,7 @@ Status put_timing(Database& database, const servo::Timing& timing, TableChecksum
     for (const TimingRow& row : rows_of(timing)) {
         BOLT_TRY(statement.run_with(std::string_view(row.name), row.count, row.least, row.greatest, row.sum,
                                     std::span<const std::byte>(row.bins)));
-        checksums.servo_time.add(sum_of(row));
+        checksums.servo_time.add(row_hash(row));
     }
     return {};
 }
@@ -243,12 +244,12 @@ Status put_changed(Database& database, std::span<JointRow> joints, TableChecksum
                                     result.clamp_at_release, name(result.torque_verdict),
                                     name(result.angle_verdict), name(result.overall), name(result.condition),
                                     result.strokes, result.rehits, result.order_errors));
-        const std::uint64_t row = sum_of(i, result);
-        if (joint.sealed)
-            checksums.joint.change(*joint.sealed, row);
+        const std::uint64_t row = row_hash(i, result);
+        if (joint.written_hash)
+            checksums.joint.change(*joint.written_hash, row);
         else
             checksums.joint.add(row);
-        joint.sealed = row;
+        joint.written_hash = row;
         joint.changed = false;
     }
     return {};
@@ -259,7 +260,7 @@ Status put_result(Database& database, const lesson::LessonResult& result, TableC
     for (std::size_t i = 0; i < result.reasons.size(); ++i) {
         const lesson::ScoreReason& reason = result.reasons[i];
         BOLT_TRY(statement.run_with(i, reason.points, reason.text));
-        checksums.reason.add(sum_of(i, reason));
+        checksums.reason.add(row_hash(i, reason));
     }
     const std::string duration = fmt::format("{}", result.duration);
     const std::string score = fmt::format("{}", result.score);
@@ -269,7 +270,8 @@ Status put_result(Database& database, const lesson::LessonResult& result, TableC
         BOLT_TRY(put_meta(database, name, value, checksums.meta));
     }
     BOLT_TRY_ASSIGN(auto complete, database.prepare("UPDATE meta SET value = ? WHERE key = ?"));
-    checksums.meta.change(sum_of_meta(key::state, state_recording), sum_of_meta(key::state, state_complete));
+    checksums.meta.change(meta_row_hash(key::state, state_recording),
+                          meta_row_hash(key::state, state_complete));
     return complete.run_with(state_complete, key::state);
 }
 

@@ -1,4 +1,4 @@
-// The layout of a session file, shared by the writer and the reader only.
+// The tables of a session file and their checksums, shared by the writer and the reader only.
 #pragma once
 
 #include <array>
@@ -54,7 +54,7 @@ inline constexpr const char* operator_name = "operator";
 inline constexpr const char* seed = "seed";
 inline constexpr const char* dt = "dt_s";
 inline constexpr const char* program = "program";
-inline constexpr const char* guide = "guide";  // this and the next three: since format 2
+inline constexpr const char* guide = "guide";  // this and the next three since format 2
 inline constexpr const char* obstacles = "obstacles";
 inline constexpr const char* device = "device";
 inline constexpr const char* servo = "servo";
@@ -64,7 +64,7 @@ inline constexpr const char* hand = "hand";            // optional
 inline constexpr const char* trainee = "trainee";      // optional
 
 inline constexpr const char* state = "state";
-inline constexpr const char* duration = "duration_s";  // from here on: complete sessions only
+inline constexpr const char* duration = "duration_s";  // this and the next two only in complete sessions
 inline constexpr const char* score = "score";
 inline constexpr const char* finished = "finished";
 }  // namespace key
@@ -72,7 +72,7 @@ inline constexpr const char* finished = "finished";
 inline constexpr const char* state_recording = "recording";
 inline constexpr const char* state_complete = "complete";
 
-// Number of ticks in a commit: one second, at least one tick. None if `dt` is outside the range of sessions.
+// Number of ticks in a commit: one second, at least one tick. None if `dt` in s is out of range.
 inline std::optional<std::size_t> ticks_per_commit(double dt) {
     if (!std::isfinite(dt) || dt <= 0.0) return std::nullopt;
     const double ticks = std::round(1.0 / dt);
@@ -80,8 +80,7 @@ inline std::optional<std::size_t> ticks_per_commit(double dt) {
     return ticks < 1.0 ? std::size_t{1} : static_cast<std::size_t>(ticks);
 }
 
-// Converts the timing of a servo thread to table rows and back.
-
+// A table row of the timing of a servo thread.
 struct TimingRow {
     std::string name;  // "wake_up", "compute", "period": a histogram; "missed": only its count
     std::uint64_t count = 0;
@@ -93,15 +92,14 @@ struct TimingRow {
 inline constexpr std::size_t timing_rows = 4;
 std::array<TimingRow, timing_rows> rows_of(const servo::Timing& timing);
 
-// Adds a row to `timing`. False if rows_of() cannot have made it.
-bool take_row(servo::Timing& timing, const TimingRow& row);
+// Adds a row to `timing`. Returns false if the row is not one that rows_of() makes.
+bool read_row(servo::Timing& timing, const TimingRow& row);
 
 // A checksum of a table: the number of its rows and the sum of their hashes. SQLite checks the structure of
 // its pages but not their values; the checksum detects a changed number, a lost row or an altered text.
 //
-// The sum does not depend on the order of rows, so changing one costs a subtraction and an addition. It
+// The sum does not depend on the order of rows, so changing a row costs a subtraction and an addition. It
 // protects against damage, not against forgery.
-
 struct TableChecksum {
     std::uint64_t rows = 0;
     std::uint64_t sum = 0;
@@ -112,15 +110,13 @@ struct TableChecksum {
 };
 
 // The hash of a row. All NaNs are equal and −0 equals 0, because SQLite does not distinguish them.
-std::uint64_t sum_of_meta(std::string_view key, std::string_view value);
-std::uint64_t sum_of_chunk(std::uint64_t first_tick, std::uint64_t count);
-std::uint64_t sum_of(const ObstacleName& obstacle);
-std::uint64_t sum_of(const TimingRow& row);
-std::uint64_t sum_of(std::uint64_t ordinal, const lesson::Event& event);
-std::uint64_t sum_of(std::uint64_t ordinal, const lesson::JointResult& result);
-std::uint64_t sum_of(std::uint64_t ordinal, const lesson::ScoreReason& reason);
-
-// Writes rows into the tables of a session file and adds each to its table's checksum.
+std::uint64_t meta_row_hash(std::string_view key, std::string_view value);
+std::uint64_t chunk_row_hash(std::uint64_t first_tick, std::uint64_t count);
+std::uint64_t row_hash(const ObstacleName& obstacle);
+std::uint64_t row_hash(const TimingRow& row);
+std::uint64_t row_hash(std::uint64_t ordinal, const lesson::LessonEvent& event);
+std::uint64_t row_hash(std::uint64_t ordinal, const lesson::JointResult& result);
+std::uint64_t row_hash(std::uint64_t ordinal, const lesson::ScoreReason& reason);
 
 struct TableChecksums {
     TableChecksum meta, chunk, event, joint, reason, obstacle, servo_time;
@@ -128,29 +124,30 @@ struct TableChecksums {
 
 struct JointRow {
     lesson::JointResult result;
-    std::optional<std::uint64_t> sealed;  // the row's hash; none before it is first written
+    std::optional<std::uint64_t> written_hash;  // the row's hash; none before it is first written
     bool changed = true;
 };
 
-// Call these inside a transaction that ends with put_checksums(). After a failure the checksums are invalid.
+// Each function writes rows and adds them to their table's checksum. Call them inside a transaction that ends
+// with put_checksums(). After a failure the checksums are invalid.
 Status put_header(Database& database, const Header& header, TableChecksums& checksums);
 Status put_chunk(Database& database, std::uint64_t first_tick, std::size_t count,
                  std::span<const std::byte> data, TableChecksums& checksums);
-Status put_events(Database& database, std::uint64_t first_ordinal, std::span<const lesson::Event> events,
-                  TableChecksums& checksums);
+Status put_events(Database& database, std::uint64_t first_ordinal,
+                  std::span<const lesson::LessonEvent> events, TableChecksums& checksums);
 Status put_timing(Database& database, const servo::Timing& timing, TableChecksums& checksums);
 Status put_changed(Database& database, std::span<JointRow> joints, TableChecksums& checksums);
 // Writes score, duration and reasons, and marks the session as complete. Joints are written by put_changed().
 Status put_result(Database& database, const lesson::LessonResult& result, TableChecksums& checksums);
 Status put_checksums(Database& database, const TableChecksums& checksums);
 
-// Runs `statements` as one transaction: the file gets all of it or nothing.
+// Runs `statements` as one transaction: the file gets all of them or none.
 template <class Statements>
 Status transaction(Database& database, Statements statements) {
     Status done = database.execute("BEGIN IMMEDIATE");
     if (done) done = statements();
     if (done) done = database.execute("COMMIT");
-    // After some errors SQLite has already rolled back; the failure of this is then expected.
+    // After some errors SQLite has already rolled back; this statement then fails, as expected.
     if (!done) (void)database.execute("ROLLBACK");
     return done;
 }

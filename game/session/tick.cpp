@@ -14,8 +14,8 @@ namespace bolt::session {
 
 namespace {
 
-// The first number of a nut, and how many fixed obstacles have numbers below it. Files hold it: it cannot
-// change.
+// The first number of a nut, and the number of fixed obstacles numbered below it. It is part of the file
+// format and must not change.
 constexpr std::int32_t first_nut = 1000;
 
 }  // namespace
@@ -23,7 +23,7 @@ constexpr std::int32_t first_nut = 1000;
 std::optional<std::int16_t> file_number(collision::ObstacleId obstacle) {
     const auto index = static_cast<std::int32_t>(obstacle.index());
     if (obstacle.is_none()) return std::int16_t{-1};
-    if (obstacle.index() >= (obstacle.is_nut() ? most_nuts : most_fixed)) return std::nullopt;
+    if (obstacle.index() >= (obstacle.is_nut() ? max_nuts : max_fixed)) return std::nullopt;
     if (obstacle.is_nut()) return static_cast<std::int16_t>(first_nut + index);
     return static_cast<std::int16_t>(index < first_nut ? index : first_nut - 2 - index);
 }
@@ -94,9 +94,9 @@ namespace {
 
 constexpr std::byte version{4};
 constexpr std::size_t header_bytes = 1 + 4 + 8;
-constexpr int compression_level = 1;  // level 3 takes a tenth longer and saves nothing on such columns
+constexpr int compression_level = 1;  // level 3 takes a tenth longer and saves nothing on these columns
 
-// A field as its column holds it.
+// The value of a field in its column.
 template <class T>
 T stored(const T& field) {
     return field;
@@ -113,9 +113,9 @@ template <class T>
 using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t,
                                 std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>;
 
-// The columns in the order in which they are stored. The only place that knows it, for both directions.
+// Visits the columns in their stored order; used for encoding and decoding.
 template <class Visit>
-void for_each_column(std::byte written_by, Visit visit) {
+void for_each_column(std::byte chunk_version, Visit visit) {
     for (int i = 0; i < 3; ++i) visit([i](auto& tick) -> auto& { return tick.device.position[i]; });
     for (int i = 0; i < 4; ++i) visit([i](auto& tick) -> auto& { return tick.device.orientation[i]; });
     visit([](auto& tick) -> auto& { return tick.grip; });
@@ -128,19 +128,19 @@ void for_each_column(std::byte written_by, Visit visit) {
     visit([](auto& tick) -> auto& { return tick.wrench_torque; });
     visit([](auto& tick) -> auto& { return tick.nut_angle; });
     visit([](auto& tick) -> auto& { return tick.clamp; });
-    if (written_by < std::byte{2}) return;
+    if (chunk_version < std::byte{2}) return;
     visit([](auto& tick) -> auto& { return tick.contacts; });
     visit([](auto& tick) -> auto& { return tick.touched; });
     visit([](auto& tick) -> auto& { return tick.fault; });
-    if (written_by < std::byte{3}) return;
+    if (chunk_version < std::byte{3}) return;
     visit([](auto& tick) -> auto& { return tick.undo; });
-    if (written_by < std::byte{4}) return;
+    if (chunk_version < std::byte{4}) return;
     visit([](auto& tick) -> auto& { return tick.setting; });
 }
 
-std::size_t tick_bytes(std::byte written_by) {
+std::size_t tick_bytes(std::byte chunk_version) {
     std::size_t bytes = 0;
-    for_each_column(written_by, [&](auto field) {
+    for_each_column(chunk_version, [&](auto field) {
         const TickRecord tick;
         bytes += sizeof(stored(field(tick)));
     });
@@ -153,28 +153,28 @@ void put(std::byte*& out, T value) {
 }
 
 template <class T>
-T take(const std::byte*& in) {
+T get(const std::byte*& in) {
     T value = 0;
     for (std::size_t i = 0; i < sizeof(T); ++i)
         value = static_cast<T>(value | (static_cast<T>(*in++) << (8U * i)));
     return value;
 }
 
-// The sign bit goes to the bottom: …, −2, −1, 0, 1 become …, 3, 1, 0, 2.
+// Zigzag code, with the sign in the lowest bit: …, −2, −1, 0, 1 become …, 3, 1, 0, 2.
 template <class Word>
-Word folded(Word difference) {
+Word zigzag(Word difference) {
     constexpr unsigned top = 8 * sizeof(Word) - 1;
     const auto sign = static_cast<Word>(Word{0} - static_cast<Word>(difference >> top));
     return static_cast<Word>(static_cast<Word>(difference << 1U) ^ sign);
 }
 
 template <class Word>
-Word unfolded(Word code) {
+Word unzigzag(Word code) {
     const auto sign = static_cast<Word>(Word{0} - static_cast<Word>(code & 1U));
     return static_cast<Word>(static_cast<Word>(code >> 1U) ^ sign);
 }
 
-// Shifts by whole bytes instead of copying memory: the stored order does not depend on the machine's.
+// Shifts bytes instead of copying memory, so the stored byte order does not depend on the machine.
 void to_columns(std::span<const TickRecord> ticks, std::byte* out) {
     const std::size_t count = ticks.size();
     for_each_column(version, [&](auto field) {
@@ -183,7 +183,7 @@ void to_columns(std::span<const TickRecord> ticks, std::byte* out) {
         Word before = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const Word word = std::bit_cast<Word>(stored(field(ticks[i])));
-            const Word code = folded(static_cast<Word>(word - before));
+            const Word code = zigzag(static_cast<Word>(word - before));
             before = word;
             for (std::size_t plane = 0; plane < sizeof(Word); ++plane)
                 out[plane * count + i] = static_cast<std::byte>(code >> (8U * plane));
@@ -192,9 +192,9 @@ void to_columns(std::span<const TickRecord> ticks, std::byte* out) {
     });
 }
 
-void from_columns(std::byte written_by, const std::byte* in, std::span<TickRecord> ticks) {
+void from_columns(std::byte chunk_version, const std::byte* in, std::span<TickRecord> ticks) {
     const std::size_t count = ticks.size();
-    for_each_column(written_by, [&](auto field) {
+    for_each_column(chunk_version, [&](auto field) {
         using Value = decltype(stored(field(ticks[0])));
         using Word = Bits<Value>;
         Word word = 0;
@@ -202,7 +202,7 @@ void from_columns(std::byte written_by, const std::byte* in, std::span<TickRecor
             Word code = 0;
             for (std::size_t plane = 0; plane < sizeof(Word); ++plane)
                 code = static_cast<Word>(code | (static_cast<Word>(in[plane * count + i]) << (8U * plane)));
-            word = static_cast<Word>(word + unfolded(code));
+            word = static_cast<Word>(word + unzigzag(code));
             restore(field(ticks[i]), std::bit_cast<Value>(word));
         }
         in += sizeof(Word) * count;
@@ -272,11 +272,11 @@ Result<std::span<const TickRecord>> ChunkDecoder::decode(std::uint64_t first_tic
     if (bytes[0] < std::byte{1} || bytes[0] > version)
         return damaged(first_tick, fmt::format("version {} is not known", static_cast<int>(bytes[0])));
     const std::byte* in = bytes.data() + 1;
-    if (take<std::uint32_t>(in) != count) return damaged(first_tick, "the count is wrong");
-    if (take<std::uint64_t>(in) != first_tick) return damaged(first_tick, "they belong elsewhere");
+    if (get<std::uint32_t>(in) != count) return damaged(first_tick, "the count is wrong");
+    if (get<std::uint64_t>(in) != first_tick) return damaged(first_tick, "they belong elsewhere");
     if (count > max_chunk_ticks) return damaged(first_tick, "there are too many");
 
-    // The count decides how much is allocated, never what the frame says of itself.
+    // The count determines the allocation, never a size in the frame.
     const std::size_t raw = count * tick_bytes(bytes[0]);
     state.columns.resize(raw);
     const std::size_t size =

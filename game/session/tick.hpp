@@ -1,4 +1,4 @@
-// One recorded tick: the input exactly, the output in single precision.
+// Recorded ticks and their compressed chunks. A tick has the exact input, and the output in single precision.
 #pragma once
 
 #include <cstddef>
@@ -28,20 +28,20 @@ struct TickRecord {
 
     // Since format 2; sessions of format 1 have the defaults.
     std::uint16_t contacts = 0;     // of the wrench
-    collision::ObstacleId touched;  // that it lies against; named in Header::obstacle_names
+    collision::ObstacleId touched;  // obstacle against the wrench; named in Header::obstacle_names
     std::uint8_t fault = 0;         // force::Fault of the output stage
 
     std::uint8_t undo = 0;  // Input::undo; since format 3
     float setting = 0.0F;   // N·m, Input::setting; since format 4
 };
 
-// How a session file numbers obstacles, in its ticks and in its table of names: none −1, fixed obstacles 0 to
-// 999, nuts from 1000 on. Fixed obstacles from 1000 on have the numbers −2, −3, …: numbers that no older file
-// holds. Empty: an index beyond `most_fixed` or `most_nuts`, for which a tick has no number.
+// The number of an obstacle in a session file, in its ticks and in its table of names: none −1, fixed
+// obstacles 0 to 999, nuts from 1000 on. Fixed obstacles from 1000 on have the numbers −2, −3, …, which no
+// older file contains. No value if the index is max_fixed or max_nuts or more.
 std::optional<std::int16_t> file_number(collision::ObstacleId obstacle);
 collision::ObstacleId obstacle_of_number(std::int16_t number);
 
-inline constexpr std::size_t most_fixed = 33766, most_nuts = 31768;
+inline constexpr std::size_t max_fixed = 33766, max_nuts = 31768;
 
 // Bits of `flags`; its upper four bits count missed deadlines.
 inline constexpr std::uint8_t flag_enabled = 1, flag_silent = 2, flag_stop = 4, flag_reset = 8;
@@ -49,25 +49,24 @@ inline constexpr std::uint8_t flag_enabled = 1, flag_silent = 2, flag_stop = 4, 
 TickRecord make_record(const servo::Input& input, const servo::Output& output);
 servo::Input input_of(const TickRecord& record);
 
-// Whether the outputs are equal bit by bit; equal NaNs count as equal.
+// True if the outputs are equal bit by bit; NaNs with equal bits count as equal.
 bool same_output(const TickRecord& a, const TickRecord& b);
 
-// Whether each enumeration and index is in its range. Records that fail this are neither written nor
-// returned, so a reader may use a stage as an index without a check.
+// True if each enumeration and index is in its range. Other records are neither written nor returned, so a
+// reader may use a stage as an index without a check.
 bool is_valid(const TickRecord& record);
 
-// Encodes consecutive ticks as bytes and decodes them.
-//
-// A chunk is a header (version u8, count u32, first tick u64, little-endian) and one zstd frame with a
-// checksum. The frame stores the ticks by column. A value is stored as the difference of its bits from the
-// previous value's (the first one from zero), zigzag-encoded, so that small steps up or down have high zero
-// bits. Each column is split into byte planes, lowest bytes first. Version 1 ends with the clamp force,
-// version 2 with the fault, version 3 with the undo; the columns that are missing get their defaults.
+// A chunk encodes consecutive ticks as bytes. It is a header (version u8, count u32, first tick u64,
+// little-endian) and one zstd frame with a checksum. The frame stores the ticks by column. A value is stored
+// as the difference of its bits from the previous value's (the first one from zero), zigzag-encoded, so that
+// small steps up or down have high zero bits. Each column is split into byte planes, lowest bytes first.
+// Version 1 ends with the clamp force, version 2 with the fault, version 3 with the undo; the columns that
+// are missing get their defaults.
 
-// One second at the shortest tick of a session; a larger count means damage.
+// Ticks of one second at the shortest tick length of a session; a larger count means damage.
 inline constexpr std::size_t max_chunk_ticks = 100'000;
 
-// Reuses its buffers: a chunk no longer than an earlier one allocates nothing.
+// Reuses its buffers, so a chunk no longer than an earlier one needs no allocation.
 class ChunkEncoder {
   public:
     ChunkEncoder();

@@ -14,24 +14,12 @@
 #include "game/session/tables.hpp"
 #include "game/session/tick.hpp"
 
-// Creates a session file, replacing and keeping an older one.
-
 namespace bolt::session {
-
-// Creates the folder of `path` and locks `path` against other programs that record.
-Result<FileLock> claim_place(const std::filesystem::path& path, const std::string& file);
-
-// Creates a closed session without ticks at `path`, in write-ahead mode, and sets `checksums`. `path` must be
-// claimed. The file is created under another name first, so a failure leaves an old file at `path` untouched.
-// The old file is kept as session_file.hpp describes. On file systems with hard links `path` always names a
-// whole session, old or new.
-Status make_new_file(const std::filesystem::path& path, const std::string& file, const Header& header,
-                     TableChecksums& checksums);
 
 namespace {
 
-Status make_empty(const std::filesystem::path& path, const std::string& file, const Header& header,
-                  TableChecksums& checksums) {
+Status create_empty(const std::filesystem::path& path, const std::string& file, const Header& header,
+                    TableChecksums& checksums) {
     BOLT_TRY_ASSIGN(auto database, Database::create(path, file));
     const std::string setup =
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", application_id, format_version);
@@ -44,9 +32,9 @@ Status make_empty(const std::filesystem::path& path, const std::string& file, co
     return database.execute("PRAGMA journal_mode = WAL");
 }
 
-// Merges the write-ahead log of the old session into its file, so that one rename moves all of it. What
-// cannot be merged stays in the log. False if the session is open elsewhere.
-bool gather(const std::filesystem::path& path, const std::string& file) {
+// Merges the write-ahead log of the old session into its file, so that one rename moves all of it. If the
+// merge fails, the rest stays in the log. Returns false if the session is open elsewhere.
+bool merge_log(const std::filesystem::path& path, const std::string& file) {
     auto database = Database::open(path, file);
     if (!database) return true;
     if (!database->execute("PRAGMA busy_timeout = 0; PRAGMA locking_mode = EXCLUSIVE; BEGIN EXCLUSIVE"))
@@ -55,8 +43,7 @@ bool gather(const std::filesystem::path& path, const std::string& file) {
     return true;
 }
 
-// Ignores errors: a missing file needs no removal, and one that cannot be removed makes the replacement fail
-// too.
+// Ignores errors: a file may be missing, and one that cannot be removed makes the replacement fail too.
 void remove_logs(const std::filesystem::path& path) {
     std::error_code ignored;
     for (const char* suffix : {"-wal", "-shm", "-journal"})
@@ -68,28 +55,28 @@ void remove_with_logs(const std::filesystem::path& path) {
     (void)::unlink(path.c_str());  // never a folder, which std::filesystem::remove would delete
 }
 
-std::filesystem::path previous_of(const std::filesystem::path& path) {
+std::filesystem::path previous_path(const std::filesystem::path& path) {
     return path.parent_path() / (path.stem().string() + ".previous" + path.extension().string());
 }
 
-// True if nothing was recorded; keeping such a file would replace a session that was kept earlier.
-bool holds_nothing(const std::filesystem::path& path) {
+// True if the file has no ticks; keeping it would replace a session that was kept earlier.
+bool has_no_ticks(const std::filesystem::path& path) {
     std::error_code unknown;
     if (std::filesystem::file_size(path, unknown) == 0 && !unknown) return true;
-    const auto session = Reader::open(path);
+    const auto session = SessionReader::open(path);
     return session && !session->complete() && session->tick_count() == 0;
 }
 
-// Renames the old file and its remaining logs to the name under which they are kept. On file systems with
-// hard links a crash in here loses nothing: the next create() continues.
-Status keep_old(const std::filesystem::path& path, const std::string& file) {
-    const std::filesystem::path kept = previous_of(path);
-    BOLT_TRY(FileLock::take(kept, kept.string()));
+// Renames the old file and its remaining logs to the previous_path(). On file systems with hard links a crash
+// in this function loses nothing: the next create() continues.
+Status keep_old_file(const std::filesystem::path& path, const std::string& file) {
+    const std::filesystem::path kept = previous_path(path);
+    BOLT_TRY(FileLock::acquire(kept, kept.string()));
     std::error_code status;
     if (!std::filesystem::equivalent(path, kept, status)) {
         remove_with_logs(kept);
-        // A hard link, so that `path` names a session all the time. Not all file systems allow it, nor all
-        // users for files of others.
+        // With a hard link `path` names a session all the time. Some file systems do not support it, and
+        // some users may not link files of others.
         std::filesystem::create_hard_link(path, kept, status);
         if (status) std::filesystem::rename(path, kept, status);
         if (status)
@@ -107,35 +94,38 @@ Status keep_old(const std::filesystem::path& path, const std::string& file) {
     return {};
 }
 
-}  // namespace
-
-Result<FileLock> claim_place(const std::filesystem::path& path, const std::string& file) {
+// Creates the folder of `path` and locks `path` against other programs that record.
+Result<FileLock> acquire_lock(const std::filesystem::path& path, const std::string& file) {
     std::error_code status;
     std::filesystem::create_directories(path.parent_path(), status);
     if (status) return file_error(file, "its folder cannot be created: " + status.message());
-    const auto there = std::filesystem::status(path, status);
-    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+    const auto existing = std::filesystem::status(path, status);
+    if (std::filesystem::exists(existing) && !std::filesystem::is_regular_file(existing))
         return file_error(file, "is not a regular file");
-    return FileLock::take(path, file);
+    return FileLock::acquire(path, file);
 }
 
-Status make_new_file(const std::filesystem::path& path, const std::string& file, const Header& header,
-                     TableChecksums& checksums) {
+// Creates a closed session without ticks at `path`, in write-ahead mode, and sets `checksums`. The caller
+// holds the lock of `path`. The file is created under another name first, so a failure leaves an old file at
+// `path` untouched. The old file is kept as session_file.hpp describes. On file systems with hard links
+// `path` always names a complete file, old or new.
+Status create_file(const std::filesystem::path& path, const std::string& file, const Header& header,
+                   TableChecksums& checksums) {
     std::error_code status;
-    const bool is_there = std::filesystem::exists(path, status);
+    const bool exists = std::filesystem::exists(path, status);
     if (status) return file_error(file, "cannot be replaced: " + status.message());
-    if (is_there && !gather(path, file))
+    if (exists && !merge_log(path, file))
         return file_error(file, "cannot be replaced while it is open elsewhere");
 
     const std::filesystem::path part = path.string() + ".part";
     remove_with_logs(part);
-    Status made = make_empty(part, file, header, checksums);
-    if (made && is_there && !holds_nothing(path)) made = keep_old(path, file);
+    Status made = create_empty(part, file, header, checksums);
+    if (made && exists && !has_no_ticks(path)) made = keep_old_file(path, file);
     if (!made) {
         remove_with_logs(part);
         return made;
     }
-    // SQLite would apply a log that is still here to the new file.
+    // SQLite would apply a remaining log to the new file.
     remove_logs(path);
     std::filesystem::rename(part, path, status);
     if (!status) return {};
@@ -143,19 +133,21 @@ Status make_new_file(const std::filesystem::path& path, const std::string& file,
     return file_error(file, "cannot be replaced: " + status.message());
 }
 
-struct Writer::State {
-    State(FileLock taken, Database opened, std::string name)
-        : lock(std::move(taken)), database(std::move(opened)), file(std::move(name)) {}
+}  // namespace
+
+struct SessionWriter::State {
+    State(FileLock acquired, Database opened, std::string name)
+        : lock(std::move(acquired)), database(std::move(opened)), file(std::move(name)) {}
     State(const State&) = delete;
     State& operator=(const State&) = delete;
-    // Without finish(): commit what was collected. A failure cannot be reported from here.
+    // Without finish(), commits the pending data. A destructor cannot report a failure.
     ~State() {
-        if (!refusal) (void)commit(nullptr);
+        if (!stop_error) (void)commit(nullptr);
     }
 
     Status commit(const lesson::LessonResult* result);
-    Status put_collected();
-    Status leave_single_file();
+    Status write_pending();
+    Status merge_wal();
     void update(const lesson::JointResult& result);
 
     std::optional<FileLock> lock;  // destroyed last; both are empty after finish()
@@ -166,15 +158,15 @@ struct Writer::State {
     TableChecksums checksums;
     ChunkEncoder encoder;
     std::vector<TickRecord> ticks;  // not yet committed, as are the events
-    std::vector<lesson::Event> events;
+    std::vector<lesson::LessonEvent> events;
     std::optional<servo::Timing> timing;
     std::vector<JointRow> joints;  // in the order of their first update()
     std::uint64_t committed_ticks = 0;
     std::uint64_t committed_events = 0;
-    std::optional<Error> refusal;  // set once recording has stopped
+    std::optional<Error> stop_error;  // set once recording has stopped; all later calls return it
 };
 
-Status Writer::State::put_collected() {
+Status SessionWriter::State::write_pending() {
     if (!ticks.empty()) {
         BOLT_TRY_ASSIGN(auto data, encoder.encode(committed_ticks, ticks));
         BOLT_TRY(put_chunk(*database, committed_ticks, ticks.size(), data, checksums));
@@ -186,11 +178,11 @@ Status Writer::State::put_collected() {
     return put_changed(*database, joints, checksums);
 }
 
-// Commits what was collected, and the result if given. There is no retry after a failure, so that the
-// recorded ticks have no gap if a full disk gets room again.
-Status Writer::State::commit(const lesson::LessonResult* result) {
+// Commits the pending data, and the result if given. There is no retry after a failure, so the recorded ticks
+// have no gap if a full disk gets space again.
+Status SessionWriter::State::commit(const lesson::LessonResult* result) {
     const Status done = transaction(*database, [&]() -> Status {
-        BOLT_TRY(put_collected());
+        BOLT_TRY(write_pending());
         if (result != nullptr) {
             BOLT_TRY(put_result(*database, *result, checksums));
         }
@@ -198,11 +190,11 @@ Status Writer::State::commit(const lesson::LessonResult* result) {
     });
     if (!done) {
         const double kept = static_cast<double>(committed_ticks) * dt;
-        refusal =
-            file_error(file, fmt::format("cannot be written: {}, what was recorded up to {:.3f} s is kept",
+        stop_error =
+            file_error(file, fmt::format("cannot be written: {}; the recording up to {:.3f} s is kept",
                                          done.error().what, kept))
                 .value();
-        return fail(*refusal);
+        return fail(*stop_error);
     }
     committed_ticks += ticks.size();
     committed_events += events.size();
@@ -214,43 +206,43 @@ Status Writer::State::commit(const lesson::LessonResult* result) {
 
 // Moves everything from the -wal file into the session file. The journal is in memory because a crash would
 // leave an on-disk journal with which only a writer could open the file.
-Status Writer::State::leave_single_file() {
+Status SessionWriter::State::merge_wal() {
     const Status moved = database->execute("PRAGMA journal_mode = MEMORY");
-    // A reader holds the file: the session is complete in both files, and readers use both.
+    // If a reader has the file open, the session is complete in both files, and readers use both.
     if (moved || database->was_busy()) return {};
-    return file_error(file, "everything is recorded, but some of it is still in " + file +
-                                "-wal, which has to stay with it: " + moved.error().what);
+    return file_error(file, "the recording is complete, but part of it is in " + file +
+                                "-wal, which must stay beside it: " + moved.error().what);
 }
 
-void Writer::State::update(const lesson::JointResult& result) {
-    const auto known =
+void SessionWriter::State::update(const lesson::JointResult& result) {
+    const auto existing =
         std::ranges::find_if(joints, [&](const JointRow& joint) { return joint.result.id == result.id; });
-    if (known == joints.end()) {
+    if (existing == joints.end()) {
         joints.push_back({result, std::nullopt, true});
     } else {
-        known->result = result;
-        known->changed = true;
+        existing->result = result;
+        existing->changed = true;
     }
 }
 
-Writer::Writer(std::unique_ptr<State> state) : state_(std::move(state)) {}
-Writer::Writer(Writer&& other) noexcept = default;
-Writer& Writer::operator=(Writer&& other) noexcept = default;
-Writer::~Writer() = default;
+SessionWriter::SessionWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+SessionWriter::SessionWriter(SessionWriter&& other) noexcept = default;
+SessionWriter& SessionWriter::operator=(SessionWriter&& other) noexcept = default;
+SessionWriter::~SessionWriter() = default;
 
-Result<Writer> Writer::create(const std::filesystem::path& path, const Header& header) {
+Result<SessionWriter> SessionWriter::create(const std::filesystem::path& path, const Header& header) {
     const std::string file = path.string();
     const auto chunk_ticks = ticks_per_commit(header.dt);
     if (!chunk_ticks) return file_error(file, fmt::format("a tick of {} s cannot be recorded", header.dt));
-    // SQLite puts its -wal file beside the target of a link; so do the other files.
+    // SQLite puts its -wal file beside the target of a symbolic link; the other files go there too.
     std::error_code status;
     const std::filesystem::path real =
         std::filesystem::weakly_canonical(std::filesystem::absolute(path), status);
     if (status) return file_error(file, "is not a valid path: " + status.message());
 
     TableChecksums checksums;
-    BOLT_TRY_ASSIGN(auto lock, claim_place(real, file));
-    BOLT_TRY(make_new_file(real, file, header, checksums));
+    BOLT_TRY_ASSIGN(auto lock, acquire_lock(real, file));
+    BOLT_TRY(create_file(real, file, header, checksums));
     BOLT_TRY_ASSIGN(auto database, Database::open(real, file));
     // NORMAL: a commit survives the death of the process, a checkpoint also a power failure; commits do not
     // wait for the disk. A checkpoint at each megabyte keeps the longest commit short. The update changes no
@@ -264,46 +256,46 @@ Result<Writer> Writer::create(const std::filesystem::path& path, const Header& h
     state->chunk_ticks = *chunk_ticks;
     state->checksums = checksums;
     state->ticks.reserve(*chunk_ticks);
-    return Writer(std::move(state));
+    return SessionWriter(std::move(state));
 }
 
-Status Writer::append(const TickRecord& tick) {
+Status SessionWriter::append(const TickRecord& tick) {
     State& state = *state_;
-    if (state.refusal) return fail(*state.refusal);
+    if (state.stop_error) return fail(*state.stop_error);
     if (!is_valid(tick)) return file_error(state.file, "was given a tick with a value out of range");
     state.ticks.push_back(tick);
     if (state.ticks.size() < state.chunk_ticks) return {};
     return state.commit(nullptr);
 }
 
-Status Writer::add(const lesson::Event& event) {
-    if (state_->refusal) return fail(*state_->refusal);
+Status SessionWriter::add(const lesson::LessonEvent& event) {
+    if (state_->stop_error) return fail(*state_->stop_error);
     state_->events.push_back(event);
     return {};
 }
 
-Status Writer::update(const lesson::JointResult& result) {
-    if (state_->refusal) return fail(*state_->refusal);
+Status SessionWriter::update(const lesson::JointResult& result) {
+    if (state_->stop_error) return fail(*state_->stop_error);
     state_->update(result);
     return {};
 }
 
-Status Writer::keep(const servo::Timing& timing) {
-    if (state_->refusal) return fail(*state_->refusal);
+Status SessionWriter::record_timing(const servo::Timing& timing) {
+    if (state_->stop_error) return fail(*state_->stop_error);
     state_->timing = timing;
     return {};
 }
 
-Status Writer::finish(const lesson::LessonResult& result) {
+Status SessionWriter::finish(const lesson::LessonResult& result) {
     State& state = *state_;
-    if (state.refusal) return fail(*state.refusal);
+    if (state.stop_error) return fail(*state.stop_error);
     for (const lesson::JointResult& joint : result.joints) state.update(joint);
     BOLT_TRY(state.commit(&result));
-    Status single = state.leave_single_file();
+    Status single = state.merge_wal();
     state.database.reset();
     state.lock.reset();
-    state.refusal =
-        single ? file_error(state.file, "is complete, nothing more can be recorded").value() : single.error();
+    state.stop_error = single ? file_error(state.file, "is complete; no more ticks can be recorded").value()
+                              : single.error();
     return single;
 }
 

@@ -1,4 +1,5 @@
-// What the obstacles of an assembly sound like, by the number that the servo's output has for them.
+// Derives sound cues from the servo's output. A replayed session therefore gives the same sounds as the
+// lesson. No clock and no allocation in detect_events.
 #pragma once
 
 #include <array>
@@ -14,50 +15,49 @@
 
 namespace bolt::sound {
 
-// Bolts and washers sound as nuts do: parts whose names begin with a joint's id, as `B1_washer` does. All
-// others are taken for castings.
-std::vector<Met> materials(const content::Assembly& assembly, std::span<const session::ObstacleName> names);
+// Returns the surface of each fixed obstacle, by the index of its ObstacleId. Bolts and washers, whose names
+// begin with a joint's id (`B1_washer`), sound like nuts; all others like castings.
+std::vector<StruckSurface> struck_surfaces(const content::Assembly& assembly,
+                                           std::span<const session::ObstacleName> names);
 
-// From ticks to what there is to be heard of them: nothing but the servo's output decides, so that a session
-// that is replayed sounds as it did. No clock, no allocation; the same ticks give the same numbers.
-
-// What the lesson adds to a tick.
-struct Cues {
-    bool done = false;     // a step of a joint was done in this tick
-    bool mistake = false;  // a mistake was made in it
+// The cues of a tick that come from the lesson.
+struct LessonCues {
+    bool done = false;     // a step of a joint was done
+    bool mistake = false;  // a mistake was made
 };
 
-// Of what the lesson said in a tick (Lesson::events).
-Cues cues_of(std::span<const lesson::Event> events);
+// `events`: the lesson's events of one tick.
+LessonCues lesson_cues(std::span<const lesson::LessonEvent> events);
 
-struct Ear {
-    std::vector<Met>
-        still;  // what stands still sounds like, by its number (materials.hpp); not known: castings
+// State of the detection between ticks.
+struct EventDetector {
+    std::vector<StruckSurface> surfaces;  // result of struck_surfaces; beyond its end: castings
 
-    // Ends of the wrench, m, in the ticks before, newest first; as far back as a strike is looked for.
-    struct Ends {
+    // The positions, m, of both ends of the wrench.
+    struct WrenchEnds {
         Vec3 jaw{0.0}, grip{0.0};
     };
-    static constexpr std::size_t most_back = 32;
-    std::array<Ends, most_back + 1> was{};
-    std::size_t known = 0;              // of them
-    std::size_t untouched = most_back;  // ticks
-    Met met = Met::casing;              // what was touched last
-    double since_strike = 0.0;          // s
-    double last_strike = 0.0;           // m/s
-    double rising = 0.0;                // m/s, of a strike that is not over
+    static constexpr std::size_t longest_history = 32;      // ticks
+    std::array<WrenchEnds, longest_history + 1> history{};  // newest first
+    std::size_t history_size = 0;                           // valid entries of `history`
+    std::size_t ticks_since_contact = longest_history;
+    StruckSurface last_surface = StruckSurface::casing;  // of the last contact
+    double since_strike = 0.0;                           // s
+    double last_strike = 0.0;                            // m/s
+    double pending_strike = 0.0;  // m/s, highest speed lost by a strike that still goes on
 
+    // Of the last tick.
     std::int16_t joint = -1;
     double nut_angle = 0.0;  // rad
     double load = 0.0;
 };
 
-// The components that sound is made from. All of it is in the servo's output, so a replayed session sounds
-// the same.
-using Audible =
-    ecs::Access<const world::Joint, const world::Tool, const world::ToolContact, const world::DeviceForce>;
+// The components that the cues are derived from.
+using Audible = ecs::Access<const world::Joint, const world::HeldTool, const world::ContactState,
+                            const world::DeviceForce>;
 
-// Returns the sounds of one tick, which haptic_system has just written.
-Heard hear(Ear& ear, const servo::Setup& setup, const Audible& world, const Cues& cues = {});
+// Returns the cues of the tick whose output haptic_system has just written to `world`.
+SoundCues detect_events(EventDetector& detector, const servo::Setup& setup, const Audible& world,
+                        const LessonCues& lesson = {});
 
 }  // namespace bolt::sound

@@ -1,8 +1,4 @@
-// Ticks on their way from the picture's thread to the speaker's, which makes them sound: neither waits.
-//
-// Ticks come in bursts, one a picture, and are needed evenly. What waits is heard a little faster the more of
-// it there is, so that a burst is used up within some `behind`; speeds and forces are heard, not samples, so
-// that no pitch rises with it. When none come, what goes on goes on for a moment, and then comes to rest.
+// Plays the cues of a lesson: live on the speaker (LiveSound), or into a file (Soundtrack).
 #pragma once
 
 #include <atomic>
@@ -19,70 +15,79 @@
 
 namespace bolt::sound {
 
-// Outlives the speaker that it fills.
-class Feed {
+// Passes cues from the frame's thread to the speaker's thread, where it renders them. Neither thread waits.
+//
+// Ticks arrive in bursts, one per frame, and are consumed evenly. The longer the queue, the faster it is
+// consumed, so that a burst is used up within about catch_up_time. This does not raise the pitch, as cues are
+// speeds and forces, not samples. Without new ticks the last cues last for silence_timeout, then the sound
+// fades out.
+//
+// Must outlive the speaker that it fills.
+class CueQueue {
   public:
-    static constexpr double behind = 0.04;    // s
-    static constexpr double patience = 0.25;  // s without a tick
-    static constexpr double stale = 0.5;      // s: what waited for longer is not heard any more
+    static constexpr double catch_up_time = 0.04;    // s
+    static constexpr double silence_timeout = 0.25;  // s without a tick
+    static constexpr double max_age = 0.5;           // s; ticks that waited for longer are dropped
 
-    Feed(Synth synth, double dt);
+    CueQueue(Synth synth, double dt);  // `dt`: s per tick
 
-    // For one caller: who takes the ticks.
-    void push(const Heard& heard);
+    // For one thread: the producer of the ticks.
+    void push(const SoundCues& cues);
 
-    // For one other: the speaker's thread. Allocates nothing.
+    // For one other thread: the speaker's. Does not allocate.
     void fill(std::span<float> samples);
 
-    // Ticks that were never heard: nobody filled, or too late.
-    [[nodiscard]] std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
+    // Number of ticks that were never rendered, because the queue was full or they were too old.
+    [[nodiscard]] std::uint64_t dropped() const { return dropped_.load(std::memory_order_relaxed); }
 
   private:
     Synth synth_;
     double dt_;
-    SpscRing<Heard> ticks_;
-    double quiet_ = 0.0;  // s since a tick came
-    double owed_ = 0.0;   // ticks, less than one
-    std::atomic<std::uint64_t> lost_{0};
+    SpscRing<SoundCues> ticks_;
+    double time_without_ticks_ = 0.0;  // s
+    double tick_remainder_ = 0.0;      // fraction of a tick that is still to be consumed
+    std::atomic<std::uint64_t> dropped_{0};
 };
 
-// The sound of a lesson while it is played: ear, synthesiser, feed and speaker put together for whoever steps
+// The live sound of a lesson: event detection, queue, synthesiser and speaker. For one thread, which steps
 // the ticks.
-
-// For one thread, but for the speaker's own.
-class Live {
+class LiveSound {
   public:
-    // Returns at once, also where there is no sound device: that is news(), and the lesson goes on without.
-    // `setup` outlives it; `still` is what materials.hpp says.
-    static Result<Live> start(const servo::Setup& setup, std::vector<Met> still);
-    static Result<Live> start(const servo::Setup& setup, std::vector<Met> still, audio::OpenSink open);
+    // Returns at once, also if there is no sound device; status_change() reports that. `setup` must outlive
+    // the result. `surfaces`: result of struck_surfaces.
+    static Result<LiveSound> start(const servo::Setup& setup, std::vector<StruckSurface> surfaces);
+    static Result<LiveSound> start(const servo::Setup& setup, std::vector<StruckSurface> surfaces,
+                                   audio::OpenSink open);
 
-    void tick(const Audible& world, const Cues& cues) { feed_->push(hear(ear_, *setup_, world, cues)); }
+    void add_tick(const Audible& world, const LessonCues& lesson) {
+        queue_->push(detect_events(detector_, *setup_, world, lesson));
+    }
     void set_volume(double volume) { speaker_.set_volume(volume); }  // 0 … 1
-    std::optional<std::string> news() {
-        return speaker_.status_change();
-    }  // a line to show, once for every change
+
+    // Returns a message for the user once after each change of the device's state.
+    std::optional<std::string> status_change() { return speaker_.status_change(); }
 
   private:
-    Live(const servo::Setup& setup, Ear ear, std::shared_ptr<Feed> feed, audio::Speaker speaker);
+    LiveSound(const servo::Setup& setup, EventDetector detector, std::shared_ptr<CueQueue> queue,
+              audio::Speaker speaker);
 
     const servo::Setup* setup_;
-    Ear ear_;
-    std::shared_ptr<Feed> feed_;  // also of the speaker, for as long as it fills
+    EventDetector detector_;
+    std::shared_ptr<CueQueue> queue_;  // shared with the speaker's callback
     audio::Speaker speaker_;
 };
 
-// A tick's samples after another's, for a file beside a video: as many as the ticks last, whole ones.
-
-class Track {
+// Renders tick by tick, without a queue. Returns whole samples whose total number follows the ticks'
+// duration.
+class CueRenderer {
   public:
-    Track(Synth synth, double dt) : synth_(std::move(synth)), each_(synth_.rate * dt) {}
+    CueRenderer(Synth synth, double dt) : synth_(std::move(synth)), samples_per_tick_(synth_.rate * dt) {}
 
-    // Valid until the next call.
-    std::span<const float> next(const Heard& heard) {
-        sound(synth_, heard);
-        const double before = std::floor(each_ * static_cast<double>(ticks_));
-        const double after = std::floor(each_ * static_cast<double>(++ticks_));
+    // Returns the samples of the next tick; valid until the next call.
+    std::span<const float> next(const SoundCues& cues) {
+        apply_cues(synth_, cues);
+        const double before = std::floor(samples_per_tick_ * static_cast<double>(ticks_));
+        const double after = std::floor(samples_per_tick_ * static_cast<double>(++ticks_));
         samples_.resize(static_cast<std::size_t>(after - before));
         render(synth_, samples_);
         return samples_;
@@ -90,35 +95,35 @@ class Track {
 
   private:
     Synth synth_;
-    double each_;
+    double samples_per_tick_;
     std::uint64_t ticks_ = 0;
     std::vector<float> samples_;
 };
 
-// A replayed session's sound as a file: every tick is heard from the first on, so that what is written is
-// what the lesson sounded like, and what lies before `from` is left out.
-
+// The sound of a replayed session as a file. Renders every tick from the first one on, so that the sound
+// equals that of the lesson, and writes the samples from a given time on.
 class Soundtrack {
   public:
     static constexpr int rate = 48000;  // Hz
 
-    // `still` is what materials.hpp says; `from`: s of the lesson at which the file begins. An error: the
-    // file cannot be written.
+    // `surfaces`: result of struck_surfaces. `from`: time of the lesson, s, at which the file begins. Fails
+    // if the file cannot be written.
     static Result<Soundtrack> create(const std::filesystem::path& wav, const servo::Setup& setup,
-                                     std::vector<Met> still, double from = 0.0);
+                                     std::vector<StruckSurface> surfaces, double from = 0.0);
 
-    // The tick that ends at `time` (s).
-    Status hear(const servo::Setup& setup, const Audible& world, const Cues& cues, double time);
+    // Adds the tick that ends at `time` (s).
+    Status add_tick(const servo::Setup& setup, const Audible& world, const LessonCues& lesson, double time);
 
-    // Until here there is no file.
+    // Completes the file. It does not exist before.
     Status finish() { return wav_.finish(); }
 
   private:
-    Soundtrack(audio::WavWriter wav, const servo::Setup& setup, std::vector<Met> still, double from);
+    Soundtrack(audio::WavWriter wav, const servo::Setup& setup, std::vector<StruckSurface> surfaces,
+               double from);
 
     audio::WavWriter wav_;
-    Ear ear_;
-    Track track_;
+    EventDetector detector_;
+    CueRenderer renderer_;
     double from_ = 0.0;
 };
 

@@ -1,5 +1,14 @@
-// What there is to be heard of one tick: plain numbers that ear.hpp reads off the servo's output and
-// synth.hpp makes audible.
+// The sound synthesiser: computes the sounds of the work sample by sample from cues (SoundCues), without
+// recordings.
+//
+//   strike, click, slip, chimes   force pulses that excite resonators
+//   slide                         band-pass noise whose frequency rises with the speed
+//   run                           a tone and ticks, a fixed number per turn of the nut
+//   creep                         stick-slip: the nut sticks, then slips with a pulse
+//
+// All inputs are smoothed. A limiter keeps the output below 1, and a second one limits its slope (max_slope).
+// The output depends only on the sequence of calls, not on the block size. No function but make_synth
+// allocates.
 #pragma once
 
 #include <array>
@@ -12,128 +21,120 @@
 
 namespace bolt::sound {
 
-// Cast iron and big, or steel and small: nuts, bolts, washers.
-enum class Met : std::uint8_t { casing, nut };
+// casing: large parts of cast iron. nut: small parts of steel (nuts, bolts, washers).
+enum class StruckSurface : std::uint8_t { casing, nut };
 
-struct Heard {
-    float strike = 0.0F;  // m/s, at which the wrench meets something in this tick; 0: it does not
-    Met met = Met::casing;
-    float slide = 0.0F;  // m/s along what it lies against
-    float press = 0.0F;  // N onto it
+// The audible quantities of one tick. detect_events (event_detection.hpp) derives them from the servo's
+// output.
+struct SoundCues {
+    float strike_speed = 0.0F;  // m/s at which the wrench hits something in this tick; 0: no strike
+    StruckSurface surface = StruckSurface::casing;
+    float slide_speed = 0.0F;    // m/s of the wrench along the surface
+    float contact_force = 0.0F;  // N of the wrench onto the surface
 
-    float run = 0.0F;    // rad/s of the nut on its thread, unloaded, either way
-    float creep = 0.0F;  // rad/s of the nut under load, either way
-    float load = 0.0F;   // 0 … 1.5: clamp force over 90 % of what makes the bolt yield
+    float run_speed = 0.0F;    // rad/s of the unloaded nut on its thread, absolute
+    float creep_speed = 0.0F;  // rad/s of the nut under load, absolute
+    float load = 0.0F;         // 0 … 1.5: clamp force over 90 % of the force at which the bolt yields
 
-    float slip = 0.0F;     // 0 … 1.5: the jaw slips over the nut's corners in this tick, so hard
-    bool click = false;    // of a torque wrench
-    bool done = false;     // a chime: a joint is done
-    bool mistake = false;  // a low one
+    float slip = 0.0F;     // 0 … 1.5: strength with which the jaw slips over the nut's corners in this tick
+    bool click = false;    // the torque wrench clicks
+    bool done = false;     // chime: a step of a joint is done
+    bool mistake = false;  // low chime: a mistake
 };
 
-// Things that ring: a bank of damped modes, struck by short pulses of force.
-//
-// A mode is a phasor that turns by its frequency and shrinks by its damping with every sample; force adds to
-// its real part, its imaginary part is heard. So whatever the force does, what is heard begins at zero and
-// goes on without a step (J. O. Smith, Physical Audio Signal Processing, on digital resonators).
-
-struct Tone {
+struct ResonatorMode {
     double frequency = 0.0;  // Hz
     double decay = 0.0;      // s in which it fades to 1/e
-    double level = 0.0;      // of the bank
+    double level = 0.0;      // relative to the other modes
 };
 
-class Bank {
+// A bank of damped resonators. A mode is a phasor that each sample rotates by its frequency and shrinks by
+// its damping. The force adds to its real part; the output is its imaginary part, so it starts at zero and is
+// continuous for any force (J. O. Smith, Physical Audio Signal Processing, on digital resonators).
+class ResonatorBank {
   public:
-    static constexpr std::size_t most = 6;
+    static constexpr std::size_t most = 6;  // modes; further ones are ignored
 
-    Bank() = default;
-    Bank(std::span<const Tone> tones, double rate);
+    ResonatorBank() = default;
+    ResonatorBank(std::span<const ResonatorMode> modes, double rate);  // `rate`: Hz, of the samples
 
-    // The next sample, with this force on it.
+    // Applies the force of this sample and returns the output.
     double next(double force);
 
   private:
-    struct Mode {
-        std::complex<double> state, turn;
+    struct Resonator {
+        std::complex<double> state, rotation;
         double level = 0.0;
     };
-    std::array<Mode, most> modes_{};
+    std::array<Resonator, most> resonators_{};
     std::size_t count_ = 0;
     bool rings_ = false;
 };
 
-// Half a sine squared: how two bodies press on each other while they bounce off.
-struct Pulse {
+// A squared half sine: the force between two bodies in an impact.
+struct ForcePulse {
     double area = 0.0;               // over samples; 0: none
-    double length = 1.0, age = 0.0;  // samples; an age below zero: it is still to come
+    double length = 1.0, age = 0.0;  // samples; a negative age is a delay
 
     double next();
 };
 
-// Some that may overlap. One more than there is room for is not heard.
-class Pulses {
+// Pulses that may overlap. A pulse that does not fit in is dropped.
+class ForcePulses {
   public:
+    // `length`, `delay`: samples.
     void add(double area, double length, double delay = 0.0);
     double next();
 
   private:
-    std::array<Pulse, 12> pulses_{};
+    std::array<ForcePulse, 12> pulses_{};
     std::size_t count_ = 0;
 };
 
-// The sound of the work, made sample by sample from what there is to be heard: nothing is recorded, so the
-// wrench sounds as long as it is.
-//
-//   strike, click, slip, chimes   pulses of force on things that ring (resonators.hpp)
-//   slide                         noise in a band that rises with the speed
-//   run                           a tone and ticks, so many a turn of the nut
-//   creep                         stick and slip: winds up as the nut turns, and lets go
-//
-// All of it glides, passes a limiter that nothing gets through louder than 1, and one that lets no step
-// through: `steepest`. The same calls give the same samples, in blocks of whatever size. No allocation.
+// 1/s, limit of the output's slope: a quarter of full scale per sample at 48 kHz.
+inline constexpr double max_slope = 12e3;
+inline constexpr double pulses_per_turn = 120.0;  // of the nut: sets the pitch of `run`
 
-// 1/s: a quarter of full scale from one sample to the next at 48 kHz.
-inline constexpr double steepest = 12e3;
-inline constexpr double marks_a_turn = 120.0;  // of the nut: the pitch of `run`
-
-struct Glide {
-    double now = 0.0, target = 0.0;
-    double next(double share);
+// First-order low-pass filter.
+struct SmoothedValue {
+    double value = 0.0, target = 0.0;
+    double next(double share);  // `share` of the distance to the target per sample
 };
 
 struct Synth {
-    double rate = 48000.0;
-    double follow = 0.0;  // share of the way that a glide goes in a sample
-    double dies = 0.0;    // share of a crackle that is left after a sample
+    double rate = 48000.0;       // Hz
+    double smoothing = 0.0;      // share per sample, for SmoothedValue::next
+    double crackle_decay = 0.0;  // factor per sample
     Random noise{1};
 
-    Bank wrench, casing, nut, groan, ratchet, bell, second_bell, gong;
-    Pulses on_wrench, on_casing, on_nut, on_groan, on_ratchet, on_bell, on_second_bell, on_gong;
+    ResonatorBank wrench, casing, nut, groan, ratchet, bell, second_bell, gong;
+    ForcePulses wrench_pulses, casing_pulses, nut_pulses, groan_pulses, ratchet_pulses, bell_pulses,
+        second_bell_pulses, gong_pulses;
 
-    Glide slide, press;
-    std::complex<double> scrape, scrape_turn;
+    SmoothedValue slide_speed, contact_force;
+    std::complex<double> scrape, scrape_rotation;  // band-pass filter: its state and its factor per sample
     double scrape_level = 0.0;
 
-    Glide run;
-    double phase = 0.0;  // of marks, 0 … 1
+    SmoothedValue run_speed;
+    double run_phase = 0.0;  // 0 … 1, from pulse to pulse
 
-    Glide creep, load;
-    double wound = 0.0, holds = 0.0;  // rad, and at which it lets go
+    SmoothedValue creep_speed, load;
+    double stuck_angle = 0.0, release_angle = 0.0;  // rad since the nut sticks; rad at which it slips
 
-    double crackle = 0.0;       // 0 … 1, what a slip leaves of noise in the nut
-    std::uint32_t counted = 0;  // samples, for what is not computed at each
-    double last = 0.0;          // sample
+    double crackle = 0.0;  // 0 … 1, level of the noise after a slip
+    std::uint32_t sample_count = 0;
+    double last_sample = 0.0;
 };
 
 Synth make_synth(const servo::Setup& setup, int rate, std::uint64_t seed = 1);
 
-// From the next sample on. Numbers that are none are not heard.
-void sound(Synth& synth, const Heard& heard);
+// Sets the cues for the following samples. Clamps each value to its range and ignores non-finite ones.
+void apply_cues(Synth& synth, const SoundCues& cues);
 
-// Whatever goes on comes to rest: no ticks come any more.
-void rest(Synth& synth);
+// Lets all sounds fade out; for when no more ticks arrive.
+void fade_out(Synth& synth);
 
+// Computes the next samples, −1 … 1.
 void render(Synth& synth, std::span<float> samples);
 
 }  // namespace bolt::sound

@@ -14,8 +14,8 @@ namespace {
 
 // s. Device reports are up to 0.1 s old, and the loss of a device produces several messages in turn.
 constexpr double onset = 0.3;
-constexpr double poll_period = 0.02;  // s
-constexpr double told_itself = 0.25;  // s of silence after which the device supervisor reports it
+constexpr double poll_period = 0.02;         // s
+constexpr double supervisor_silence = 0.25;  // s of silence that the device supervisor reports itself
 
 bool renders(const std::optional<device::Description>& d) {
     return d && (station::renders_force(*d) || station::renders_torque(*d));
@@ -28,47 +28,48 @@ std::string sample_summary(double count, double seconds, double age, double sile
         seconds > 0.0 ? count / seconds : 0.0, 1e3 * age, 1e3 * silence);
 }
 
-std::string sent(const TriedDevice& tried) {
+std::string output_summary(const DeviceTrial& tried) {
     const device::Description& d = tried.description;
     std::string text;
     if (station::renders_force(d))
-        text += fmt::format("    {:.2f} N at most went out, of {:.3g} N that it takes\n",
-                            tried.stats.largest_force, d.limits.force);
+        text += fmt::format("    largest force {:.2f} N of at most {:.3g} N\n", tried.stats.largest_force,
+                            d.limits.force);
     if (station::renders_torque(d))
-        text += fmt::format("    {:.2f} N·m at most went out, of {:.3g} N·m that it takes\n",
+        text += fmt::format("    largest torque {:.2f} N·m of at most {:.3g} N·m\n",
                             tried.stats.largest_torque, d.limits.torque);
     return text.empty() ? "    renders no force\n" : text;
 }
 
-std::string report(const TriedDevice& tried, const char* use, double seconds) {
-    std::string text = fmt::format("  {}: {}\n    ", tried.description.name, use);
+std::string report(const DeviceTrial& tried, const char* role, double seconds) {
+    std::string text = fmt::format("  {}: {}\n    ", tried.description.name, role);
     text += sample_summary(static_cast<double>(tried.stats.samples), seconds, tried.stats.silence,
                            tried.stats.longest_silence);
-    if (tried.malformed > 0) text += fmt::format("    {} of its reports make no sense\n", tried.malformed);
-    return text + sent(tried);
+    if (tried.malformed > 0) text += fmt::format("    {} malformed reports\n", tried.malformed);
+    return text + output_summary(tried);
 }
 
-std::string report(const TriedGlove& tried, double seconds) {
-    const hand::GloveIdentity& who = tried.report.identity;
+std::string report(const GloveTrial& tried, double seconds) {
+    const hand::GloveIdentity& identity = tried.report.identity;
     std::string text = fmt::format("Glove on {}: ", tried.port.string());
     if (tried.report.handshakes == 0) return text + "it did not answer\n";
     text += fmt::format("CyberGlove, {} hand, {} sensors\n    ",
-                        who.hand == hand::Side::left ? "left" : "right", who.sensors);
+                        identity.hand == hand::Side::left ? "left" : "right", identity.sensors);
     text += sample_summary(tried.frames, seconds, tried.age, tried.report.longest_silence);
     if (tried.report.lost_bytes > 0)
-        text += fmt::format("    {} bytes on its line made no sense\n", tried.report.lost_bytes);
-    if (const std::string about = about_adapter(tried.port); !about.empty())
-        text += fmt::format("    {}\n", about);
-    if (!tried.worn)
+        text += fmt::format("    {} invalid bytes received\n", tried.report.lost_bytes);
+    if (const std::string warning = adapter_warning(tried.port); !warning.empty())
+        text += fmt::format("    {}\n", warning);
+    if (!tried.calibration)
         return text +
-               "    whose hand it is was not said (--trainee NAME): without a calibration it takes nothing\n";
-    text +=
-        fmt::format("    calibrated for {}{}{}\n", tried.worn->trainee,
-                    tried.worn->date.empty() ? "" : " on " + tried.worn->date,
-                    tried.worn->quality > 0.0 ? fmt::format(", quality {:.2f}", tried.worn->quality) : "");
-    return text + (tried.held ? "    the hand holds the wrench\n"
-                              : "    the hand does not hold the wrench: thumb and fingers take it by closing "
-                                "on its handle\n");
+               "    no wearer was named (--trainee NAME): without a calibration the hand cannot grasp\n";
+    text += fmt::format(
+        "    calibrated for {}{}{}\n", tried.calibration->trainee,
+        tried.calibration->date.empty() ? "" : " on " + tried.calibration->date,
+        tried.calibration->quality > 0.0 ? fmt::format(", quality {:.2f}", tried.calibration->quality) : "");
+    return text + (tried.held
+                       ? "    the hand holds the wrench\n"
+                       : "    the hand does not hold the wrench; close the fingers around its handle to "
+                         "take it\n");
 }
 
 std::string report(const servo::ThreadPrivileges& privileges) {
@@ -80,42 +81,43 @@ std::string report(const servo::ThreadPrivileges& privileges) {
     return text;
 }
 
-std::optional<TriedDevice> tried(const std::optional<device::Description>& description,
+std::optional<DeviceTrial> tried(const std::optional<device::Description>& description,
                                  const station::LinkStats& stats, const device::DeviceReport* report) {
     if (!description || report == nullptr) return std::nullopt;
-    return TriedDevice{*description, stats, report->malformed, report->losses};
+    return DeviceTrial{*description, stats, report->malformed, report->losses};
 }
 
 }  // namespace
 
-void note(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time, Tell tell) {
-    const auto is_said = [&](const Episode& e) {
-        return std::find(troubles.begin(), troubles.end(), e.words) != troubles.end();
+void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
+                     MessageHandler on_message) {
+    const auto persists = [&](const Episode& e) {
+        return std::find(troubles.begin(), troubles.end(), e.message) != troubles.end();
     };
-    const auto is_new = [&](const std::string& words) {
+    const auto is_new = [&](const std::string& message) {
         return std::none_of(episodes.begin(), episodes.end(),
-                            [&](const Episode& e) { return !e.until && e.words == words; });
+                            [&](const Episode& e) { return !e.until && e.message == message; });
     };
     if (std::any_of(troubles.begin(), troubles.end(), is_new))
         std::erase_if(episodes,
-                      [&](const Episode& e) { return !e.until && time - e.from < onset && !is_said(e); });
+                      [&](const Episode& e) { return !e.until && time - e.from < onset && !persists(e); });
     for (Episode& e : episodes) {
-        if (e.until || is_said(e)) continue;
+        if (e.until || persists(e)) continue;
         e.until = time;
-        tell(time, "over: " + e.words);
+        on_message(time, "over: " + e.message);
     }
-    for (const std::string& words : troubles) {
-        if (!is_new(words)) continue;
-        episodes.push_back({words, time, std::nullopt});
-        tell(time, words);
+    for (const std::string& message : troubles) {
+        if (!is_new(message)) continue;
+        episodes.push_back({message, time, std::nullopt});
+        on_message(time, message);
     }
 }
 
-Trial try_station(station::Station& station, const Planned& planned, double seconds,
-                  const std::function<bool()>& stop, Tell tell) {
+StationTrial run_trial(station::Station& station, const PlannedStation& planned, double seconds,
+                       const std::function<bool()>& stop, MessageHandler on_message) {
     const device::Timer timer = device::steady_timer();
     const double begun = timer.now();
-    Trial trial;
+    StationTrial trial;
     station::StationControls controls;
     controls.grip = servo::Grip::wrench;
     // Without force output the dead-man switch is set, so that the servo has its normal load. With force
@@ -127,12 +129,12 @@ Trial try_station(station::Station& station, const Planned& planned, double seco
     std::uint64_t enabled = 0;
     bool held = false;
     const auto poll = [&] {
-        for (station::TickRecord tick; station.next_tick(tick);) enabled += tick.input.enabled ? 1 : 0;
+        for (station::StationTick tick; station.next_tick(tick);) enabled += tick.input.enabled ? 1 : 0;
         const double time = timer.now() - begun;
-        note(trial.episodes, station.troubles(), time, tell);
+        update_episodes(trial.episodes, station.troubles(), time, on_message);
         if (station.hand() == nullptr || station.hand()->held == held) return;
         held = !held;
-        tell(time, held ? "the hand takes the wrench" : "the hand lets go of the wrench");
+        on_message(time, held ? "the hand takes the wrench" : "the hand releases the wrench");
     };
     while (timer.now() - begun < seconds && !stop()) {
         timer.wait(std::min(poll_period, begun + seconds - timer.now()));
@@ -144,12 +146,12 @@ Trial try_station(station::Station& station, const Planned& planned, double seco
                        *glove,
                        static_cast<double>(glove->frames) - frames,
                        glove->frames > 0 ? timer.now() - glove->newest : trial.seconds,
-                       planned.worn,
+                       planned.calibration,
                        station.hand() != nullptr && station.hand()->held};
     }
     station.stop();
     poll();
-    if (planned.choice.mover)
+    if (planned.devices.mover)
         trial.mover = tried(station.layout().mover, station.link_stats().mover, station.mover_report());
     trial.wheel = tried(station.layout().wheel, station.link_stats().wheel, station.wheel_report());
     trial.timing = station.servo().timing();
@@ -159,62 +161,62 @@ Trial try_station(station::Station& station, const Planned& planned, double seco
     return trial;
 }
 
-std::string introduce(station::Layout layout, const Choice& choice) {
+std::string describe_station(station::Layout layout, const DeviceSelection& devices) {
     std::string text;
-    if (!choice.mover) {
+    if (!devices.mover) {
         layout.mover.reset();
-        text = "  no device moves the tool: it stands still\n";
+        text = "  no device moves the tool, so it stands still\n";
     }
     std::vector<std::string> with_button;
     bool forces = false;
-    const auto add = [&](const std::optional<device::Description>& d, Use use,
+    const auto add = [&](const std::optional<device::Description>& d, DeviceRole role,
                          const station::Buttons& buttons) {
         if (!d) return;
-        text += fmt::format("  {}  {}: {}\n", d->id, d->name, words(use));
+        text += fmt::format("  {}  {}: {}\n", d->id, d->name, describe(role));
         for (const std::string& line : device::summary_lines(*d)) text += fmt::format("    {}\n", line);
         forces = forces || renders(d);
         if (d->buttons > 0 && buttons.held != 0)
             with_button.push_back(
                 fmt::format("button {} of {}", std::countr_zero(buttons.held) + 1, d->name));
     };
-    add(layout.mover, Use::mover, layout.mover_buttons);
-    add(layout.wheel, Use::wheel, layout.wheel_buttons);
-    if (!forces) return text + "No force goes out: nothing here renders any.\n";
-    if (with_button.empty())
-        return text + "No force goes out: it would only while a button is held, and there is none.\n";
-    return text + fmt::format("Forces go out only while {} is held.\n", fmt::join(with_button, " or "));
+    add(layout.mover, DeviceRole::mover, layout.mover_buttons);
+    add(layout.wheel, DeviceRole::wheel, layout.wheel_buttons);
+    if (!forces) return text + "No forces: no device renders any.\n";
+    if (with_button.empty()) return text + "No forces: they require a held button, and no device has one.\n";
+    return text + fmt::format("Forces are rendered only while {} is held.\n", fmt::join(with_button, " or "));
 }
 
-std::string report(const Trial& trial) {
+std::string trial_report(const StationTrial& trial) {
     std::string text = fmt::format("In {:.1f} s\n", trial.seconds);
-    if (trial.mover) text += report(*trial.mover, words(Use::mover), trial.seconds);
-    if (trial.wheel) text += report(*trial.wheel, words(Use::wheel), trial.seconds);
-    const auto pulls = [](const auto& tried) { return tried && renders(tried->description); };
-    if (pulls(trial.mover) || pulls(trial.wheel))
+    if (trial.mover) text += report(*trial.mover, describe(DeviceRole::mover), trial.seconds);
+    if (trial.wheel) text += report(*trial.wheel, describe(DeviceRole::wheel), trial.seconds);
+    const auto has_force = [](const auto& tried) { return tried && renders(tried->description); };
+    if (has_force(trial.mover) || has_force(trial.wheel))
         text += trial.enabled > 0.0
                     ? fmt::format("  the button was held for {:.1f} s\n", trial.enabled)
-                    : "  the button was never held, so the servo had less to do than it will\n";
+                    : "  the button was never held, so the servo's load was lower than in use\n";
     if (trial.glove) text += report(*trial.glove, trial.seconds);
     text += fmt::format("Servo at {:.0f} ticks a second:\n", trial.rate) + report(trial.privileges);
     return text + servo::describe(trial.timing);
 }
 
-std::vector<std::string> against(const Trial& trial) {
+std::vector<std::string> unfit_reasons(const StationTrial& trial) {
     std::vector<std::string> reasons;
     for (const Episode& e : trial.episodes)
-        if (!e.until) reasons.push_back(e.words);
+        if (!e.until) reasons.push_back(e.message);
     for (const Episode& e : trial.episodes)
         if (e.until)
-            reasons.push_back(fmt::format("{} (from {:.1f} to {:.1f} s)", e.words, e.from, *e.until));
+            reasons.push_back(fmt::format("{} (from {:.1f} to {:.1f} s)", e.message, e.from, *e.until));
     for (const auto* tried : {&trial.mover, &trial.wheel}) {
         if (!tried->has_value()) continue;
         const device::Description& d = (*tried)->description;
         const double silence = (*tried)->stats.longest_silence;
-        // The supervisor has reported longer silences and losses; a device that may rest is never silent.
+        // The supervisor reports longer silences and losses. A device that sends nothing at rest is never
+        // silent.
         if (renders((*tried)->description) && !d.silent_at_rest && silence > d.limits.silence &&
-            silence < told_itself && (*tried)->losses == 0)
+            silence < supervisor_silence && (*tried)->losses == 0)
             reasons.push_back(
-                fmt::format("{} was silent for {:.0f} ms; after {:.0f} ms its force is let go of", d.name,
+                fmt::format("{} was silent for {:.0f} ms; its force is released after {:.0f} ms", d.name,
                             1e3 * silence, 1e3 * d.limits.silence));
     }
     const servo::HostAssessment host = servo::assess_host(trial.timing, trial.rate);

@@ -1,5 +1,5 @@
-// A trial run of a station: statistics of its devices, the timing of its servo, the problems that occurred,
-// and the assessment whether it is fit for training.
+// A trial run of a station: the statistics of its devices, the timing of its servo, the problems that
+// occurred, and the assessment whether it is fit for training.
 #pragma once
 
 #include "engine/base/function_ref.hpp"
@@ -7,56 +7,57 @@
 
 namespace bolt::station_setup {
 
-// A problem and the time for which it lasted.
+// A problem and its duration.
 struct Episode {
-    std::string words;
+    std::string message;
     double from = 0.0;            // s
     std::optional<double> until;  // none: it persists
 };
 
 // Receives a message and its time, s.
-using Tell = FunctionRef<void(double time, const std::string& words)>;
+using MessageHandler = FunctionRef<void(double time, const std::string& message)>;
 
-// Updates the episodes from Station::troubles() at `time`; calls `tell` when a problem begins or ends. A
-// problem that another message replaces within 0.3 s was the onset of that one and is dropped.
-void note(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time, Tell tell);
+// Updates the episodes from Station::troubles() at `time` and reports each problem that begins or ends. Drops
+// a problem that another message replaces within 0.3 s, because it was the onset of that one.
+void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
+                     MessageHandler on_message);
 
-struct TriedDevice {
+struct DeviceTrial {
     device::Description description;
     station::LinkStats stats;
-    std::uint64_t malformed = 0, losses = 0;
+    std::uint64_t malformed = 0, losses = 0;  // reports; disconnections
 };
 
-struct TriedGlove {
+struct GloveTrial {
     std::filesystem::path port;
     hand::GloveReport report;
     double frames = 0.0;  // during the trial
     double age = 0.0;     // s since the latest frame
-    std::optional<content::GloveCalibration> worn;
+    std::optional<content::GloveCalibration> calibration;
     bool held = false;  // the hand holds the wrench
 };
 
-struct Trial {
+struct StationTrial {
     double seconds = 0.0;
     double rate = 1000.0;  // 1/s, of the servo
-    std::optional<TriedDevice> mover, wheel;
-    std::optional<TriedGlove> glove;
+    std::optional<DeviceTrial> mover, wheel;
+    std::optional<GloveTrial> glove;
     double enabled = 0.0;  // s with the dead-man switch held
     servo::Timing timing;
     servo::ThreadPrivileges privileges;
     std::vector<Episode> episodes;
 };
 
-// Runs the trial for `seconds` or until `stop` returns true, then stops the station. `tell` receives
-// problems, and grasps and releases of a gloved hand. Without a glove the wrench counts as held.
-Trial try_station(station::Station& station, const Planned& planned, double seconds,
-                  const std::function<bool()>& stop, Tell tell);
+// Runs the trial for `seconds` or until `stop` returns true, then stops the station. Reports problems, and
+// grasps and releases of a gloved hand. Without a glove the wrench counts as held.
+StationTrial run_trial(station::Station& station, const PlannedStation& planned, double seconds,
+                       const std::function<bool()>& stop, MessageHandler on_message);
 
-// For the terminal: the devices, their roles, and the button that enables their forces.
-std::string introduce(station::Layout layout, const Choice& choice);
-std::string report(const Trial& trial);
+// Texts for the terminal: the devices with their roles and the button that enables their forces; the results.
+std::string describe_station(station::Layout layout, const DeviceSelection& devices);
+std::string trial_report(const StationTrial& trial);
 
-// The reasons against training with the station, worst first; empty: it is fit.
-std::vector<std::string> against(const Trial& trial);
+// The reasons why the station is unfit for training, worst first; empty if it is fit.
+std::vector<std::string> unfit_reasons(const StationTrial& trial);
 
 }  // namespace bolt::station_setup

@@ -1,4 +1,5 @@
-// What a simulated trainee intends to do about a step of the lesson, right or wrong.
+// Behaviour of a simulated trainee: its intent for a step, its state between ticks, and the movements of its
+// hand (reach, pull, spin).
 #pragma once
 
 #include <cstdint>
@@ -14,149 +15,161 @@
 
 namespace bolt::trainees {
 
+// How the trainee means to carry out one step of the lesson, correctly or not.
 struct Intent {
-    std::size_t step = SIZE_MAX;  // of the lesson
-    std::size_t joint = 0;        // that it believes is due
-    bool fingers = false;         // the nut is run down by hand
+    std::size_t step = SIZE_MAX;  // index into Lesson::steps
+    std::size_t joint = 0;        // the joint that the trainee believes to be due
+    bool fingers = false;         // runs the nut down by hand
     bool loosening = false;
-    bool wrong = false;           // it went to a wrong joint
-    bool until_seated = false;    // it runs the nut down until it sits
-    bool checks = false;          // it only wants to see the nut begin to move
-    bool stops_at_yield = false;  // it means to stop where the resistance stops growing
-    bool until_click = false;     // it means to stop when its torque wrench clicks
-    double goal = 0.0;            // N·m at which it means to stop
-    double least = 0.0;           // N·m below which it knows that it is not done
-    int tries = 0;                // at this step before
-    bool finished = false;        // as far as it can tell
+    bool wrong_joint = false;   // `joint` is not the due one
+    bool until_seated = false;  // stops when the nut is seated
+    bool only_checks = false;   // re-check: stops as soon as the nut begins to move
+    bool until_yield = false;   // stops when the bolt begins to yield
+    bool until_click = false;   // stops at the click of the torque wrench
+    double goal_torque = 0.0;   // N·m at which it stops
+    double least_torque = 0.0;  // N·m, known lower limit: below it, yielding does not stop the pull
+    int attempt = 0;            // earlier attempts at this step
+    bool finished = false;      // the trainee believes that the step is done
 };
 
-// The step to work on; null: none is left. In assessment nobody says that a joint is not tight enough: who
-// believes to be done goes on.
-const lesson::Step* next_step(const lesson::Lesson& lesson, const Intent& intent);
+// Returns the step to work on, or null if none is left. In an assessment the lesson does not report that a
+// joint is too loose, so a trainee that believes to be done continues with the following step.
+const lesson::LessonStep* next_step(const lesson::Lesson& lesson, const Intent& intent);
 
-// How this person goes about a step. `before`: what it meant to do last.
-Intent intend(const Profile& profile, Random& random, const servo::Setup& setup, const lesson::Lesson& lesson,
-              const lesson::Step& due, const Intent& before);
+// Draws the intent for the step `due`. `before`: the previous intent.
+Intent make_intent(const TraineeProfile& profile, Random& random, const servo::Setup& setup,
+                   const lesson::Lesson& lesson, const lesson::LessonStep& due, const Intent& before);
 
-// All that a simulated trainee remembers between ticks, and what it sees in this one. What it does with it
-// stands beside: reach.hpp, pull.hpp, operator.hpp.
+// Action of the hand. At its end each phase selects the next one.
+enum class Phase {
+    pause,        // hesitates, then chooses the next action
+    search_view,  // moves its head until enough of the nut is visible
+    change_tool,  // moves to the rest pose to put down or pick up the wrench
+    reach,        // moves above the nut
+    lower,        // lowers the tool onto the nut
+    engage,       // waits until the jaw or the fingers hold the nut
+    pull,         // turns the nut with the wrench
+    unload,       // lets the wrench spring back
+    lift,         // lifts the tool off the nut
+    spin,         // turns the nut with the fingers
+    spin_back,    // opens the fingers and turns the hand back
+    done
+};
 
-// What the hand is doing. Each phase ends by choosing the next.
-enum class Phase { think, look, fetch, reach, lower, settle, pull, ease, lift, spin, spin_back, done };
-
-struct Mind {
-    Profile profile;
+// The state of a simulated trainee between ticks, with pointers to the simulation's state of this tick.
+struct TraineeState {
+    TraineeProfile profile;
     Random random;
     motion::Tremor tremor;
-    Nerves nerves;
+    DelayedPerception perception;
     Intent intent;
-    Phase phase = Phase::think;
-    double time = 0.0;    // s since the lesson began
-    double begun = 0.0;   // s, when the phase began
-    double length = 0.0;  // s that the phase takes, where it has a length
-    Pose from, to;        // of the movement
+    Phase phase = Phase::pause;
+    double time = 0.0;            // s since the beginning of the lesson
+    double phase_start = 0.0;     // s
+    double phase_duration = 0.0;  // s; 0: the phase has no fixed duration
+    Pose from, to;                // of the current movement
     bool flipped = false;
-    double handle = 0.0;         // rad, handle angle about the bolt now
-    double stroke_begin = 0.0;   // rad, where this pull began
-    double nut_at_stroke = 0.0;  // rad, likewise
-    int vain = 0;                // pulls in a row that neither turned the nut nor made it tight
+    double handle_angle = 0.0;         // rad about the bolt
+    double stroke_start = 0.0;         // rad, handle angle at the start of the stroke
+    double nut_angle_at_stroke = 0.0;  // rad, at the start of the stroke
+    int fruitless_strokes = 0;         // consecutive strokes that neither turned nor tightened the nut
 
-    double begin_angle = 0.0;    // rad, of the nut when it came to it
-    double free_turn = 0.0;      // rad turned without resistance, loosening
-    Vec3 placed{0.0};            // m, how far off the centre it put the tool
-    Vec3 bulge{0.0};             // m, how far the reach goes off the straight way
-    std::vector<Pose> stations;  // that it still goes to after `to`, the last first
-    double room = 0.0;           // rad that the handle may swing in this pull
-    double above = 0.0;          // m over the nut, where the wrench waits
+    double nut_angle_at_start = 0.0;  // rad, nut angle at the start of the step
+    double free_turn = 0.0;           // rad turned without resistance while loosening
+    Vec3 placement_error{0.0};        // m, offset of the placed tool from the nut's centre
+    Vec3 bulge{0.0};                  // m, deviation of the reach from the straight line at its middle
+    std::vector<Pose> waypoints;      // after `to`, in reverse order
+    double swing_room = 0.0;          // rad that the handle can swing in this stroke
+    double hover_height = 0.0;        // m above the nut, start of the lowering
 
     bool holds_wrench = false;
-    double caught = 0.0;  // s that the wrench has been kept from where the hand means to be
-    int bumps = 0;        // times in a row that it was
-    int misses = 0;       // times in a row that the jaw did not slide on
-    motion::Sight sight;
-    motion::ViewHelp view_help;
-    Vec3 looks_from{0.0};                // m, where its head is on the way to
-    std::vector<lesson::Event> noticed;  // since they were last taken
-    double told = -1.0;                  // share of the nut that was told last
-    std::size_t told_of = SIZE_MAX;      // and of which
-    Arm arm;
-    Pose hand;                 // where it is
-    bool gripped = false;      // it had hold of a nut in the tick before
-    bool turned_back = false;  // it was caught and means to be where the wrench is
-    Pose rest;                 // before the assembly, where the wrench lies and nothing is in the way
+    double caught_time = 0.0;     // s for which an obstacle has held the wrench back
+    int consecutive_catches = 0;  // retreats from an obstacle in a row
+    int consecutive_misses = 0;   // attempts in a row in which the jaw did not slide onto the nut
+    motion::VisibilityModel visibility;
+    motion::ViewHelper view_help;
+    Vec3 next_eye{0.0};                       // m, target of the head's movement
+    std::vector<lesson::LessonEvent> events;  // since the last SimulatedTrainee::take_events
+    double reported_visibility = -1.0;        // 0…1, the value of the last event
+    std::size_t reported_joint = SIZE_MAX;    // the joint of the last event
+    ArmDeflection arm;
+    Pose hand;                          // actual pose of the hand
+    bool held_nut = false;              // held a nut in the last tick
+    bool intended_pose_jumped = false;  // the intended pose jumps in this tick; the hand must not
+    Pose rest;                          // in front of the assembly, clear of obstacles
 
-    // What can be seen at this tick.
+    // The simulation's state of this tick.
     const servo::Setup* setup = nullptr;
-    const servo::State* state = nullptr;
+    const servo::State* servo_state = nullptr;
     const lesson::Lesson* lesson = nullptr;
 
-    Mind(const Profile& p, std::uint64_t seed, const servo::Setup& s)
-        : profile(p), random(seed, 7001), tremor(random), nerves(p.reaction, s.dt, s.wrench.stiffness) {}
+    TraineeState(const TraineeProfile& p, std::uint64_t seed, const servo::Setup& s)
+        : profile(p), random(seed, 7001), tremor(random), perception(p.reaction, s.dt, s.wrench.stiffness) {}
 
     [[nodiscard]] const servo::NutGeometry& nut() const { return setup->nuts[intent.joint]; }
-    [[nodiscard]] const joint::JointState& joint() const { return state->joints[intent.joint]; }
+    [[nodiscard]] const joint::JointState& joint() const { return servo_state->joints[intent.joint]; }
+    // Null without contact simulation.
     [[nodiscard]] const servo::ToolContact* obstacles() const {
-        return state->tool_contact ? &*state->tool_contact : nullptr;
+        return servo_state->tool_contact ? &*servo_state->tool_contact : nullptr;
     }
-    [[nodiscard]] double elapsed() const { return time - begun; }
-    [[nodiscard]] double progress() const { return length > 0.0 ? elapsed() / length : 1.0; }
-    [[nodiscard]] bool over() const { return progress() >= 1.0; }
+    [[nodiscard]] double elapsed() const { return time - phase_start; }
+    [[nodiscard]] double progress() const { return phase_duration > 0.0 ? elapsed() / phase_duration : 1.0; }
+    [[nodiscard]] bool phase_over() const { return progress() >= 1.0; }
     [[nodiscard]] bool step_is_past() const { return intent.step != lesson->current; }
-    [[nodiscard]] bool on_its_nut() const {
-        return state->engagement.joint == static_cast<int>(intent.joint);
+    [[nodiscard]] bool holds_intended_nut() const {
+        return servo_state->engagement.joint == static_cast<int>(intent.joint);
     }
-    [[nodiscard]] Vec3 off_centre(double deviation) {
+    [[nodiscard]] Vec3 random_offset(double deviation) {
         return Vec3(random.normal(), random.normal(), random.normal()) * deviation;
     }
 
     void enter(Phase next, double seconds = 0.0) {
         phase = next;
-        begun = time;
-        length = seconds;
+        phase_start = time;
+        phase_duration = seconds;
     }
 
-    // The tool over the nut, that `high`.
-    [[nodiscard]] Pose at_nut(double high) const {
-        return {servo::nut_centre(nut(), joint().nut.angle) + nut().axis * high + placed,
-                motion::orientation_of(nut(), handle, flipped)};
+    // Pose of the tool at `height` (m) above its seat on the intended nut.
+    [[nodiscard]] Pose tool_at_nut(double height) const {
+        return {servo::nut_centre(nut(), joint().nut.angle) + nut().axis * height + placement_error,
+                motion::tool_orientation(nut(), handle_angle, flipped)};
     }
 };
 
-// The reach of a simulated hand: the choice of the nut and of the path, and the reaction to an obstacle.
+// m above the nut before lowering and after lifting. Clears the bolt's end, even while a force of a few
+// newtons draws the hand down.
+constexpr double default_hover = 0.035;
 
-// m above the nut before lowering and after lifting: past the bolt's end, also where a force of a few newtons
-// draws the hand down.
-constexpr double hover = 0.035;
-
-// Chooses the due step and the intent for it, and starts the reach.
-void decide(Mind& mind);
+// Chooses the due step and the intent for it, and starts the first movement.
+void begin_next_action(TraineeState& t);
 
 // Chooses the handle angle so that the stroke is centred on the trainee's side.
-void choose_grip_angle(Mind& mind);
+void choose_grip_angle(TraineeState& t);
 
-// Starts the reach to the nut, with the head where most of the nut is visible.
-void set_off(Mind& mind);
+// Starts the reach to the nut. The head is at next_eye then.
+void start_reach(TraineeState& t);
 
-// At the end of a movement: starts the movement to the next station, if there is one, and returns whether.
-bool goes_on(Mind& mind, Phase reaching);
+// Called at the end of a movement. Starts the movement to the next waypoint in the phase `phase`; returns
+// false if there is none.
+bool start_next_waypoint(TraineeState& t, Phase phase);
 
-void lift_off(Mind& mind, const Pose& pose, double seconds);
+void start_lift(TraineeState& t, const Pose& pose, double seconds);
 
-// The jaw is on the nut: the wrench's pose becomes the hand's intended pose.
-void take_hold(Mind& mind);
+// Called when the jaw slides onto the nut: the wrench's pose becomes the hand's intended pose.
+void adopt_wrench_pose(TraineeState& t);
 
-// Takes a wrench that is caught on an obstacle off it; the next path is higher.
-void notice_caught(Mind& mind, const Pose& meant, const Pose& wrench);
+// Moves a wrench that is caught on an obstacle away from it. The next path is higher.
+void retreat_if_caught(TraineeState& t, const Pose& intended, const Pose& wrench);
 
-// A simulated hand that turns a nut: its torque grows at the trainee's rate and stops when the felt torque
-// reaches the goal.
+// Each of these advances a phase by one tick and enters the next phase at its end. The torque of a pull grows
+// at the trainee's rate until the felt torque reaches the goal or there is no more room to swing the wrench.
+// A spin is one twist of the fingers.
+void pull(TraineeState& t, const Percept& felt);
+void spin(TraineeState& t, const Percept& felt);
 
-// One tick each. With a wrench, for as far as there is room to swing it; fingers, for one twist.
-void pull(Mind& mind, const Feeling& felt);
-void spin(Mind& mind, const Feeling& felt);
-
-// The wrench springs back before it comes off; fingers open, the hand turns back to take hold again.
-void ease(Mind& mind);
-void spin_back(Mind& mind);
+// These move the handle by one tick; the caller ends the phase. The wrench springs back before it is lifted;
+// the open fingers turn back for the next twist.
+void unload(TraineeState& t);
+void spin_back(TraineeState& t);
 
 }  // namespace bolt::trainees

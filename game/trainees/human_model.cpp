@@ -13,48 +13,49 @@ namespace bolt::trainees {
 
 namespace {
 
-constexpr double fading = 0.1;  // s
+constexpr double fade_time = 0.1;  // s, of the deflection while the hand holds a nut
 
-// One implicit step of m v' + b v + k x = F; the spring gives `most` at most.
-void swing(Vec3& x, Vec3& v, const Vec3& force, double m, double b, double k, double most, double dt) {
-    const double far = glm::length(x);
-    if (k * far > most) k = most / far;
+// One implicit step of m v' + b v + k x = F. The spring's force is limited to `max_spring_force`.
+void step_spring(Vec3& x, Vec3& v, const Vec3& force, double m, double b, double k, double max_spring_force,
+                 double dt) {
+    const double distance = glm::length(x);
+    if (k * distance > max_spring_force) k = max_spring_force / distance;
     v = (v + (dt / m) * (force - k * x)) / (1.0 + dt * b / m + dt * dt * k / m);
     x += dt * v;
 }
 
 }  // namespace
 
-void take_up(Arm& arm, const Pose& pose, const Pose& meant) {
+void reset_arm(ArmDeflection& arm, const Pose& pose, const Pose& intended) {
     arm = {};
-    arm.offset = pose.position - meant.position;
-    arm.turn = rotation_vector(glm::normalize(pose.orientation * glm::conjugate(meant.orientation)));
+    arm.offset = pose.position - intended.position;
+    arm.turn = rotation_vector(glm::normalize(pose.orientation * glm::conjugate(intended.orientation)));
 }
 
-Pose follow(const Impedance& i, Arm& arm, const Pose& meant, const force::OutputCommand& felt, bool grips,
-            double dt) {
-    if (grips) {
-        const double left = std::max(0.0, 1.0 - dt / fading);
-        arm.offset *= left;
-        arm.turn *= left;
+Pose step_arm(const Impedance& i, ArmDeflection& arm, const Pose& intended, const force::OutputCommand& felt,
+              bool holds_nut, double dt) {
+    if (holds_nut) {
+        const double remaining = std::max(0.0, 1.0 - dt / fade_time);
+        arm.offset *= remaining;
+        arm.turn *= remaining;
         arm.velocity = arm.rate = Vec3(0.0);
     } else {
-        swing(arm.offset, arm.velocity, felt.force, i.mass, i.damping, i.stiffness, i.force, dt);
-        swing(arm.turn, arm.rate, felt.torque, i.inertia, i.angular_damping, i.angular_stiffness, i.torque,
-              dt);
+        step_spring(arm.offset, arm.velocity, felt.force, i.mass, i.damping, i.stiffness, i.force, dt);
+        step_spring(arm.turn, arm.rate, felt.torque, i.inertia, i.angular_damping, i.angular_stiffness,
+                    i.torque, dt);
     }
-    return {meant.position + arm.offset, glm::normalize(rotation(arm.turn) * meant.orientation)};
+    return {intended.position + arm.offset, glm::normalize(rotation(arm.turn) * intended.orientation)};
 }
 
 namespace {
 
 constexpr double smoothing = 0.03;  // s
-// Of the nut's turning, over which a hand tells how fast the torque grows; of the steepest growth, below
-// which it says that the bolt gives. Chosen: our bolts grow by a fifth of it within 2° past the elastic
-// limit.
-constexpr double slope_over = to_radians(1.5);
-constexpr double gives_below = 0.4;
-constexpr double sticks_below = 0.2;  // of the hand's turning: the nut sticks
+// A trainee measures the slope of torque over a rotation of the nut of slope_interval, and perceives yielding
+// at a slope below yield_slope of the steepest one. Both are chosen: 2° past the elastic limit the slope of
+// our bolts has dropped to a fifth.
+constexpr double slope_interval = to_radians(1.5);
+constexpr double yield_slope = 0.4;
+constexpr double stick_rate = 0.2;  // of the hand's rate; a nut that turns more slowly counts as stuck
 
 }  // namespace
 
@@ -65,51 +66,52 @@ double felt_torque(const force::TorqueRendering& rendering, const servo::NutGeom
     return glm::dot(output.force, glm::cross(nut.axis, handle)) / rendering.as_force;
 }
 
-Nerves::Nerves(double reaction, double dt, double stiffness)
-    : dt_(dt), stiffness_(stiffness), line_(static_cast<std::size_t>(reaction / dt) + 1) {}
+DelayedPerception::DelayedPerception(double reaction, double dt, double stiffness)
+    : dt_(dt), stiffness_(stiffness), delay_line_(static_cast<std::size_t>(reaction / dt) + 1) {}
 
-// The nut's turning is the hand's without what the wrench gives. While that is next to nothing the nut sticks
-// or the jaw is in its play: no slope of the joint's.
-void Nerves::follow_slope(const Moment& late) {
-    const Moment nut{late.torque, late.turned - late.torque / stiffness_, 0.0, late.on};
+// The nut's rotation is the hand's less the deflection of wrench and wrist. While the nut hardly turns it is
+// stuck, or the jaw moves within its play: there is no slope to measure.
+void DelayedPerception::update_slope(const Stimulus& delayed) {
+    const Stimulus nut{delayed.torque, delayed.turned - delayed.torque / stiffness_, 0.0, delayed.holds_nut};
     const double share = std::min(1.0, dt_ / smoothing);
-    hand_rate_ += (late.turned - hand_ - hand_rate_) * share;
-    nut_rate_ += (nut.turned - nut_ - nut_rate_) * share;
-    hand_ = late.turned;
-    nut_ = nut.turned;
-    if (!late.on) {
+    hand_rate_ += (delayed.turned - hand_angle_ - hand_rate_) * share;
+    nut_rate_ += (nut.turned - nut_angle_ - nut_rate_) * share;
+    hand_angle_ = delayed.turned;
+    nut_angle_ = nut.turned;
+    if (!delayed.holds_nut) {
         steepest_ = hand_rate_ = nut_rate_ = 0.0;
-        now_.yields = false;
+        percept_.yields = false;
     }
-    const bool turns = nut_rate_ > sticks_below * hand_rate_ && nut_rate_ > 0.0;
-    if (!late.on || !mark_.on || !turns) {
-        mark_ = nut;
+    const bool turns = nut_rate_ > stick_rate * hand_rate_ && nut_rate_ > 0.0;
+    if (!delayed.holds_nut || !slope_start_.holds_nut || !turns) {
+        slope_start_ = nut;
         return;
     }
-    const double turned = nut.turned - mark_.turned;
-    if (turned < slope_over) return;
-    const double slope = (nut.torque - mark_.torque) / turned;
+    const double turned = nut.turned - slope_start_.turned;
+    if (turned < slope_interval) return;
+    const double slope = (nut.torque - slope_start_.torque) / turned;
     steepest_ = std::max(steepest_, slope);
-    now_.yields = slope < gives_below * steepest_;
-    mark_ = nut;
+    percept_.yields = slope < yield_slope * steepest_;
+    slope_start_ = nut;
 }
 
-const Feeling& Nerves::feel(double torque, double turned, double nut_speed, bool on, bool clicked) {
-    const Moment late = line_[at_];
-    line_[at_] = {torque, turned, nut_speed, on, clicked};
-    at_ = (at_ + 1) % line_.size();
-    const double rate = (late.torque - now_.torque) / dt_;
-    now_.torque_rate += (rate - now_.torque_rate) * std::min(1.0, dt_ / smoothing);
-    now_.torque = late.torque;
-    now_.nut_speed = late.nut_speed;
-    now_.clicked = late.clicked;
-    follow_slope(late);
-    return now_;
+const Percept& DelayedPerception::update(double torque, double turned, double nut_speed, bool holds_nut,
+                                         bool clicked) {
+    const Stimulus delayed = delay_line_[next_];
+    delay_line_[next_] = {torque, turned, nut_speed, holds_nut, clicked};
+    next_ = (next_ + 1) % delay_line_.size();
+    const double rate = (delayed.torque - percept_.torque) / dt_;
+    percept_.torque_rate += (rate - percept_.torque_rate) * std::min(1.0, dt_ / smoothing);
+    percept_.torque = delayed.torque;
+    percept_.nut_speed = delayed.nut_speed;
+    percept_.clicked = delayed.clicked;
+    update_slope(delayed);
+    return percept_;
 }
 
 namespace {
 
-constexpr Profile profiles[] = {
+constexpr TraineeProfile profiles[] = {
     {.name = "expert",
      .reach_time = 0.9,
      .placing_time = 0.4,
@@ -127,11 +129,11 @@ constexpr Profile profiles[] = {
      .torque_noise = 0.015,
      .anticipation = 1.0,
      .feels_yield = 1.0,
-     .content = 0.8,
+     .wanted_visibility = 0.8,
      .pause = 0.15,
      .wrong_joint = 0.0,
      .stops_early = 0.0,
-     .overdoes = 0.0},
+     .overtightens = 0.0},
     {.name = "novice",
      .reach_time = 1.5,
      .placing_time = 0.8,
@@ -149,11 +151,11 @@ constexpr Profile profiles[] = {
      .torque_noise = 0.06,
      .anticipation = 0.5,
      .feels_yield = 0.8,
-     .content = 0.6,
+     .wanted_visibility = 0.6,
      .pause = 0.8,
      .wrong_joint = 0.03,
      .stops_early = 0.05,
-     .overdoes = 0.0},
+     .overtightens = 0.0},
     {.name = "clumsy",
      .reach_time = 1.3,
      .placing_time = 0.7,
@@ -171,27 +173,27 @@ constexpr Profile profiles[] = {
      .torque_noise = 0.10,
      .anticipation = 0.4,
      .feels_yield = 0.3,
-     .content = 0.4,
+     .wanted_visibility = 0.4,
      .pause = 0.5,
      .wrong_joint = 0.10,
      .stops_early = 0.08,
-     .overdoes = 0.08},
+     .overtightens = 0.08},
 };
 
 }  // namespace
 
 std::vector<std::string> profile_names() {
     std::vector<std::string> names;
-    for (const Profile& profile : profiles) names.emplace_back(profile.name);
+    for (const TraineeProfile& profile : profiles) names.emplace_back(profile.name);
     return names;
 }
 
-Result<Profile> find_profile(std::string_view name) {
-    for (const Profile& profile : profiles)
+Result<TraineeProfile> find_profile(std::string_view name) {
+    for (const TraineeProfile& profile : profiles)
         if (profile.name == name) return profile;
     const std::vector<std::string> names = profile_names();
     const std::string best = nearest(name, names);
-    return fail(ErrorCode::usage, fmt::format("there is no simulated trainee \"{}\"", name),
+    return fail(ErrorCode::usage, fmt::format("unknown simulated trainee \"{}\"", name),
                 best.empty() ? fmt::format("one of {}", fmt::join(names, ", "))
                              : fmt::format("did you mean {}?", best));
 }

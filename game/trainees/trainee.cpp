@@ -14,111 +14,112 @@ namespace {
 
 using servo::Grip;
 
-constexpr double frame_time = 1.0 / 60.0;  // s
-constexpr double looks_within = 0.06;      // m from the nut, from where on it is being aligned
-constexpr double worth_telling = 0.02;
+constexpr double frame_time = 1.0 / 60.0;   // s
+constexpr double alignment_radius = 0.06;   // m from the nut, in which the wrench is being aligned
+constexpr double visibility_change = 0.02;  // smallest change that is reported
 
-// It takes hold, or did not get on: then it places the tool again and turns it a little, as anybody would.
-void settle(Mind& m, const Pose& pose) {
-    if (m.on_its_nut()) {
-        m.stroke_begin = m.handle;
-        m.nut_at_stroke = m.joint().nut.angle;
-
-        m.misses = 0;
-        m.enter(m.intent.fingers ? Phase::spin : Phase::pull);
-    } else if (m.over()) {
-        ++m.misses;
-        if (m.obstacles() != nullptr && !m.intent.fingers) {
-            lift_off(m, pose, 0.2);
+// Starts the stroke once the nut is held. If the tool missed the nut, it is placed again at another angle.
+void engage(TraineeState& t, const Pose& pose) {
+    if (t.holds_intended_nut()) {
+        t.stroke_start = t.handle_angle;
+        t.nut_angle_at_stroke = t.joint().nut.angle;
+        t.consecutive_misses = 0;
+        t.enter(t.intent.fingers ? Phase::spin : Phase::pull);
+    } else if (t.phase_over()) {
+        ++t.consecutive_misses;
+        if (t.obstacles() != nullptr && !t.intent.fingers) {
+            start_lift(t, pose, 0.2);
             return;
         }
-        m.placed = m.off_centre(0.7 * m.profile.position_noise);
-        choose_grip_angle(m);
-        m.enter(Phase::settle, 0.15);
+        t.placement_error = t.random_offset(0.7 * t.profile.position_noise);
+        choose_grip_angle(t);
+        t.enter(Phase::engage, 0.15);
     }
 }
 
-// As often as pictures come, while the wrench is in the hand: how much of the due nut is seen.
-void look(Mind& m, const lesson::Step* due) {
-    const auto frame = static_cast<std::uint64_t>(std::max(1.0, frame_time / m.setup->dt));
-    if (due == nullptr || m.obstacles() == nullptr || !m.holds_wrench || m.state->tick % frame != 0) return;
-    if (m.state->engagement.joint >= 0) return;
-    const servo::NutGeometry& nut = m.setup->nuts[due->joint];
-    if (glm::distance(m.hand.position, nut.seat) > looks_within) return;
-    const double share = motion::nut_seen(m.sight, *m.obstacles(), due->joint, m.sight.eye);
-    if (m.told_of == due->joint && std::abs(share - m.told) < worth_telling) return;
-    m.told = share;
-    m.told_of = due->joint;
-    m.noticed.push_back({m.state->tick, "sight", static_cast<int>(due->joint), share,
-                         fmt::format("{:.0f} % of the nut is seen", 100.0 * share)});
+// Records the visible fraction of the due nut, once per frame while the wrench is being aligned with it.
+void report_visibility(TraineeState& t, const lesson::LessonStep* due) {
+    const auto frame = static_cast<std::uint64_t>(std::max(1.0, frame_time / t.setup->dt));
+    if (due == nullptr || t.obstacles() == nullptr || !t.holds_wrench || t.servo_state->tick % frame != 0)
+        return;
+    if (t.servo_state->engagement.joint >= 0) return;
+    const servo::NutGeometry& nut = t.setup->nuts[due->joint];
+    if (glm::distance(t.hand.position, nut.seat) > alignment_radius) return;
+    const double share = motion::nut_visibility(t.visibility, *t.obstacles(), due->joint, t.visibility.eye);
+    if (t.reported_joint == due->joint && std::abs(share - t.reported_visibility) < visibility_change) return;
+    t.reported_visibility = share;
+    t.reported_joint = due->joint;
+    t.events.push_back({t.servo_state->tick, lesson::EventKind::visibility, static_cast<int>(due->joint),
+                        share, fmt::format("{:.0f} % of the nut is seen", 100.0 * share)});
 }
 
-// Where the tool goes in this tick, and with which grip.
-Pose move(Mind& m, const Feeling& felt, Grip& grip) {
-    const Grip own = m.intent.fingers ? Grip::fingers : Grip::wrench;
-    Pose pose = m.from;
-    switch (m.phase) {
-        case Phase::think:
-            if (m.over()) decide(m);
-            pose = m.from;
+// Advances the phase by one tick. Returns the intended pose of the tool and sets `grip` if it is closed.
+Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
+    const Grip own = t.intent.fingers ? Grip::fingers : Grip::wrench;
+    Pose pose = t.from;
+    switch (t.phase) {
+        case Phase::pause:
+            if (t.phase_over()) begin_next_action(t);
+            pose = t.from;
             break;
-        case Phase::look:
-            if (m.over()) set_off(m);
-            pose = m.from;
+        case Phase::search_view:
+            if (t.phase_over()) start_reach(t);
+            pose = t.from;
             break;
-        case Phase::fetch:
-            pose = motion::along(m.from, m.to, motion::minimum_jerk(m.progress()), m.bulge);
-            if (!m.over() || goes_on(m, Phase::fetch)) break;
-            m.holds_wrench = !m.intent.fingers;
-            m.enter(Phase::think, 0.2);
+        case Phase::change_tool:
+            pose = motion::arc_pose(t.from, t.to, motion::minimum_jerk(t.progress()), t.bulge);
+            if (!t.phase_over() || start_next_waypoint(t, Phase::change_tool)) break;
+            t.holds_wrench = !t.intent.fingers;
+            t.enter(Phase::pause, 0.2);
             break;
         case Phase::reach:
-            pose = motion::along(m.from, m.to, motion::minimum_jerk(m.progress()), m.bulge);
-            if (!m.over() || goes_on(m, Phase::reach)) break;
-            m.enter(Phase::lower, m.profile.placing_time * m.random.uniform(0.8, 1.3));
+            pose = motion::arc_pose(t.from, t.to, motion::minimum_jerk(t.progress()), t.bulge);
+            if (!t.phase_over() || start_next_waypoint(t, Phase::reach)) break;
+            t.enter(Phase::lower, t.profile.placing_time * t.random.uniform(0.8, 1.3));
             break;
         case Phase::lower:
-            pose = motion::along(m.from, m.at_nut(0.0), motion::minimum_jerk(m.progress()), Vec3(0.0));
-            if (m.over()) m.enter(Phase::settle, 0.12);
+            pose =
+                motion::arc_pose(t.from, t.tool_at_nut(0.0), motion::minimum_jerk(t.progress()), Vec3(0.0));
+            if (t.phase_over()) t.enter(Phase::engage, 0.12);
             break;
-        case Phase::settle:
+        case Phase::engage:
             grip = own;
-            pose = m.at_nut(0.0);
-            settle(m, pose);
+            pose = t.tool_at_nut(0.0);
+            engage(t, pose);
             break;
         case Phase::pull:
             grip = own;
-            pull(m, felt);
-            pose = m.at_nut(0.0);
-            if (!m.on_its_nut()) lift_off(m, pose, 0.3);  // it slipped off
+            pull(t, felt);
+            pose = t.tool_at_nut(0.0);
+            if (!t.holds_intended_nut()) start_lift(t, pose, 0.3);  // the jaw slipped off
             break;
-        case Phase::ease:
+        case Phase::unload:
             grip = own;
-            ease(m);
-            pose = m.at_nut(0.0);
-            if (m.over()) lift_off(m, pose, 0.25);
+            unload(t);
+            pose = t.tool_at_nut(0.0);
+            if (t.phase_over()) start_lift(t, pose, 0.25);
             break;
         case Phase::lift: {
-            pose = motion::along(m.from, m.to, motion::minimum_jerk(m.progress()), Vec3(0.0));
-            if (!m.over()) break;
-            m.from = m.to;
-            const bool done = m.intent.finished || m.step_is_past();
-            m.enter(Phase::think, done ? m.profile.pause * m.random.uniform(0.3, 1.7) : 0.05);
+            pose = motion::arc_pose(t.from, t.to, motion::minimum_jerk(t.progress()), Vec3(0.0));
+            if (!t.phase_over()) break;
+            t.from = t.to;
+            const bool done = t.intent.finished || t.step_is_past();
+            t.enter(Phase::pause, done ? t.profile.pause * t.random.uniform(0.3, 1.7) : 0.05);
             break;
         }
         case Phase::spin:
             grip = own;
-            spin(m, felt);
-            pose = m.at_nut(0.0);
+            spin(t, felt);
+            pose = t.tool_at_nut(0.0);
             break;
         case Phase::spin_back:
-            spin_back(m);
-            pose = m.at_nut(0.0);
-            if (!m.over()) break;
-            if (m.intent.finished || m.step_is_past())
-                lift_off(m, pose, 0.3);
+            spin_back(t);
+            pose = t.tool_at_nut(0.0);
+            if (!t.phase_over()) break;
+            if (t.intent.finished || t.step_is_past())
+                start_lift(t, pose, 0.3);
             else
-                m.enter(Phase::settle, 0.05);
+                t.enter(Phase::engage, 0.05);
             break;
         case Phase::done:
             break;
@@ -128,110 +129,112 @@ Pose move(Mind& m, const Feeling& felt, Grip& grip) {
 
 }  // namespace
 
-Operator::Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup,
-                   motion::ViewHelp help)
-    : mind_(std::make_unique<Mind>(profile, seed, setup)) {
-    Mind& mind = *mind_;
-    mind.view_help = std::move(help);
+SimulatedTrainee::SimulatedTrainee(const TraineeProfile& profile, std::uint64_t seed,
+                                   const servo::Setup& setup, motion::ViewHelper help)
+    : state_(std::make_unique<TraineeState>(profile, seed, setup)) {
+    TraineeState& state = *state_;
+    state.view_help = std::move(help);
     Vec3 centre(0.0);
     for (const servo::NutGeometry& nut : setup.nuts)
         centre += nut.seat / static_cast<double>(setup.nuts.size());
-    mind.from.position = centre + Vec3(0.0, 0.3, 0.4);  // the hand rests in front of the assembly
-    mind.to = mind.rest = mind.hand = mind.from;
-    mind.sight.eye = centre + Vec3(0.0, 0.45, 0.6);  // and the head above it
+    state.from.position = centre + Vec3(0.0, 0.3, 0.4);  // the hand rests in front of the assembly
+    state.to = state.rest = state.hand = state.from;
+    state.visibility.eye = centre + Vec3(0.0, 0.45, 0.6);  // the head is above the hand
 }
 
-Operator::Operator(Operator&&) noexcept = default;
-Operator& Operator::operator=(Operator&&) noexcept = default;
-Operator::~Operator() = default;
+SimulatedTrainee::SimulatedTrainee(SimulatedTrainee&&) noexcept = default;
+SimulatedTrainee& SimulatedTrainee::operator=(SimulatedTrainee&&) noexcept = default;
+SimulatedTrainee::~SimulatedTrainee() = default;
 
-servo::Input Operator::act(const servo::Setup& setup, const servo::State& state,
-                           const lesson::Lesson& lesson) {
-    Mind& m = *mind_;
-    m.setup = &setup;
-    m.state = &state;
-    m.lesson = &lesson;
-    // Where the lesson names views it begins in the first of them.
-    if (m.time <= 0.0 && !lesson.assembly->views.empty()) m.sight.eye = lesson.assembly->views.front().eye;
-    m.time += setup.dt;
+servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State& state,
+                                   const lesson::Lesson& lesson) {
+    TraineeState& t = *state_;
+    t.setup = &setup;
+    t.servo_state = &state;
+    t.lesson = &lesson;
+    // The trainee begins in the first view of the assembly, if it names any.
+    if (t.time <= 0.0 && !lesson.assembly->views.empty())
+        t.visibility.eye = lesson.assembly->views.front().eye;
+    t.time += setup.dt;
 
     servo::Input input;
     input.enabled = true;
-    const lesson::Step* due = lesson.due();
+    const lesson::LessonStep* due = lesson.due();
     if (due != nullptr && lesson.guides) input.guide = static_cast<std::int16_t>(due->joint);
-    // What has hold of a nut stays; a hand in the air is moved by what it feels, and by nothing else.
-    // While it still lowers the wrench the jaw may have the nut, but the hand does not hold yet.
-    const bool grips = state.engagement.joint >= 0 && m.phase != Phase::lower;
-    const bool takes = grips && !m.gripped;
-    if (takes && m.on_its_nut()) take_hold(m);
+    // A hand that holds a nut does not yield to forces; a free hand does. While the wrench is being lowered
+    // the jaw may already be on the nut, but the hand does not hold it yet.
+    const bool holds_nut = state.engagement.joint >= 0 && t.phase != Phase::lower;
+    const bool grasps = holds_nut && !t.held_nut;
+    if (grasps && t.holds_intended_nut()) adopt_wrench_pose(t);
     const force::OutputCommand output{state.output.output.force, state.output.output.torque};
-    const double torque = felt_torque(setup.torque, m.nut(), m.hand.orientation * Vec3(1, 0, 0), output);
-    const Feeling& felt = m.nerves.feel(grips ? torque : 0.0, m.handle, m.joint().nut.speed, grips,
-                                        grips && state.engagement.swung > 0.0);
-    Pose pose = move(m, felt, input.grip);
-    if (m.phase != Phase::done) {
-        pose.position += m.tremor.at(m.time) * m.profile.tremor;
-        if (m.phase == Phase::pull) {
-            const double sway = m.profile.tremor_torsion * m.tremor.torsion(m.time);
-            pose.orientation = motion::orientation_of(m.nut(), m.handle + sway, m.flipped);
+    const double torque = felt_torque(setup.torque, t.nut(), t.hand.orientation * Vec3(1, 0, 0), output);
+    const Percept& felt = t.perception.update(holds_nut ? torque : 0.0, t.handle_angle, t.joint().nut.speed,
+                                              holds_nut, holds_nut && state.engagement.swung > 0.0);
+    Pose pose = step_phase(t, felt, input.grip);
+    if (t.phase != Phase::done) {
+        pose.position += t.tremor.at(t.time) * t.profile.tremor;
+        if (t.phase == Phase::pull) {
+            const double sway = t.profile.tremor_torsion * t.tremor.torsion(t.time);
+            pose.orientation = motion::tool_orientation(t.nut(), t.handle_angle + sway, t.flipped);
         }
     }
-    // It changed its mind, not its place.
-    if (grips != m.gripped || m.turned_back) take_up(m.arm, m.hand, pose);
-    m.gripped = grips;
-    m.turned_back = false;
-    m.hand = follow(m.profile.hand, m.arm, pose, output, grips, setup.dt);
-    if (m.obstacles() != nullptr && m.holds_wrench) {
+    // The intended pose may have jumped; the hand stays in place.
+    if (holds_nut != t.held_nut || t.intended_pose_jumped) reset_arm(t.arm, t.hand, pose);
+    t.held_nut = holds_nut;
+    t.intended_pose_jumped = false;
+    t.hand = step_arm(t.profile.impedance, t.arm, pose, output, holds_nut, setup.dt);
+    if (t.obstacles() != nullptr && t.holds_wrench) {
         input.grip = Grip::wrench;
-        if (m.obstacles()->in_hand) {
-            const Pose& wrench = m.obstacles()->god_object.tool;
-            notice_caught(m, pose, wrench);
-            if (grips) m.hand = motion::give_way(m.hand, wrench);
+        if (t.obstacles()->in_hand) {
+            const Pose& wrench = t.obstacles()->god_object.tool;
+            retreat_if_caught(t, pose, wrench);
+            if (holds_nut) t.hand = motion::yield_to_wrench(t.hand, wrench);
         }
     }
-    input.device = servo::sample_of(m.hand);
-    look(m, due);
+    input.device = servo::sample_of(t.hand);
+    report_visibility(t, due);
     return input;
 }
 
-std::vector<lesson::Event> Operator::take_noticed() { return std::exchange(mind_->noticed, {}); }
+std::vector<lesson::LessonEvent> SimulatedTrainee::take_events() { return std::exchange(state_->events, {}); }
 
-Result<session::Played> train(const content::Assembly& given, const TrainOptions& options,
-                              const std::filesystem::path& file,
-                              const std::function<bool(const Progress&)>& watch) {
-    session::CourseOptions options_of_course = options.course;
-    options_of_course.operator_name = options.trainee.name;
-    options_of_course.view_help = options.view_help ? "on" : "off";
-    Result<std::unique_ptr<session::Course>> begun = session::Course::begin(given, options_of_course, file);
-    if (!begun) return fail(begun.error());
-    session::Course& course = **begun;
-    const double dt = options.course.dt;
-    trainees::Operator trainee(options.trainee, options.course.seed, course.setup(), options.view_help);
+Result<session::LessonOutcome> train(const content::Assembly& assembly, const TrainOptions& options,
+                                     const std::filesystem::path& file,
+                                     const std::function<bool(const TrainingProgress&)>& watch) {
+    session::LessonOptions lesson_options = options.lesson;
+    lesson_options.operator_name = options.trainee.name;
+    lesson_options.view_help = options.view_help ? "on" : "off";
+    Result<std::unique_ptr<session::LessonSession>> started =
+        session::LessonSession::begin(assembly, lesson_options, file);
+    if (!started) return fail(started.error());
+    session::LessonSession& session = **started;
+    const double dt = options.lesson.dt;
+    SimulatedTrainee trainee(options.trainee, options.lesson.seed, session.setup(), options.view_help);
     const auto second = static_cast<std::uint64_t>(std::lround(1.0 / dt));
-    const auto last = static_cast<std::uint64_t>(options.longest / dt);
-    const auto patience = static_cast<std::uint64_t>(options.patience / dt);
-    const servo::State& state = course.state();
-    const lesson::Lesson& lesson = course.lesson();
+    const auto last = static_cast<std::uint64_t>(options.time_limit / dt);
+    const auto step_limit = static_cast<std::uint64_t>(options.step_time_limit / dt);
+    const servo::State& state = session.state();
+    const lesson::Lesson& lesson = session.lesson();
     std::size_t step = lesson.current;
-    std::uint64_t since = 0;
-    bool go_on = true;
-    while (go_on && state.tick - since < patience && !course.over() && state.tick < last) {
-        const servo::Input input = trainee.act(course.setup(), state, lesson);
-        const Result<servo::Output> output = course.step(input, trainee.take_noticed());
+    std::uint64_t step_start = 0;
+    bool running = true;
+    while (running && state.tick - step_start < step_limit && !session.finished() && state.tick < last) {
+        const servo::Input input = trainee.act(session.setup(), state, lesson);
+        const Result<servo::Output> output = session.step(input, trainee.take_events());
         if (!output) return fail(output.error());
-        Progress progress{course.time(), lesson.current, lesson.steps.size(), nullptr};
-        for (const lesson::Event& event : course.events()) {
+        TrainingProgress progress{session.time(), lesson.current, lesson.steps.size(), nullptr};
+        for (const lesson::LessonEvent& event : session.events()) {
             progress.event = &event;
-            go_on = watch(progress) && go_on;
+            running = watch(progress) && running;
             progress.event = nullptr;
         }
         if (lesson.current != step) {
             step = lesson.current;
-            since = state.tick;
+            step_start = state.tick;
         }
-        if (state.tick % second == 0) go_on = watch(progress) && go_on;
+        if (state.tick % second == 0) running = watch(progress) && running;
     }
-    return course.finish();
+    return session.finish();
 }
 
 }  // namespace bolt::trainees

@@ -1,6 +1,6 @@
-// A simulated trainee: sees the assembly, feels the torque with a delay, moves the tool as a hand does and
-// yields to the device's force as a hand does. It drives the lesson through the same input as a person: a
-// device pose and a grip.
+// A simulated trainee, and a whole lesson carried out by it in virtual time. It sees the assembly, feels the
+// torque with a delay, moves the tool and yields to the device's force like a hand. Its input to the servo
+// tick is that of a person: a device pose and a grip.
 #pragma once
 
 #include <cstdint>
@@ -16,51 +16,47 @@
 
 namespace bolt::trainees {
 
-struct Mind;  // mind.hpp
+struct TraineeState;  // behaviour.hpp
 
-class Operator {
+class SimulatedTrainee {
   public:
-    // `help`: provides a view when the trainee sees too little; none: it starts from the first view and moves
-    // its head.
-    Operator(const Profile& profile, std::uint64_t seed, const servo::Setup& setup,
-             motion::ViewHelp help = {});
-    Operator(Operator&& other) noexcept;
-    Operator& operator=(Operator&& other) noexcept;
-    ~Operator();
+    // `help` provides a view when the trainee sees too little. Without it the trainee only moves its head.
+    SimulatedTrainee(const TraineeProfile& profile, std::uint64_t seed, const servo::Setup& setup,
+                     motion::ViewHelper help = {});
+    SimulatedTrainee(SimulatedTrainee&& other) noexcept;
+    SimulatedTrainee& operator=(SimulatedTrainee&& other) noexcept;
+    ~SimulatedTrainee();
 
-    // The input for the next tick, from what can be seen and felt after the last one. Same seed, same inputs.
+    // Returns the input for the next tick from the percepts after the last one. Deterministic in the seed.
     servo::Input act(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson);
 
-    // Returns and clears what it noticed since the last call: events of kind "sight" with the visible
-    // fraction of the due nut, one for each change.
-    std::vector<lesson::Event> take_noticed();
+    // Returns and clears the events since the last call: one of kind `visibility` for each change of the
+    // visible fraction of the due nut.
+    std::vector<lesson::LessonEvent> take_events();
 
   private:
-    std::unique_ptr<Mind> mind_;
+    std::unique_ptr<TraineeState> state_;
 };
-
-// A whole lesson played by a simulated trainee in virtual time, through the same tick and the same input as a
-// person.
 
 struct TrainOptions {
-    session::CourseOptions course;  // operator_name comes from the trainee
-    trainees::Profile trainee;
-    motion::ViewHelp view_help;  // none: the trainee looks by itself
-    double longest = 14400.0;    // s of virtual time after which the lesson is given up
-    double patience = 900.0;     // s without a step done, likewise
+    session::LessonOptions lesson;  // operator_name is taken from the trainee
+    TraineeProfile trainee;
+    motion::ViewHelper view_help;    // none: the trainee only moves its head
+    double time_limit = 14400.0;     // s of virtual time after which the lesson is aborted
+    double step_time_limit = 900.0;  // s of virtual time for one step, likewise
 };
 
-struct Progress {
-    double time = 0.0;  // s, virtual
+struct TrainingProgress {
+    double time = 0.0;  // s, virtual time
     std::size_t step = 0;
     std::size_t steps = 0;
-    const lesson::Event* event = nullptr;  // what just happened; null: a second has passed
+    const lesson::LessonEvent* event = nullptr;  // the latest; null: the report once per virtual second
 };
 
-// Writes the session to `file` as it goes. `watch` may return false to stop: the session is then closed as
-// it is.
-Result<session::Played> train(const content::Assembly& given, const TrainOptions& options,
-                              const std::filesystem::path& file,
-                              const std::function<bool(const Progress&)>& watch);
+// Runs a lesson to its end with a simulated trainee and records the session to `file` meanwhile. If `watch`
+// returns false the lesson stops, and the session is closed as unfinished.
+Result<session::LessonOutcome> train(const content::Assembly& assembly, const TrainOptions& options,
+                                     const std::filesystem::path& file,
+                                     const std::function<bool(const TrainingProgress&)>& watch);
 
 }  // namespace bolt::trainees

@@ -9,137 +9,145 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double twist_shown = 0.3;    // of the fingers' twist, at the wrist
-constexpr double longest_step = 0.25;  // s of lesson that one frame catches up with
+constexpr double wrist_share = 0.3;    // fraction of the fingers' twist that the wrist shows
+constexpr double max_catch_up = 0.25;  // s of lesson time that one frame can catch up
 
-void say(ActiveLesson& p, std::span<const lesson::Event> events) {
-    for (const lesson::Event& event : events) {
-        // What begins again because of a mistake is still told why.
-        const bool by_mistake = event.kind == "back" && p.undo.by_mistake;
-        if (!by_mistake) lesson::note(p.coaching.mistakes, p.course->lesson(), event);
-        note(p.undo, p.course->lesson(), event);
-        p.events.push_back(event);
+void log_events(ActiveLesson& active, std::span<const lesson::LessonEvent> events) {
+    for (const lesson::LessonEvent& event : events) {
+        // Keep the explanation of the mistake when its step restarts.
+        const bool undone_by_mistake = event.kind == lesson::EventKind::undo && active.undo.by_mistake;
+        if (!undone_by_mistake) lesson::add_event(active.coaching.mistakes, active.session->lesson(), event);
+        observe(active.undo, active.session->lesson(), event);
+        active.events.push_back(event);
     }
 }
 
-// After each tick: the components first, then whatever follows the work tick by tick.
-void write_tick(scene::World& world, ActiveLesson& p, const servo::Input& input,
+// After each tick: updates the components, then everything that depends on them.
+void write_tick(scene::SceneWorld& world, ActiveLesson& active, const servo::Input& input,
                 const servo::Output& output) {
-    const session::Course& course = *p.course;
-    world::write_snapshot(world, {course.state(), input, output});
-    if (input.grip == servo::Grip::wrench) note(p.plot, course.lesson(), world);
-    scene::strain(p.strain, course.setup(), world);
-    say(p, course.events());
-    const sound::Cues cues = sound::cues_of(course.events());
-    if (p.sound.live) p.sound.live->tick(world, cues);
-    if (p.sound.captions)
-        note(*p.sound.captions, sound::hear(p.sound.ear, course.setup(), world, cues), course.setup().dt);
+    const session::LessonSession& session = *active.session;
+    world::write_snapshot(world, {session.state(), input, output});
+    if (input.grip == servo::Grip::wrench) observe(active.plot, session.lesson(), world);
+    scene::update_effort(active.effort, session.setup(), world);
+    log_events(active, session.events());
+    const sound::LessonCues cues = sound::lesson_cues(session.events());
+    if (active.sound.live) active.sound.live->add_tick(world, cues);
+    if (active.sound.captions)
+        observe(*active.sound.captions,
+                sound::detect_events(active.sound.detector, session.setup(), world, cues),
+                session.setup().dt);
 }
 
-bool goes_on(const ActiveLesson& p) { return goes_on(p.undo, *p.course); }
+bool continues(const ActiveLesson& active) { return continues(active.undo, *active.session); }
 
-// The hand between two ticks, as mouse or station move it: further on than the input of the last tick.
-Hand write_hand(scene::World& world, const Hand& hand) {
-    Hand& now = world.only<world::Hand>() = hand;
-    now.pinches = !hand.wrench && hand.nut && hand.doing == Doing::holding;
-    return now;
+// Writes the hand as mouse or station have moved it, which is newer than the input of the last tick.
+WorkingHand write_hand(scene::SceneWorld& world, const WorkingHand& hand) {
+    WorkingHand& written = world.only<world::WorkingHand>() = hand;
+    written.pinches = !hand.wrench && hand.nut && hand.action == HandAction::holding;
+    return written;
 }
 
-void write_glove(scene::World& world, const StationClient& at) {
-    const ecs::Entity hand = world.pool<world::Hand>().entities().front();
-    if (at.gloved)
-        world.add<world::GloveHand>(hand, at.fingers, at.glove_lost);
+void write_glove(scene::SceneWorld& world, const StationClient& client) {
+    const ecs::Entity hand = world.pool<world::WorkingHand>().entities().front();
+    if (client.gloved)
+        world.add<world::GloveHand>(hand, client.fingers, client.glove_lost);
     else
         world.remove<world::GloveHand>(hand);
 }
 
-void step_ticks(scene::World& world, Frame& frame) {
-    ActiveLesson& p = frame.playing;
-    session::Course& course = *p.course;
-    if (!p.pace.paused && !p.pace.finished) p.pace.owed += frame.seconds;
-    if (!p.pace.paused && !p.pace.finished)
-        p.pace.lagged += frame.late + std::max(0.0, p.pace.owed - longest_step);
-    p.pace.owed = std::min(p.pace.owed, longest_step);
-    const servo::Setup& setup = course.setup();
-    for (; p.pace.owed >= setup.dt && goes_on(p) && frame.status; p.pace.owed -= setup.dt) {
-        servo::Input input = move(p.mouse, setup, course.state());
-        if (const lesson::Step* due = course.lesson().due(); due != nullptr && course.lesson().guides)
+void step_ticks(scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    session::LessonSession& session = *active.session;
+    if (!active.clock.paused && !active.clock.finished) active.clock.pending += frame.seconds;
+    if (!active.clock.paused && !active.clock.finished)
+        active.clock.lag += frame.overrun + std::max(0.0, active.clock.pending - max_catch_up);
+    active.clock.pending = std::min(active.clock.pending, max_catch_up);
+    const servo::Setup& setup = session.setup();
+    for (; active.clock.pending >= setup.dt && continues(active) && frame.status;
+         active.clock.pending -= setup.dt) {
+        servo::Input input = step_hand(active.mouse, setup, session.state());
+        if (const lesson::LessonStep* due = session.lesson().due(); due != nullptr && session.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
-        const auto back = steps_back(p.undo, course.lesson());
-        if (back && p.mouse.doing == Doing::resting && !p.mouse.nut) course.go_back(*back);
-        const Result<servo::Output> output = course.step(input);
+        const auto undo = steps_to_undo(active.undo, session.lesson());
+        if (undo && active.mouse.action == HandAction::resting && !active.mouse.nut)
+            session.request_undo(*undo);
+        const Result<servo::Output> output = session.step(input);
         if (!output) {
             frame.status = fail(output.error());
             break;
         }
-        write_tick(world, p, input, *output);
+        write_tick(world, active, input, *output);
     }
-    const Hand hand = write_hand(world, hand_of(p.mouse));
-    if (hand.doing == Doing::reaching)
-        p.grip = scene::natural_grip(p.postures, hand.to, Vec3(0, 1, 0), p.shoulder);
+    const WorkingHand hand = write_hand(world, hand_of(active.mouse));
+    if (hand.action == HandAction::reaching)
+        active.handle_grip = scene::natural_grip(active.postures, hand.to, Vec3(0, 1, 0), active.shoulder);
 }
 
-// What the station has done since the last picture, done again beside it.
-void follow_station(scene::World& world, Frame& frame) {
-    ActiveLesson& p = frame.playing;
-    StationClient& at = *p.station;
-    const bool had = hand_of(p).wrench;
-    for (station::TickRecord tick; goes_on(p) && frame.status && at.bench->next_tick(tick);) {
-        frame.status = p.course->take(tick.input, tick.output);
-        if (tick.output.joint >= 0 && contact_of(p).joint < 0) at.taken_at = tick.output.nut_angle;
-        if (frame.status) write_tick(world, p, tick.input, tick.output);
+// Repeats the station's ticks since the last frame with the lesson's own servo.
+void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    StationClient& client = *active.station;
+    const bool had_wrench = hand_of(active).wrench;
+    for (station::StationTick tick; continues(active) && frame.status && client.link->next_tick(tick);) {
+        frame.status = active.session->repeat(tick.input, tick.output);
+        if (tick.output.joint >= 0 && contact_of(active).joint < 0)
+            client.nut_angle_at_grip = tick.output.nut_angle;
+        if (frame.status) write_tick(world, active, tick.input, tick.output);
     }
-    if (at.bench->lost_ticks() > 0 && goes_on(p) && frame.status)
-        frame.status = fail(ErrorCode::failed,
-                            fmt::format("pictures took so long that {} ticks of the servo could not be kept",
-                                        at.bench->lost_ticks()),
-                            "the session until then is whole");
+    if (client.link->lost_ticks() > 0 && continues(active) && frame.status)
+        frame.status =
+            fail(ErrorCode::failed, fmt::format("{} ticks of the servo were dropped because frames took too "
+                                                "long; the session up to there is complete",
+                                                client.link->lost_ticks()));
     const Status sent =
-        wish(at, *p.course,
-             {p.pace.paused || p.pace.finished || !goes_on(p), frame.wanted.wants(Action::tool),
-              frame.wanted.wants(Action::recentre), steps_back(p.undo, p.course->lesson()),
-              glm::angleAxis(p.view.camera.shown.yaw, Vec3(0, 1, 0))});
+        send_intent(client, *active.session,
+                    {active.clock.paused || active.clock.finished || !continues(active),
+                     frame.input.triggered(Action::tool), frame.input.triggered(Action::recentre),
+                     steps_to_undo(active.undo, active.session->lesson()),
+                     glm::angleAxis(active.view.camera.shown.yaw, Vec3(0, 1, 0))});
     if (frame.status && !sent) frame.status = sent;
-    const Hand hand = write_hand(world, hand_of(at));
-    if (hand.wrench && !had)
-        p.grip = scene::natural_grip(p.postures, tool_of(p).pose, Vec3(0, 1, 0), p.shoulder);
-    write_glove(world, at);
+    const WorkingHand hand = write_hand(world, hand_of(client));
+    if (hand.wrench && !had_wrench)
+        active.handle_grip =
+            scene::natural_grip(active.postures, tool_of(active).pose, Vec3(0, 1, 0), active.shoulder);
+    write_glove(world, client);
 }
 
-scene::Held held_of(const scene::World& world, const ActiveLesson& p, double seconds) {
-    const world::Hand& hand = world.only<world::Hand>();
+scene::ToolAndHand held_of(const scene::SceneWorld& world, const ActiveLesson& active, double seconds) {
+    const world::WorkingHand& hand = world.only<world::WorkingHand>();
     const world::GloveHand* glove =
-        world.find<world::GloveHand>(world.pool<world::Hand>().entities().front());
-    return {hand.wrench ? world.only<world::Tool>().pose : hand.pose,
+        world.find<world::GloveHand>(world.pool<world::WorkingHand>().entities().front());
+    return {hand.wrench ? world.only<world::HeldTool>().pose : hand.pose,
             hand.wrench,
             hand.rest,
             hand.pinches,
-            glove != nullptr ? hand.rest : scene::towards(hand.pose, p.shoulder, -twist_shown * hand.twisted),
-            p.grip,
+            glove != nullptr ? hand.rest
+                             : scene::frame_towards(hand.pose, active.shoulder, -wrist_share * hand.twisted),
+            active.handle_grip,
             seconds,
-            p.strain.share,
-            p.strain.tremor,
+            active.effort.share,
+            active.effort.tremor,
             glove != nullptr ? &glove->fingers : nullptr,
-            p.course->state().tool_contact ? &p.course->state().tool_contact->world : nullptr};
+            active.session->state().tool_contact ? &active.session->state().tool_contact->world : nullptr};
 }
 
 }  // namespace
 
-void haptic_system(scene::World& world, Frame& frame) {
-    ActiveLesson& p = frame.playing;
-    if (p.station)
-        follow_station(world, frame);
+void haptic_system(scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    if (active.station)
+        repeat_station_ticks(world, frame);
     else
         step_ticks(world, frame);
-    p.pace.finished = p.pace.finished || !goes_on(p);
+    active.clock.finished = active.clock.finished || !continues(active);
 }
 
-void placement_system(scene::World& world, Frame& frame) {
-    ActiveLesson& p = frame.playing;
-    const scene::Held held = held_of(world, p, frame.seconds);
-    scene::place_nuts(world, p.course->setup());
+void placement_system(scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    const scene::ToolAndHand held = held_of(world, active, frame.seconds);
+    scene::place_nuts(world, active.session->setup());
     scene::place_tool(world, held);
-    scene::place_hand(world, p.postures, held);
+    scene::place_hand(world, active.postures, held);
 }
 
 }  // namespace bolt::trainer

@@ -1,5 +1,5 @@
-// A lesson under way: the session, the world, and by concern what the systems of a frame (systems.hpp) keep
-// from frame to frame.
+// A lesson in progress: its session, its world, and the state that the systems of a frame keep from frame to
+// frame.
 #pragma once
 
 #include <memory>
@@ -28,108 +28,117 @@
 
 namespace bolt::trainer {
 
-// What the pointer means.
-struct Pointing {
-    bool drags_hand = false;         // the left button moves the hand, not the view
-    glm::dvec2 press{0.0};           // px, where the left button went down
-    std::optional<std::size_t> nut;  // below the pointer
-    bool wrench = false;             // the wrench lies below the pointer or beside the hand
+// The target of the pointer.
+struct PointerState {
+    bool drags_hand = false;         // a left drag moves the hand, not the view
+    glm::dvec2 press_position{0.0};  // px, where the left button was pressed
+    std::optional<std::size_t> nut;  // under the pointer
+    bool on_wrench =
+        false;  // the wrench at rest is under the pointer, at a station: within reach of the hand
 };
 
-// The lesson's time against the clock's.
-struct Pace {
-    double owed = 0.0;    // s of ticks that are due
-    double lagged = 0.0;  // s that a slow machine fell behind the clock
+// Lesson time compared with real time.
+struct LessonClock {
+    double pending = 0.0;  // s of ticks that remain to be stepped
+    double lag = 0.0;      // s by which a slow machine has fallen behind real time
     bool paused = false, finished = false;
 };
 
-// How the work is seen.
 struct LessonView {
-    view::Glide camera;
-    motion::Sight sight;
-    double unseen = 0.0;  // s that the due joint has been out of sight
+    view::CameraGlide camera;
+    motion::VisibilityModel visibility;
+    double out_of_view = 0.0;  // s since the due joint was last visible
     CloseUp close_up;
-    bool clamp_map = false;                   // every joint shows its clamp force
-    std::vector<render::Rectangle> occupied;  // px, areas of the interface in the picture before
+    bool clamp_map = false;                   // show the clamp force of every joint
+    std::vector<render::Rectangle> occupied;  // px, areas of the interface in the previous picture
 };
 
-// What the trainee is told.
+// Help for the trainee.
 struct Coaching {
-    lesson::Hints hints;
-    lesson::Mistakes mistakes;
-    std::optional<std::pair<std::size_t, Pose>> ghost;  // of the wrench: its step and its pose
+    lesson::HintState hints;
+    lesson::MistakeState mistakes;
+    std::optional<std::pair<std::size_t, Pose>> wrench_ghost;  // cached: its step and its pose
 };
 
 struct LessonSound {
-    std::unique_ptr<sound::Live> live;  // null: no sound was asked for
-    bool quiet = false;
+    std::unique_ptr<sound::LiveSound> live;  // null: no sound
+    bool muted = false;
     double volume = 1.0;               // 0 … 1, from the trainee's settings
-    sound::Ear ear;                    // of the captions
-    std::optional<Captions> captions;  // none: not asked for
+    sound::EventDetector detector;     // for the captions
+    std::optional<Captions> captions;  // none: disabled
 };
 
 struct ActiveLesson {
-    std::unique_ptr<session::Course> course;
+    std::unique_ptr<session::LessonSession> session;
     std::optional<StationClient> station;  // none: the mouse moves the hand
     MouseHand mouse;
-    scene::Workplace place;  // with the world
+    scene::Workplace workplace;  // contains the world
     render::Scene scene;
 
     scene::Postures postures;
-    std::size_t grip = 0;  // how the handle is held (scene::Postures)
-    Vec3 shoulder{0.0};    // m, of the trainee
-    scene::Strain strain;  // of the hand
+    std::size_t handle_grip = 0;  // grip on the wrench's handle (Postures::on_handle)
+    Vec3 shoulder{0.0};           // m, the trainee's
+    scene::Effort effort;         // of the hand
     view::Palette palette;
 
-    Controls controls;
-    Pointing pointing;
-    Pace pace;
+    InputState input;
+    PointerState pointer;
+    LessonClock clock;
     LessonView view;
     Coaching coaching;
     LessonSound sound;
-    StepUndo undo;  // pending until the hand is off the nut
-    Plot plot;
-    std::vector<lesson::Verdict> verdicts;  // of the joints, once the lesson has ended
-    std::vector<lesson::Event> events;      // since they were last logged
+    StepUndo undo;
+    TorquePlot plot;
+    std::vector<lesson::Verdict> verdicts;    // of the joints, after the end of the lesson
+    std::vector<lesson::LessonEvent> events;  // not logged yet
 };
 
-// The work as haptic_system has written it.
-inline const world::Hand& hand_of(const ActiveLesson& p) { return p.place.world.only<world::Hand>(); }
-inline const world::Tool& tool_of(const ActiveLesson& p) { return p.place.world.only<world::Tool>(); }
-inline const world::ToolContact& contact_of(const ActiveLesson& p) {
-    return p.place.world.only<world::ToolContact>();
+// Components that haptic_system has written.
+inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
+    return active.workplace.world.only<world::WorkingHand>();
+}
+inline const world::HeldTool& tool_of(const ActiveLesson& active) {
+    return active.workplace.world.only<world::HeldTool>();
+}
+inline const world::ContactState& contact_of(const ActiveLesson& active) {
+    return active.workplace.world.only<world::ContactState>();
 }
 
-// What happens in a frame of a lesson, in order.
-
+// Input and result of the systems of one frame.
 struct Frame {
-    ActiveLesson& playing;
+    ActiveLesson& active;
     const words::Words& words;
-    double seconds = 0.0;  // since the last one, as far as anything moves by it
-    double late = 0.0;     // s that it took longer than that: a slow machine
-    glm::dvec2 size{1.0};  // px, of the picture
-    Wanted wanted;
+    double seconds = 0.0;  // since the previous frame; limited, so that nothing jumps after a long frame
+    double overrun = 0.0;  // s by which the frame exceeded that limit
+    glm::dvec2 size{1.0};  // px
+    FrameInput input;
     const text::Fonts* fonts = nullptr;
-    Status status;  // the first error: the session could not be kept
+    Status status;  // first error, for example if the session cannot be recorded
 };
 
-// Before the systems: what mouse and keys ask of the hand and of the view, read off the world of the frame
-// before.
-void read_pointer(const scene::World& world, Frame& frame);
+// Call before the systems. Applies mouse and keys to the hand and the view, based on the world of the
+// previous frame.
+void handle_input(const scene::SceneWorld& world, Frame& frame);
 
-void haptic_system(scene::World& world, Frame& frame);  // the servo's snapshot of every tick, as components
-void placement_system(scene::World& world,
-                      Frame& frame);  // nuts, wrench and hand where the components have them
-void lesson_system(scene::World& world, Frame& frame);   // what is due is marked, what happened is said
-void view_system(scene::World& world, Frame& frame);     // the camera, and what fades before the nut
-void label_system(scene::World& world, Frame& frame);    // figures at the wrench and at the joints
-void present_system(scene::World& world, Frame& frame);  // everything to the renderer
+// In the order in which they run.
+// Steps the ticks and writes the servo's snapshots to components.
+void haptic_system(scene::SceneWorld& world, Frame& frame);
+// Sets the poses of nuts, wrench and hand from the components.
+void placement_system(scene::SceneWorld& world, Frame& frame);
+// Updates hints, mistakes, captions and outlines.
+void lesson_system(scene::SceneWorld& world, Frame& frame);
+// Updates the camera, the close-up and the cut-away in front of the nut.
+void view_system(scene::SceneWorld& world, Frame& frame);
+// Updates the labels at the wrench and at the joints.
+void label_system(scene::SceneWorld& world, Frame& frame);
+// Fills the renderer's scene.
+void present_system(scene::SceneWorld& world, Frame& frame);
 
-inline constexpr ecs::System<scene::World, Frame> frame_systems[] = {
+inline constexpr ecs::System<scene::SceneWorld, Frame> frame_systems[] = {
     {"haptics", haptic_system}, {"placement", placement_system}, {"lesson", lesson_system},
     {"view", view_system},      {"labels", label_system},        {"present", present_system}};
 
-// The picture as the camera has it now.
-Screen screen_of(const ActiveLesson& playing, const glm::dvec2& size);
+// The picture from the camera's present viewpoint.
+Screen screen_of(const ActiveLesson& active, const glm::dvec2& size);
 
 }  // namespace bolt::trainer

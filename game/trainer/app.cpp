@@ -5,443 +5,400 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <cstdlib>
 
-#include "content/format/assembly.hpp"
-#include "game/scene/workplace.hpp"
 #include "game/sound/event_detection.hpp"
-#include "game/trainer/controls.hpp"
 #include "game/trainer/hud.hpp"
-#include "haptics/force/output_limits.hpp"
 
 namespace bolt::trainer {
 
 namespace {
 
-constexpr double longest_frame = 0.25;  // s: nothing moves on by more from picture to picture
+constexpr double longest_frame = 0.25;  // s; a slower frame delays the lesson instead of making it jump
+constexpr float text_size = 15.0F;      // points
 
-}  // namespace
-
-struct App::OnGpu {
-    view::Painter* painter = nullptr;
-    std::unique_ptr<ui::Ui> ui;
-    std::unique_ptr<scene::GpuShelf> shelf;
-    std::optional<text::Fonts> fonts;
-};
-
-std::vector<Listed> list_assemblies() {
-    std::vector<std::string> names;
-    std::error_code problem;
-    const auto folder = content::content_folder() / "assemblies";
-    for (auto entry = std::filesystem::directory_iterator(folder, problem);
-         !problem && entry != std::filesystem::directory_iterator(); entry.increment(problem))
-        if (std::filesystem::exists(entry->path() / "assembly.json"))
-            names.push_back(entry->path().filename().string());
-    std::sort(names.begin(), names.end());
-    std::vector<Listed> listed;
-    for (const std::string& name : names) {
-        const content::Loaded loaded = content::load_assembly(name);
-        if (!loaded.ok() || loaded.assembly.models.model.empty()) continue;
-        listed.push_back({name, loaded.assembly.variant, loaded.assembly.title, loaded.assembly.lesson,
-                          loaded.assembly.variants, loaded.assembly.tools, loaded.assembly.law});
-    }
-    return listed;
-}
-
-joint::Law App::law_in_force(joint::Law of_assembly) const {
-    if (options_.law) return *options_.law;
-    for (const joint::Law law : {joint::Law::mechanistic, joint::Law::published})
-        if (preferences_.settings.law == joint::name(law)) return law;
-    return of_assembly;
-}
-
-// Another language from now on.
-Status App::speak(const std::string& language) {
-    words::Loaded loaded = words::load_words(words::words_folder(), language);
-    if (!loaded.ok()) return fail(loaded.errors.front());
-    words_ = std::move(loaded.words);
-    options_.choice.language = language;
-    apply_preferences();
-    return {};
-}
-
-App::App(AppOptions options) : options_(std::move(options)) {
-    if (options_.menu) {
-        listed_ = list_assemblies();
-        seats_ = seats();
-    }
-    start_wished_ = !options_.menu;
-    preferences_.folder = options_.settings_folder;
-    preferences_.file = options_.settings_file;
-    preferences_.known = settings_vocabulary(words::languages(words::words_folder()));
-    take(preferences_, options_.choice.trainee);
-    if (preferences_.trouble != Preferences::Trouble::none) tell(preferences_.why);
-    if (options_.choice.language.empty()) options_.choice.language = preferences_.settings.language;
-}
-
-App::~App() { keep_preferences(); }
-
-void App::tell(const std::string& line) const {
-    if (options_.tell) options_.tell(line);
-}
-
-Status App::start(view::Painter& painter) {
-    if (languages_.empty()) {
-        const std::vector<std::string> there = words::languages(words::words_folder());
-        for (const std::string& code : there) {
-            words::Loaded loaded = words::load_words(words::words_folder(), code);
-            if (!loaded.ok()) return fail(loaded.errors.front());
-            languages_.push_back(std::move(loaded.words));
-        }
-        const std::string& asked = options_.choice.language;
-        if (Status spoken = speak(asked.empty() ? words::language_of_desktop(there) : asked); !spoken)
-            return spoken;
-    }
-    on_ = std::make_unique<OnGpu>();
-    on_->painter = &painter;
-    Result<std::unique_ptr<ui::Ui>> made = ui::Ui::create(*painter.device, {15.0F});
-    if (!made) return fail(made.error());
-    on_->ui = std::move(*made);
-    for (const words::Words& language : languages_) {
-        on_->ui->need(language.name);
-        for (const std::string& text : language.texts) on_->ui->need(text);
-    }
-    for (const std::string_view sign : {"▼", "●", "▲", "◆", "–"}) on_->ui->need(sign);
-    for (const Listed& listed : listed_) {
-        for (const auto& [code, title] : listed.title) on_->ui->need(title);
-        for (const auto& [code, text] : listed.lesson) on_->ui->need(text);
-        for (const content::Variant& variant : listed.variants)
-            for (const auto& [code, title] : variant.title) on_->ui->need(title);
-        for (const content::Tool& tool : listed.tools)
-            for (const auto& [code, title] : tool.title) on_->ui->need(title);
-    }
-    Result<text::Fonts> fonts = text::load_fonts();
-    if (!fonts) return fail(fonts.error());
-    on_->fonts.emplace(std::move(*fonts));
-    return playing_ ? place_on_gpu() : Status{};
-}
-
-void App::drop() {
-    if (on_ && on_->painter->device) (void)on_->painter->device->idle();
-    if (playing_) {
-        playing_->scene = {};
-        scene::remove_pictures(playing_->place.world);
-    }
-    backdrop_.drop();
-    on_.reset();
-}
-
-// Models, and the entities that point to them.
-Status App::place_on_gpu() {
-    if (Status idle = on_->painter->device->idle(); !idle) return idle;
-    Result<std::unique_ptr<scene::GpuShelf>> up = scene::upload(*on_->painter->device, *shelf_);
-    if (!up) return fail(up.error());
-    on_->shelf = std::move(*up);
-    ActiveLesson& p = *playing_;
-    Result<scene::Workplace> place = scene::make_workplace(std::move(p.place.world), *shelf_, *on_->shelf,
-                                                           p.course->assembly(), p.course->setup());
-    if (!place) return fail(place.error());
-    p.place = std::move(*place);
-    p.scene = scene::lit(p.place, on_->shelf->light);
-    return {};
-}
-
-namespace {
-
-// The wrench is in the first picture too: it is what one reaches for. Who sits sees it from lower.
-view::Orbit first_view(const ActiveLesson& p, const view::Subject& machine, double handle_length,
-                       float aspect, const scene::Worker& worker) {
-    const view::Viewpoint first = machine.views.empty()
-                                      ? view::framed(p.place.machine, view::usual_fov, aspect)
-                                      : machine.views.front();
-    render::BoundingBox all = p.place.machine;
-    for (const double along : {-0.1, 1.2}) {
-        const glm::vec3 end(hand_of(p).rest * Vec3(along * handle_length, 0.0, 0.0));
-        all.low = glm::min(all.low, end);
-        all.high = glm::max(all.high, end);
-    }
-    const view::Orbit orbit = view::framing(view::orbit_of(first), all, aspect);
-    const auto eyes = scene::eye_level(p.place.machine, worker);
-    return eyes ? view::framing(view::from_at_most(orbit, *eyes), all, aspect) : orbit;
-}
-
-// The hand in the glove, or the one that somebody says they work with.
-hand::Side hand_at_work(const ActiveLesson& p, const content::Settings& wanted) {
-    if (p.station)
-        if (const station::DisplayedHand* gloved = p.station->bench->hand()) return gloved->side;
-    return wanted.left_handed ? hand::Side::left : hand::Side::right;
-}
-
-}  // namespace
-
-Status App::begin_lesson(float aspect) {
-    meet_trainee();
-    keep_preferences();
-    const Choice& choice = options_.choice;
-    const content::Settings& wanted = preferences_.settings;
-
-    content::Loaded loaded = content::load_assembly(choice.assembly, choice.variant);
-    if (!loaded.ok()) return fail(loaded.errors.front());
-    if (Status chosen = content::choose_tool(loaded.assembly, choice.tool); !chosen) return chosen;
-    course_ = options_.course;
-    course_.law = law_in_force(loaded.assembly.law);
-    // Devices, review and texts use the same targets as the lesson.
-    assembly_ = lesson::under_law(std::move(loaded.assembly), course_.law);
-    course_.mode = choice.mode;
-    course_.task = choice.task;
-    course_.operator_name = "person";
-    course_.trainee = choice.trainee;
-    course_.device = force::scaled(options_.course.device, wanted.force_scale);
-    Result<session::Prepared> prepared = session::prepare(assembly_, course_);
-    if (!prepared) return fail(prepared.error());
-    ActiveLesson next;
-    if (Status started = start_station(next, *prepared); !started) return started;
-    const scene::Worker worker{hand_at_work(next, wanted), wanted.seated_height};
-    course_.hand = worker.side == hand::Side::left ? "left" : "right";
-    Result<scene::Shelf> shelf = scene::load_shelf(assembly_, worker.side);
-
-    if (!shelf) return fail(shelf.error());
-    for (const std::string& missing : shelf->missing) tell("left out: " + missing);
-    Result<std::unique_ptr<session::Course>> course =
-        session::Course::begin(std::move(*prepared), course_, options_.out / "session.boltwright");
-    if (!course) return fail(course.error());
-    next.course = std::move(*course);
-
-    if (playing_) {
-        if (Status idle = on_->painter->device->idle(); !idle) return idle;
-        playing_.reset();
-    }
-    if (options_.begins) options_.begins();
-    shelf_ = std::move(*shelf);
-    playing_.emplace(std::move(next));
-    ActiveLesson& p = *playing_;
-    world::add_haptics(p.place.world, p.course->state());
-    if (Status placed = place_on_gpu(); !placed) return placed;
-    const servo::Setup& setup = p.course->setup();
-    const servo::State& state = p.course->state();
-    p.mouse = make_hand(scene::resting_place(p.place.machine, assembly_.wrench.head_thickness, worker.side),
-                        worker.side);
-    p.place.world.only<world::Hand>() = hand_of(p.mouse);
-
-    take_place();
-    p.sound.ear.still = sound::materials(p.course->assembly(), p.course->obstacle_names());
-    if (options_.sound) {
-        auto live = sound::Live::start(setup, p.sound.ear.still);
-        if (live)
-            p.sound.live = std::make_unique<sound::Live>(std::move(*live));
-        else
-            tell(live.error().message());
-    }
-    p.postures = scene::make_postures(state.tool_contact ? &state.tool_contact->wrench : nullptr,
-                                      setup.wrench.handle_length, worker.side, scene::widest_nut(setup));
-    p.shoulder = scene::shoulder_at(p.place.machine, worker);
-    if (p.station) {
-        const hand::Skeleton& open = p.postures.open;
-        const Pose fingers = scene::towards(p.station->home, p.shoulder, 0.0);
-        p.station->bare_wrist =
-            inverse(p.station->home) * fingers * Pose{open.position[hand::wrist], open.rotation[hand::wrist]};
-    }
-    apply_preferences();
-    p.view.close_up.wished = course_.mode == lesson::Mode::guided;
-    p.verdicts.assign(assembly_.joints.size(), lesson::Verdict::none);
-    p.view.camera.jump(first_view(p, shelf_->machine, setup.wrench.handle_length, aspect, worker));
-    played_.reset();
-    shows_ = Shows::lesson;
-    tell(fmt::format("lesson begun: {} {}, {}, law {}", assembly_.name, assembly_.variant,
-                     lesson::name(course_.mode), joint::name(course_.law)));
-    return {};
-}
-
-// The station that the lesson is played at, if any: with a servo of its own that begins as the lesson's.
-Status App::start_station(ActiveLesson& p, session::Prepared& prepared) {
-    if (options_.choice.with.none()) return {};
-    if (playing_) playing_->station.reset();  // that has the devices
-    Equipment with = options_.choice.with;
-    with.force_scale = preferences_.settings.force_scale;
-    auto bench = options_.station(assembly_, course_, with, options_.choice.trainee);
-    if (!bench) return fail(bench.error());
-    p.station.emplace();
-    p.station->bench = std::move(*bench);
-    course_.device = p.station->bench->setup().limits;
-    course_.servo = fmt::format("{:.0f} Hz", 1.0 / course_.dt);
-    session::use_device(course_, prepared);
-    return {};
-}
-
-// Hand and wrench before the machine.
-void App::take_place() {
-    ActiveLesson& p = *playing_;
-    if (!p.station) return;
-    StationClient& at = *p.station;
-    at.rest = hand_of(p).rest;
-    at.home = hand_of(p).pose;
-}
-
-// What is pressed or moved for what.
-void App::name_controls() {
-    const std::string tool = key_name(preferences_.keys, Action::tool);
-    const StationClient* at = playing_ && playing_->station ? &*playing_->station : nullptr;
-    if (at == nullptr) {
-        controls_ = lesson::mouse_controls(words_, tool);
-        return;
-    }
-    const std::uint32_t held = at->bench->layout().mover_buttons.held;
-    const bool keys = options_.choice.with.devices.empty() || held == 0;
+// Names what the user presses or moves for each control of the current hand.
+lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys, const Equipment& equipment,
+                                   const StationClient* station) {
+    const std::string tool = key_name(keys, Action::tool);
+    if (station == nullptr) return lesson::mouse_controls(words, tool);
+    const station::Layout& layout = station->link->layout();
+    const std::uint32_t held = layout.mover_buttons.held;
+    const bool keyboard = equipment.devices.empty();
     const std::string closes =
-        keys ? std::string(platform::name(platform::Key::space))
-             : words::say(words_, "control.device.button",
-                          {{"number", words::Number{static_cast<double>(std::countr_zero(held) + 1), 0}}});
-    const auto& mover = at->bench->layout().mover;
-    const bool feels = mover && station::renders_force(*mover);
-    controls_ = options_.choice.with.devices.empty() ? lesson::keyboard_controls(words_, closes, tool)
-                : feels                              ? lesson::device_controls(words_, closes, tool)
-                                                     : lesson::puck_controls(words_, closes, tool);
-    if (at->bench->hand() != nullptr) controls_ = lesson::glove_controls(words_, std::move(controls_));
+        keyboard || held == 0
+            ? std::string(platform::name(platform::Key::space))
+            : words::format_text(
+                  words, "control.device.button",
+                  {{"number", words::Number{static_cast<double>(std::countr_zero(held) + 1), 0}}});
+    const bool feels = layout.mover && station::renders_force(*layout.mover);
+    lesson::ControlNames names = keyboard ? lesson::keyboard_controls(words, closes, tool)
+                                 : feels  ? lesson::device_controls(words, closes, tool)
+                                          : lesson::puck_controls(words, closes, tool);
+    return station->link->hand() != nullptr ? lesson::glove_controls(words, std::move(names)) : names;
 }
 
-Status App::unseen() {
-    if (!playing_ || !playing_->station) return {};
-    playing_->station->controls.pause = true;
-    playing_->station->bench->set_controls(playing_->station->controls);
-    return {};
+// Adds every character that the interface may draw to its font.
+void add_characters(ui::Ui& ui, std::span<const words::Words> languages,
+                    std::span<const AssemblyEntry> assemblies) {
+    for (const words::Words& language : languages) {
+        ui.add_characters(language.name);
+        for (const std::string& text : language.texts) ui.add_characters(text);
+    }
+    for (const std::string_view sign : {"▼", "●", "▲", "◆", "–"}) ui.add_characters(sign);
+    for (const AssemblyEntry& entry : assemblies) {
+        for (const auto& [code, title] : entry.title) ui.add_characters(title);
+        for (const auto& [code, text] : entry.lesson) ui.add_characters(text);
+        for (const content::AssemblyVariant& variant : entry.variants)
+            for (const auto& [code, title] : variant.title) ui.add_characters(title);
+        for (const content::Tool& tool : entry.tools)
+            for (const auto& [code, title] : tool.title) ui.add_characters(title);
+    }
 }
 
-Status App::end_lesson() {
-    if (!playing_ || shows_ != Shows::lesson) return {};
-    if (playing_->station)
-        if (const servo::Timing* timing = playing_->station->bench->stop())
-            if (Status kept = playing_->course->keep(*timing); !kept) return kept;
-
-    Result<session::Played> played = playing_->course->finish();
-    if (!played) return fail(played.error());
-    played_ = std::move(*played);
-    playing_->pace.finished = true;
-    for (std::size_t i = 0; i < playing_->verdicts.size(); ++i)
-        playing_->verdicts[i] = view::verdict_of(played_->result.joints[i]);
-    shows_ = Shows::result;
-    tell(fmt::format("lesson ended: {}, score {:.0f}", played_->result.finished ? "finished" : "broken off",
-                     played_->result.score));
-    tell_cost();
-    if (options_.ended) return options_.ended(playing_->course->assembly(), course_, *played_);
-    return {};
-}
-
-// What the frames of the lesson have cost beside rendering.
-void App::tell_cost() {
+// One line with the median and 99th percentile of each system; sorts the times.
+std::string describe_times(std::map<std::string_view, std::vector<float>>& times_of) {
     std::string line = "a frame's systems, median and p99 (ms):";
-    for (auto& [system, times] : cost_) {
+    for (auto& [system, times] : times_of) {
         std::sort(times.begin(), times.end());
         line +=
             fmt::format(" {} {:.2f} {:.2f}", system, times[times.size() / 2], times[times.size() * 99 / 100]);
     }
-    tell(line);
-    if (playing_->pace.lagged > 1.0)
-        tell(fmt::format("pictures took so long that the lesson went {:.0f} s slower than the clock",
-                         playing_->pace.lagged));
-    cost_.clear();
+    return line;
 }
 
-void App::tell_events() {
-    const double dt = playing_->course->setup().dt;
-    for (const lesson::Event& event : playing_->events) {
-        const std::string joint =
-            event.joint >= 0 ? assembly_.joints[static_cast<std::size_t>(event.joint)].design.id + " "
-                             : std::string();
-        tell(fmt::format("{:7.2f} s  {}{} {}", static_cast<double>(event.tick) * dt, joint, event.kind,
-                         event.text));
+std::string describe_event(const content::Assembly& assembly, const lesson::LessonEvent& event, double dt) {
+    const std::string joint = event.joint >= 0
+                                  ? assembly.joints[static_cast<std::size_t>(event.joint)].design.id + " "
+                                  : std::string();
+    return fmt::format("{:7.2f} s  {}{} {}", static_cast<double>(event.tick) * dt, joint,
+                       lesson::name(event.kind), event.text);
+}
+
+bool pressed_enter(const platform::InputEvent& event) {
+    const auto* key = std::get_if<platform::KeyEvent>(&event);
+    return key != nullptr && key->key == platform::Key::enter && key->down && !key->repeated;
+}
+
+}  // namespace
+
+struct App::GpuResources {
+    view::GpuContext* context = nullptr;
+    std::unique_ptr<ui::Ui> ui;
+    std::unique_ptr<scene::GpuLessonModels> models;
+    std::optional<text::Fonts> fonts;
+};
+
+App::App(AppOptions options) : options_(std::move(options)) {
+    if (options_.menu) menu_ = {list_assemblies(), device_options(), std::nullopt};
+    start_requested_ = !options_.menu;
+    preferences_.folder = options_.settings_folder;
+    preferences_.file = options_.settings_file;
+    preferences_.known = settings_vocabulary(words::languages(words::words_folder()));
+    load_preferences(preferences_, options_.choice.trainee);
+    if (preferences_.trouble != Preferences::Trouble::none) log(preferences_.why);
+    if (options_.choice.language.empty()) options_.choice.language = preferences_.settings.language;
+}
+
+App::~App() { save_preferences(); }
+
+void App::log(const std::string& line) const {
+    if (options_.log) options_.log(line);
+}
+
+Status App::start(view::GpuContext& gpu_context) {
+    if (languages_.empty()) {
+        const std::vector<std::string> codes = words::languages(words::words_folder());
+        for (const std::string& code : codes) {
+            words::LoadedWords loaded = words::load_words(words::words_folder(), code);
+            if (!loaded.ok()) return fail(loaded.errors.front());
+            languages_.push_back(std::move(loaded.words));
+        }
+        const std::string& requested = options_.choice.language;
+        BOLT_TRY(select_language(requested.empty() ? words::language_of_desktop(codes) : requested));
     }
-    playing_->events.clear();
+    gpu_ = std::make_unique<GpuResources>();
+    gpu_->context = &gpu_context;
+    BOLT_TRY_ASSIGN(auto ui, ui::Ui::create(*gpu_context.device, {text_size}));
+    gpu_->ui = std::move(ui);
+    add_characters(*gpu_->ui, languages_, menu_.assemblies);
+    BOLT_TRY_ASSIGN(auto fonts, text::load_fonts());
+    gpu_->fonts.emplace(std::move(fonts));
+    return active_ ? upload_lesson() : Status{};
 }
 
-Status App::draw_backdrop(gpu::FrameContext& frame, VkExtent2D size) {
-    backdrop_.want(options_.choice.assembly);
-    view::Painter& painter = *on_->painter;
-    return backdrop_.draw(*painter.device, *painter.renderer, frame, size);
+void App::release() {
+    if (gpu_ && gpu_->context->device) (void)gpu_->context->device->idle();
+    if (active_) {
+        active_->scene = {};
+        scene::destroy_drawables(active_->workplace.world);
+    }
+    backdrop_.release();
+    gpu_.reset();
 }
 
-Status App::frame(gpu::FrameContext& frame, std::span<const platform::Event> events, VkExtent2D size,
+// Uploads the models of the lesson and makes the entities that refer to them.
+Status App::upload_lesson() {
+    ActiveLesson& active = *active_;
+    BOLT_TRY(gpu_->context->device->idle());
+    BOLT_TRY_ASSIGN(auto models, scene::upload(*gpu_->context->device, context_->models));
+    gpu_->models = std::move(models);
+    BOLT_TRY_ASSIGN(auto workplace,
+                    scene::make_workplace(std::move(active.workplace.world), context_->models, *gpu_->models,
+                                          active.session->assembly(), active.session->setup()));
+    active.workplace = std::move(workplace);
+    active.scene = scene::make_lit_scene(active.workplace, gpu_->models->light);
+    return {};
+}
+
+Status App::begin_lesson(float aspect) {
+    select_trainee();
+    save_preferences();
+    if (active_ && !options_.choice.equipment.uses_mouse()) active_->station.reset();  // it holds the devices
+    BOLT_TRY_ASSIGN(auto started, start_lesson({options_.choice, preferences_.settings, options_.lesson,
+                                                options_.out, options_.start_station}));
+    if (active_) {
+        BOLT_TRY(gpu_->context->device->idle());
+        active_.reset();
+    }
+    if (options_.on_start) options_.on_start();
+    context_ = std::move(started.context);
+    active_.emplace(std::move(started.active));
+    ActiveLesson& active = *active_;
+    for (const std::string& missing : context_->models.missing) log("left out: " + missing);
+    world::add_haptics(active.workplace.world, active.session->state());
+    BOLT_TRY(upload_lesson());
+    place_trainee(active, *context_, aspect);
+    active.sound.detector.surfaces =
+        sound::struck_surfaces(active.session->assembly(), active.session->obstacle_names());
+    if (options_.sound) {
+        auto live = sound::LiveSound::start(active.session->setup(), active.sound.detector.surfaces);
+        if (live)
+            active.sound.live = std::make_unique<sound::LiveSound>(std::move(*live));
+        else
+            log(live.error().message());
+    }
+    apply_preferences();
+    active.verdicts.assign(context_->assembly.joints.size(), lesson::Verdict::none);
+    outcome_.reset();
+    screen_ = ShownScreen::lesson;
+    log(fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name, context_->assembly.variant,
+                    lesson::name(context_->options.mode), joint::name(context_->options.law)));
+    return {};
+}
+
+Status App::end_lesson() {
+    if (!active_ || screen_ != ShownScreen::lesson) return {};
+    ActiveLesson& active = *active_;
+    if (active.station)
+        if (const servo::Timing* timing = active.station->link->stop())
+            BOLT_TRY(active.session->record_timing(*timing));
+
+    BOLT_TRY_ASSIGN(auto outcome, active.session->finish());
+    outcome_ = std::move(outcome);
+    active.clock.finished = true;
+    for (std::size_t i = 0; i < active.verdicts.size(); ++i)
+        active.verdicts[i] = view::verdict_of(outcome_->result.joints[i]);
+    screen_ = ShownScreen::result;
+    log(fmt::format("lesson ended: {}, score {:.0f}", outcome_->result.finished ? "finished" : "broken off",
+                    outcome_->result.score));
+    log(describe_times(system_times_));
+    system_times_.clear();
+    if (active.clock.lag > 1.0)
+        log(fmt::format("the pictures were too slow: the lesson lagged {:.0f} s behind the clock",
+                        active.clock.lag));
+    if (options_.on_end) return options_.on_end(active.session->assembly(), context_->options, *outcome_);
+    return {};
+}
+
+Status App::frame_while_hidden() {
+    if (!active_ || !active_->station) return {};
+    active_->station->controls.pause = true;
+    active_->station->link->set_controls(active_->station->controls);
+    return {};
+}
+
+Status App::select_language(const std::string& code) {
+    words::LoadedWords loaded = words::load_words(words::words_folder(), code);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    words_ = std::move(loaded.words);
+    options_.choice.language = code;
+    apply_preferences();
+    return {};
+}
+
+// Loads the settings of the trainee whose name was entered, after saving those of the previous one.
+void App::select_trainee() {
+    if (options_.choice.trainee == preferences_.trainee) return;
+    save_preferences();
+    load_preferences(preferences_, options_.choice.trainee);
+    if (preferences_.trouble != Preferences::Trouble::none) log(preferences_.why);
+    const std::string& language = preferences_.settings.language;
+    if (!language.empty() && language != words_.language) selected_language_ = language;
+    apply_preferences();
+}
+
+void App::save_preferences() {
+    if (!trainer::save_preferences(preferences_)) log(preferences_.why);
+}
+
+void App::apply_preferences() {
+    const StationClient* station = active_ && active_->station ? &*active_->station : nullptr;
+    controls_ = control_names(words_, preferences_.keys, options_.choice.equipment, station);
+    if (!active_) return;
+    const content::TraineeSettings& settings = preferences_.settings;
+    ActiveLesson& active = *active_;
+    active.input.keys = preferences_.keys;
+    active.sound.volume = settings.volume;
+    active.palette = view::palette_of(settings.palette);
+    if (settings.captions != active.sound.captions.has_value())
+        active.sound.captions = settings.captions ? std::optional(Captions{}) : std::nullopt;
+}
+
+void App::perform(ScreenAction action) {
+    switch (action) {
+        case ScreenAction::none:
+            return;
+        case ScreenAction::start_lesson:
+            start_requested_ = true;
+            return;
+        case ScreenAction::resume:
+            active_->clock.paused = false;
+            return;
+        case ScreenAction::undo_step:
+        case ScreenAction::restart_step:
+            request_undo(active_->undo, active_->session->lesson(),
+                         action == ScreenAction::undo_step ? 1 : 0);
+            active_->clock.paused = false;
+            return;
+        case ScreenAction::end_lesson:
+            active_->clock.paused = false;
+            end_requested_ = true;
+            return;
+        case ScreenAction::show_menu:
+            screen_ = ShownScreen::menu;
+            return;
+        case ScreenAction::open_settings:
+            select_trainee();
+            settings_.emplace();
+            return;
+        case ScreenAction::close_settings:
+            settings_.reset();
+            save_preferences();
+            return;
+        case ScreenAction::select_trainee:
+            return select_trainee();
+        case ScreenAction::quit:
+            closed_ = true;
+            return;
+    }
+}
+
+// Runs the systems of a frame. They also run while the result is shown, so that the picture stays alive.
+Status App::run_systems(std::span<const platform::InputEvent> events, const glm::dvec2& size,
+                        double seconds) {
+    ActiveLesson& active = *active_;
+    const bool in_lesson = screen_ == ShownScreen::lesson;
+    if (active.station)
+        active.station->keyboard.handle_events(in_lesson ? events : std::span<const platform::InputEvent>());
+    // The menu has a text field and the settings take keys for themselves.
+    const bool has_keys = screen_ != ShownScreen::menu && !settings_;
+    const InputFocus focus{has_keys && !gpu_->ui->wants_pointer(), has_keys};
+    const double shown = std::min(seconds, longest_frame);
+    Frame frame{active,          words_, shown,
+                seconds - shown, size,   apply_events(active.input, events, focus),
+                &*gpu_->fonts,   {}};
+    if (frame.input.triggered(Action::pause) && in_lesson) active.clock.paused = !active.clock.paused;
+    full_screen_requested_ = full_screen_requested_ || frame.input.triggered(Action::full_screen);
+    const bool had_wrench = hand_of(active).wrench;
+    const auto timed = [&](std::string_view system, const auto& run) {
+        const auto begin = std::chrono::steady_clock::now();
+        run();
+        system_times_[system].push_back(
+            std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - begin).count());
+    };
+    timed("pointer", [&] { handle_input(active.workplace.world, frame); });
+    ecs::run(frame_systems, active.workplace.world, frame, timed);
+
+    const double dt = active.session->setup().dt;
+    if (hand_of(active).wrench != had_wrench)
+        log(fmt::format("{:7.2f} s  the wrench is {}", active.session->time(),
+                        hand_of(active).wrench ? "in the hand" : "laid down"));
+    for (const lesson::LessonEvent& event : active.events) log(describe_event(context_->assembly, event, dt));
+    active.events.clear();
+    if (active.sound.live)
+        if (const auto news = active.sound.live->status_change()) log(*news);
+    BOLT_TRY(frame.status);
+    return active.clock.finished && in_lesson ? end_lesson() : Status{};
+}
+
+Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
+    render::Renderer& renderer = *gpu_->context->renderer;
+    ui::Ui& ui = *gpu_->ui;
+    const glm::dvec2 extent(size.width, size.height);
+    BOLT_TRY(ui.begin(frame, input_));
+    if (const auto picture = backdrop_.picture(renderer); picture && !active_)
+        ImGui::GetBackgroundDrawList()->AddImage(ui.picture(*picture), {0.0F, 0.0F},
+                                                 {input_.size.x, input_.size.y});
+    buttons_.clear();
+    const bool in_lesson = screen_ == ShownScreen::lesson;
+    const ScreenContext context{words_, languages_, extent, input_.scale, buttons_, selected_language_};
+    if (in_lesson) draw_hud(*active_, {&words_, &controls_}, extent, input_.scale);
+    if (settings_) {
+        const ScreenAction action = settings_->draw(context, preferences_, active_ && in_lesson);
+        apply_preferences();
+        perform(action);
+    } else if (in_lesson && active_->clock.paused) {
+        perform(draw_pause(context, preferences_, active_->session->lesson().mode));
+    } else if (screen_ == ShownScreen::menu) {
+        perform(draw_menu(context, menu_, options_.choice, preferences_));
+    } else if (screen_ == ShownScreen::result) {
+        perform(draw_result(context, context_->assembly, outcome_->result, options_.menu));
+    }
+    if (active_ && in_lesson) BOLT_TRY(draw_close_up({renderer, frame, ui}, *active_, extent, input_.scale));
+    if (active_) active_->view.occupied = occupied_areas();
+    const render::Overlay overlay = ui.end();
+    return renderer.draw_over(frame, overlay, renderer.picture(0));
+}
+
+Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events, VkExtent2D size,
                   float scale, double seconds) {
-    if (const auto language = std::exchange(language_wished_, std::nullopt))
-        if (Status spoken = speak(*language); !spoken) return spoken;
-    if (std::exchange(start_wished_, false)) {
-        if (Status begun = begin_lesson(static_cast<float>(size.width) / static_cast<float>(size.height));
-            !begun) {
+    const glm::dvec2 extent(size.width, size.height);
+    if (const auto code = std::exchange(selected_language_, std::nullopt)) BOLT_TRY(select_language(*code));
+    if (std::exchange(start_requested_, false)) {
+        menu_.start_error.reset();
+        if (Status begun = begin_lesson(static_cast<float>(extent.x / extent.y)); !begun) {
             if (begun.error().lost || !options_.menu) return begun;
-            trouble_ = begun.error();
-            shows_ = Shows::menu;
-            playing_.reset();
-            tell(begun.error().message());
-        } else {
-            trouble_.reset();
+            menu_.start_error = begun.error();
+            screen_ = ShownScreen::menu;
+            active_.reset();
+            log(begun.error().message());
         }
     }
-    const glm::dvec2 extent(size.width, size.height);
-    const bool in_settings = settings_.has_value();  // also in the frame in which they are left
-    feed(input_, take_settings_keys(events));
+    const bool settings_shown = settings_.has_value();
+    bool close_settings = false;
+    update_ui_input(input_, settings_
+                                ? settings_->take_keys(events, words_, preferences_.keys, close_settings)
+                                : std::vector(events.begin(), events.end()));
     input_.size = glm::vec2(extent);
     input_.scale = scale;
     input_.seconds = seconds;
-    ui::Ui& ui = *on_->ui;
-    // Only the menu has something to type into, and the settings take keys for themselves.
-    const bool has_keys = shows_ != Shows::menu && !in_settings;
-    const Mine mine{has_keys && !ui.wants_pointer(), has_keys};
-    static const render::Scene no_scene;
-    render::Eye eye;
-    const render::Scene* scene = &no_scene;
-    if (playing_) {
-        ActiveLesson& p = *playing_;
-        if (p.station)
-            p.station->keys.take(shows_ == Shows::lesson ? events : std::span<const platform::Event>());
-        const double shown = std::min(seconds, longest_frame);
-        Frame now{p, words_, shown, seconds - shown, extent, apply(p.controls, events, mine), &*on_->fonts,
-                  {}};
-        if (now.wanted.wants(Action::pause) && shows_ == Shows::lesson) p.pace.paused = !p.pace.paused;
-        full_screen_ = full_screen_ || now.wanted.wants(Action::full_screen);
-        const bool had_wrench = hand_of(p).wrench;
-        const auto timed = [&](std::string_view system, const auto& run) {
-            const auto begin = std::chrono::steady_clock::now();
-            run();
-            cost_[system].push_back(
-                std::chrono::duration<float, std::milli>(std::chrono::steady_clock::now() - begin).count());
-        };
-        timed("pointer", [&] { read_pointer(p.place.world, now); });
-        ecs::run(frame_systems, p.place.world, now, timed);
-        if (hand_of(p).wrench != had_wrench)
-            tell(fmt::format("{:7.2f} s  the wrench is {}", p.course->time(),
-                             hand_of(p).wrench ? "in the hand" : "laid down"));
-        tell_events();
-        if (p.sound.live)
-            if (const auto news = p.sound.live->news()) tell(*news);
-        if (!now.status) return now.status;
-        if (p.pace.finished && shows_ == Shows::lesson)
-            if (Status ended = end_lesson(); !ended) return ended;
-        eye = screen_of(p, extent).eye;
-        scene = &p.scene;
-    }
-    for (const platform::Event& event : events) {
+    if (active_) BOLT_TRY(run_systems(events, extent, seconds));
+    if (close_settings) perform(ScreenAction::close_settings);
+    for (const platform::InputEvent& event : events) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);
-        const auto* key = std::get_if<platform::KeyEvent>(&event);
-        const bool enter = key != nullptr && key->key == platform::Key::enter && key->down && !key->repeated;
-        start_wished_ = start_wished_ || (enter && shows_ != Shows::lesson && !in_settings);
+        start_requested_ =
+            start_requested_ || (pressed_enter(event) && screen_ != ShownScreen::lesson && !settings_shown);
     }
-    render::Renderer& renderer = *on_->painter->renderer;
-    if (Status drawn = renderer.render(frame, *scene, std::span(&eye, 1), size); !drawn) return drawn;
-    if (!playing_)
-        if (Status drawn = draw_backdrop(frame, size); !drawn) return drawn;
-    if (Status begun = ui.begin(frame, input_); !begun) return begun;
-    if (const auto behind = backdrop_.picture(renderer); behind && !playing_)
-        ImGui::GetBackgroundDrawList()->AddImage(ui.picture(*behind), {0.0F, 0.0F},
-                                                 {input_.size.x, input_.size.y});
-    draw_interface(extent);
-    if (playing_ && shows_ == Shows::lesson) {
-        const Drawing on{renderer, frame, ui};
-        if (Status drawn = draw_close_up(on, *playing_, extent, scale); !drawn) return drawn;
+    static const render::Scene empty_scene;
+    const render::Eye eye = active_ ? screen_of(*active_, extent).eye : render::Eye{};
+    render::Renderer& renderer = *gpu_->context->renderer;
+    BOLT_TRY(renderer.render(frame, active_ ? active_->scene : empty_scene, std::span(&eye, 1), size));
+    if (!active_) {
+        backdrop_.select(options_.choice.assembly);
+        BOLT_TRY(backdrop_.draw(*gpu_->context->device, renderer, frame, size));
     }
-    if (playing_) playing_->view.occupied = occupied_areas();
-    const render::Overlay overlay = ui.end();
-    if (Status drawn = renderer.draw_over(frame, overlay, renderer.picture(0)); !drawn) return drawn;
-    if (std::exchange(end_wished_, false)) return end_lesson();
-    return {};
+    BOLT_TRY(draw_interface(frame, size));
+    return std::exchange(end_requested_, false) ? end_lesson() : Status{};
 }
 
 }  // namespace bolt::trainer

@@ -1,77 +1,36 @@
-// The trainer but for its window: a menu, a lesson, how it came out; each a screen. People's doings come in
-// as events, a picture goes out; what is on the GPU can be lost and made again without losing the lesson.
+// The trainer without its window: menu, lesson and result. Each frame takes the input events and records one
+// picture. All GPU objects can be released and created again (after a lost GPU) while a lesson continues.
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <map>
-#include <optional>
 
 #include "engine/ui/ui.hpp"
-#include "game/lesson/hints.hpp"
-#include "game/trainer/active_lesson.hpp"
-#include "game/trainer/preferences.hpp"
-#include "game/trainer/screens.hpp"
-#include "game/trainer/station_client.hpp"
+#include "game/trainer/backdrop.hpp"
+#include "game/trainer/settings_screen.hpp"
 #include "game/view/pictures.hpp"
 
 namespace bolt::trainer {
 
-struct Choice {
-    std::string assembly = "zq350";
-    std::string variant;  // empty: the assembly's default
-    lesson::Mode mode = lesson::Mode::guided;
-    lesson::Task task = lesson::Task::tighten;
-    std::string trainee;
-    std::string language;  // empty: that of the desktop, if there is one
-    std::string tool;      // empty: the assembly's first
-    Equipment with;        // none: mouse and keyboard
-};
-
 struct AppOptions {
-    Choice choice;
+    LessonChoice choice;
     bool sound = false;
-    bool menu = true;  // false: the lesson begins at once
-    session::CourseOptions course;
-    std::optional<joint::Law>
-        law;                    // until another is chosen in the menu; none: the trainee's or the assembly's
-    std::filesystem::path out;  // where sessions go
-    std::filesystem::path settings_folder, settings_file;  // as Preferences has them; empty: nothing is kept
-    std::function<void()> begins;  // a lesson: what an earlier one left would speak of another
-    // After a lesson, whole or broken off: what is left of it beside the session.
-    std::function<Status(const content::Assembly&, const session::CourseOptions&, const session::Played&)>
-        ended;
-    std::function<void(const std::string&)> tell;  // a line of what happens, for a log
-    // Where somebody plays who has chosen devices.
-    std::function<Result<std::unique_ptr<station_setup::Bench>>(const content::Assembly&,
-                                                                const session::CourseOptions&,
-                                                                const Equipment&, const std::string& trainee)>
-        station = start_station;
+    bool menu = true;  // false: a lesson starts at once
+    session::LessonOptions lesson;
+    std::filesystem::path out;                             // folder of the session
+    std::filesystem::path settings_folder, settings_file;  // Preferences::folder and ::file
+    StartStation start_station = trainer::start_station;
+
+    // Called when a lesson starts. Removes the files of an earlier lesson that would describe another
+    // session.
+    std::function<void()> on_start;
+    // Called when a lesson has ended, completed or not. Writes what belongs beside the session.
+    std::function<Status(const content::Assembly&, const session::LessonOptions&,
+                         const session::LessonOutcome&)>
+        on_end;
+    std::function<void(const std::string&)> log;  // receives one line at a time
 };
 
-enum class Shows : std::uint8_t { menu, lesson, result };
-
-// A menu's entry.
-struct Listed {
-    std::string name, usual;                           // and its usual variant
-    std::map<std::string, std::string> title, lesson;  // by language
-    std::vector<content::Variant> variants;
-    std::vector<content::Tool> tools;
-    joint::Law law = joint::Law::mechanistic;
-};
-
-// A button as it was drawn last: for whoever presses it without eyes.
-struct ButtonPlace {
-    words::Key label;
-    glm::vec2 middle{0.0F};  // px
-    float width = 0.0F;      // px
-};
-
-// The settings as they are being changed.
-struct SettingsScreen {
-    std::optional<Action> awaits;  // the key for this is to be pressed
-    std::string said;              // about the key that was pressed last
-};
+enum class ShownScreen : std::uint8_t { menu, lesson, result };
 
 class App {
   public:
@@ -80,95 +39,70 @@ class App {
     App& operator=(const App&) = delete;
     ~App();
 
-    // What is on the GPU; again after it was lost.
-    Status start(view::Painter& painter);
-    void drop();  // before the painter goes
+    // Creates all GPU objects. Call it at the beginning and after release().
+    Status start(view::GpuContext& gpu_context);
+    // Releases all GPU objects; call it before the GPU context is destroyed. A lesson continues after the
+    // next start().
+    void release();
 
-    // Records a picture into the frame: it is the renderer's picture 0 afterwards.
-    Status frame(gpu::FrameContext& frame, std::span<const platform::Event> events, VkExtent2D size,
+    // Records a frame; the picture is the renderer's picture 0. `scale`: px per point. `seconds`: since the
+    // last frame. Fails if the GPU fails or the session cannot be recorded.
+    Status frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events, VkExtent2D size,
                  float scale, double seconds);
+    // Replaces frame() while the window is minimised: pauses a station.
+    Status frame_while_hidden();
+
+    // Ends the lesson, if one runs, as it stands. Its session and the files beside it are written.
+    Status end_lesson();
 
     [[nodiscard]] bool closed() const { return closed_; }
-    [[nodiscard]] Shows shows() const { return shows_; }
-    [[nodiscard]] bool wants_full_screen() { return std::exchange(full_screen_, false); }
-    [[nodiscard]] const ActiveLesson* playing() const { return playing_ ? &*playing_ : nullptr; }
-    // What stands behind the menu.
+    // True once after each request to switch between window and full screen.
+    [[nodiscard]] bool take_full_screen_request() { return std::exchange(full_screen_requested_, false); }
+
+    // The state on the screen, for tests.
+    [[nodiscard]] ShownScreen screen() const { return screen_; }
+    [[nodiscard]] const ActiveLesson* lesson() const { return active_ ? &*active_ : nullptr; }
     [[nodiscard]] const Backdrop& backdrop() const { return backdrop_; }
     [[nodiscard]] std::span<const ButtonPlace> buttons() const { return buttons_; }
     [[nodiscard]] const Preferences& preferences() const { return preferences_; }
     [[nodiscard]] bool shows_settings() const { return settings_.has_value(); }
-    // What went wrong when a lesson was to begin.
-    [[nodiscard]] const std::optional<Error>& trouble() const { return trouble_; }
-
-    // Ends a lesson under way as it stands: its session and what is left of it are kept.
-    Status end_lesson();
-
-    // Instead of a picture, while there is nothing to see: nobody works then.
-    Status unseen();
+    [[nodiscard]] const std::optional<Error>& start_error() const { return menu_.start_error; }
 
   private:
-    struct OnGpu;
+    struct GpuResources;
     Status begin_lesson(float aspect);
-    Status start_station(ActiveLesson& playing, session::Prepared& prepared);
-
-    void take_place();
-    void name_controls();
-    Status place_on_gpu();
-    void draw_interface(const glm::dvec2& size);
-    Status draw_backdrop(gpu::FrameContext& frame, VkExtent2D size);
-    void draw_menu(const glm::dvec2& size);
-    void draw_seats();
-    void draw_laws(joint::Law of_assembly);
-    // What is in force: by command line, else by the trainee's settings, else by the assembly.
-    [[nodiscard]] joint::Law law_in_force(joint::Law of_assembly) const;
-    void draw_result(const glm::dvec2& size);
-    void draw_pause(const glm::dvec2& size);
-    void draw_settings(const glm::dvec2& size);
-    void draw_people();
-    void draw_languages();
-    void draw_keys();
-    void draw_kept();
-    bool button(words::Key key);
-    void remember_place(words::Key key);
-    void open_settings();
-    void close_settings();
-    // Of a frame: keys that are bound, Escape that leaves. What is left of them for the interface.
-    std::vector<platform::Event> take_settings_keys(std::span<const platform::Event> events);
-    void bind_key(platform::Key key);
-    void meet_trainee();
+    Status upload_lesson();
+    Status run_systems(std::span<const platform::InputEvent> events, const glm::dvec2& size, double seconds);
+    Status draw_interface(gpu::FrameContext& frame, VkExtent2D size);
+    void perform(ScreenAction action);
+    void select_trainee();
+    Status select_language(const std::string& code);
     void apply_preferences();
-    void keep_preferences();
-    Status speak(const std::string& language);
-    void tell(const std::string& line) const;
-    void tell_events();
-    void tell_cost();
+    void save_preferences();
+    void log(const std::string& line) const;
 
     AppOptions options_;
-    Shows shows_ = Shows::menu;
-    std::vector<Listed> listed_;
-    std::vector<Seat> seats_;
-    content::Assembly assembly_;
-    std::optional<scene::Shelf> shelf_;
-    std::optional<ActiveLesson> playing_;
-    std::optional<session::Played> played_;
-    session::CourseOptions course_;
-    std::optional<Error> trouble_;
-    std::map<std::string_view, std::vector<float>> cost_;  // ms, by system and frame of this lesson
+    Preferences preferences_;
     std::vector<words::Words> languages_;
     words::Words words_;
-    lesson::Controls controls_;
-    std::optional<std::string> language_wished_;
-    Preferences preferences_;
-    std::optional<SettingsScreen> settings_;  // while it is shown
-    ui::Input input_;
-    std::vector<ButtonPlace> buttons_;
-    std::unique_ptr<OnGpu> on_;
-    Backdrop backdrop_;
-    bool closed_ = false, full_screen_ = false;
-    bool start_wished_ = false, end_wished_ = false;
-};
+    std::optional<std::string> selected_language_;  // from the next frame on
+    lesson::ControlNames controls_;                 // of the current hand, keys and language
 
-// The assemblies under content/, those that load.
-std::vector<Listed> list_assemblies();
+    ShownScreen screen_ = ShownScreen::menu;
+    Menu menu_;
+    std::optional<SettingsScreen> settings_;  // while it is shown
+    std::vector<ButtonPlace> buttons_;        // in the last frame
+    ui::UiInput input_;
+    bool closed_ = false, full_screen_requested_ = false;
+    bool start_requested_ = false, end_requested_ = false;
+
+    std::optional<LessonContext> context_;  // of the last lesson that started
+    std::optional<ActiveLesson> active_;    // also while its result is shown
+    std::optional<session::LessonOutcome> outcome_;
+    std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
+
+    std::unique_ptr<GpuResources> gpu_;
+    Backdrop backdrop_;
+};
 
 }  // namespace bolt::trainer

@@ -1,7 +1,8 @@
-// What people mean by keys and mouse in a lesson. Keys are a table that can be another one (key_binding.hpp);
-// Escape pauses whatever that says, so that nobody is shut in. The mouse is:
-// left on a nut or the wrench the hand, left elsewhere or right the view, middle moves it, the wheel comes
-// nearer.
+// Input of the trainer: key bindings, and window events as input for a lesson and for the interface.
+//
+// Mouse in a lesson: the left button on a nut or the wrench moves the hand; elsewhere it turns the view, as
+// the right button does. The middle button pans, the wheel zooms. Escape always pauses, whatever the key map
+// says.
 #pragma once
 
 #include <array>
@@ -18,20 +19,22 @@
 namespace bolt::trainer {
 
 enum class Action : std::uint8_t {
-    tool,       // take the wrench, or lay it down
-    find_view,  // look at what is due
+    tool,       // takes the wrench or lays it down
+    find_view,  // shows the due joint
     whole_view,
     hint,
     flange_map,
     pause,
     full_screen,
-    quiet,  // sound off and on
-    undo,   // the step before is due again
+    quiet,  // mutes and unmutes the sound
+    undo,   // returns to the previous step
     restart_step,
-    recentre,  // at a station: the tool goes back to where it was at the beginning
-    close_up,  // the picture from the wrench on and off
+    recentre,  // at a station: moves the tool to its initial pose
+    close_up,  // shows and hides the close-up
 };
 inline constexpr std::size_t action_count = 12;
+
+// As in settings files.
 constexpr std::string_view name(Action action) {
     constexpr std::array<std::string_view, action_count> names{
         "tool",        "find_view", "whole_view", "hint",         "flange_map", "pause",
@@ -40,6 +43,7 @@ constexpr std::string_view name(Action action) {
 }
 
 struct KeyMap {
+    // The defaults.
     std::array<platform::Key, action_count> keys{
         platform::Key::t,         platform::Key::v,      platform::Key::f,    platform::Key::h,
         platform::Key::c,         platform::Key::escape, platform::Key::f11,  platform::Key::m,
@@ -47,56 +51,55 @@ struct KeyMap {
     [[nodiscard]] platform::Key of(Action action) const { return keys.at(static_cast<std::size_t>(action)); }
 };
 
-// Of a frame. Pixels from the upper left corner of the picture.
-struct Wanted {
+// Input of one frame. Positions and movements in pixels, origin at the upper left corner of the picture.
+struct FrameInput {
     std::array<bool, action_count> actions{};
-    [[nodiscard]] bool wants(Action action) const { return actions.at(static_cast<std::size_t>(action)); }
-    std::optional<glm::dvec2> pressed;  // the left button went down here
-    bool left = false;                  // it is down
-    bool close = false;
+    [[nodiscard]] bool triggered(Action action) const { return actions.at(static_cast<std::size_t>(action)); }
+    std::optional<glm::dvec2> pressed_at;  // where the left button was pressed in this frame
+    bool left_down = false;
+    bool close_requested = false;
     glm::dvec2 pointer{0.0};
-    glm::dvec2 dragged{0.0};             // with the left button down
-    glm::dvec2 turned{0.0}, moved{0.0};  // with the right, with the middle one
-    double wheel = 0.0;
+    glm::dvec2 left_drag{0.0}, right_drag{0.0}, middle_drag{0.0};
+    double wheel = 0.0;  // notches
 };
 
-struct Controls {
+// Kept from frame to frame.
+struct InputState {
     KeyMap keys;
     glm::dvec2 pointer{0.0};
-    bool left = false, middle = false, right = false;
+    bool left = false, middle = false, right = false;  // buttons held
 };
 
-// `mine`: whether pointer and keys are the lesson's now, and not the menu's.
-struct Mine {
+// Whether pointer and keys belong to the lesson, not to a menu.
+struct InputFocus {
     bool pointer = true, keys = true;
 };
-Wanted apply(Controls& controls, std::span<const platform::Event> events, const Mine& mine);
 
-// What people do to the window, for the interface.
+FrameInput apply_events(InputState& state, std::span<const platform::InputEvent> events,
+                        const InputFocus& focus);
 
-// Into `input`, which keeps from frame to frame what is held down. Size, scale and time are the caller's.
-void feed(ui::Input& input, std::span<const platform::Event> events);
+// Updates the interface's input with the events of a frame, except size, scale and time.
+void update_ui_input(ui::UiInput& input, std::span<const platform::InputEvent> events);
 
-// Which key does what, as a trainee has it: bound by pressing one, kept by names.
+// False for modifiers and Escape, which always pauses a lesson and leaves a menu.
+bool is_bindable(platform::Key key);
 
-// Not modifiers, and not Escape: that always pauses a lesson and leaves a menu.
-bool can_be_bound(platform::Key key);
-
-enum class Bound : std::uint8_t { done, swapped, refused };
-struct Binding {
-    Bound how = Bound::done;
-    Action with = Action::tool;  // swapped: whose key it was, and who has the other one now
+enum class BindOutcome : std::uint8_t { done, swapped, refused };
+struct BindResult {
+    BindOutcome outcome = BindOutcome::done;
+    Action other = Action::tool;  // swapped: the action that had the key and now has the other one
 };
 
-// A key that another action has is swapped for the one that this action had; refused, and nothing changed, is
-// one that cannot be bound, and a swap that would give Escape away.
-Binding bind(KeyMap& keys, Action action, platform::Key key);
+// Binds `key` to `action`. If another action has the key, the two actions swap keys. Refuses, without a
+// change, a key that is not bindable and a swap that would give Escape to another action.
+BindResult bind(KeyMap& keys, Action action, platform::Key key);
 
-// What a file keeps, and back: an action that it does not name has its usual key, or none if that is taken.
+// Conversion to and from the names in a settings file. An action that is missing there gets its default key,
+// or none if another action has that key.
 std::map<std::string, std::string> names_of(const KeyMap& keys);
 KeyMap keys_of(const std::map<std::string, std::string>& names);
 
-// What may stand in a file of settings.
+// The values that a settings file may contain.
 content::SettingsVocabulary settings_vocabulary(std::vector<std::string> languages);
 
 // "T"; "–" for an action without a key.

@@ -9,170 +9,179 @@ namespace bolt::trainer {
 
 namespace {
 
-using lesson::Motion;
-using scene::Arrow;
+using lesson::HandMotion;
+using scene::MotionArrow;
 
-// Of the nut's width, above what a straight arrow points to.
-constexpr double nearest = 1.6, furthest = 4.4;
-constexpr double by_handle = 0.45, by_fingers = 1.15;  // radius: of the handle, of the nut's width
-constexpr double forearm = 0.25, too_near = 0.25;      // m: what is shown of it; from the eye
-constexpr double above_handle = 0.03, above_nut = 0.02, lifted = 0.06;  // m
+// Heights of a straight arrow above its target, relative to the nut's width.
+constexpr double tip_height = 1.6, tail_height = 4.4;
+// Radii, relative to the length of the handle and the width of the nut.
+constexpr double handle_radius = 0.45, finger_radius = 1.15;
+constexpr double handle_height = 0.03, finger_height = 0.02, return_height = 0.06;  // m
 
-Arrow down_to(const Vec3& at, const Vec3& up, double width, const glm::vec4& color) {
-    return scene::straight_arrow(at + furthest * width * up, at + nearest * width * up, color);
+MotionArrow down_to(const Vec3& at, const Vec3& up, double width, const glm::vec4& color) {
+    return scene::straight_arrow(at + tail_height * width * up, at + tip_height * width * up, color);
 }
 
-Arrow up_from(const Vec3& at, const Vec3& up, double width) {
-    return scene::straight_arrow(at + nearest * width * up, at + furthest * width * up, back_color);
+MotionArrow up_from(const Vec3& at, const Vec3& up, double width) {
+    return scene::straight_arrow(at + tip_height * width * up, at + tail_height * width * up, backward_color);
 }
 
 // `sense`: 1 tightens.
-Arrow with_handle(const MotionPlace& place, double sense, double height, const glm::vec4& color) {
-    const Vec3 axis = -sense * place.nut.axis;
-    return scene::round_arrow({place.middle + height * place.nut.axis, axis,
-                               place.tool.orientation * Vec3(1, 0, 0), by_handle * place.handle_length},
-                              color);
+MotionArrow handle_arrow(const MotionGeometry& geometry, double sense, double height,
+                         const glm::vec4& color) {
+    const Vec3 axis = -sense * geometry.nut.axis;
+    return scene::round_arrow(
+        {geometry.nut_centre + height * geometry.nut.axis, axis, geometry.tool.orientation * Vec3(1, 0, 0),
+         handle_radius * geometry.handle_length},
+        color);
 }
 
-Arrow with_fingers(const MotionPlace& place, double sense, const glm::vec4& color) {
-    return scene::round_arrow({place.middle + above_nut * place.nut.axis, -sense * place.nut.axis,
-                               place.nut.e1, by_fingers * place.nut.across_flats},
-                              color);
+MotionArrow finger_arrow(const MotionGeometry& geometry, double sense, const glm::vec4& color) {
+    return scene::round_arrow(
+        {geometry.nut_centre + finger_height * geometry.nut.axis, -sense * geometry.nut.axis, geometry.nut.e1,
+         finger_radius * geometry.nut.across_flats},
+        color);
 }
 
-// Hands are where the work is to be done: fingers on the nut, or around the wrench that lies there.
-void show_hand(scene::World& world, ActiveLesson& p, Motion motion) {
-    const servo::Setup& setup = p.course->setup();
-    const lesson::Step* due = p.course->lesson().due();
-    if (motion == Motion::take) {
-        const std::size_t grip = scene::natural_grip(p.postures, hand_of(p).rest, Vec3(0, 1, 0), p.shoulder);
-        scene::show_hand_ghost(world, hand_of(p).rest, p.postures.on_handle.at(grip));
+// Shows the hand where it should work: fingers on the nut, or around the wrench at rest.
+void show_hand(scene::SceneWorld& world, ActiveLesson& active, HandMotion motion) {
+    const servo::Setup& setup = active.session->setup();
+    const lesson::LessonStep* due = active.session->lesson().due();
+    if (motion == HandMotion::take) {
+        const std::size_t grip =
+            scene::natural_grip(active.postures, hand_of(active).rest, Vec3(0, 1, 0), active.shoulder);
+        scene::show_hand_ghost(world, hand_of(active).rest, active.postures.on_handle.at(grip));
         return;
     }
     const servo::NutGeometry& nut = setup.nuts[due->joint];
-    const Pose at{world::nut_centre(p.place.world, setup, due->joint),
-                  motion::orientation_of(nut, 0.0, false)};
-    scene::show_hand_ghost(world, scene::towards(at, p.shoulder, 0.0),
-                           motion == Motion::let_go ? p.postures.open : p.postures.on_nut);
+    const Pose at{world::nut_centre(active.workplace.world, setup, due->joint),
+                  motion::tool_orientation(nut, 0.0, false)};
+    scene::show_hand_ghost(world, scene::frame_towards(at, active.shoulder, 0.0),
+                           motion == HandMotion::let_go ? active.postures.open : active.postures.on_nut);
 }
 
-// Where the hand would put the wrench; looked for once a step, for it takes rays.
-const Pose& wrench_for(ActiveLesson& p, const lesson::Step& due) {
-    const std::size_t step = p.course->lesson().current;
-    if (!p.coaching.ghost || p.coaching.ghost->first != step)
-        p.coaching.ghost = {step, wrench_on(hand_of(p).rest, p.course->setup(), p.course->state(), due.joint,
-                                            due.kind == lesson::StepKind::loosen)};
-    return p.coaching.ghost->second;
+// The pose in which the hand would put the wrench on the nut. Cached per step, because the search casts rays.
+const Pose& wrench_ghost_pose(ActiveLesson& active, const lesson::LessonStep& due) {
+    const std::size_t step = active.session->lesson().current;
+    if (!active.coaching.wrench_ghost || active.coaching.wrench_ghost->first != step)
+        active.coaching.wrench_ghost = {
+            step, wrench_pose_on_nut(hand_of(active).rest, active.session->setup(), active.session->state(),
+                                     due.joint, due.kind == lesson::StepKind::loosen)};
+    return active.coaching.wrench_ghost->second;
 }
 
-void show_ghosts(scene::World& world, ActiveLesson& p, const lesson::Hint& hint, const lesson::Step& due) {
-    if (hint.ghost() == lesson::Ghost::none) return;
-    if (hint.ghost() == lesson::Ghost::hand) {
-        show_hand(world, p, hint.motion);
+void show_ghosts(scene::SceneWorld& world, ActiveLesson& active, const lesson::Hint& hint,
+                 const lesson::LessonStep& due) {
+    if (hint.ghost() == lesson::GhostKind::none) return;
+    if (hint.ghost() == lesson::GhostKind::hand) {
+        show_hand(world, active, hint.motion);
         return;
     }
-    const Pose& tool = wrench_for(p, due);
-    const std::size_t grip = scene::natural_grip(p.postures, tool, Vec3(0, 1, 0), p.shoulder);
-    scene::show_ghost(world, tool);
-    scene::show_hand_ghost(world, tool, p.postures.on_handle.at(grip));
+    const Pose& tool = wrench_ghost_pose(active, due);
+    const std::size_t grip = scene::natural_grip(active.postures, tool, Vec3(0, 1, 0), active.shoulder);
+    scene::show_wrench_ghost(world, tool);
+    scene::show_hand_ghost(world, tool, active.postures.on_handle.at(grip));
 }
 
-MotionPlace place_of(const ActiveLesson& p, const lesson::Step& due, std::size_t joint) {
-    const servo::Setup& setup = p.course->setup();
+MotionGeometry geometry_of(const ActiveLesson& active, const lesson::LessonStep& due, std::size_t joint) {
+    const servo::Setup& setup = active.session->setup();
     const servo::NutGeometry& nut = setup.nuts[joint];
     return {nut,
-            world::nut_centre(p.place.world, setup, joint),
-            tool_of(p).pose,
-            hand_of(p).rest,
+            world::nut_centre(active.workplace.world, setup, joint),
+            tool_of(active).pose,
+            hand_of(active).rest,
             setup.wrench.handle_length,
             due.kind == lesson::StepKind::loosen};
 }
 
 }  // namespace
 
-std::optional<Arrow> arrow_of(Motion motion, const MotionPlace& place) {
-    const Vec3& axis = place.nut.axis;
-    const Vec3 grip = place.rest * Vec3(0.5 * place.handle_length, 0.0, 0.0);
-    const double sense = place.loosens ? -1.0 : 1.0, width = place.nut.across_flats;
+std::optional<MotionArrow> arrow_of(HandMotion motion, const MotionGeometry& geometry) {
+    const Vec3& axis = geometry.nut.axis;
+    const Vec3 grip = geometry.rest * Vec3(0.5 * geometry.handle_length, 0.0, 0.0);
+    const double sense = geometry.loosens ? -1.0 : 1.0, width = geometry.nut.across_flats;
     switch (motion) {
-        case Motion::none:
+        case HandMotion::none:
             return std::nullopt;
-        case Motion::take:
-            return down_to(grip, place.rest.orientation * Vec3(0, 0, 1), width, forth_color);
-        case Motion::put_away:
-            return down_to(grip, place.rest.orientation * Vec3(0, 0, 1), width, back_color);
-        case Motion::approach:
-        case Motion::reach:
-        case Motion::set_on:
-        case Motion::grip_nut:
-            return down_to(place.middle, axis, width, forth_color);
-        case Motion::spin:
-            return with_fingers(place, 1.0, forth_color);
-        case Motion::twist_back:
-            return with_fingers(place, -1.0, back_color);
-        case Motion::pull_on:
-            return with_handle(place, 1.0, above_handle, forth_color);
-        case Motion::pull_off:
-            return with_handle(place, -1.0, above_handle, forth_color);
-        case Motion::set_back:
-            return with_handle(place, -sense, lifted, back_color);
-        case Motion::let_go:
-        case Motion::lift:
-            return up_from(place.middle, axis, width);
+        case HandMotion::take:
+            return down_to(grip, geometry.rest.orientation * Vec3(0, 0, 1), width, forward_color);
+        case HandMotion::put_away:
+            return down_to(grip, geometry.rest.orientation * Vec3(0, 0, 1), width, backward_color);
+        case HandMotion::approach:
+        case HandMotion::reach:
+        case HandMotion::set_on:
+        case HandMotion::grip_nut:
+            return down_to(geometry.nut_centre, axis, width, forward_color);
+        case HandMotion::spin:
+            return finger_arrow(geometry, 1.0, forward_color);
+        case HandMotion::twist_back:
+            return finger_arrow(geometry, -1.0, backward_color);
+        case HandMotion::pull_on:
+            return handle_arrow(geometry, 1.0, handle_height, forward_color);
+        case HandMotion::pull_off:
+            return handle_arrow(geometry, -1.0, handle_height, forward_color);
+        case HandMotion::set_back:
+            return handle_arrow(geometry, -sense, return_height, backward_color);
+        case HandMotion::let_go:
+        case HandMotion::lift:
+            return up_from(geometry.nut_centre, axis, width);
     }
     return std::nullopt;
 }
 
-void show_hint_visuals(scene::World& world, ActiveLesson& p, const lesson::Hint* hint) {
+void show_hint_visuals(scene::SceneWorld& world, ActiveLesson& active, const lesson::Hint* hint) {
     scene::hide_ghosts(world);
-    const lesson::Step* due = p.course->lesson().due();
+    const lesson::LessonStep* due = active.session->lesson().due();
     if (hint == nullptr || due == nullptr) {
-        p.coaching.ghost.reset();
+        active.coaching.wrench_ghost.reset();
         scene::show_arrow(world, std::nullopt);
         return;
     }
-    // What is held is let go of where it is, though something else is due.
-    const int held = p.course->lesson().held;
+    // A held nut is released where it is, even if another joint is due.
+    const int held = active.session->lesson().held;
     const std::size_t joint = held >= 0 ? static_cast<std::size_t>(held) : due->joint;
-    scene::show_arrow(world, arrow_of(hint->arrow(), place_of(p, *due, joint)));
-    show_ghosts(world, p, *hint, *due);
+    scene::show_arrow(world, arrow_of(hint->arrow(), geometry_of(active, *due, joint)));
+    show_ghosts(world, active, *hint, *due);
 }
 
 namespace {
 
-constexpr glm::vec4 under_color{0.9F, 0.95F, 1.0F, 0.8F}, nothing{0.0F};
+constexpr glm::vec4 pointer_color{0.9F, 0.95F, 1.0F, 0.8F}, no_color{0.0F};
 
 }  // namespace
 
-void lesson_system(scene::World& world, Frame& frame) {
-    ActiveLesson& p = frame.playing;
-    const lesson::Lesson& lesson = p.course->lesson();
-    wait(p.undo, frame.seconds);
-    if (frame.wanted.wants(Action::quiet)) p.sound.quiet = !p.sound.quiet;
-    if (p.sound.live) p.sound.live->set_volume(p.sound.quiet || p.pace.paused ? 0.0 : p.sound.volume);
-    if (p.sound.captions && !p.pace.paused) update(*p.sound.captions, frame.seconds);
-    if (!p.pace.paused) {
-        // Work that ended the step on the way out is about to be undone: there is no next one to speak of.
-        if (due(p.undo, lesson) == lesson.due())
-            lesson::update(p.coaching.hints, {lesson, p.course->setup(), world}, frame.seconds,
-                           frame.wanted.wants(Action::hint));
+void lesson_system(scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    const lesson::Lesson& lesson = active.session->lesson();
+    update(active.undo, frame.seconds);
+    if (frame.input.triggered(Action::quiet)) active.sound.muted = !active.sound.muted;
+    if (active.sound.live)
+        active.sound.live->set_volume(active.sound.muted || active.clock.paused ? 0.0 : active.sound.volume);
+    if (active.sound.captions && !active.clock.paused) update(*active.sound.captions, frame.seconds);
+    if (!active.clock.paused) {
+        // The pending undo will leave the lesson's current step: give no hint for that step.
+        if (due(active.undo, lesson) == lesson.due())
+            lesson::update(active.coaching.hints, {lesson, active.session->setup(), world}, frame.seconds,
+                           frame.input.triggered(Action::hint));
         else
-            p.coaching.hints.shown.reset();
-        lesson::update(p.coaching.mistakes, p.undo.by_mistake ? 0.0 : frame.seconds);
+            active.coaching.hints.shown.reset();
+        lesson::update(active.coaching.mistakes, active.undo.by_mistake ? 0.0 : frame.seconds);
     }
     const lesson::Hint* hint =
-        p.coaching.hints.shown && !p.pace.finished ? &*p.coaching.hints.shown : nullptr;
+        active.coaching.hints.shown && !active.clock.finished ? &*active.coaching.hints.shown : nullptr;
     const int outlined = hint != nullptr ? hint->outlined() : -1;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
-        glm::vec4 color = nothing;
-        if (outlined == static_cast<int>(i)) color = p.palette.due;
-        if (p.pointing.nut == i && !p.pace.finished) color = under_color;
-        if (p.pace.finished) color = view::color_of(p.palette, p.verdicts[i]);
+        glm::vec4 color = no_color;
+        if (outlined == static_cast<int>(i)) color = active.palette.due;
+        if (active.pointer.nut == i && !active.clock.finished) color = pointer_color;
+        if (active.clock.finished) color = view::color_of(active.palette, active.verdicts[i]);
         scene::outline_joint(world, i, color);
     }
-    const bool wants_wrench = hint != nullptr && hint->arrow() == lesson::Motion::take;
-    scene::outline_tool(world, p.pointing.wrench ? under_color : wants_wrench ? p.palette.due : nothing);
-    show_hint_visuals(world, p, hint);
+    const bool take_wrench_hint = hint != nullptr && hint->arrow() == lesson::HandMotion::take;
+    scene::outline_tool(world, active.pointer.on_wrench ? pointer_color
+                               : take_wrench_hint       ? active.palette.due
+                                                        : no_color);
+    show_hint_visuals(world, active, hint);
 }
 
 }  // namespace bolt::trainer

@@ -1,4 +1,4 @@
-// What a hint shows in the scene beside its words: an arrow for the motion, ghosts of hand and wrench.
+// Visuals of a hint in the scene: an arrow for the motion, and ghosts of hand and wrench.
 #pragma once
 
 #include <optional>
@@ -9,24 +9,26 @@
 
 namespace bolt::trainer {
 
-// Towards the work, and away from it; amber and blue are two colours also with no red or green cones.
-inline constexpr glm::vec4 forth_color{1.0F, 0.78F, 0.1F, 1.0F}, back_color{0.3F, 0.72F, 1.0F, 1.0F};
+// Colours of arrows towards the work and away from it. Amber and blue remain distinct with red-green colour
+// blindness.
+inline constexpr glm::vec4 forward_color{1.0F, 0.78F, 0.1F, 1.0F}, backward_color{0.3F, 0.72F, 1.0F, 1.0F};
 
-// Where a motion is made.
-struct MotionPlace {
+// Geometry of a motion.
+struct MotionGeometry {
     const servo::NutGeometry& nut;
-    Vec3 middle{0.0};  // m, of the nut
-    Pose tool;         // on the nut, or what is in the hand
-    Pose rest;         // where the wrench lies
+    Vec3 nut_centre{0.0};  // m
+    Pose tool;             // the tool in the hand
+    Pose rest;             // where the wrench lies
     double handle_length = 0.0;
-    bool loosens = false;  // the step
+    bool loosens = false;  // the step loosens the nut
 };
 
-// None for no motion. About the bolt where something turns, clockwise from above to tighten; straight along
-// it to where the tool goes or comes from; down to where the wrench lies.
-std::optional<scene::Arrow> arrow_of(lesson::Motion motion, const MotionPlace& place);
+// The arrow of a motion; none for HandMotion::none. A turn gets a round arrow about the bolt, clockwise from
+// above to tighten; an approach or a lift a straight one along the bolt; taking or laying down the wrench a
+// straight one down to its resting place.
+std::optional<scene::MotionArrow> arrow_of(lesson::HandMotion motion, const MotionGeometry& geometry);
 
-// Of the hint, none: all of them go.
-void show_hint_visuals(scene::World& world, ActiveLesson& playing, const lesson::Hint* hint);
+// Shows the visuals of `hint`; null hides all.
+void show_hint_visuals(scene::SceneWorld& world, ActiveLesson& active, const lesson::Hint* hint);
 
 }  // namespace bolt::trainer

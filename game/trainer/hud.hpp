@@ -1,5 +1,4 @@
-// What sounds say, for those who do not hear them: read off the same numbers that are made audible. Pure; a
-// caption stands long enough to be read and no longer, and what goes on is one caption, not many.
+// Overlay of a lesson: captions of the sounds, the torque plot, and the panels with instructions.
 #pragma once
 
 #include <array>
@@ -16,7 +15,8 @@ namespace bolt::trainer {
 
 struct ActiveLesson;
 
-// What matters most first.
+// Captions describe the sounds in words, from the same cues that the synthesizer uses. Each stays long enough
+// to be read, and a lasting sound has one caption. The most important first.
 enum class Caption : std::uint8_t {
     slip,
     mistake,
@@ -29,55 +29,51 @@ enum class Caption : std::uint8_t {
     run
 };
 inline constexpr std::size_t caption_count = 9;
-inline constexpr std::size_t most_captions = 3;  // at once
-inline constexpr double caption_stands = 2.0;    // s
+inline constexpr std::size_t max_captions = 3;   // at once
+inline constexpr double caption_duration = 2.0;  // s
 
 struct Captions {
-    std::array<double, caption_count> left{};   // s that each of them is still shown
-    std::array<double, caption_count> heard{};  // 0 … 1, of what it takes until what goes on is said
+    std::array<double, caption_count> remaining{};  // s for which each is still shown
+    std::array<double, caption_count> progress{};   // 0 … 1; a lasting sound gets its caption at 1
 };
 
-// A tick of `dt` seconds.
-void note(Captions& captions, const sound::Heard& heard, double dt);
-// A frame has passed.
+// Call once a tick of `dt` seconds.
+void observe(Captions& captions, const sound::SoundCues& cues, double dt);
+// Call once a frame.
 void update(Captions& captions, double seconds);
-std::vector<Caption> shown(const Captions& captions);
+std::vector<Caption> visible_captions(const Captions& captions);
 
-words::Key term(Caption caption);
-
-// The plot of a pull: torque over the nut's angle, and the window that it is to end in.
+words::TextKey text_key(Caption caption);
 
 struct PlotPoint {
     float angle = 0.0F;   // deg
     float torque = 0.0F;  // N·m
 };
 
-struct Plot {
-    std::vector<PlotPoint> points;  // of the joint that the wrench was on last
-    int joint = -1;                 // none before the wrench was on a nut
-    std::optional<content::Window>
-        aim;  // N·m: the due step's, else what the joint is to have; loosening: none
+// Torque over nut angle of a pull, and the target window.
+struct TorquePlot {
+    std::vector<PlotPoint> points;  // of the joint that the wrench engaged last
+    int joint = -1;                 // −1: the wrench has not engaged a nut yet
+    // N·m: the due step's window, else the joint's final one; none when loosening.
+    std::optional<content::ToleranceWindow> target;
 };
 
-// Adds a tick with the wrench, after the lesson has observed it.
-void note(Plot& plot, const lesson::Lesson& lesson,
-          const ecs::Access<const world::Joint, const world::ToolContact>& world);
+// Call after each tick with the wrench in the hand, when the lesson has observed it.
+void observe(TorquePlot& plot, const lesson::Lesson& lesson,
+             const ecs::Access<const world::Joint, const world::ContactState>& world);
 
-// Where plates and panels lie over the picture: what stands in the scene keeps out of there.
-
-// Those of the interface as it is being drawn, px; between ui::Ui::begin and end, after the last of them.
+// Areas in px that the interface covers; labels in the scene avoid them. Call between ui::Ui::begin and end,
+// after the last panel.
 std::vector<render::Rectangle> occupied_areas();
 
-// What lies over a lesson's picture: what to do, and the pull as a curve. Figures that belong to a place
-// stand there, in the scene (label_system).
-
-// In whose language, and by which keys.
-struct Said {
+// Texts of the overlay.
+struct HudText {
     const words::Words* words = nullptr;
-    const lesson::Controls* controls = nullptr;
+    const lesson::ControlNames* controls = nullptr;
 };
 
-// Between ui::Ui::begin and end. `scale`: pixels a point.
-void draw_hud(const ActiveLesson& playing, const Said& said, const glm::dvec2& size, float scale);
+// Draws instructions, plot, effort, device messages and captions. Values at a position in the scene are
+// labels (label_system). Call between ui::Ui::begin and end. `scale`: pixels per point.
+void draw_hud(const ActiveLesson& active, const HudText& texts, const glm::dvec2& size, float scale);
 
 }  // namespace bolt::trainer

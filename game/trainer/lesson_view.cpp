@@ -17,114 +17,124 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double appears = 0.07, goes = 0.1;  // m, tool from nut; a hand hovers nearer than the first
-constexpr double swing = to_radians(60.0);    // that the eye is good for
-constexpr double past = to_radians(70.0), level = 0.9;
-constexpr float width = 240.0F, margin = 12.0F;                // points
-constexpr float widest = 0.28F;                                // of the picture
-constexpr float strain_width = 290.0F, strain_height = 62.0F;  // points, in the middle below (hud.cpp)
+// m between tool and nut. A hovering hand is closer than show_distance.
+constexpr double show_distance = 0.07, hide_distance = 0.1;
+// Part of the pull during which the eye should see nut and jaw.
+constexpr double considered_swing = to_radians(60.0);
+constexpr double max_rotation = to_radians(70.0);  // of the tool, before another eye is chosen
+constexpr double min_alignment = 0.9;            // cosine of the angle between the tool's normal and the bolt
+constexpr float width = 240.0F, margin = 12.0F;  // points
+constexpr float max_width_share = 0.28F;         // fraction of the picture
+constexpr float effort_width = 290.0F, effort_height = 62.0F;  // points, at the bottom centre (hud.cpp)
 constexpr const char* window_name = "##close_up";
 
-// The nut that the tool is next to.
-std::optional<std::size_t> near_to(const ActiveLesson& p, const Pose& tool) {
-    const servo::Setup& setup = p.course->setup();
+// The nut that the tool is near.
+std::optional<std::size_t> nut_near(const ActiveLesson& active, const Pose& tool) {
+    const servo::Setup& setup = active.session->setup();
     std::optional<std::size_t> found;
-    double least = appears;
+    double least = show_distance;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
-        const Vec3 middle = world::nut_centre(p.place.world, setup, i);
-        // On its way, wrong side up, it has nothing to look at.
-        if (std::abs(glm::dot(tool.orientation * Vec3(0, 0, 1), setup.nuts[i].axis)) < level) continue;
-        const double far = glm::distance(tool.position, middle);
-        const double reach = p.view.close_up.joint == i ? goes : appears;
-        if (far >= reach || (found && far >= least)) continue;
-        least = far;
+        const Vec3 middle = world::nut_centre(active.workplace.world, setup, i);
+        // Skip a wrench that is still tilted on its way.
+        if (std::abs(glm::dot(tool.orientation * Vec3(0, 0, 1), setup.nuts[i].axis)) < min_alignment)
+            continue;
+        const double distance = glm::distance(tool.position, middle);
+        const double reach = active.view.close_up.joint == i ? hide_distance : show_distance;
+        if (distance >= reach || (found && distance >= least)) continue;
+        least = distance;
         found = i;
     }
     return found;
 }
 
-// Fingers twist, their eye does not.
-Pose tool_at_work(const ActiveLesson& p) {
-    if (hand_of(p).wrench) return tool_of(p).pose;
-    return scene::towards(hand_of(p).pose, p.shoulder, 0.0);
+// The pose of the tool that carries the eye. The eye does not twist with the fingers.
+Pose tool_at_work(const ActiveLesson& active) {
+    if (hand_of(active).wrench) return tool_of(active).pose;
+    return scene::frame_towards(hand_of(active).pose, active.shoulder, 0.0);
 }
 
-void choose_eye(ActiveLesson& p, std::size_t joint) {
-    const servo::Setup& setup = p.course->setup();
-    const std::optional<servo::ToolContact>& obstacles = p.course->state().tool_contact;
-    const Vec3 nut = world::nut_centre(p.place.world, setup, joint);
-    view::ViewOf of{setup, obstacles ? &*obstacles : nullptr, joint, nut, std::nullopt};
-    // As it will be on the nut: it may hover yet.
-    Pose tool = p.view.close_up.tool;
+void choose_eye(ActiveLesson& active, std::size_t joint) {
+    const servo::Setup& setup = active.session->setup();
+    const std::optional<servo::ToolContact>& obstacles = active.session->state().tool_contact;
+    const Vec3 nut = world::nut_centre(active.workplace.world, setup, joint);
+    view::ViewTarget of{setup, obstacles ? &*obstacles : nullptr, joint, nut, std::nullopt};
+    // The tool may still hover: use its pose on the nut.
+    Pose tool = active.view.close_up.tool;
     tool.position = nut;
-    if (hand_of(p).wrench) of.wrench = tool;
-    const double sense = p.course->lesson().task == lesson::Task::loosen ? 1.0 : -1.0;
+    if (hand_of(active).wrench) of.wrench = tool;
+    const double sense = active.session->lesson().task == lesson::Task::loosen ? 1.0 : -1.0;
 
-    const double through = hand_of(p).wrench ? sense * std::min(hand_of(p).room, swing) : 0.0;
-    const view::CloseUpEye eye = view::close_up_eye(of, tool, through, p.view.sight);
-    p.view.close_up.eye = eye.at;
-    p.view.close_up.seen = eye.seen;
+    const double swing =
+        hand_of(active).wrench ? sense * std::min(hand_of(active).room, considered_swing) : 0.0;
+    const view::CloseUpEye eye = view::close_up_eye(of, tool, swing, active.view.visibility);
+    active.view.close_up.eye = eye.position;
+    active.view.close_up.visibility = eye.visibility;
 }
 
-bool meet(const render::Rectangle& a, const render::Rectangle& b) {
+bool overlap(const render::Rectangle& a, const render::Rectangle& b) {
     return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
 }
 
-render::Eye eye_of(const ActiveLesson& p, float aspect) {
-    const double size = p.course->setup().nuts[*p.view.close_up.joint].across_flats;
+render::Eye eye_of(const ActiveLesson& active, float aspect) {
+    const double size = active.session->setup().nuts[*active.view.close_up.joint].across_flats;
     render::Perspective lens;
     lens.fov = static_cast<float>(view::close_up_fov);
     lens.aspect = aspect;
     lens.znear = static_cast<float>(0.2 * size);
-    lens.zfar = 1.0F;  // what is far is no part of a close-up
-    return render::make_eye(glm::vec3(p.view.close_up.tool * p.view.close_up.eye),
-                            glm::vec3(p.view.close_up.tool.position), lens);
+    lens.zfar = 1.0F;  // m; leaves the background out
+    return render::make_eye(glm::vec3(active.view.close_up.tool * active.view.close_up.eye),
+                            glm::vec3(active.view.close_up.tool.position), lens);
 }
 
 }  // namespace
 
-void update_close_up(ActiveLesson& p) {
-    CloseUp& c = p.view.close_up;
-    const bool may = c.wished && !p.pace.finished && p.course->lesson().mode != lesson::Mode::assessment;
-    c.tool = tool_at_work(p);
-    const auto joint = may ? near_to(p, c.tool) : std::nullopt;
-    const bool turned = glm::length(rotation_vector(c.tool.orientation * glm::conjugate(c.chosen))) > past;
-    const bool other = joint != c.joint || hand_of(p).wrench != c.wrench || turned;
-    c.joint = joint;
-    c.wrench = hand_of(p).wrench;
-    if (!joint || !other) return;
-    c.chosen = c.tool.orientation;
-    choose_eye(p, *joint);
+void update_close_up(ActiveLesson& active) {
+    CloseUp& close_up = active.view.close_up;
+    const bool allowed = close_up.enabled && !active.clock.finished &&
+                         active.session->lesson().mode != lesson::Mode::assessment;
+    close_up.tool = tool_at_work(active);
+    const auto joint = allowed ? nut_near(active, close_up.tool) : std::nullopt;
+    const bool turned =
+        glm::length(rotation_vector(close_up.tool.orientation *
+                                    glm::conjugate(close_up.chosen_orientation))) > max_rotation;
+    const bool changed = joint != close_up.joint || hand_of(active).wrench != close_up.with_wrench || turned;
+    close_up.joint = joint;
+    close_up.with_wrench = hand_of(active).wrench;
+    if (!joint || !changed) return;
+    close_up.chosen_orientation = close_up.tool.orientation;
+    choose_eye(active, *joint);
 }
 
-std::optional<render::Rectangle> close_up_place(const glm::dvec2& picture, float scale,
-                                                std::span<const render::Rectangle> taken) {
+std::optional<render::Rectangle> close_up_rectangle(const glm::dvec2& picture, float scale,
+                                                    std::span<const render::Rectangle> occupied) {
     const glm::vec2 whole(picture);
-    const float wide = std::round(std::min(width * scale, widest * std::min(whole.x, whole.y * 4.0F / 3.0F)));
+    const float wide =
+        std::round(std::min(width * scale, max_width_share * std::min(whole.x, whole.y * 4.0F / 3.0F)));
     const glm::vec2 size(wide, std::round(0.75F * wide));
     const float side = std::round(margin * scale);
-    const float strain = 0.5F * (whole.x - strain_width * scale);
-    for (const float above : {0.0F, std::round(strain_height * scale)}) {
-        if (above == 0.0F && side + wide > strain) continue;
+    const float effort_left = 0.5F * (whole.x - effort_width * scale);
+    for (const float above : {0.0F, std::round(effort_height * scale)}) {
+        if (above == 0.0F && side + wide > effort_left) continue;
         const glm::vec2 low(side, whole.y - side - above - size.y);
         const render::Rectangle place{low, low + size};
-        const auto over = [&](const render::Rectangle& other) { return meet(place, other); };
-        if (low.y >= 0.0F && std::none_of(taken.begin(), taken.end(), over)) return place;
+        const auto covers = [&](const render::Rectangle& other) { return overlap(place, other); };
+        if (low.y >= 0.0F && std::none_of(occupied.begin(), occupied.end(), covers)) return place;
     }
     return std::nullopt;
 }
 
-Status draw_close_up(const Drawing& on, const ActiveLesson& p, const glm::dvec2& picture, float scale) {
-    if (!p.view.close_up.joint) return {};
-    const auto place = close_up_place(picture, scale, occupied_areas());
+Status draw_close_up(const DrawContext& context, const ActiveLesson& active, const glm::dvec2& picture,
+                     float scale) {
+    if (!active.view.close_up.joint) return {};
+    const auto place = close_up_rectangle(picture, scale, occupied_areas());
     if (!place) return {};
     const glm::vec2 size = place->high - place->low;
     const VkExtent2D extent{static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
-    const render::Eye eye = eye_of(p, size.x / size.y);
-    render::Scene scene = p.scene;
+    const render::Eye eye = eye_of(active, size.x / size.y);
+    render::Scene scene = active.scene;
     scene.labels.clear();
-    for (render::Object& object : scene.objects) object.outline.w = 0.0F;  // so near they only cover
-    BOLT_TRY(on.renderer.render(on.frame, scene, {&eye, 1}, extent, 1));
+    for (render::Object& object : scene.objects) object.outline.w = 0.0F;  // outlines would hide the nut
+    BOLT_TRY(context.renderer.render(context.frame, scene, {&eye, 1}, extent, 1));
     ImGui::SetNextWindowPos({place->low.x, place->low.y});
     ImGui::SetNextWindowSize({size.x, size.y});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
@@ -132,7 +142,7 @@ Status draw_close_up(const Drawing& on, const ActiveLesson& p, const glm::dvec2&
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoBringToFrontOnFocus);
-    ImGui::Image(on.ui.picture(on.renderer.picture(0, 1)), {size.x, size.y});
+    ImGui::Image(context.ui.picture(context.renderer.picture(0, 1)), {size.x, size.y});
     ImGui::GetWindowDrawList()->AddRect({place->low.x, place->low.y}, {place->high.x, place->high.y},
                                         IM_COL32(235, 240, 245, 200), 0.0F, 0, 2.0F * scale);
     ImGui::End();
@@ -142,158 +152,170 @@ Status draw_close_up(const Drawing& on, const ActiveLesson& p, const glm::dvec2&
 
 namespace {
 
-constexpr double lost_below = 0.15, lost_after = 3.0;  // of nut and jaw; s
+constexpr double min_visibility = 0.15, max_time_out_of_view = 3.0;  // fraction of nut and jaw; s
 
-// The joint that is worked at, or is due; which one is due an assessment does not tell.
-std::optional<std::size_t> due_joint(const ActiveLesson& p) {
-    if (p.course->lesson().mode == lesson::Mode::assessment) return hand_of(p).nut;
-    if (hand_of(p).nut && hand_of(p).doing != Doing::resting) return hand_of(p).nut;
-    const lesson::Step* due = trainer::due(p.undo, p.course->lesson());
+// The joint that the hand works at, else the due one. An assessment does not reveal the due joint.
+std::optional<std::size_t> due_joint(const ActiveLesson& active) {
+    if (active.session->lesson().mode == lesson::Mode::assessment) return hand_of(active).nut;
+    if (hand_of(active).nut && hand_of(active).action != HandAction::resting) return hand_of(active).nut;
+    const lesson::LessonStep* due = trainer::due(active.undo, active.session->lesson());
     return due != nullptr ? std::optional(due->joint) : std::nullopt;
 }
 
-view::ViewOf view_of(const ActiveLesson& p, std::size_t joint) {
-    const servo::Setup& setup = p.course->setup();
-    const std::optional<servo::ToolContact>& obstacles = p.course->state().tool_contact;
-    view::ViewOf of{setup, obstacles ? &*obstacles : nullptr, joint,
-                    world::nut_centre(p.place.world, setup, joint), std::nullopt};
-    if (hand_of(p).wrench && hand_of(p).nut == joint) of.wrench = tool_of(p).pose;
+view::ViewTarget view_of(const ActiveLesson& active, std::size_t joint) {
+    const servo::Setup& setup = active.session->setup();
+    const std::optional<servo::ToolContact>& obstacles = active.session->state().tool_contact;
+    view::ViewTarget of{setup, obstacles ? &*obstacles : nullptr, joint,
+                        world::nut_centre(active.workplace.world, setup, joint), std::nullopt};
+    if (hand_of(active).wrench && hand_of(active).nut == joint) of.wrench = tool_of(active).pose;
     return of;
 }
 
-// Where the hand is at the nut, or will be.
-Vec3 wrist_at(const ActiveLesson& p, std::size_t joint) {
-    const servo::Setup& setup = p.course->setup();
-    const bool there = hand_of(p).nut == joint && hand_of(p).doing != Doing::resting;
-    if (hand_of(p).wrench) {
-        const bool loosens = p.course->lesson().task == lesson::Task::loosen;
+// The wrist's position, m, at the nut, now or when the hand will be there.
+Vec3 wrist_at(const ActiveLesson& active, std::size_t joint) {
+    const servo::Setup& setup = active.session->setup();
+    const bool at_nut = hand_of(active).nut == joint && hand_of(active).action != HandAction::resting;
+    if (hand_of(active).wrench) {
+        const bool loosens = active.session->lesson().task == lesson::Task::loosen;
         const Pose tool =
-            there ? tool_of(p).pose : wrench_on(hand_of(p).rest, setup, p.course->state(), joint, loosens);
-        const std::size_t grip = scene::natural_grip(p.postures, tool, Vec3(0, 1, 0), p.shoulder);
-        return tool * p.postures.on_handle.at(grip).position[hand::wrist];
+            at_nut ? tool_of(active).pose
+                   : wrench_pose_on_nut(hand_of(active).rest, setup, active.session->state(), joint, loosens);
+        const std::size_t grip = scene::natural_grip(active.postures, tool, Vec3(0, 1, 0), active.shoulder);
+        return tool * active.postures.on_handle.at(grip).position[hand::wrist];
     }
     const servo::NutGeometry& nut = setup.nuts[joint];
-    const Pose at{world::nut_centre(p.place.world, setup, joint), motion::orientation_of(nut, 0.0, false)};
-    return scene::towards(at, p.shoulder, 0.0) * p.postures.on_nut.position[hand::wrist];
+    const Pose at{world::nut_centre(active.workplace.world, setup, joint),
+                  motion::tool_orientation(nut, 0.0, false)};
+    return scene::frame_towards(at, active.shoulder, 0.0) * active.postures.on_nut.position[hand::wrist];
 }
 
-void look_at_work(ActiveLesson& p, const glm::dvec2& picture) {
-    const auto joint = due_joint(p);
+void show_due_joint(ActiveLesson& active, const glm::dvec2& picture) {
+    const auto joint = due_joint(active);
     if (!joint) return;
-    view::ViewOf of = view_of(p, *joint);
-    of.wrist = wrist_at(p, *joint);
+    view::ViewTarget of = view_of(active, *joint);
+    of.wrist = wrist_at(active, *joint);
     of.aspect = picture.x / picture.y;
-    p.view.camera.go(view::find_view(of, p.view.sight, p.view.camera.goal));
-    p.view.unseen = 0.0;
+    active.view.camera.glide_to(view::find_view(of, active.view.visibility, active.view.camera.goal));
+    active.view.out_of_view = 0.0;
 }
 
-// What is due has been out of the picture or hidden for a while. Not in an assessment: nobody helps there.
-bool lost(ActiveLesson& p, const Frame& frame) {
-    const auto joint = due_joint(p);
-    if (!joint || p.course->lesson().mode == lesson::Mode::assessment || p.pace.finished || p.pace.paused)
+// Whether the due joint has been out of the picture or hidden for too long. Always false in an assessment,
+// which gives no help.
+bool due_joint_lost(ActiveLesson& active, const Frame& frame) {
+    const auto joint = due_joint(active);
+    if (!joint || active.session->lesson().mode == lesson::Mode::assessment || active.clock.finished ||
+        active.clock.paused)
         return false;
-    const view::ViewOf of = view_of(p, *joint);
-    const Screen screen = screen_of(p, frame.size);
+    const view::ViewTarget of = view_of(active, *joint);
+    const Screen screen = screen_of(active, frame.size);
     const auto at = project(screen, of.nut);
     const glm::dvec2 edge = 0.04 * frame.size;
     const bool inside = at && at->x > edge.x && at->y > edge.y && at->x < frame.size.x - edge.x &&
                         at->y < frame.size.y - edge.y;
-    const bool seen = inside && view::seen_from(of, p.view.sight, Vec3(screen.eye.position)) > lost_below;
-    p.view.unseen = seen ? 0.0 : p.view.unseen + frame.seconds;
-    return p.view.unseen > lost_after;
+    const bool visible = inside && view::visibility_from(of, active.view.visibility,
+                                                         Vec3(screen.eye.position)) > min_visibility;
+    active.view.out_of_view = visible ? 0.0 : active.view.out_of_view + frame.seconds;
+    return active.view.out_of_view > max_time_out_of_view;
 }
 
 }  // namespace
 
-Screen screen_of(const ActiveLesson& p, const glm::dvec2& size) {
-    return {view::eye_of(p.view.camera.shown, render::bounds(p.scene), static_cast<float>(size.x / size.y)),
+Screen screen_of(const ActiveLesson& active, const glm::dvec2& size) {
+    return {view::eye_of(active.view.camera.shown, render::bounds(active.scene),
+                         static_cast<float>(size.x / size.y)),
             size};
 }
 
-void view_system(scene::World& world, Frame& frame) {
-    ActiveLesson& p = frame.playing;
-    if (frame.wanted.wants(Action::whole_view))
-        p.view.camera.go(view::framing(p.view.camera.goal, p.place.machine,
-                                       static_cast<float>(frame.size.x / frame.size.y)));
-    if (frame.wanted.wants(Action::find_view) || lost(p, frame)) look_at_work(p, frame.size);
-    (void)p.view.camera.advance(frame.seconds);
-    scene::thin_near_arms(world, Vec3(view::viewpoint_of(p.view.camera.shown).eye));
+void view_system(scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    if (frame.input.triggered(Action::whole_view))
+        active.view.camera.glide_to(view::frame_all(active.view.camera.goal, active.workplace.machine,
+                                                    static_cast<float>(frame.size.x / frame.size.y)));
+    if (frame.input.triggered(Action::find_view) || due_joint_lost(active, frame))
+        show_due_joint(active, frame.size);
+    (void)active.view.camera.advance(frame.seconds);
+    scene::fade_near_arms(world, Vec3(view::viewpoint_of(active.view.camera.shown).eye));
 
-    const bool helps = p.course->lesson().mode != lesson::Mode::assessment;
-    if (frame.wanted.wants(Action::close_up)) p.view.close_up.wished = !p.view.close_up.wished;
-    update_close_up(p);
-    p.scene.cut_away.strength = 0.0F;
-    if (!helps) return;
-    const bool works = hand_of(p).nut && hand_of(p).doing != Doing::resting;
-    // A hand that waits above the last nut fills the picture of the next one.
-    if (const auto joint = works ? hand_of(p).nut : due_joint(p))
-        scene::keep_in_sight(world, p.scene, p.course->setup(), *joint,
-                             works ? scene::Hides::all : scene::Hides::hand);
+    const bool assists = active.session->lesson().mode != lesson::Mode::assessment;
+    if (frame.input.triggered(Action::close_up)) active.view.close_up.enabled = !active.view.close_up.enabled;
+    update_close_up(active);
+    active.scene.cut_away.strength = 0.0F;
+    if (!assists) return;
+    const bool working = hand_of(active).nut && hand_of(active).action != HandAction::resting;
+    // A hand that waits above the previous nut would hide the next one: fade only the hand.
+    if (const auto joint = working ? hand_of(active).nut : due_joint(active))
+        scene::fade_occluders(world, active.scene, active.session->setup(), *joint,
+                              working ? scene::Occluders::all : scene::Occluders::hand);
 }
 
 namespace {
 
-// After the lesson with the sign of what became of the joint, as its outline has the colour.
-render::Label clamp_of(const ActiveLesson& p, const words::Words& words, std::size_t joint) {
-    const session::Course& course = *p.course;
-    render::Label label = scene::clamp_label(words, course.assembly(), course.setup(), p.place.world, joint);
-    if (p.pace.finished && p.verdicts[joint] != lesson::Verdict::none)
-        label.text = fmt::format("{} {}", view::sign_of(p.verdicts[joint]), label.text);
+// The label of a joint's clamp force; after the lesson with the sign of its verdict, which the outline shows
+// as a colour.
+render::Label clamp_label(const ActiveLesson& active, const words::Words& words, std::size_t joint) {
+    const session::LessonSession& session = *active.session;
+    render::Label label =
+        scene::clamp_label(words, session.assembly(), session.setup(), active.workplace.world, joint);
+    if (active.clock.finished && active.verdicts[joint] != lesson::Verdict::none)
+        label.text = fmt::format("{} {}", view::symbol_of(active.verdicts[joint]), label.text);
     return label;
 }
 
-// A plate over another joint's nut would name the wrong one.
-void keep_off_nuts(const ActiveLesson& p, const Screen& screen, std::vector<render::Rectangle>& taken) {
-    const servo::Setup& setup = p.course->setup();
+// Adds the areas of the nuts, so that no label covers another joint's nut.
+void add_nut_areas(const ActiveLesson& active, const Screen& screen,
+                   std::vector<render::Rectangle>& occupied) {
+    const servo::Setup& setup = active.session->setup();
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         const servo::NutGeometry& nut = setup.nuts[i];
-        const Vec3 middle = world::nut_centre(p.place.world, setup, i);
+        const Vec3 middle = world::nut_centre(active.workplace.world, setup, i);
         const auto at = project(screen, middle), edge = project(screen, middle + nut.across_flats * nut.e1),
                    other = project(screen, middle + nut.across_flats * nut.e2);
         if (!at || !edge || !other) continue;
         const auto radius =
             static_cast<float>(0.6 * std::max(glm::distance(*at, *edge), glm::distance(*at, *other)));
-        taken.push_back({glm::vec2(*at) - radius, glm::vec2(*at) + radius});
+        occupied.push_back({glm::vec2(*at) - radius, glm::vec2(*at) + radius});
     }
 }
 
 }  // namespace
 
-void label_system(scene::World& world, Frame& frame) {
-    ActiveLesson& p = frame.playing;
-    const session::Course& course = *p.course;
-    const servo::Setup& setup = course.setup();
-    const lesson::Step* due = trainer::due(p.undo, course.lesson());
-    p.scene.labels.clear();
-    // What a trainee at a real machine would not see is no part of an assessment.
-    const bool helps = course.lesson().mode != lesson::Mode::assessment;
-    if (frame.wanted.wants(Action::flange_map)) p.view.clamp_map = !p.view.clamp_map && helps;
-    if (!p.pace.finished)
-        if (auto figure = scene::work_label(frame.words, course.lesson(), setup, world, p.palette))
-            p.scene.labels.push_back(*figure);
-    const auto named = [&](std::size_t joint, bool is_due) {
-        const std::string& id = course.assembly().joints[joint].design.id;
-        render::Label label = scene::plate(is_due ? fmt::format("{} {}", view::due_sign, id) : id,
-                                           scene::above_nut(setup, world, joint), 16.0F);
-        label.color = is_due ? p.palette.due : scene::label_color;
-        label.moved_px = {0.0F, 8.0F};
-        p.scene.labels.push_back(label);
+void label_system(scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    const session::LessonSession& session = *active.session;
+    const servo::Setup& setup = session.setup();
+    const lesson::LessonStep* due = trainer::due(active.undo, session.lesson());
+    active.scene.labels.clear();
+    // An assessment shows nothing that a trainee could not see on a real machine.
+    const bool assists = session.lesson().mode != lesson::Mode::assessment;
+    if (frame.input.triggered(Action::flange_map)) active.view.clamp_map = !active.view.clamp_map && assists;
+    if (!active.clock.finished)
+        if (auto figure = scene::work_label(frame.words, session.lesson(), setup, world, active.palette))
+            active.scene.labels.push_back(*figure);
+    const auto add_name = [&](std::size_t joint, bool is_due) {
+        const std::string& id = session.assembly().joints[joint].design.id;
+        render::Label label = scene::plate_label(is_due ? fmt::format("{} {}", view::due_symbol, id) : id,
+                                                 scene::label_position(setup, world, joint), 16.0F);
+        label.color = is_due ? active.palette.due : scene::label_color;
+        label.offset_px = {0.0F, 8.0F};
+        active.scene.labels.push_back(label);
     };
-    const bool guided = course.lesson().mode == lesson::Mode::guided;
+    const bool guided = session.lesson().mode == lesson::Mode::guided;
     const std::size_t marked = due != nullptr && guided ? due->joint : SIZE_MAX;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
-        if (p.view.clamp_map || p.pace.finished)
-            p.scene.labels.push_back(clamp_of(p, frame.words, i));
-        else if (i == marked || p.pointing.nut == i)
-            named(i, i == marked);
+        if (active.view.clamp_map || active.clock.finished)
+            active.scene.labels.push_back(clamp_label(active, frame.words, i));
+        else if (i == marked || active.pointer.nut == i)
+            add_name(i, i == marked);
     }
     if (frame.fonts == nullptr) return;
-    const Screen screen = screen_of(p, frame.size);
-    std::vector<render::Rectangle> taken = p.view.occupied;
-    if (!p.view.clamp_map && !p.pace.finished) keep_off_nuts(p, screen, taken);
-    view::move_apart(*frame.fonts, p.scene.labels, screen.eye, glm::vec2(frame.size), taken);
+    const Screen screen = screen_of(active, frame.size);
+    std::vector<render::Rectangle> occupied = active.view.occupied;
+    if (!active.view.clamp_map && !active.clock.finished) add_nut_areas(active, screen, occupied);
+    view::separate_labels(*frame.fonts, active.scene.labels, screen.eye, glm::vec2(frame.size), occupied);
 }
 
-void present_system(scene::World& world, Frame& frame) { scene::present(world, frame.playing.scene); }
+void present_system(scene::SceneWorld& world, Frame& frame) {
+    scene::collect_objects(world, frame.active.scene);
+}
 
 }  // namespace bolt::trainer

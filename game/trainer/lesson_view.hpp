@@ -1,5 +1,5 @@
-// The close-up: a small picture in a corner, as an eye on the wrench sees jaw and nut while they are near
-// each other.
+// Camera, close-up and labels of a lesson. The close-up is a small picture in a corner that shows jaw and nut
+// from an eye on the wrench while they are near each other.
 #pragma once
 
 #include <optional>
@@ -15,29 +15,31 @@ namespace bolt::trainer {
 struct ActiveLesson;
 
 struct CloseUp {
-    bool wished = false;               // by whoever plays, or by the lesson's mode
-    std::optional<std::size_t> joint;  // that the tool is near to; none: nothing is shown
-    bool wrench = false;               // for which the eye was chosen, or for fingers
-    Quat chosen{1.0, 0.0, 0.0, 0.0};   // the tool's orientation then
-    Pose tool;                         // m, at work
-    Vec3 eye{0.0};                     // m, in its frame
-    double seen = 0.0;                 // 0 … 1, of nut and jaw, when it was chosen
+    bool enabled = false;                         // by the trainee or by the lesson's mode
+    std::optional<std::size_t> joint;             // near the tool; none: no close-up is shown
+    bool with_wrench = false;                     // the eye was chosen for the wrench; false: for fingers
+    Quat chosen_orientation{1.0, 0.0, 0.0, 0.0};  // of the tool, when the eye was chosen
+    Pose tool;                                    // wrench or fingers
+    Vec3 eye{0.0};                                // m, in the tool's frame
+    double visibility = 0.0;                      // 0 … 1 of nut and jaw, when the eye was chosen
 };
 
-// Whether there is one in this frame, and from where.
-void update_close_up(ActiveLesson& playing);
+// Determines whether the close-up is shown in this frame, and its eye.
+void update_close_up(ActiveLesson& active);
 
-// px: in the lower left corner, over where the strain stands if that is too near; none where all of it is
-// taken.
-std::optional<render::Rectangle> close_up_place(const glm::dvec2& picture, float scale,
-                                                std::span<const render::Rectangle> taken);
+// Position in px: in the lower left corner, above the effort bar if that is too near. None if the corner is
+// occupied.
+std::optional<render::Rectangle> close_up_rectangle(const glm::dvec2& picture, float scale,
+                                                    std::span<const render::Rectangle> occupied);
 
-// Draws it with the interface, after all else of that. Nothing where nothing is to be shown.
-struct Drawing {
+struct DrawContext {
     render::Renderer& renderer;
     gpu::FrameContext& frame;
     ui::Ui& ui;
 };
-Status draw_close_up(const Drawing& on, const ActiveLesson& playing, const glm::dvec2& picture, float scale);
+
+// Draws the close-up, if one is shown, after the rest of the interface.
+Status draw_close_up(const DrawContext& context, const ActiveLesson& active, const glm::dvec2& picture,
+                     float scale);
 
 }  // namespace bolt::trainer

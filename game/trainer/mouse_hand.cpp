@@ -10,24 +10,26 @@ namespace bolt::trainer {
 
 namespace {
 
-using motion::along;
+using motion::arc_pose;
 using motion::minimum_jerk;
 
-constexpr double hover = 0.045;                     // m above a nut, where a bolt's end is below the wrench
-constexpr double retreat = 0.15;                    // m, from where the wrench lies, up and to the front
-constexpr double hand_speed = 0.45;                 // m/s, of a reach, at most somewhat more than twice that
-constexpr double shortest = 0.25;                   // s
-constexpr double lowering = 0.35, lifting = 0.25;   // s
-constexpr double patience = 0.6;                    // s on the nut without getting hold of it
-constexpr double caught = 0.05;                     // m that the wrench is away from the nut it should be on
-constexpr double higher = 0.05;                     // m, with every miss
-constexpr double unwinding = 0.15;                  // s
-constexpr double twist = to_radians(200.0);         // of fingers, before they have to go back
-constexpr double twist_speed = to_radians(540.0);   // rad/s, the fastest
-constexpr double back_time = 0.15;                  // s
-constexpr double stroke = to_radians(60.0);         // that a pull would like to have room for
-constexpr double fastest_pull = to_radians(150.0);  // rad/s
-constexpr double stronger = 2.0;  // a drag turns the handle by a third at the greatest torque: a hand strains
+constexpr double max_hover = 0.045;        // m above a nut; clears the end of the bolt
+constexpr double retreat_distance = 0.15;  // m, up from the resting place and towards the trainee
+constexpr double hand_speed = 0.45;        // m/s, mean speed of a reach; the peak is about twice that
+constexpr double min_reach_time = 0.25;    // s
+constexpr double lowering_time = 0.35, lifting_time = 0.25;  // s
+constexpr double engage_timeout = 0.6;                       // s on the nut without engaging it
+// m between nut and wrench beyond which an obstacle has stopped the wrench.
+constexpr double caught_distance = 0.05;
+constexpr double miss_height = 0.05;                   // m of additional height per miss
+constexpr double ease_time = 0.15;                     // s
+constexpr double twist_range = to_radians(200.0);      // range of the fingers, before they return
+constexpr double twist_speed = to_radians(540.0);      // rad/s, maximum
+constexpr double return_time = 0.15;                   // s
+constexpr double preferred_stroke = to_radians(60.0);  // preferred room for a pull
+constexpr double max_pull_speed = to_radians(150.0);   // rad/s
+// Conveys effort: at the greatest torque a drag turns the handle by only 1/(1 + this) of its length.
+constexpr double drag_resistance = 2.0;
 
 const servo::NutGeometry& nut_of(const MouseHand& hand, const servo::Setup& setup) {
     return setup.nuts[hand.nut.value()];
@@ -37,62 +39,66 @@ Pose at_nut(const MouseHand& hand, const servo::Setup& setup, const servo::State
     const servo::NutGeometry& nut = nut_of(hand, setup);
     const double angle = state.joints[hand.nut.value()].nut.angle;
     return {servo::nut_centre(nut, angle) + above * nut.axis,
-            motion::orientation_of(nut, hand.handle, hand.flipped)};
+            motion::tool_orientation(nut, hand.handle_angle, hand.flipped)};
 }
 
-bool has_hold(const MouseHand& hand, const servo::State& state) {
+bool engaged(const MouseHand& hand, const servo::State& state) {
     return hand.nut && state.engagement.joint == static_cast<int>(*hand.nut);
 }
 
-void go(MouseHand& hand, const Pose& to, double seconds, Doing doing) {
+void start_movement(MouseHand& hand, const Pose& to, double seconds, HandAction action) {
     hand.from = hand.pose;
     hand.to = to;
     hand.bulge = Vec3(0.0);
-    hand.time = 0.0;
-    hand.length = seconds;
-    hand.doing = doing;
+    hand.elapsed = 0.0;
+    hand.duration = seconds;
+    hand.action = action;
 }
 
 double reach_time(const Pose& from, const Pose& to, const Vec3& bulge) {
-    const double way = glm::distance(from.position, to.position) + 2.0 * glm::length(bulge);
-    const double round =
+    const double path = glm::distance(from.position, to.position) + 2.0 * glm::length(bulge);
+    const double rotation =
         glm::length(rotation_vector(glm::normalize(to.orientation * glm::conjugate(from.orientation))));
-    return std::max({shortest, way / hand_speed, round / 4.0});
+    return std::max({min_reach_time, path / hand_speed, rotation / 4.0});
 }
 
-// A way that meets nothing that can be seen; a bare hand meets nothing.
-void reach(MouseHand& hand, const Pose& to, MouseHand::Then then, const servo::Setup& setup,
+// Starts a reach. The wrench follows a path free of visible obstacles; an empty hand does not collide.
+void reach(MouseHand& hand, const Pose& to, MouseHand::OnArrival on_arrival, const servo::Setup& setup,
            const servo::State& state, const Vec3& up) {
-    const double far = glm::distance(hand.pose.position, to.position);
-    motion::Way way{(std::min(0.05, 0.3 * far) + higher * std::min(hand.misses, 5)) * up, {}};
+    const double distance = glm::distance(hand.pose.position, to.position);
+    motion::ReachPath path{(std::min(0.05, 0.3 * distance) + miss_height * std::min(hand.misses, 5)) * up,
+                           {}};
     if (hand.wrench && state.tool_contact)
-        way = motion::way_round(setup, *state.tool_contact, hand.pose, to, up, glm::length(way.bulge));
-    hand.stations.assign(1, to);
-    hand.stations.insert(hand.stations.end(), way.stations.rbegin(), way.stations.rend());
-    const Pose first = hand.stations.back();
-    hand.stations.pop_back();
-    go(hand, first, reach_time(hand.pose, first, way.bulge), Doing::reaching);
-    hand.bulge = way.bulge;
-    hand.then = then;
+        path = motion::plan_reach(setup, *state.tool_contact, hand.pose, to, up, glm::length(path.bulge));
+    hand.waypoints.assign(1, to);
+    hand.waypoints.insert(hand.waypoints.end(), path.waypoints.rbegin(), path.waypoints.rend());
+    const Pose first = hand.waypoints.back();
+    hand.waypoints.pop_back();
+    start_movement(hand, first, reach_time(hand.pose, first, path.bulge), HandAction::reaching);
+    hand.bulge = path.bulge;
+    hand.on_arrival = on_arrival;
 }
 
-// From which side the handle goes on the nut.
+// Chooses the side from which the handle approaches the nut.
 void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
     const double sign = hand.loosens ? -1.0 : 1.0;
     const servo::NutGeometry& nut = nut_of(hand, setup);
-    // Towards whoever works, in the middle of the pull.
-    const Vec3 out = hand.rest.position - nut.seat;
+    // The handle points towards the trainee in the middle of the pull; each second miss turns it by a further
+    // 60°.
+    const Vec3 to_trainee = hand.rest.position - nut.seat;
     const double aside = (hand.misses % 2 == 1 ? 1.0 : -1.0) * to_radians(60.0) * (hand.misses / 2);
-    const double wanted =
-        -std::atan2(glm::dot(out, nut.e2), glm::dot(out, nut.e1)) - 0.5 * sign * stroke + aside;
-    const auto grip = motion::choose_grip(setup, state.tool_contact ? &*state.tool_contact : nullptr,
-                                          *hand.nut, state.joints[*hand.nut].nut.angle, wanted, sign, stroke);
-    hand.handle = grip.handle;
+    const double wanted = -std::atan2(glm::dot(to_trainee, nut.e2), glm::dot(to_trainee, nut.e1)) -
+                          0.5 * sign * preferred_stroke + aside;
+    const auto grip =
+        motion::choose_grip(setup, state.tool_contact ? &*state.tool_contact : nullptr, *hand.nut,
+                            state.joints[*hand.nut].nut.angle, wanted, sign, preferred_stroke);
+    hand.handle_angle = grip.handle;
     hand.flipped = grip.flipped;
     hand.room = grip.room;
-    hand.above = state.tool_contact ? motion::room_above(setup, *state.tool_contact, *hand.nut,
-                                                         state.joints[*hand.nut].nut.angle, grip, hover)
-                                    : hover;
+    hand.hover_height = state.tool_contact
+                            ? motion::hover_height(setup, *state.tool_contact, *hand.nut,
+                                                   state.joints[*hand.nut].nut.angle, grip, max_hover)
+                            : max_hover;
 }
 
 void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
@@ -102,10 +108,10 @@ void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& s
         choose_side(hand, setup, state);
     } else {
         hand.flipped = false;
-        hand.handle = 0.0;
-        hand.above = hover;
+        hand.handle_angle = 0.0;
+        hand.hover_height = max_hover;
     }
-    reach(hand, at_nut(hand, setup, state, hand.above), MouseHand::Then::lower, setup, state,
+    reach(hand, at_nut(hand, setup, state, hand.hover_height), MouseHand::OnArrival::lower, setup, state,
           nut_of(hand, setup).axis);
 }
 
@@ -113,83 +119,85 @@ void lift(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
     hand.pose = hand.wrench && state.tool_contact && state.tool_contact->in_hand
                     ? state.tool_contact->god_object.tool
                     : hand.pose;
-    Pose up = at_nut(hand, setup, state, hand.above);
+    Pose up = at_nut(hand, setup, state, hand.hover_height);
     up.orientation = hand.pose.orientation;
-    // Caught on the way there: off what holds it, not on through that.
+    // An obstacle stopped the wrench on its way: move up from there, not through the obstacle.
     const servo::NutGeometry& nut = nut_of(hand, setup);
-    if (hand.missed && glm::distance(hand.pose.position, nut.seat) > caught)
-        up.position = hand.pose.position + hover * nut.axis;
-    go(hand, up, lifting, Doing::lifting);
+    if (hand.missed && glm::distance(hand.pose.position, nut.seat) > caught_distance)
+        up.position = hand.pose.position + max_hover * nut.axis;
+    start_movement(hand, up, lifting_time, HandAction::lifting);
 }
 
-// To whoever works, with what it holds.
+// Moves the hand towards the trainee, with whatever it holds.
 void withdraw(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
     hand.nut.reset();
     const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
-    const Vec3 nearer = hand.rest * Vec3(0.0, hand.nearer * retreat, 0.0);
-    reach(hand, {nearer + retreat * up, hand.rest.orientation}, MouseHand::Then::rest, setup, state, up);
+    const Vec3 near_trainee = hand.rest * Vec3(0.0, hand.trainee_side * retreat_distance, 0.0);
+    reach(hand, {near_trainee + retreat_distance * up, hand.rest.orientation}, MouseHand::OnArrival::rest,
+          setup, state, up);
 }
 
 void arrive(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
-    if (!hand.stations.empty()) {
-        const Pose next = hand.stations.back();
-        hand.stations.pop_back();
-        go(hand, next, reach_time(hand.pose, next, Vec3(0.0)), Doing::reaching);
+    if (!hand.waypoints.empty()) {
+        const Pose next = hand.waypoints.back();
+        hand.waypoints.pop_back();
+        start_movement(hand, next, reach_time(hand.pose, next, Vec3(0.0)), HandAction::reaching);
         return;
     }
-    hand.doing = Doing::resting;
-    switch (hand.then) {
-        case MouseHand::Then::rest:
+    hand.action = HandAction::resting;
+    switch (hand.on_arrival) {
+        case MouseHand::OnArrival::rest:
             break;
-        case MouseHand::Then::take:
+        case MouseHand::OnArrival::take:
             hand.wrench = true;
             break;
-        case MouseHand::Then::lay_down:
+        case MouseHand::OnArrival::lay_down:
             hand.wrench = false;
             break;
-        case MouseHand::Then::lower:
-            if (hand.held) go(hand, at_nut(hand, setup, state, 0.0), lowering, Doing::lowering);
+        case MouseHand::OnArrival::lower:
+            if (hand.held)
+                start_movement(hand, at_nut(hand, setup, state, 0.0), lowering_time, HandAction::lowering);
             break;
     }
 }
 
-// The handle goes as far as it was dragged, not faster than an arm, and not further than it has room.
+// Turns the handle by the pending drag, limited by the speed of an arm and the room to swing.
 void pull(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
     const double torque = std::abs(state.joints[*hand.nut].torque), dt = setup.dt;
     const double greatest = setup.wrench.stiffness * to_radians(2.5);
-    const double gain = 1.0 / (1.0 + stronger * torque / greatest);
-    const double step = std::clamp(gain * hand.turn, -fastest_pull * dt, fastest_pull * dt);
+    const double gain = 1.0 / (1.0 + drag_resistance * torque / greatest);
+    const double step = std::clamp(gain * hand.turn, -max_pull_speed * dt, max_pull_speed * dt);
     hand.turn -= step / gain;
-    const double least = hand.begun_at - (hand.loosens ? hand.room : stroke);
-    const double most = hand.begun_at + (hand.loosens ? stroke : hand.room);
-    const double to = std::clamp(hand.handle + step, least, most);
-    if (to != hand.handle + step) hand.turn = 0.0;  // at the end of its room: what is dragged on is lost
-    hand.handle = to;
+    const double least = hand.stroke_begin - (hand.loosens ? hand.room : preferred_stroke);
+    const double most = hand.stroke_begin + (hand.loosens ? preferred_stroke : hand.room);
+    const double to = std::clamp(hand.handle_angle + step, least, most);
+    if (to != hand.handle_angle + step) hand.turn = 0.0;  // no room left: discard the rest of the drag
+    hand.handle_angle = to;
 }
 
 void spin(MouseHand& hand, const servo::Setup& setup) {
-    hand.handle += twist_speed * hand.spin * setup.dt;
-    if (std::abs(hand.handle - hand.begun_at) < twist) return;
-    hand.doing = Doing::returning;
-    hand.time = 0.0;
-    hand.length = back_time;
-    hand.twisted_to = hand.handle;
+    hand.handle_angle += twist_speed * hand.spin * setup.dt;
+    if (std::abs(hand.handle_angle - hand.stroke_begin) < twist_range) return;
+    hand.action = HandAction::returning;
+    hand.elapsed = 0.0;
+    hand.duration = return_time;
+    hand.twist_end = hand.handle_angle;
 }
 
 void hold(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
-    const bool on = has_hold(hand, state);
-    if (!on) hand.begun_at = hand.handle;
-    hand.time = on ? 0.0 : hand.time + setup.dt;
+    const bool on = engaged(hand, state);
+    if (!on) hand.stroke_begin = hand.handle_angle;
+    hand.elapsed = on ? 0.0 : hand.elapsed + setup.dt;
     if (!hand.held) {
         if (hand.wrench && on) {
-            hand.doing = Doing::easing;
-            hand.time = 0.0;
+            hand.action = HandAction::easing;
+            hand.elapsed = 0.0;
         } else {
             lift(hand, setup, state);
         }
         return;
     }
-    if (hand.time > patience) {  // it slipped off, or did not get on
+    if (hand.elapsed > engage_timeout) {  // slipped off, or never engaged
         hand.missed = true;
         ++hand.misses;
         hand.held = false;
@@ -205,18 +213,18 @@ void hold(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
         spin(hand, setup);
 }
 
-// The hand gives way until the wrench bears nothing.
+// Lets the wrench spring back until it transmits no torque.
 void ease(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
-    hand.time += setup.dt;
-    hand.handle -= state.joints[*hand.nut].torque / setup.wrench.stiffness * std::min(1.0, setup.dt / 0.03) *
-                   std::min(1.0, hand.time / 0.03);
-    if (hand.time > unwinding) lift(hand, setup, state);
+    hand.elapsed += setup.dt;
+    hand.handle_angle -= state.joints[*hand.nut].torque / setup.wrench.stiffness *
+                         std::min(1.0, setup.dt / 0.03) * std::min(1.0, hand.elapsed / 0.03);
+    if (hand.elapsed > ease_time) lift(hand, setup, state);
 }
 
 void travel(MouseHand& hand, double dt) {
-    hand.time += dt;
-    const double done = hand.length > 0.0 ? hand.time / hand.length : 1.0;
-    hand.pose = along(hand.from, hand.to, minimum_jerk(done), hand.bulge);
+    hand.elapsed += dt;
+    const double done = hand.duration > 0.0 ? hand.elapsed / hand.duration : 1.0;
+    hand.pose = arc_pose(hand.from, hand.to, minimum_jerk(done), hand.bulge);
 }
 
 }  // namespace
@@ -224,22 +232,22 @@ void travel(MouseHand& hand, double dt) {
 MouseHand make_hand(const Pose& rest, hand::Side side) {
     MouseHand hand;
     hand.rest = rest;
-    hand.nearer = side == hand::Side::left ? 1.0 : -1.0;
-    // Beside the grip, a little above it.
-    hand.pose = {rest * Vec3(0.16, 0.05 * hand.nearer, 0.06), rest.orientation};
+    hand.trainee_side = side == hand::Side::left ? 1.0 : -1.0;
+    // Beside the handle and slightly above it.
+    hand.pose = {rest * Vec3(0.16, 0.05 * hand.trainee_side, 0.06), rest.orientation};
     return hand;
 }
 
-Hand hand_of(const MouseHand& mouse) {
-    Hand hand;
-    hand.doing = mouse.doing;
+WorkingHand hand_of(const MouseHand& mouse) {
+    WorkingHand hand;
+    hand.action = mouse.action;
     hand.wrench = mouse.wrench;
     hand.nut = mouse.nut;
     hand.pose = mouse.pose;
-    hand.to = mouse.stations.empty() ? mouse.to : mouse.stations.front();
+    hand.to = mouse.waypoints.empty() ? mouse.to : mouse.waypoints.front();
     hand.rest = mouse.rest;
-    const bool has = mouse.doing == Doing::holding || mouse.doing == Doing::returning;
-    const double turned = has ? mouse.handle - mouse.begun_at : 0.0;
+    const bool has = mouse.action == HandAction::holding || mouse.action == HandAction::returning;
+    const double turned = has ? mouse.handle_angle - mouse.stroke_begin : 0.0;
     if (mouse.wrench)
         hand.room = mouse.room - std::abs(turned);
     else
@@ -247,85 +255,85 @@ Hand hand_of(const MouseHand& mouse) {
     return hand;
 }
 
-void wish(MouseHand& hand, const Wish& w, const servo::Setup& setup, const servo::State& state) {
-    hand.held = w.held;
-    hand.spin = std::clamp(w.spin, -1.0, 1.0);
-    if (hand.doing == Doing::holding) hand.turn += w.turn;
-    const bool free = hand.doing == Doing::resting || hand.doing == Doing::reaching;
-    hand.next = free || !w.held ? std::nullopt : w.nut ? w.nut : hand.next;
+void apply_command(MouseHand& hand, const MouseCommand& command, const servo::Setup& setup,
+                   const servo::State& state) {
+    hand.held = command.held;
+    hand.spin = std::clamp(command.spin, -1.0, 1.0);
+    if (hand.action == HandAction::holding) hand.turn += command.turn;
+    const bool free = hand.action == HandAction::resting || hand.action == HandAction::reaching;
+    hand.queued_nut = free || !command.held ? std::nullopt : command.nut ? command.nut : hand.queued_nut;
     if (!free) return;
     const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
-    if (w.retreat) {
+    if (command.retreat) {
         withdraw(hand, setup, state);
-    } else if (w.wrench && !hand.wrench) {
+    } else if (command.take_wrench && !hand.wrench) {
         hand.nut.reset();
-        reach(hand, hand.rest, MouseHand::Then::take, setup, state, up);
-    } else if (w.lay_down && hand.wrench) {
+        reach(hand, hand.rest, MouseHand::OnArrival::take, setup, state, up);
+    } else if (command.lay_down && hand.wrench) {
         hand.nut.reset();
-        reach(hand, hand.rest, MouseHand::Then::lay_down, setup, state, up);
-    } else if (w.nut && *w.nut < setup.nuts.size()) {
-        hand.nut = w.nut;
-        hand.loosens = w.loosens;
+        reach(hand, hand.rest, MouseHand::OnArrival::lay_down, setup, state, up);
+    } else if (command.nut && *command.nut < setup.nuts.size()) {
+        hand.nut = command.nut;
+        hand.loosens = command.loosens;
         go_to_nut(hand, setup, state);
     }
 }
 
-Pose wrench_on(const Pose& rest, const servo::Setup& setup, const servo::State& state, std::size_t joint,
-               bool loosens) {
+Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo::State& state,
+                        std::size_t joint, bool loosens) {
     MouseHand other = make_hand(rest);
-
     other.nut = joint;
     other.loosens = loosens;
     choose_side(other, setup, state);
     return at_nut(other, setup, state, 0.0);
 }
 
-servo::Input move(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+servo::Input step_hand(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
     servo::Grip grip = hand.wrench ? servo::Grip::wrench : servo::Grip::none;
-    switch (hand.doing) {
-        case Doing::resting:
+    switch (hand.action) {
+        case HandAction::resting:
             break;
-        case Doing::reaching:
+        case HandAction::reaching:
             travel(hand, setup.dt);
-            if (hand.time >= hand.length) arrive(hand, setup, state);
+            if (hand.elapsed >= hand.duration) arrive(hand, setup, state);
             break;
-        case Doing::lowering:
+        case HandAction::lowering:
             travel(hand, setup.dt);
-            if (hand.time < hand.length) break;
-            hand.doing = Doing::holding;
-            hand.time = hand.turn = 0.0;
-            hand.begun_at = hand.handle;
+            if (hand.elapsed < hand.duration) break;
+            hand.action = HandAction::holding;
+            hand.elapsed = hand.turn = 0.0;
+            hand.stroke_begin = hand.handle_angle;
             break;
-        case Doing::holding:
+        case HandAction::holding:
             hold(hand, setup, state);
-            if (hand.doing == Doing::holding) hand.pose = at_nut(hand, setup, state, 0.0);
-            if (!hand.wrench && hand.doing == Doing::holding) grip = servo::Grip::fingers;
+            if (hand.action == HandAction::holding) hand.pose = at_nut(hand, setup, state, 0.0);
+            if (!hand.wrench && hand.action == HandAction::holding) grip = servo::Grip::fingers;
             break;
-        case Doing::returning:
-            hand.time += setup.dt;
-            hand.handle =
-                hand.twisted_to + (hand.begun_at - hand.twisted_to) * minimum_jerk(hand.time / hand.length);
+        case HandAction::returning:
+            hand.elapsed += setup.dt;
+            hand.handle_angle = hand.twist_end + (hand.stroke_begin - hand.twist_end) *
+                                                     minimum_jerk(hand.elapsed / hand.duration);
             hand.pose = at_nut(hand, setup, state, 0.0);
-            if (hand.time < hand.length) break;
-            hand.doing = Doing::holding;
-            hand.time = 0.0;
-            hand.begun_at = hand.handle;
+            if (hand.elapsed < hand.duration) break;
+            hand.action = HandAction::holding;
+            hand.elapsed = 0.0;
+            hand.stroke_begin = hand.handle_angle;
             break;
-        case Doing::easing:
+        case HandAction::easing:
             ease(hand, setup, state);
-            if (hand.doing == Doing::easing) hand.pose = at_nut(hand, setup, state, 0.0);
+            if (hand.action == HandAction::easing) hand.pose = at_nut(hand, setup, state, 0.0);
             break;
-        case Doing::lifting:
+        case HandAction::lifting:
             travel(hand, setup.dt);
-            if (hand.time < hand.length) break;
-            hand.doing = Doing::resting;
-            // Caught again and again, it gets out of there: from where it begins all nuts can be reached.
+            if (hand.elapsed < hand.duration) break;
+            hand.action = HandAction::resting;
+            // After repeated misses return to the resting place, from which all nuts can be reached.
             if (hand.missed && hand.misses > 2 && hand.wrench && state.tool_contact) {
                 withdraw(hand, setup, state);
                 break;
             }
-            if (hand.next && hand.held) {
-                hand.nut = std::exchange(hand.next, std::nullopt);
+            if (hand.queued_nut && hand.held) {
+                hand.nut = std::exchange(hand.queued_nut, std::nullopt);
                 go_to_nut(hand, setup, state);
             }
             break;

@@ -1,7 +1,7 @@
-// A hand that somebody moves with a mouse: they point at a nut and press, and it goes there, takes the nut or
-// puts the wrench on it, and is pulled while the button is held; let go, it comes off. What a mouse cannot
-// say (how to get round the casing, from which side a handle has room) the hand finds out by itself, as a
-// hand does. Pure: it has no clock, and gives the servo poses like any other hand.
+// A hand controlled by a mouse. A press on a nut sends the hand there; it takes the nut or puts the wrench on
+// it, turns it while the button is held, and comes off on release. The hand plans by itself what a mouse
+// cannot specify: a path around the casing, and the side from which the handle has room to swing. It has no
+// clock and supplies the servo with poses like any other hand.
 #pragma once
 
 #include <optional>
@@ -14,59 +14,64 @@
 
 namespace bolt::trainer {
 
-using world::Doing;
-using world::Hand;
+using world::HandAction;
+using world::WorkingHand;
 
-// What the mouse wants; filled in once a frame.
-struct Wish {
-    std::optional<std::size_t> nut;  // pressed on this one since the last frame
-    bool wrench = false;             // pressed on the wrench that lies there, or its key: take it
+// Input of the mouse for one frame.
+struct MouseCommand {
+    std::optional<std::size_t> nut;  // pressed since the last frame
+    bool take_wrench = false;        // the wrench at rest, or its key, was pressed
     bool lay_down = false;
-    bool retreat = false;  // out of the way, with what it holds
-    bool held = false;     // the button is down
-    bool loosens = false;  // which way the next pull goes: for the side that a handle needs room on
-    double turn = 0.0;     // rad that the handle was dragged since the last frame, tightening positive
-    double spin = 0.0;     // −1 … 1 of the fastest twist, by fingers
+    bool retreat = false;  // move away from the nuts, with whatever the hand holds
+    bool held = false;     // the mouse button is down
+    bool loosens = false;  // direction of the next pull; determines on which side the handle needs room
+    double turn = 0.0;     // rad by which the handle was dragged since the last frame, tightening positive
+    double spin = 0.0;     // −1 … 1 of the fastest twist of the fingers
 };
 
 struct MouseHand {
-    Doing doing = Doing::resting;
-    bool wrench = false;             // is in the hand
-    std::optional<std::size_t> nut;  // that it goes to, or has
+    HandAction action = HandAction::resting;
+    bool wrench = false;             // in the hand
+    std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
     Pose pose;                       // of the tool, in the assembly's frame
-    Pose rest;                       // where the wrench lies, and the hand waits without it
-    double nearer = -1.0;            // along the y of `rest`: the way to whoever works
-    double handle = 0.0;             // rad, of the handle about the bolt
+    Pose rest;                       // where the wrench lies; an empty hand waits beside it
+    double trainee_side = -1.0;      // sign of the direction to the trainee along the y axis of `rest`
+    double handle_angle = 0.0;       // rad, about the bolt, tightening positive
     bool flipped = false;
-    double room = 0.0;   // rad that the handle may swing in this pull
-    double above = 0.0;  // m over the nut, where it waits
+    double room = 0.0;          // rad by which the handle can swing in this pull
+    double hover_height = 0.0;  // m above the nut, where the hand waits
 
-    double begun_at = 0.0;    // rad, where the pull or the twist began
-    double twisted_to = 0.0;  // rad, where the fingers go back from
+    double stroke_begin = 0.0;  // rad, handle angle at the start of the pull or twist
+    double twist_end = 0.0;     // rad, handle angle at which the fingers start to return
+    // From the command; `turn` is the part that is not yet executed.
     bool held = false, loosens = false;
-    double turn = 0.0, spin = 0.0;    // that are still to be done
-    Pose from, to;                    // of the movement
-    Vec3 bulge{0.0};                  // m, how far it goes off the straight way
-    std::vector<Pose> stations;       // that it goes to after `to`, the last first
-    double time = 0.0, length = 0.0;  // s, of the movement
-    enum class Then : std::uint8_t { rest, take, lay_down, lower } then = Then::rest;
-    std::optional<std::size_t> next;  // was pressed on while the hand was busy
-    bool missed = false;              // the last try did not get hold of the nut, or lost it
-    int misses = 0;                   // times in a row: the next try goes higher, and to another side
+    double turn = 0.0, spin = 0.0;
+    // Present movement.
+    Pose from, to;
+    Vec3 bulge{0.0};              // m, deviation from the straight line at the middle (motion::arc_pose)
+    std::vector<Pose> waypoints;  // to visit after `to`, last one first
+    double elapsed = 0.0, duration = 0.0;  // s
+    enum class OnArrival : std::uint8_t { rest, take, lay_down, lower } on_arrival = OnArrival::rest;
+    std::optional<std::size_t> queued_nut;  // pressed while the hand was busy
+    bool missed = false;                    // the last attempt did not engage the nut, or lost it
+    int misses = 0;  // consecutive; each one makes the next attempt approach higher and from another side
 };
 
-// The hand at rest where the wrench lies: the left one where that lies for it (scene::resting_place).
+// A resting hand beside the wrench at `rest`, which must be the resting place for that side
+// (scene::wrench_rest_pose).
 MouseHand make_hand(const Pose& rest, hand::Side side = hand::Side::right);
 
-Hand hand_of(const MouseHand& hand);
+WorkingHand hand_of(const MouseHand& hand);
 
-void wish(MouseHand& hand, const Wish& wish, const servo::Setup& setup, const servo::State& state);
+// Call once a frame.
+void apply_command(MouseHand& hand, const MouseCommand& command, const servo::Setup& setup,
+                   const servo::State& state);
 
-// Where the wrench that lies there would be put on a nut now.
-Pose wrench_on(const Pose& rest, const servo::Setup& setup, const servo::State& state, std::size_t joint,
-               bool loosens);
+// The pose in which this hand would put the wrench that lies at `rest` onto a nut now.
+Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo::State& state,
+                        std::size_t joint, bool loosens);
 
-// One tick. Without the guiding force: `guide` is the lesson's to fill in.
-servo::Input move(MouseHand& hand, const servo::Setup& setup, const servo::State& state);
+// Advances the hand by one tick and returns the servo's input, except `guide`, which the lesson sets.
+servo::Input step_hand(MouseHand& hand, const servo::Setup& setup, const servo::State& state);
 
 }  // namespace bolt::trainer

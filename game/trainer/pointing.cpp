@@ -10,8 +10,8 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double easy = 1.6;          // of a nut's size in the picture: so far beside it still counts
-constexpr double least_reach = 14.0;  // px, of a nut that is far away
+constexpr double pick_margin = 1.6;  // picking radius relative to a nut's apparent size
+constexpr double min_reach = 14.0;   // px, for a distant nut
 
 }  // namespace
 
@@ -28,13 +28,13 @@ std::optional<std::size_t> nut_at(const Screen& screen, const glm::dvec2& pointe
     for (std::size_t i = 0; i < centres.size(); ++i) {
         const auto at = project(screen, centres[i]);
         if (!at) continue;
-        // Its size in the picture: that of a length across the line of sight.
+        // Apparent size: the projection of a length across the line of sight.
         const Vec3 sight = centres[i] - Vec3(screen.eye.position);
         const Vec3 helper = std::abs(sight.y) < 0.9 * glm::length(sight) ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
         const Vec3 across = glm::normalize(glm::cross(sight, helper));
         const auto beside = project(screen, centres[i] + 0.5 * setup.nuts[i].across_flats * across);
         if (!beside) continue;
-        const double reach = std::max(easy * glm::distance(*beside, *at), least_reach);
+        const double reach = std::max(pick_margin * glm::distance(*beside, *at), min_reach);
         const double off = glm::distance(pointer, *at) / reach;
         if (off >= nearest) continue;
         nearest = off;
@@ -43,14 +43,14 @@ std::optional<std::size_t> nut_at(const Screen& screen, const glm::dvec2& pointe
     return found;
 }
 
-std::optional<double> pixels_to(const Screen& screen, const glm::dvec2& pointer, const Vec3& from,
-                                const Vec3& to) {
+std::optional<double> pixels_to_segment(const Screen& screen, const glm::dvec2& pointer, const Vec3& from,
+                                        const Vec3& to) {
     const auto a = project(screen, from), b = project(screen, to);
     if (!a || !b) return std::nullopt;
-    const glm::dvec2 way = *b - *a;
-    const double length = glm::dot(way, way);
-    const double along = length > 0.0 ? std::clamp(glm::dot(pointer - *a, way) / length, 0.0, 1.0) : 0.0;
-    return glm::distance(pointer, *a + along * way);
+    const glm::dvec2 segment = *b - *a;
+    const double length = glm::dot(segment, segment);
+    const double along = length > 0.0 ? std::clamp(glm::dot(pointer - *a, segment) / length, 0.0, 1.0) : 0.0;
+    return glm::distance(pointer, *a + along * segment);
 }
 
 glm::dvec2 lever_on_screen(const Screen& screen, const Pose& tool, const Vec3& axis, double handle_length) {
@@ -59,97 +59,104 @@ glm::dvec2 lever_on_screen(const Screen& screen, const Pose& tool, const Vec3& a
     // Tightening turns about -axis.
     const Quat turn = glm::angleAxis(-step, axis);
     const auto now = project(screen, tool.position + arm), then = project(screen, tool.position + turn * arm);
-    if (!now || !then) return {least_lever, 0.0};
+    if (!now || !then) return {min_lever, 0.0};
     const glm::dvec2 lever = (*then - *now) / step;
     const double length = glm::length(lever);
-    if (length < 1e-6) return {least_lever, 0.0};
-    return lever * (std::max(length, least_lever) / length);
+    if (length < 1e-6) return {min_lever, 0.0};
+    return lever * (std::max(length, min_lever) / length);
 }
 
-double turn_of_drag(const glm::dvec2& lever, const glm::dvec2& drag) {
+double drag_angle(const glm::dvec2& lever, const glm::dvec2& drag) {
     return glm::dot(drag, lever) / glm::dot(lever, lever);
 }
 
 namespace {
 
-constexpr double spin_reach = 120.0;   // px of drag for the fastest twist
-constexpr double wrench_reach = 22.0;  // px beside a wrench that still count
+constexpr double full_spin_drag = 120.0;  // px of drag that give the fastest twist
+constexpr double wrench_reach = 22.0;     // px from the wrench within which it is picked
 
-std::vector<Vec3> nut_centres(const scene::World& world, const servo::Setup& setup) {
+std::vector<Vec3> nut_centres(const scene::SceneWorld& world, const servo::Setup& setup) {
     std::vector<Vec3> centres;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) centres.push_back(world::nut_centre(world, setup, i));
     return centres;
 }
 
-bool loosening(const session::Course& course) { return course.lesson().task == lesson::Task::loosen; }
+bool loosening(const session::LessonSession& session) {
+    return session.lesson().task == lesson::Task::loosen;
+}
 
-// What the press meant: the hand, or the view.
-void press(ActiveLesson& p, Wish& wish) {
-    p.pointing.drags_hand = p.pointing.nut.has_value() || p.pointing.wrench;
-    if (p.pointing.nut) {
-        wish.nut = p.pointing.nut;
-        wish.loosens = loosening(*p.course);
-    } else if (p.pointing.wrench) {
-        wish.wrench = true;
+// Decides whether a press moves the hand or the view.
+void press(ActiveLesson& active, MouseCommand& command) {
+    active.pointer.drags_hand = active.pointer.nut.has_value() || active.pointer.on_wrench;
+    if (active.pointer.nut) {
+        command.nut = active.pointer.nut;
+        command.loosens = loosening(*active.session);
+    } else if (active.pointer.on_wrench) {
+        command.take_wrench = true;
     }
 }
 
-double drag_of(const ActiveLesson& p, const Screen& screen, const glm::dvec2& drag) {
-    if (!hand_of(p).nut || hand_of(p).doing != Doing::holding || !hand_of(p).wrench) return 0.0;
-    const servo::Setup& setup = p.course->setup();
-    const glm::dvec2 lever = lever_on_screen(screen, tool_of(p).pose, setup.nuts[*hand_of(p).nut].axis,
-                                             setup.wrench.handle_length);
-    return turn_of_drag(lever, drag);
+double handle_turn(const ActiveLesson& active, const Screen& screen, const glm::dvec2& drag) {
+    if (!hand_of(active).nut || hand_of(active).action != HandAction::holding || !hand_of(active).wrench)
+        return 0.0;
+    const servo::Setup& setup = active.session->setup();
+    const glm::dvec2 lever = lever_on_screen(
+        screen, tool_of(active).pose, setup.nuts[*hand_of(active).nut].axis, setup.wrench.handle_length);
+    return drag_angle(lever, drag);
 }
 
-void move_camera(ActiveLesson& p, const Wanted& wanted, double height, double aspect) {
+void move_camera(ActiveLesson& active, const FrameInput& input, double height, double aspect) {
     const glm::dvec2 turned =
-        wanted.turned + (wanted.left && !p.pointing.drags_hand ? wanted.dragged : glm::dvec2(0.0));
-    view::turn(p.view.camera.goal, glm::dvec2(turned.x, -turned.y) / height);
-    view::pan(p.view.camera.goal, glm::dvec2(wanted.moved.x, -wanted.moved.y) / height);
-    const glm::dvec2 at(wanted.pointer.x / height - 0.5 * aspect, 0.5 - wanted.pointer.y / height);
-    if (wanted.wheel != 0.0) view::zoom(p.view.camera.goal, wanted.wheel, at, p.place.machine);
+        input.right_drag +
+        (input.left_down && !active.pointer.drags_hand ? input.left_drag : glm::dvec2(0.0));
+    view::turn(active.view.camera.goal, glm::dvec2(turned.x, -turned.y) / height);
+    view::pan(active.view.camera.goal, glm::dvec2(input.middle_drag.x, -input.middle_drag.y) / height);
+    const glm::dvec2 at(input.pointer.x / height - 0.5 * aspect, 0.5 - input.pointer.y / height);
+    if (input.wheel != 0.0) view::zoom(active.view.camera.goal, input.wheel, at, active.workplace.machine);
 }
 
 }  // namespace
 
-void read_pointer(const scene::World& world, Frame& frame) {
-    ActiveLesson& p = frame.playing;
-    const Wanted& wanted = frame.wanted;
-    const Screen screen = screen_of(p, frame.size);
-    // In a slow frame the pointer comes to a nut, is pressed and is already on its way again.
-    const glm::dvec2 pointer = wanted.pressed.value_or(wanted.pointer);
-    if (wanted.pressed || !p.pointing.drags_hand || !wanted.left) {
-        p.pointing.nut = nut_at(screen, pointer, p.course->setup(), nut_centres(world, p.course->setup()));
-        const Vec3 end = hand_of(p).rest * Vec3(p.course->setup().wrench.handle_length, 0.0, 0.0);
-        const auto off = pixels_to(screen, pointer, hand_of(p).rest.position, end);
-        p.pointing.wrench = !hand_of(p).wrench && !p.pointing.nut && off && *off < wrench_reach;
+void handle_input(const scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    const FrameInput& input = frame.input;
+    const Screen screen = screen_of(active, frame.size);
+    // In a slow frame the pointer may have left the place of the press already.
+    const glm::dvec2 pointer = input.pressed_at.value_or(input.pointer);
+    if (input.pressed_at || !active.pointer.drags_hand || !input.left_down) {
+        active.pointer.nut =
+            nut_at(screen, pointer, active.session->setup(), nut_centres(world, active.session->setup()));
+        const Vec3 end = hand_of(active).rest * Vec3(active.session->setup().wrench.handle_length, 0.0, 0.0);
+        const auto off = pixels_to_segment(screen, pointer, hand_of(active).rest.position, end);
+        active.pointer.on_wrench =
+            !hand_of(active).wrench && !active.pointer.nut && off && *off < wrench_reach;
     }
-    if (wanted.wants(Action::restart_step)) go_back(p.undo, p.course->lesson(), 0);
-    if (wanted.wants(Action::undo)) go_back(p.undo, p.course->lesson(), 1);
-    if (p.station) {
-        p.pointing.nut.reset();
-        p.pointing.wrench = p.station->near_wrench;
-        p.pointing.drags_hand = false;
-        move_camera(p, wanted, frame.size.y, frame.size.x / frame.size.y);
+    if (input.triggered(Action::restart_step)) request_undo(active.undo, active.session->lesson(), 0);
+    if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
+    if (active.station) {
+        active.pointer.nut.reset();
+        active.pointer.on_wrench = active.station->near_wrench;
+        active.pointer.drags_hand = false;
+        move_camera(active, input, frame.size.y, frame.size.x / frame.size.y);
         return;
     }
-    Wish wish;
-    wish.held = wanted.left && p.pointing.drags_hand;
-    if (wanted.pressed) {
-        p.pointing.press = *wanted.pressed;
-        press(p, wish);
-        wish.held = wanted.left && p.pointing.drags_hand;
+    MouseCommand command;
+    command.held = input.left_down && active.pointer.drags_hand;
+    if (input.pressed_at) {
+        active.pointer.press_position = *input.pressed_at;
+        press(active, command);
+        command.held = input.left_down && active.pointer.drags_hand;
     }
-    if (wanted.wants(Action::tool)) (hand_of(p).wrench ? wish.lay_down : wish.wrench) = true;
-    if (wish.held) {
-        wish.turn = drag_of(p, screen, wanted.dragged);
-        wish.spin = (wanted.pointer.x - p.pointing.press.x) / spin_reach;
+    if (input.triggered(Action::tool))
+        (hand_of(active).wrench ? command.lay_down : command.take_wrench) = true;
+    if (command.held) {
+        command.turn = handle_turn(active, screen, input.left_drag);
+        command.spin = (input.pointer.x - active.pointer.press_position.x) / full_spin_drag;
     }
-    if (p.undo.to && hand_of(p).nut) wish.retreat = true;
-    if (p.pace.finished || p.pace.paused) wish = {};
-    trainer::wish(p.mouse, wish, p.course->setup(), p.course->state());
-    move_camera(p, wanted, frame.size.y, frame.size.x / frame.size.y);
+    if (active.undo.target && hand_of(active).nut) command.retreat = true;
+    if (active.clock.finished || active.clock.paused) command = {};
+    trainer::apply_command(active.mouse, command, active.session->setup(), active.session->state());
+    move_camera(active, input, frame.size.y, frame.size.x / frame.size.y);
 }
 
 }  // namespace bolt::trainer

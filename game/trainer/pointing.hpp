@@ -1,4 +1,4 @@
-// From the pointer on a picture to what it points at in the scene, and back.
+// Projection of the scene to the picture, and picking: the nut or the wrench under the pointer.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,30 +10,29 @@
 
 namespace bolt::trainer {
 
-// A picture as it is seen: pixels from the upper left corner, y down.
+// A picture and its eye. Positions in pixels, origin at the upper left corner, y down.
 struct Screen {
     render::Eye eye;
     glm::dvec2 size{1.0};
 };
 
-// Nothing for what lies behind the eye.
+// None for a point behind the eye.
 std::optional<glm::dvec2> project(const Screen& screen, const Vec3& point);
 
-// The nut under the pointer: nearest in the picture, within its own size and a little more.
+// The nut under the pointer: the nearest one in the picture within its apparent size plus a margin.
 std::optional<std::size_t> nut_at(const Screen& screen, const glm::dvec2& pointer, const servo::Setup& setup,
                                   std::span<const Vec3> centres);
 
-// Pixels from the pointer to the line between two points; nothing if either lies behind the eye.
-std::optional<double> pixels_to(const Screen& screen, const glm::dvec2& pointer, const Vec3& from,
-                                const Vec3& to);
+// Distance in pixels from the pointer to the segment between two points; none if either is behind the eye.
+std::optional<double> pixels_to_segment(const Screen& screen, const glm::dvec2& pointer, const Vec3& from,
+                                        const Vec3& to);
 
-// Pixels that the end of a handle goes on the picture for each radian that it is turned on (tightening), with
-// the wrench at `tool` on a nut with this axis. Never shorter than `least_lever`: a handle that is seen end
-// on would turn at a touch.
-inline constexpr double least_lever = 160.0;
+// Movement of the end of the handle in the picture per radian of tightening, px/rad, for a wrench at `tool`
+// on a nut with this axis. At least `min_lever` long: a handle seen end-on would turn at the slightest drag.
+inline constexpr double min_lever = 160.0;
 glm::dvec2 lever_on_screen(const Screen& screen, const Pose& tool, const Vec3& axis, double handle_length);
 
-// rad that a drag by so many pixels turns the handle.
-double turn_of_drag(const glm::dvec2& lever, const glm::dvec2& drag);
+// Angle in rad by which a drag, in px, turns the handle.
+double drag_angle(const glm::dvec2& lever, const glm::dvec2& drag);
 
 }  // namespace bolt::trainer

@@ -1,5 +1,5 @@
-// The settings of whoever is at the window: read when they have said who they are, kept when they have
-// changed them. What cannot be read or written is told and lets everything else go on.
+// The settings of the trainee at the window: loaded when the trainee enters a name, saved when they change. A
+// file that cannot be read or written is reported and does not stop the program.
 #pragma once
 
 #include <filesystem>
@@ -10,27 +10,27 @@
 namespace bolt::trainer {
 
 struct Preferences {
-    std::filesystem::path folder;  // with a file a trainee; empty: nothing is kept by name
-    std::filesystem::path file;    // this one instead, whoever it is; empty: by name
+    std::filesystem::path folder;  // one file per trainee; empty: nothing is saved by name
+    std::filesystem::path file;    // used for all trainees instead of `folder`, unless empty
     content::SettingsVocabulary known;
 
-    content::Settings settings;
-    KeyMap keys;  // of the settings
-    std::string whose;
-    std::string kept;  // as the file has them, or as they would be without one
+    content::TraineeSettings settings;
+    KeyMap keys;            // parsed from settings.keys
+    std::string trainee;    // empty: no name was entered
+    std::string file_text;  // the file's content; without a file, that of the default settings
     enum class Trouble : std::uint8_t { none, unread, unwritten } trouble = Trouble::none;
-    std::string why;  // with file, line and column
+    std::string why;  // message of `trouble` with file, line and column
 };
 
-// The file that these are kept in; empty: in none, because nobody has said a name.
-std::filesystem::path kept_in(const Preferences& preferences);
+// The file of the current settings; empty if they are not saved.
+std::filesystem::path settings_file(const Preferences& preferences);
 
-// Those of that trainee. Who has none yet begins with the usual ones, or with what was changed before
-// anybody's name was said.
-void take(Preferences& preferences, const std::string& trainee);
+// Loads the settings of a trainee. Without a file the trainee starts with the default settings, or keeps
+// those that were changed before the first name was entered. Sets `trouble` if the file cannot be read.
+void load_preferences(Preferences& preferences, const std::string& trainee);
 
-// Writes what has changed since it was read; false: that is not on the disk. Nothing is written of what is as
-// usual and was never kept.
-bool keep(Preferences& preferences);
+// Saves the settings if they differ from the file. Returns false and sets `trouble` if that fails. Default
+// settings without a file are not written.
+bool save_preferences(Preferences& preferences);
 
 }  // namespace bolt::trainer

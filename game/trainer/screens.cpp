@@ -5,113 +5,32 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "game/lesson/feedback.hpp"
-#include "game/trainer/app.hpp"
-#include "game/trainer/hud.hpp"
+#include "game/view/labels.hpp"
 
 namespace bolt::trainer {
 
 namespace {
 
-constexpr std::uint32_t group = 2;                     // of the renderer's pictures: 1 is the close-up
-constexpr glm::vec4 dim{0.035F, 0.04F, 0.045F, 1.0F};  // behind it
-constexpr float nearer = 0.7F;            // than to see all of it: the menu stands before its middle
-constexpr float exposure = 0.55F;         // the menu is what is to be read
-constexpr std::uint32_t light_size = 32;  // texels: less to filter, while somebody waits
+constexpr ImGuiWindowFlags panel_flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
+                                         ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar;
+constexpr glm::vec4 muted{0.75F, 0.8F, 0.85F, 1.0F}, warning{1.0F, 0.55F, 0.45F, 1.0F};
 
-// The coarse model is enough, where there is one.
-view::LoadedSubject read(const std::string& assembly) {
-    view::LoadedSubject far = view::load_subject(assembly, view::Level::far);
-    return far.ok() ? std::move(far) : view::load_subject(assembly);
-}
+ImVec4 to_imgui(const glm::vec4& color) { return {color.r, color.g, color.b, color.a}; }
 
-}  // namespace
-
-void Backdrop::want(const std::string& assembly) {
-    wanted_ = assembly;
-    if (coming_.valid() || shown_ == wanted_ || coming_name_ == wanted_) return;
-    coming_name_ = assembly;
-    coming_ = std::async(std::launch::async, read, assembly);
-}
-
-Status Backdrop::put_up(gpu::Device& device, const view::Subject& subject) {
-    BOLT_TRY(device.idle());
-    if (light_.levels.get() == VK_NULL_HANDLE) {
-        BOLT_TRY_ASSIGN(auto light, render::upload_environment(device, shading::studio(), light_size));
-        light_ = std::move(light);
-    }
-    BOLT_TRY_ASSIGN(auto stage, view::set_stage(device, subject, light_));
-    stage_ = std::move(stage);
-    stage_->scene.background = dim;
-    stage_->scene.exposure = exposure;
-    from_ = subject.views.empty() ? view::Viewpoint{} : subject.views.front();
-    shown_ = coming_name_;
-    drawn_ = {};
-    return {};
-}
-
-Status Backdrop::draw(gpu::Device& device, render::Renderer& renderer, gpu::FrameContext& frame,
-                      VkExtent2D size) {
-    using namespace std::chrono_literals;
-    if (coming_.valid() && coming_.wait_for(0s) == std::future_status::ready) {
-        const view::LoadedSubject loaded = coming_.get();
-        // One that cannot be read is told of when its lesson is to begin.
-        if (loaded.ok()) BOLT_TRY(put_up(device, loaded.subject));
-    }
-    if (!stage_ || (drawn_.width == size.width && drawn_.height == size.height)) return {};
-    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    view::Viewpoint at = from_.fov > 0.0F ? from_ : view::framed(stage_->box, view::usual_fov, aspect);
-    at.eye = glm::mix(at.target, at.eye, nearer);
-    const render::Eye eye =
-        render::make_eye(at.eye, at.target, view::lens(stage_->box, at.eye, at.target, at.fov, aspect));
-    BOLT_TRY(renderer.render(frame, stage_->scene, {&eye, 1}, size, group));
-    drawn_ = size;
-    return {};
-}
-
-std::optional<render::ImageLayer> Backdrop::picture(const render::Renderer& renderer) const {
-    if (shown_ != wanted_ || drawn_.width == 0) return std::nullopt;
-    return renderer.picture(0, group);
-}
-
-void Backdrop::drop() {
-    stage_.reset();
-    light_ = {};
-    shown_.clear();
-    coming_name_.clear();
-    drawn_ = {};
-}
-
-// The screens of the trainer that are made of buttons: menu, pause, result.
-
-namespace {
-
-constexpr ImGuiWindowFlags panel = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar;
-
-void text(const std::string& line) { ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size()); }
-
-void begin_panel(const char* name, const glm::dvec2& size, float width) {
-    ImGui::SetNextWindowPos({static_cast<float>(0.5 * size.x), static_cast<float>(0.5 * size.y)},
-                            ImGuiCond_Always, {0.5F, 0.5F});
-    ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, static_cast<float>(size.y)});
-    ImGui::SetNextWindowBgAlpha(0.94F);
-    ImGui::Begin(name, nullptr, panel);
-}
-
+// The text in `language`, else in English, else `fallback`.
 std::string in_language(const std::map<std::string, std::string>& texts, const std::string& language,
-                        const std::string& otherwise) {
+                        const std::string& fallback) {
     for (const std::string& code : {language, std::string("en")})
         if (const auto found = texts.find(code); found != texts.end()) return found->second;
-    return otherwise;
+    return fallback;
 }
 
 template <class Value>
-void radio(const char* label, Value& value, Value to) {
-    if (ImGui::RadioButton(label, value == to)) value = to;
+void radio_button(const char* label, Value& value, Value option) {
+    if (ImGui::RadioButton(label, value == option)) value = option;
     ImGui::SameLine();
 }
 
@@ -121,182 +40,251 @@ void text_field(const char* label, std::string& value) {
     if (ImGui::InputText(label, buffer.data(), buffer.size())) value = buffer.data();
 }
 
-}  // namespace
-
-bool App::button(words::Key key) {
-    const bool pressed = ImGui::Button(words_[key].c_str(), {-1.0F, 0.0F});
-    remember_place(key);
-    return pressed;
-}
-
-// What the hand plays with, where there is a choice.
-void App::draw_seats() {
-    Equipment& with = options_.choice.with;
-    for (const Seat& seat : seats_) {
-        const std::string name = seat.name.empty() ? words_["menu.mouse"] : seat.name;
-        Equipment to = seat.with;
-        to.rig = with.rig;
-        to.glove = with.glove;
-        if (seats_.size() > 1 &&
-            ImGui::RadioButton(name.c_str(), with.devices == to.devices && !with.keyboard))
-            with = to;
+// Shown only if there is more than the mouse to choose.
+void draw_devices(const ScreenContext& context, std::span<const DeviceOption> devices, Equipment& equipment) {
+    if (devices.size() < 2) return;
+    for (const DeviceOption& option : devices) {
+        const std::string name = option.name.empty() ? context.words["menu.mouse"] : option.name;
+        Equipment next = option.equipment;
+        next.rig = equipment.rig;
+        next.glove = equipment.glove;
+        if (ImGui::RadioButton(name.c_str(), equipment.devices == next.devices && !equipment.keyboard))
+            equipment = next;
     }
 }
 
-// A choice is the trainee's from now on, and replaces that of the command line.
-void App::draw_laws(joint::Law of_assembly) {
+// A selection replaces the law of the command line and is saved with the trainee's settings.
+void draw_laws(const ScreenContext& context, joint::Law assembly_law, LessonChoice& choice,
+               content::TraineeSettings& settings) {
     ImGui::AlignTextToFramePadding();
-    text(words_["menu.law"]);
-    const joint::Law now = law_in_force(of_assembly);
-    for (const auto& [key, law] : {std::pair{words::Key("menu.law.mechanistic"), joint::Law::mechanistic},
-                                   std::pair{words::Key("menu.law.published"), joint::Law::published}}) {
+    draw_text(context.words["menu.law"]);
+    const joint::Law selected = law_in_force(choice, settings, assembly_law);
+    for (const auto& [key, law] : {std::pair{words::TextKey("menu.law.mechanistic"), joint::Law::mechanistic},
+                                   std::pair{words::TextKey("menu.law.published"), joint::Law::published}}) {
         ImGui::SameLine();
-        if (ImGui::RadioButton(words_[key].c_str(), now == law)) {
-            preferences_.settings.law = joint::name(law);
-            options_.law.reset();
+        if (ImGui::RadioButton(context.words[key].c_str(), selected == law)) {
+            settings.law = joint::name(law);
+            choice.law.reset();
         }
-        remember_place(key);
+        record_place(context, key);
     }
 }
 
-void App::draw_menu(const glm::dvec2& size) {
-    Choice& choice = options_.choice;
-    const float scale = input_.scale;
-    begin_panel("##menu", size, 560.0F * scale);
-    text("Boltwright");
-    ImGui::Separator();
-    for (const Listed& listed : listed_) {
-        const bool chosen = listed.name == choice.assembly;
-        if (ImGui::Selectable(in_language(listed.title, words_.language, listed.name).c_str(), chosen) &&
-            !chosen) {
-            choice.assembly = listed.name;
+void draw_variants_and_tools(const std::string& language, const AssemblyEntry& entry, LessonChoice& choice) {
+    if (entry.variants.size() > 1) {
+        for (const content::AssemblyVariant& variant : entry.variants)
+            radio_button(in_language(variant.title, language, variant.name).c_str(), choice.variant,
+                         variant.name == entry.default_variant ? std::string() : variant.name);
+        ImGui::NewLine();
+    }
+    if (entry.tools.size() > 1) {
+        for (const content::Tool& tool : entry.tools)
+            radio_button(in_language(tool.title, language, tool.name).c_str(), choice.tool,
+                         tool.name == entry.tools.front().name ? std::string() : tool.name);
+        ImGui::NewLine();
+    }
+}
+
+// Draws the list of assemblies and, for the selected one, its variants, tools and lesson. Returns that entry;
+// null if the choice is not in the list.
+const AssemblyEntry* draw_assemblies(const ScreenContext& context, const Menu& menu, LessonChoice& choice) {
+    const std::string& language = context.words.language;
+    for (const AssemblyEntry& entry : menu.assemblies) {
+        const bool selected = entry.name == choice.assembly;
+        if (ImGui::Selectable(in_language(entry.title, language, entry.name).c_str(), selected) &&
+            !selected) {
+            choice.assembly = entry.name;
             choice.variant.clear();
             choice.tool.clear();
         }
     }
     ImGui::Separator();
-    const auto listed = std::find_if(listed_.begin(), listed_.end(),
-                                     [&](const Listed& one) { return one.name == choice.assembly; });
-    if (listed != listed_.end() && listed->variants.size() > 1) {
-        for (const content::Variant& variant : listed->variants)
-            radio(in_language(variant.title, words_.language, variant.name).c_str(), choice.variant,
-                  variant.name == listed->usual ? std::string() : variant.name);
-        ImGui::NewLine();
+    const auto entry =
+        std::find_if(menu.assemblies.begin(), menu.assemblies.end(),
+                     [&](const AssemblyEntry& candidate) { return candidate.name == choice.assembly; });
+    if (entry == menu.assemblies.end()) return nullptr;
+    draw_variants_and_tools(language, *entry, choice);
+    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(muted));
+    ImGui::BeginChild("##lesson", {0.0F, 150.0F * context.scale});
+    ImGui::PushTextWrapPos(0.0F);
+    draw_text(in_language(entry->lesson, language, ""));
+    ImGui::PopTextWrapPos();
+    ImGui::EndChild();
+    ImGui::PopStyleColor();
+    return &*entry;
+}
+
+void draw_joint_table(const words::Words& words, std::span<const lesson::JointResult> joints) {
+    if (!ImGui::BeginTable("joints", 5, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) return;
+    for (const char* head : {"", "N·m", "°", "kN", ""}) ImGui::TableSetupColumn(head);
+    ImGui::TableHeadersRow();
+    for (const lesson::JointResult& joint : joints)
+        for (const std::string& cell :
+             {joint.id, fmt::format("{:.1f}", joint.torque), fmt::format("{:.0f}", to_degrees(joint.angle)),
+              fmt::format("{:.1f}", joint.clamp / 1e3),
+              fmt::format("{} {}", view::symbol_of(view::verdict_of(joint)),
+                          words[lesson::text_key(joint.overall)])}) {
+            ImGui::TableNextColumn();
+            draw_text(cell);
+        }
+    ImGui::EndTable();
+}
+
+}  // namespace
+
+std::vector<AssemblyEntry> list_assemblies() {
+    std::vector<std::string> names;
+    std::error_code problem;
+    const auto folder = content::content_folder() / "assemblies";
+    for (auto entry = std::filesystem::directory_iterator(folder, problem);
+         !problem && entry != std::filesystem::directory_iterator(); entry.increment(problem))
+        if (std::filesystem::exists(entry->path() / "assembly.json"))
+            names.push_back(entry->path().filename().string());
+    std::sort(names.begin(), names.end());
+    std::vector<AssemblyEntry> entries;
+    for (const std::string& name : names) {
+        const content::LoadedAssembly loaded = content::load_assembly(name);
+        if (!loaded.ok() || loaded.assembly.models.model.empty()) continue;
+        entries.push_back({name, loaded.assembly.variant, loaded.assembly.title, loaded.assembly.lesson,
+                           loaded.assembly.variants, loaded.assembly.tools, loaded.assembly.law});
     }
-    if (listed != listed_.end() && listed->tools.size() > 1) {
-        for (const content::Tool& tool : listed->tools)
-            radio(in_language(tool.title, words_.language, tool.name).c_str(), choice.tool,
-                  tool.name == listed->tools.front().name ? std::string() : tool.name);
-        ImGui::NewLine();
+    return entries;
+}
+
+void record_place(const ScreenContext& context, words::TextKey key) {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    context.places.push_back({key, {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}, high.x - low.x});
+}
+
+bool draw_button(const ScreenContext& context, words::TextKey key) {
+    const bool pressed = ImGui::Button(context.words[key].c_str(), {-1.0F, 0.0F});
+    record_place(context, key);
+    return pressed;
+}
+
+void draw_text(const std::string& line) { ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size()); }
+
+void draw_wrapped(const std::string& line, const glm::vec4& color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(color));
+    ImGui::TextWrapped("%s", line.c_str());
+    ImGui::PopStyleColor();
+}
+
+void begin_panel(const ScreenContext& context, const char* name, float width, float opacity) {
+    ImGui::SetNextWindowPos(
+        {static_cast<float>(0.5 * context.size.x), static_cast<float>(0.5 * context.size.y)},
+        ImGuiCond_Always, {0.5F, 0.5F});
+    ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, static_cast<float>(context.size.y)});
+    ImGui::SetNextWindowBgAlpha(opacity);
+    ImGui::Begin(name, nullptr, panel_flags);
+}
+
+void draw_languages(const ScreenContext& context, content::TraineeSettings& settings) {
+    for (const words::Words& language : context.languages)
+        if (ImGui::RadioButton(language.name.c_str(), language.language == context.words.language)) {
+            context.selected_language = language.language;
+            settings.language = language.language;
+        } else {
+            ImGui::SameLine();
+        }
+    ImGui::NewLine();
+}
+
+void draw_settings_file(const ScreenContext& context, const Preferences& preferences) {
+    switch (preferences.trouble) {
+        case Preferences::Trouble::unread:
+            return draw_wrapped(
+                words::format_text(context.words, "settings.unread", {{"why", preferences.why}}), warning);
+        case Preferences::Trouble::unwritten:
+            return draw_wrapped(
+                words::format_text(context.words, "settings.unwritten", {{"why", preferences.why}}), warning);
+        case Preferences::Trouble::none:
+            break;
     }
-    if (listed != listed_.end()) {
-        ImGui::PushStyleColor(ImGuiCol_Text, {0.75F, 0.8F, 0.85F, 1.0F});
-        ImGui::BeginChild("##lesson", {0.0F, 150.0F * scale});
-        ImGui::PushTextWrapPos(0.0F);
-        text(in_language(listed->lesson, words_.language, ""));
-        ImGui::PopTextWrapPos();
-        ImGui::EndChild();
-        ImGui::PopStyleColor();
-    }
+    if (settings_file(preferences).empty())
+        draw_wrapped(context.words["settings.not_kept"], muted);
+    else if (!preferences.trainee.empty())
+        draw_wrapped(words::format_text(context.words, "settings.kept", {{"trainee", preferences.trainee}}),
+                     muted);
+}
+
+ScreenAction draw_menu(const ScreenContext& context, const Menu& menu, LessonChoice& choice,
+                       Preferences& preferences) {
+    const words::Words& words = context.words;
+    ScreenAction action = ScreenAction::none;
+    begin_panel(context, "##menu", 560.0F * context.scale, 0.94F);
+    draw_text("Boltwright");
+    ImGui::Separator();
+    const AssemblyEntry* entry = draw_assemblies(context, menu, choice);
     for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment})
-        radio(words_[lesson::term(mode)].c_str(), choice.mode, mode);
+        radio_button(words[lesson::text_key(mode)].c_str(), choice.mode, mode);
     ImGui::NewLine();
     for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen})
-        radio(words_[lesson::term(task)].c_str(), choice.task, task);
+        radio_button(words[lesson::text_key(task)].c_str(), choice.task, task);
     ImGui::NewLine();
-    if (listed != listed_.end()) draw_laws(listed->law);
-    draw_seats();
-    text_field(words_["menu.trainee"].c_str(), choice.trainee);
-    if (ImGui::IsItemDeactivatedAfterEdit()) meet_trainee();
-    draw_languages();
+    if (entry != nullptr) draw_laws(context, entry->law, choice, preferences.settings);
+    draw_devices(context, menu.devices, choice.equipment);
+    text_field(words["menu.trainee"].c_str(), choice.trainee);
+    if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
+    draw_languages(context, preferences.settings);
     ImGui::Separator();
-    if (trouble_) {
-        ImGui::PushStyleColor(ImGuiCol_Text, {1.0F, 0.55F, 0.45F, 1.0F});
-        ImGui::TextWrapped("%s", trouble_->message().c_str());
-        ImGui::PopStyleColor();
-    }
-    if (preferences_.trouble != Preferences::Trouble::none) draw_kept();
-    if (button("menu.start")) start_wished_ = true;
+    if (menu.start_error) draw_wrapped(menu.start_error->message(), warning);
+    if (preferences.trouble != Preferences::Trouble::none) draw_settings_file(context, preferences);
+    if (draw_button(context, "menu.start")) action = ScreenAction::start_lesson;
     ImGui::SetItemDefaultFocus();
-    if (button("menu.settings")) open_settings();
-    if (button("menu.quit")) closed_ = true;
+    if (draw_button(context, "menu.settings")) action = ScreenAction::open_settings;
+    if (draw_button(context, "menu.quit")) action = ScreenAction::quit;
     ImGui::End();
+    return action;
 }
 
-void App::draw_pause(const glm::dvec2& size) {
-    begin_panel("##pause", size, 300.0F * input_.scale);
-    text(words_["menu.paused"]);
+ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode) {
+    ScreenAction action = ScreenAction::none;
+    begin_panel(context, "##pause", 300.0F * context.scale, 0.94F);
+    draw_text(context.words["menu.paused"]);
     ImGui::Separator();
-    if (preferences_.trouble != Preferences::Trouble::none) draw_kept();
-    if (button("menu.go_on")) playing_->pace.paused = false;
-    const bool may_undo = playing_->course->lesson().mode != lesson::Mode::assessment;
-    if (may_undo && button("menu.undo")) {
-        go_back(playing_->undo, playing_->course->lesson(), 1);
-        playing_->pace.paused = false;
+    if (preferences.trouble != Preferences::Trouble::none) draw_settings_file(context, preferences);
+    if (draw_button(context, "menu.go_on")) action = ScreenAction::resume;
+    if (mode != lesson::Mode::assessment) {
+        if (draw_button(context, "menu.undo")) action = ScreenAction::undo_step;
+        if (draw_button(context, "menu.restart_step")) action = ScreenAction::restart_step;
     }
-    if (may_undo && button("menu.restart_step")) {
-        go_back(playing_->undo, playing_->course->lesson(), 0);
-        playing_->pace.paused = false;
-    }
-    if (button("menu.settings")) open_settings();
-    if (button("menu.end")) {
-        playing_->pace.paused = false;
-        end_wished_ = true;
-    }
-    if (button("menu.quit")) closed_ = true;
+    if (draw_button(context, "menu.settings")) action = ScreenAction::open_settings;
+    if (draw_button(context, "menu.end")) action = ScreenAction::end_lesson;
+    if (draw_button(context, "menu.quit")) action = ScreenAction::quit;
     ImGui::End();
+    return action;
 }
 
-void App::draw_result(const glm::dvec2& size) {
-    const lesson::LessonResult& result = played_->result;
-    const float scale = input_.scale;
-    ImGui::SetNextWindowPos({static_cast<float>(size.x) - 12.0F * scale, 12.0F * scale}, ImGuiCond_Always,
-                            {1.0F, 0.0F});
-    ImGui::SetNextWindowSizeConstraints({380.0F * scale, 0.0F},
-                                        {380.0F * scale, static_cast<float>(size.y) - 24.0F * scale});
+ScreenAction draw_result(const ScreenContext& context, const content::Assembly& assembly,
+                         const lesson::LessonResult& result, bool has_menu) {
+    const words::Words& words = context.words;
+    const float scale = context.scale, height = static_cast<float>(context.size.y);
+    ScreenAction action = ScreenAction::none;
+    ImGui::SetNextWindowPos({static_cast<float>(context.size.x) - 12.0F * scale, 12.0F * scale},
+                            ImGuiCond_Always, {1.0F, 0.0F});
+    ImGui::SetNextWindowSizeConstraints({380.0F * scale, 0.0F}, {380.0F * scale, height - 24.0F * scale});
     ImGui::SetNextWindowBgAlpha(0.9F);
-    ImGui::Begin("##result", nullptr, panel);
-    text(words::say(words_, "result.score", {{"points", words::Number{result.score, 0}}}) +
-         fmt::format("   {:.0f} s", result.duration));
+    ImGui::Begin("##result", nullptr, panel_flags);
+    draw_text(words::format_text(words, "result.score", {{"points", words::Number{result.score, 0}}}) +
+              fmt::format("   {:.0f} s", result.duration));
     ImGui::Separator();
-    // Above what may be long: they are always there to be pressed.
-    if (button("menu.again")) start_wished_ = true;
-    if (options_.menu && button("menu.menu")) shows_ = Shows::menu;
-    if (button("menu.quit")) closed_ = true;
+    // Above the table, which may be longer than the picture, so that the buttons are always visible.
+    if (draw_button(context, "menu.again")) action = ScreenAction::start_lesson;
+    if (has_menu && draw_button(context, "menu.menu")) action = ScreenAction::show_menu;
+    if (draw_button(context, "menu.quit")) action = ScreenAction::quit;
     ImGui::Separator();
-    if (ImGui::BeginTable("joints", 5, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
-        for (const char* head : {"", "N·m", "°", "kN", ""}) ImGui::TableSetupColumn(head);
-        ImGui::TableHeadersRow();
-        for (const lesson::JointResult& joint : result.joints) {
-            for (const std::string& cell :
-                 {joint.id, fmt::format("{:.1f}", joint.torque),
-                  fmt::format("{:.0f}", to_degrees(joint.angle)), fmt::format("{:.1f}", joint.clamp / 1e3),
-                  fmt::format("{} {}", view::sign_of(view::verdict_of(joint)),
-                              words_[lesson::term(joint.overall)])}) {
-                ImGui::TableNextColumn();
-                text(cell);
-            }
-        }
-        ImGui::EndTable();
-    }
-    const lesson::Review review = lesson::review(assembly_, result);
+    draw_joint_table(words, result.joints);
+    const lesson::Review review = lesson::review(assembly, result);
     ImGui::PushTextWrapPos(340.0F * scale);
     for (const lesson::Remark& reason : review.reasons)
-        text((reason.points != 0.0 ? fmt::format("{:+.0f}  ", reason.points) : std::string()) +
-             lesson::say(words_, reason));
+        draw_text((reason.points != 0.0 ? fmt::format("{:+.0f}  ", reason.points) : std::string()) +
+                  lesson::remark_text(words, reason));
     ImGui::Separator();
-    for (const words::Key advice : review.advice) text(words_[advice]);
+    for (const words::TextKey advice : review.advice) draw_text(words[advice]);
     ImGui::PopTextWrapPos();
     ImGui::End();
-}
-
-void App::draw_interface(const glm::dvec2& size) {
-    buttons_.clear();
-    if (shows_ == Shows::lesson) draw_hud(*playing_, {&words_, &controls_}, size, input_.scale);
-    if (settings_) return draw_settings(size);
-    if (shows_ == Shows::lesson && playing_->pace.paused) draw_pause(size);
-    if (shows_ == Shows::menu) draw_menu(size);
-    if (shows_ == Shows::result) draw_result(size);
+    return action;
 }
 
 }  // namespace bolt::trainer

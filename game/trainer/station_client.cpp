@@ -14,11 +14,11 @@ namespace {
 
 using platform::Key;
 
-struct Way {
+struct KeyMotion {
     Key key;
     Vec3 along, about;
 };
-const Way ways[] = {
+const KeyMotion key_motions[] = {
     {Key::d, Vec3(1, 0, 0), Vec3(0.0)},       {Key::a, Vec3(-1, 0, 0), Vec3(0.0)},
     {Key::e, Vec3(0, 1, 0), Vec3(0.0)},       {Key::q, Vec3(0, -1, 0), Vec3(0.0)},
     {Key::s, Vec3(0, 0, 1), Vec3(0.0)},       {Key::w, Vec3(0, 0, -1), Vec3(0.0)},
@@ -26,106 +26,111 @@ const Way ways[] = {
     {Key::up, Vec3(0.0), Vec3(-1, 0, 0)},     {Key::down, Vec3(0.0), Vec3(1, 0, 0)},
     {Key::page_up, Vec3(0.0), Vec3(0, 0, 1)}, {Key::page_down, Vec3(0.0), Vec3(0, 0, -1)},
 };
-// A key is pressed or it is not. Faster than a tool is drawn to a nut, or it would never come off.
-constexpr double share = 0.75;
+// Rate of a pressed key relative to a fully deflected puck. It must exceed the attraction to a nut, or the
+// tool could not leave the nut.
+constexpr double key_rate = 0.75;
 
 }  // namespace
 
-void Pushing::take(std::span<const platform::Event> events) {
-    for (const platform::Event& event : events) {
+void KeyboardPuck::handle_events(std::span<const platform::InputEvent> events) {
+    for (const platform::InputEvent& event : events) {
         if (const auto* key = std::get_if<platform::KeyEvent>(&event))
             down_.set(static_cast<std::size_t>(key->key), key->down);
         else if (const auto* focus = std::get_if<platform::FocusEvent>(&event);
-                 focus != nullptr && !focus->here)
+                 focus != nullptr && !focus->focused)
             down_.reset();
     }
 }
 
-device::PuckInput Pushing::push() const {
-    device::PuckInput push;
-    for (const Way& way : ways) {
-        if (!down_.test(static_cast<std::size_t>(way.key))) continue;
-        push.along += share * way.along;
-        push.about += share * way.about;
+device::PuckInput KeyboardPuck::input() const {
+    device::PuckInput input;
+    for (const KeyMotion& motion : key_motions) {
+        if (!down_.test(static_cast<std::size_t>(motion.key))) continue;
+        input.along += key_rate * motion.along;
+        input.about += key_rate * motion.about;
     }
-    push.buttons = closes() ? 1 : 0;
-    return push;
+    input.buttons = button_down() ? 1 : 0;
+    return input;
 }
 
-bool Pushing::closes() const { return down_.test(static_cast<std::size_t>(Key::space)); }
+bool KeyboardPuck::button_down() const { return down_.test(static_cast<std::size_t>(Key::space)); }
 
 namespace {
 
-std::string name_of(const station_setup::Choice& choice) {
-    std::string name = choice.mover ? choice.mover->name : std::string();
-    if (choice.wheel) name += (name.empty() ? "" : " + ") + choice.wheel->name;
+std::string name_of(const station_setup::DeviceSelection& selection) {
+    std::string name = selection.mover ? selection.mover->name : std::string();
+    if (selection.wheel) name += (name.empty() ? "" : " + ") + selection.wheel->name;
     return name;
 }
 
 }  // namespace
 
-std::vector<Seat> seats() {
-    std::vector<Seat> there{{{}, {}}};
-    const station_setup::Choice all = station_setup::choose_any(device::list_devices());
-    const auto add = [&](const station_setup::Choice& choice) {
-        there.push_back({name_of(choice), {station_setup::ids_of(choice), {}, {}, 1.0, false}});
+std::vector<DeviceOption> device_options() {
+    std::vector<DeviceOption> options{{{}, {}}};
+    const station_setup::DeviceSelection all = station_setup::select_any_devices(device::list_devices());
+    const auto add = [&](const station_setup::DeviceSelection& selection) {
+        options.push_back({name_of(selection), {station_setup::ids_of(selection), {}, {}, 1.0, false}});
     };
     if (all.mover) add({all.mover, std::nullopt});
     if (all.wheel) add({std::nullopt, all.wheel});
     if (all.mover && all.wheel) add(all);
-    return there;
+    return options;
 }
 
-Equipment usual_equipment() {
-    Equipment with;
-    const station_setup::Choice all = station_setup::choose_any(device::list_devices());
-    if (all.mover) with.devices = station_setup::ids_of(all);
-    return with;
+Equipment default_equipment() {
+    Equipment equipment;
+    const station_setup::DeviceSelection all = station_setup::select_any_devices(device::list_devices());
+    if (all.mover) equipment.devices = station_setup::ids_of(all);
+    return equipment;
 }
 
-Result<std::unique_ptr<station_setup::Bench>> start_station(const content::Assembly& assembly,
-                                                            const session::CourseOptions& course,
-                                                            const Equipment& with,
-                                                            const std::string& trainee) {
+Result<std::unique_ptr<station_setup::LessonStation>> start_station(const content::Assembly& assembly,
+                                                                    const session::LessonOptions& options,
+                                                                    const Equipment& equipment,
+                                                                    const std::string& trainee) {
     device::VirtualPuck puck({}, device::steady_timer());
-    station_setup::Wanted wanted;
-    wanted.devices = with.devices;
-    wanted.rig = with.rig;
-    wanted.otherwise = puck.open();
-    wanted.glove = with.glove;
-    wanted.trainee = trainee;
-    wanted.force_scale = with.force_scale;
-    if (!with.glove.empty() && trainee.empty())
-        return fail(ErrorCode::no_device, "nobody is said to wear the glove",
-                    "the trainee's name, as boltwright glove calibrate has it");
-    Result<station_setup::Planned> planned = station_setup::plan_lesson(assembly, course, wanted, {});
+    station_setup::StationRequest request;
+    request.devices = equipment.devices;
+    request.rig = equipment.rig;
+    request.fallback_mover = puck.open();
+    request.glove = equipment.glove;
+    request.trainee = trainee;
+    request.force_scale = equipment.force_scale;
+    if (!equipment.glove.empty() && trainee.empty())
+        return fail(ErrorCode::no_device, "the wearer of the glove is not named",
+                    "the trainee's name given to boltwright glove calibrate");
+    Result<station_setup::PlannedStation> planned =
+        station_setup::plan_lesson_station(assembly, options, request, {});
     if (!planned) return fail(planned.error());
-    station::StationOptions& plan = planned->plan;
-    plan.controls.pause = true;
-    std::optional<device::VirtualPuck> pushed;
-    if (!planned->choice.mover) {
-        pushed = std::move(puck);
-        plan.mover_buttons = {1, 0, 0, 0};
+    station::StationOptions& station_options = planned->options;
+    station_options.controls.pause = true;
+    std::optional<device::VirtualPuck> puck_mover;
+    if (!planned->devices.mover) {
+        puck_mover = std::move(puck);
+        station_options.mover_buttons = {1, 0, 0, 0};
     }
-    return station_setup::start_bench(std::move(plan), std::move(pushed));
+    return station_setup::start_lesson_station(std::move(station_options), std::move(puck_mover));
 }
 
 namespace {
 
-constexpr double believed = 0.5;       // s without a picture, then nobody holds the dead-man
-constexpr double nut_reach = 0.06;     // m
-constexpr double let_go_reach = 0.08;  // m, of a nut that the hand is at
-constexpr double draws_from = 0.06;    // m, where no lesson leads: a tool that is only pushed is drawn on
+// s without a frame after which the dead-man switch counts as released.
+constexpr double dead_man_timeout = 0.5;
+constexpr double nut_capture_distance = 0.06;  // m
+constexpr double nut_release_distance = 0.08;  // m; larger than nut_capture_distance, as hysteresis
+// m from a nut within which the nut attracts the tool if the lesson does not guide to a joint.
+constexpr double attraction_range = 0.06;
 
-double off_handle(const Vec3& point, const Pose& wrench, double length) {
+double distance_to_handle(const Vec3& point, const Pose& wrench, double length) {
     const Vec3 local = inverse(wrench) * point;
     return glm::distance(local, Vec3(std::clamp(local.x, 0.0, length), 0.0, 0.0));
 }
 
-std::optional<std::size_t> nearest_nut(const session::Course& course, const Vec3& tool, double within) {
+std::optional<std::size_t> nearest_nut(const session::LessonSession& session, const Vec3& tool,
+                                       double within) {
     std::optional<std::size_t> nearest;
-    for (std::size_t i = 0; i < course.setup().nuts.size(); ++i) {
-        const Vec3 nut = servo::nut_centre(course.setup().nuts[i], course.state().joints[i].nut.angle);
+    for (std::size_t i = 0; i < session.setup().nuts.size(); ++i) {
+        const Vec3 nut = servo::nut_centre(session.setup().nuts[i], session.state().joints[i].nut.angle);
         const double distance = glm::distance(nut, tool);
         if (distance >= within) continue;
         within = distance;
@@ -135,101 +140,111 @@ std::optional<std::size_t> nearest_nut(const session::Course& course, const Vec3
 }
 
 bool pinches(const hand::Skeleton& hand) {
-    return glm::distance(hand.position[hand::thumb_tip], hand.position[hand::index_tip]) < pinch;
+    return glm::distance(hand.position[hand::thumb_tip], hand.position[hand::index_tip]) < pinch_distance;
 }
 
-// What a hand without a glove has, or the fingers of one with a glove; the wrench in that is the glove's.
-servo::Grip grip_of(const StationClient& at, bool closes, const Asked& asked) {
-    const bool has = (at.gloved ? at.now.input.grip : at.controls.grip) == servo::Grip::wrench;
-    const bool engaged = at.now.output.joint >= 0;
-    if (has && !at.gloved) return asked.tool && !engaged ? servo::Grip::none : servo::Grip::wrench;
-    if (has) return servo::Grip::none;
-    const bool takes = (closes && !at.closed) || asked.tool;
-    if (!at.gloved && takes && at.near_wrench && !engaged) return servo::Grip::wrench;
-    return closes && at.near ? servo::Grip::fingers : servo::Grip::none;
+// Grip of a hand without a glove, or of the fingers of a gloved hand; the station determines when a gloved
+// hand holds the wrench.
+servo::Grip grip_of(const StationClient& client, bool closes, const StationIntent& intent) {
+    const bool has_wrench =
+        (client.gloved ? client.latest.input.grip : client.controls.grip) == servo::Grip::wrench;
+    const bool engaged = client.latest.output.joint >= 0;
+    if (has_wrench && !client.gloved)
+        return intent.toggle_wrench && !engaged ? servo::Grip::none : servo::Grip::wrench;
+    if (has_wrench) return servo::Grip::none;
+    const bool takes = (closes && !client.hand_closed) || intent.toggle_wrench;
+    if (!client.gloved && takes && client.near_wrench && !engaged) return servo::Grip::wrench;
+    return closes && client.near_nut ? servo::Grip::fingers : servo::Grip::none;
 }
 
-void look(StationClient& at, const session::Course& course) {
-    at.now = at.bench->latest_tick();
-    at.troubles = at.bench->troubles();
-    const station::DisplayedHand* hand = at.bench->hand();
-    at.gloved = hand != nullptr;
-    at.glove_lost = hand != nullptr && hand->lost;
-    if (hand != nullptr && hand->has_frame) at.fingers = hand->joints;
-    const double within = at.near ? let_go_reach : nut_reach;
-    at.near = nearest_nut(course, at.now.output.tool.position, within);
-    at.near_wrench = at.now.wrench_rest &&
-                     off_handle(at.now.tool.position, *at.now.wrench_rest,
-                                course.setup().wrench.handle_length) < station::handle_capture_distance;
+void update_client(StationClient& client, const session::LessonSession& session) {
+    client.latest = client.link->latest_tick();
+    client.troubles = client.link->troubles();
+    const station::DisplayedHand* hand = client.link->hand();
+    client.gloved = hand != nullptr;
+    client.glove_lost = hand != nullptr && hand->lost;
+    if (hand != nullptr && hand->has_frame) client.fingers = hand->joints;
+    const double within = client.near_nut ? nut_release_distance : nut_capture_distance;
+    client.near_nut = nearest_nut(session, client.latest.output.tool.position, within);
+    client.near_wrench =
+        client.latest.wrench_rest &&
+        distance_to_handle(client.latest.tool.position, *client.latest.wrench_rest,
+                           session.setup().wrench.handle_length) < station::handle_capture_distance;
 }
 
-// Sends what the station does once: checkpoints, undo, and moves of the tool to its beginning.
-Status send_commands(StationClient& at, const session::Course& course, const Asked& asked) {
-    for (; at.checkpoints_sent < course.marks(); ++at.checkpoints_sent)
-        BOLT_TRY(at.bench->send(station::SaveCheckpoint{}));
-    const bool engaged = at.now.output.joint >= 0;
-    const std::uint8_t back = asked.undo && !engaged ? course.undo_by(*asked.undo) : std::uint8_t{0};
-    if (back != at.restore_sent) {
-        if (at.restore_sent == 0)
-            BOLT_TRY(at.bench->send(station::RestoreCheckpoint{back}));
+// Sends one-time commands: checkpoints, undo, and moves of the tool to its initial pose.
+Status send_commands(StationClient& client, const session::LessonSession& session,
+                     const StationIntent& intent) {
+    for (; client.checkpoints_sent < session.target_checkpoints(); ++client.checkpoints_sent)
+        BOLT_TRY(client.link->send(station::SaveCheckpoint{}));
+    const bool engaged = client.latest.output.joint >= 0;
+    const std::uint8_t back = intent.undo && !engaged ? session.undo_input(*intent.undo) : std::uint8_t{0};
+    if (back != client.restore_sent) {
+        if (client.restore_sent == 0)
+            BOLT_TRY(client.link->send(station::RestoreCheckpoint{back}));
         else
-            BOLT_TRY(at.bench->send(station::AmendRestore{back}));
-        at.restore_sent = back;
+            BOLT_TRY(client.link->send(station::AmendRestore{back}));
+        client.restore_sent = back;
     }
-    if (at.placed && (engaged || !asked.recentre)) return {};
-    at.placed = true;
-    return at.bench->send(station::PlaceTool{at.home});
+    if (client.tool_placed && (engaged || !intent.recentre)) return {};
+    client.tool_placed = true;
+    return client.link->send(station::PlaceTool{client.home});
 }
 
 }  // namespace
 
-Hand hand_of(const StationClient& at) {
-    const bool engaged = at.now.output.joint >= 0;
-    Hand hand;
-    hand.wrench = at.now.input.grip == servo::Grip::wrench;
-    hand.nut = engaged ? std::optional(static_cast<std::size_t>(at.now.output.joint)) : at.near;
-    hand.doing = engaged ? Doing::holding : hand.nut ? Doing::lowering : Doing::resting;
-    hand.pose = hand.to = at.now.tool;
-    hand.rest = at.now.wrench_rest.value_or(at.rest);
-    if (at.gloved && engaged && at.now.input.grip == servo::Grip::fingers)
-        hand.room = std::max(0.0, forearm_turns - std::abs(at.now.output.nut_angle - at.taken_at));
+WorkingHand hand_of(const StationClient& client) {
+    const bool engaged = client.latest.output.joint >= 0;
+    WorkingHand hand;
+    hand.wrench = client.latest.input.grip == servo::Grip::wrench;
+    hand.nut =
+        engaged ? std::optional(static_cast<std::size_t>(client.latest.output.joint)) : client.near_nut;
+    hand.action = engaged ? HandAction::holding : hand.nut ? HandAction::lowering : HandAction::resting;
+    hand.pose = hand.to = client.latest.tool;
+    hand.rest = client.latest.wrench_rest.value_or(client.rest);
+    if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
+        hand.room = std::max(
+            0.0, forearm_range - std::abs(client.latest.output.nut_angle - client.nut_angle_at_grip));
     return hand;
 }
 
-bool has_dead_man(const station::Layout& layout) {
-    const auto pulls = [](const std::optional<device::Description>& d) {
+bool needs_dead_man(const station::Layout& layout) {
+    const auto renders = [](const std::optional<device::Description>& d) {
         return d && (station::renders_force(*d) || station::renders_torque(*d));
     };
-    return pulls(layout.mover) || pulls(layout.wheel);
+    return renders(layout.mover) || renders(layout.wheel);
 }
 
-Status wish(StationClient& at, const session::Course& course, const Asked& asked) {
-    look(at, course);
-    at.bench->push(at.keys.push());
-    station::StationControls& w = at.controls;
-    const bool held = at.gloved && at.now.input.grip == servo::Grip::wrench;
-    const bool closes =
-        at.keys.closes() || at.now.dead_man_pressed || (at.gloved && !held && pinches(at.fingers));
-    w.pause = asked.paused;
-    w.wrench_rest = at.rest;
-    w.bare_wrist = at.bare_wrist;
-    w.grip = grip_of(at, closes, asked);
-    // A glove that tells nothing any more holds the wrench, but no dead-man.
-    const bool hand_closed = at.gloved && !at.glove_lost && (held || closes);
-    w.dead_man = !has_dead_man(at.bench->layout()) || hand_closed || at.keys.closes();
-    w.dead_man_timeout = believed;
-    w.view = asked.looks;
-    const lesson::Step* due = course.lesson().due();
-    const bool leads = due != nullptr && course.lesson().guides;
-    w.guide = leads ? static_cast<std::int16_t>(due->joint) : std::int16_t{-1};
-    // Only while the hand closes: nothing is done by itself.
-    const auto drawn =
-        leads ? std::optional(due->joint) : nearest_nut(course, at.now.output.tool.position, draws_from);
-    w.glide = drawn && closes ? static_cast<std::int16_t>(*drawn) : std::int16_t{-1};
-    w.click_setting = static_cast<float>(lesson::setting(course.lesson()));
-    at.bench->set_controls(w);
-    at.closed = closes;
-    return send_commands(at, course, asked);
+Status send_intent(StationClient& client, const session::LessonSession& session,
+                   const StationIntent& intent) {
+    update_client(client, session);
+    client.link->set_puck_input(client.keyboard.input());
+    station::StationControls& controls = client.controls;
+    const bool held = client.gloved && client.latest.input.grip == servo::Grip::wrench;
+    const bool closes = client.keyboard.button_down() || client.latest.dead_man_pressed ||
+                        (client.gloved && !held && pinches(client.fingers));
+    controls.pause = intent.paused;
+    controls.wrench_rest = client.rest;
+    controls.bare_wrist = client.bare_wrist;
+    controls.grip = grip_of(client, closes, intent);
+    // A glove that sends no valid samples keeps the wrench, but releases the dead-man switch.
+    const bool hand_closed = client.gloved && !client.glove_lost && (held || closes);
+    controls.dead_man =
+        !needs_dead_man(client.link->layout()) || hand_closed || client.keyboard.button_down();
+    controls.dead_man_timeout = dead_man_timeout;
+    controls.view = intent.view;
+    const lesson::LessonStep* due = session.lesson().due();
+    const bool leads = due != nullptr && session.lesson().guides;
+    controls.guide = leads ? static_cast<std::int16_t>(due->joint) : std::int16_t{-1};
+    // A nut attracts the tool only while the hand is closed.
+    const auto attracting_nut =
+        leads ? std::optional(due->joint)
+              : nearest_nut(session, client.latest.output.tool.position, attraction_range);
+    controls.glide = attracting_nut && closes ? static_cast<std::int16_t>(*attracting_nut) : std::int16_t{-1};
+    controls.click_setting = static_cast<float>(lesson::wrench_setting(session.lesson()));
+    client.link->set_controls(controls);
+    client.hand_closed = closes;
+    return send_commands(client, session, intent);
 }
 
 }  // namespace bolt::trainer

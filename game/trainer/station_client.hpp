@@ -1,4 +1,5 @@
-// Keys as a puck in the hand: where nothing but a keyboard moves the tool of a station.
+// Client of a haptic station in a lesson: the choice of devices, the keyboard as a device, and the exchange
+// of // ticks, controls and commands.
 #pragma once
 
 #include <bitset>
@@ -18,96 +19,104 @@
 
 namespace bolt::trainer {
 
-// W A S D away, to the left, nearer and to the right, Q and E down and up; left and right turn the tool about
-// the upright, up and down tip it, page up and down roll it; the space bar is the puck's button.
-class Pushing {
+// A keyboard as a puck, for a station that no device moves. W A S D move the tool away, left, near and right,
+// Q and E down and up. Left and right turn it about the vertical, up and down pitch it, page up and down roll
+// it. The space bar is the puck's button.
+class KeyboardPuck {
   public:
-    // Takes in what was pressed and let go of. A window that has lost the keyboard pushes nothing.
-    void take(std::span<const platform::Event> events);
-    [[nodiscard]] device::PuckInput push() const;
-    [[nodiscard]] bool closes() const;  // the space bar is down
+    // Losing the keyboard focus releases all keys.
+    void handle_events(std::span<const platform::InputEvent> events);
+    [[nodiscard]] device::PuckInput input() const;
+    [[nodiscard]] bool button_down() const;
 
   private:
     std::bitset<256> down_;
 };
 
-// What a hand plays with: mouse and keyboard, or a station of what is plugged in.
-
+// The input of a lesson: mouse and keyboard, or a station with devices.
 struct Equipment {
-    std::vector<std::string> devices;  // ids, as boltwright devices has them
-    std::filesystem::path rig;         // what is known of a wheel; may be empty
-    std::filesystem::path glove;       // its port; empty: none
-    double force_scale = 1.0;          // 0 … 1 of the forces that devices may render
-    bool keyboard = false;  // a station without a device: keys move the tool, and the servo has a thread
+    std::vector<std::string> devices;  // ids, as boltwright devices lists them
+    std::filesystem::path rig;         // wheel configuration file; empty: defaults
+    std::filesystem::path glove;       // serial port; empty: no glove
+    double force_scale = 1.0;          // 0 … 1 of the devices' maximum force
+    bool keyboard = false;             // a station without a device; keys move the tool
 
-    [[nodiscard]] bool none() const { return devices.empty() && glove.empty() && !keyboard; }  // the mouse
+    // No station.
+    [[nodiscard]] bool uses_mouse() const { return devices.empty() && glove.empty() && !keyboard; }
     bool operator==(const Equipment&) const = default;
 };
 
-// Something to choose: what is there now.
-struct Seat {
-    std::string name;  // in words, of the devices; empty: mouse and keyboard
-    Equipment with;
+// An entry in the menu of devices.
+struct DeviceOption {
+    std::string name;  // names of the devices; empty: mouse and keyboard
+    Equipment equipment;
 };
-std::vector<Seat> seats();
-// What suits whoever says nothing: a device that moves the tool, and with it a wheel; else the mouse.
-Equipment usual_equipment();
+// Mouse and keyboard, and the combinations of the devices that are connected now.
+std::vector<DeviceOption> device_options();
+// The default: the connected device that moves the tool, together with a wheel if there is one; else the
+// mouse.
+Equipment default_equipment();
 
-// A station of that for the lesson, paused. `trainee` wears the glove.
-Result<std::unique_ptr<station_setup::Bench>> start_station(const content::Assembly& assembly,
-                                                            const session::CourseOptions& course,
-                                                            const Equipment& with,
-                                                            const std::string& trainee);
+// Starts a station for the lesson, paused. `trainee` is the wearer of the glove. Fails if a device cannot be
+// opened, or if there is a glove but no trainee's name.
+Result<std::unique_ptr<station_setup::LessonStation>> start_station(const content::Assembly& assembly,
+                                                                    const session::LessonOptions& options,
+                                                                    const Equipment& equipment,
+                                                                    const std::string& trainee);
 
-// Somebody who plays at a station: the servo's thread has the ticks and the devices, the lesson follows tick
-// by tick with a servo of its own (session::Course::take), and what is wished goes back with every picture.
+// The lesson's side of a station. The station's servo thread steps the ticks and serves the devices. The
+// lesson repeats every tick with its own servo, and sends its controls with every frame.
 //
-// A hand closes by a device's button, the space bar or a glove. Closed beside the wrench it takes that,
-// closed beside a nut it holds it with its fingers. A key lays the wrench down; a gloved hand lets go of it.
+// The hand closes by a device's button, the space bar or a glove. It takes the wrench if it closes beside it,
+// and holds a nut with the fingers if it closes beside a nut. A key lays the wrench down; a gloved hand
+// opens.
 
 struct StationClient {
-    std::unique_ptr<station_setup::Bench> bench;
-    Pose home, rest;                 // where the tool begins, and where the wrench lies
+    std::unique_ptr<station_setup::LessonStation> link;
+    Pose home, rest;                 // initial pose of the tool, and where the wrench lies
     std::optional<Pose> bare_wrist;  // station::StationControls
-    Pushing keys;
+    KeyboardPuck keyboard;
 
-    station::TickRecord now;  // the newest
+    station::StationTick latest;
     station::StationControls controls;
-    bool placed = false;                 // the tool was sent to `home`
-    std::uint32_t checkpoints_sent = 0;  // station::SaveCheckpoint since the beginning
-    std::uint8_t restore_sent = 0;       // steps of the last station::RestoreCheckpoint; 0: none is asked for
-    bool closed = false;                 // the hand, in the last picture
-    std::optional<std::size_t> near;     // nut that the tool is at
-    bool near_wrench = false;            // the hand is where it could take it
+    bool tool_placed = false;             // PlaceTool was sent
+    std::uint32_t checkpoints_sent = 0;   // number of station::SaveCheckpoint sent
+    std::uint8_t restore_sent = 0;        // value of the last station::RestoreCheckpoint; 0: none pending
+    bool hand_closed = false;             // in the previous frame
+    std::optional<std::size_t> near_nut;  // nut within reach of the tool
+    bool near_wrench = false;             // the resting wrench is within reach of the hand
     std::vector<std::string> troubles;
-    hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench in the hand or where that lies
+    hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench, in the hand or at rest
     bool gloved = false;
-    bool glove_lost = false;
-    double taken_at = 0.0;  // rad, of the nut in the hand when it was taken
+    bool glove_lost = false;         // the glove sends no valid samples
+    double nut_angle_at_grip = 0.0;  // rad, angle of the held nut when it was engaged
 };
 
-// rad that the fingers of a gloved hand turn the nut that they hold, before they let go and turn back. A
-// forearm turns by 80° either way (American Academy of Orthopaedic Surgeons, Joint motion, 1965): of that,
-// what is no strain. Any other hand has no end.
-inline constexpr double forearm_turns = to_radians(120.0);
+// Angle in rad by which a gloved hand can turn a nut before it has to let go and turn back. A forearm rotates
+// by 80° either way (American Academy of Orthopaedic Surgeons, Joint motion, 1965); this is the comfortable
+// part. Other hands have no limit.
+inline constexpr double forearm_range = to_radians(120.0);
 
-Hand hand_of(const StationClient& at);
+WorkingHand hand_of(const StationClient& client);
 
-// What is wished of the station after a picture. `looks`: how whoever pushes looks at the machine.
-struct Asked {
+// The user's input for the station in one frame.
+struct StationIntent {
     bool paused = false;
-    bool tool = false;      // the key that lays the wrench down
-    bool recentre = false;  // the tool goes back to where it was at the beginning
-    std::optional<std::size_t> undo;
-    Quat looks{1.0, 0.0, 0.0, 0.0};
+    bool toggle_wrench = false;       // the key that takes the wrench or lays it down
+    bool recentre = false;            // move the tool to its initial pose
+    std::optional<std::size_t> undo;  // steps (StepUndo)
+    Quat view{1.0, 0.0, 0.0, 0.0};    // viewing direction; pushes are relative to it
 };
-// Fails if the station's command queue is full.
-[[nodiscard]] Status wish(StationClient& at, const session::Course& course, const Asked& asked);
+// Call once a frame: reads the latest tick and sends controls and commands. Fails if the station's command
+// queue is full.
+[[nodiscard]] Status send_intent(StationClient& client, const session::LessonSession& session,
+                                 const StationIntent& intent);
 
-// Whether forces go out only as long as somebody holds a button, or the tool in a gloved hand.
-bool has_dead_man(const station::Layout& layout);
+// Whether a device renders forces, which then requires a dead-man switch: a button, or the tool in a gloved
+// hand.
+bool needs_dead_man(const station::Layout& layout);
 
-// m from thumb's to index finger's tip below which a gloved hand pinches.
-inline constexpr double pinch = 0.035;
+// m between thumb tip and index fingertip below which a gloved hand pinches.
+inline constexpr double pinch_distance = 0.035;
 
 }  // namespace bolt::trainer

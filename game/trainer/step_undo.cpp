@@ -6,46 +6,46 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double patience = 6.0;  // s
+constexpr double expiry = 6.0;  // s
 
-std::size_t step_at(const StepUndo& back, const lesson::Lesson& lesson) {
-    return back.by_mistake ? *back.to : lesson.current;
+std::size_t shown_step(const StepUndo& undo, const lesson::Lesson& lesson) {
+    return undo.by_mistake ? *undo.target : lesson.current;
 }
 
 }  // namespace
 
-const lesson::Step* due(const StepUndo& back, const lesson::Lesson& lesson) {
-    const std::size_t at = step_at(back, lesson);
-    return at < lesson.steps.size() ? &lesson.steps[at] : nullptr;
+const lesson::LessonStep* due(const StepUndo& undo, const lesson::Lesson& lesson) {
+    const std::size_t step = shown_step(undo, lesson);
+    return step < lesson.steps.size() ? &lesson.steps[step] : nullptr;
 }
 
-void go_back(StepUndo& back, const lesson::Lesson& lesson, std::size_t steps) {
-    const std::size_t at = step_at(back, lesson);
-    if (lesson.mode == lesson::Mode::assessment || steps > at) return;
-    back = {at - steps, back.by_mistake};
+void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t steps) {
+    const std::size_t step = shown_step(undo, lesson);
+    if (lesson.mode == lesson::Mode::assessment || steps > step) return;
+    undo = {step - steps, undo.by_mistake};
 }
 
-void note(StepUndo& back, const lesson::Lesson& lesson, const lesson::Event& event) {
-    if (event.kind == "back") back = {};
-    if (event.cause == lesson::Cause::none || lesson.mode != lesson::Mode::guided) return;
-    back = {std::min(back.to.value_or(lesson.current), lesson.current), true};
+void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event) {
+    if (event.kind == lesson::EventKind::undo) undo = {};
+    if (event.mistake == lesson::MistakeKind::none || lesson.mode != lesson::Mode::guided) return;
+    undo = {std::min(undo.target.value_or(lesson.current), lesson.current), true};
 }
 
-void wait(StepUndo& back, double seconds) {
-    if (!back.to || back.by_mistake) return;
-    back.wished_for += seconds;
-    if (back.wished_for > patience) back = {};
+void update(StepUndo& undo, double seconds) {
+    if (!undo.target || undo.by_mistake) return;
+    undo.age += seconds;
+    if (undo.age > expiry) undo = {};
 }
 
-std::optional<std::size_t> steps_back(const StepUndo& back, const lesson::Lesson& lesson) {
-    if (!back.to || *back.to > lesson.current) return std::nullopt;
-    return lesson.current - *back.to;
+std::optional<std::size_t> steps_to_undo(const StepUndo& undo, const lesson::Lesson& lesson) {
+    if (!undo.target || *undo.target > lesson.current) return std::nullopt;
+    return lesson.current - *undo.target;
 }
 
-bool goes_on(const StepUndo& back, const session::Course& course) {
-    if (!course.over()) return true;
-    const auto steps = steps_back(back, course.lesson());
-    return back.by_mistake && steps && course.undo_by(*steps) != 0;
+bool continues(const StepUndo& undo, const session::LessonSession& session) {
+    if (!session.finished()) return true;
+    const auto steps = steps_to_undo(undo, session.lesson());
+    return undo.by_mistake && steps && session.undo_input(*steps) != 0;
 }
 
 }  // namespace bolt::trainer

@@ -1,5 +1,5 @@
-// Steps that are to be taken back: because a key was pressed, or, in a guided lesson, because of a mistake,
-// which returns to the beginning of its step and never of the lesson.
+// Undo of lesson steps: requested by a key, or, in a guided lesson, by a mistake. A mistake restarts its
+// step, never the whole lesson.
 #pragma once
 
 #include <optional>
@@ -8,31 +8,34 @@
 
 namespace bolt::trainer {
 
+// A pending request; it is granted once the hand is off the nut.
 struct StepUndo {
-    std::optional<std::size_t> to;  // the step that is to begin again
-    bool by_mistake = false;        // nobody asked: it waits until the hand is off the nut
-    double wished_for = 0.0;        // s
+    std::optional<std::size_t> target;  // the step to restart
+    bool by_mistake = false;            // does not expire
+    double age = 0.0;                   // s since the request
 };
 
-// The step the trainee is at, and is shown: one that a mistake begins anew is as good as due, also while the
-// hand is still on its way off the nut. None after the last.
-const lesson::Step* due(const StepUndo& back, const lesson::Lesson& lesson);
+// The step to show as due: the lesson's current one, or the one that a pending mistake restarts. Null after
+// the last step.
+const lesson::LessonStep* due(const StepUndo& undo, const lesson::Lesson& lesson);
 
-// By so many steps from the one that is due: 0 begins it anew. An assessment takes nothing back.
-void go_back(StepUndo& back, const lesson::Lesson& lesson, std::size_t steps);
+// Requests that the due step (0), or the one `steps` before it, begins again. Ignored in an assessment and if
+// there are not so many steps.
+void request_undo(StepUndo& undo, const lesson::Lesson& lesson, std::size_t steps);
 
-// What the lesson has seen, every event of it.
-void note(StepUndo& back, const lesson::Lesson& lesson, const lesson::Event& event);
+// Call with every event of the lesson. A mistake in a guided lesson requests an undo; the undo itself clears
+// the request.
+void observe(StepUndo& undo, const lesson::Lesson& lesson, const lesson::LessonEvent& event);
 
-// A key's wish that cannot be granted is forgotten: nothing leaps when nobody expects it any more.
-void wait(StepUndo& back, double seconds);
+// Call once a frame. A key's request expires after a few seconds, so that the lesson does not jump back
+// unexpectedly.
+void update(StepUndo& undo, double seconds);
 
-// By how many steps, as the lesson stands now: work that ends a step on the way out is taken back as well.
-// None: nothing is wished.
-std::optional<std::size_t> steps_back(const StepUndo& back, const lesson::Lesson& lesson);
+// The number of steps to undo from the lesson's current one; none if no request is pending. It grows if the
+// trainee completes a step before the request is granted.
+std::optional<std::size_t> steps_to_undo(const StepUndo& undo, const lesson::Lesson& lesson);
 
-// Whether there are more ticks to come. Of the last step, too, a mistake is taken back: until then the lesson
-// is not over.
-bool goes_on(const StepUndo& back, const session::Course& course);
+// False once all steps are done and no mistake is pending that can still be undone.
+bool continues(const StepUndo& undo, const session::LessonSession& session);
 
 }  // namespace bolt::trainer

@@ -24,14 +24,14 @@ VkExtent2D size_of(const platform::Window& window) {
 
 // The GPU, and the window on it. What is drawn with is let go of only when nothing is being drawn.
 struct Canvas {
-    view::Painter painter;
+    view::GpuContext gpu_context;
     std::unique_ptr<gpu::Swapchain> swapchain;
 
     Canvas() = default;
     Canvas(Canvas&&) = default;
     Canvas& operator=(Canvas&&) = delete;
     ~Canvas() {
-        if (painter.device) (void)painter.device->idle();
+        if (gpu_context.device) (void)gpu_context.device->idle();
     }
 };
 
@@ -42,34 +42,35 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     render::RendererOptions renderer;
     renderer.level_error_px = level_error;
     Canvas canvas;
-    BOLT_TRY_ASSIGN(auto painter, view::make_painter(instance, {choice.gpu, surface.get()}, renderer));
-    canvas.painter = std::move(painter);
+    BOLT_TRY_ASSIGN(auto gpu_context,
+                    view::make_gpu_context(instance, {choice.gpu, surface.get()}, renderer));
+    canvas.gpu_context = std::move(gpu_context);
     BOLT_TRY_ASSIGN(auto swapchain,
-                    gpu::Swapchain::create(*canvas.painter.device, std::move(surface), make_surface));
+                    gpu::Swapchain::create(*canvas.gpu_context.device, std::move(surface), make_surface));
     canvas.swapchain = std::move(swapchain);
     return canvas;
 }
 
-Status draw(App& app, Canvas& canvas, platform::Window& window, std::span<const platform::Event> events,
+Status draw(App& app, Canvas& canvas, platform::Window& window, std::span<const platform::InputEvent> events,
             double passed) {
-    BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->ready(size_of(window)));
-    if (size.width == 0 || size.height == 0) return app.unseen();  // minimised: the lesson waits
-    BOLT_TRY_ASSIGN(const auto frame, canvas.painter.frames->begin());
+    BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->prepare(size_of(window)));
+    if (size.width == 0 || size.height == 0) return app.frame_while_hidden();
+    BOLT_TRY_ASSIGN(const auto frame, canvas.gpu_context.frames->begin());
     BOLT_TRY(app.frame(*frame, events, size, window.content_scale(), passed));
-    const render::ImageLayer picture = canvas.painter.renderer->picture(0);
-    BOLT_TRY(canvas.swapchain->show(*canvas.painter.frames, *frame, *picture.image, picture.layer));
+    const render::ImageLayer picture = canvas.gpu_context.renderer->picture(0);
+    BOLT_TRY(canvas.swapchain->present(*canvas.gpu_context.frames, *frame, *picture.image, picture.layer));
     return {};
 }
 
 Status until_closed(App& app, Canvas& canvas, platform::Window& window, const WindowChoice& choice) {
-    platform::Pace pace{platform::Clock::now(), platform::period_of(window.refresh()), 0};
+    platform::Pace pace{platform::Clock::now(), platform::period_of(window.refresh_rate()), 0};
     double last = seconds();
     while (!app.closed() && !(choice.stop && choice.stop())) {
         const bool nothing_to_see = canvas.swapchain->plan().extent.width == 0;
-        const std::vector<platform::Event> events =
-            nothing_to_see ? window.wait_for_events(0.1) : window.events();
+        const std::vector<platform::InputEvent> events =
+            nothing_to_see ? window.wait_for_events(0.1) : window.poll_events();
         BOLT_TRY(window.display_status());
-        for (const platform::Event& event : events)
+        for (const platform::InputEvent& event : events)
             if (nothing_to_see && std::holds_alternative<platform::CloseEvent>(event)) return {};
         const double now = seconds(), passed = now - last;
         last = now;
@@ -78,7 +79,7 @@ Status until_closed(App& app, Canvas& canvas, platform::Window& window, const Wi
             Status there = window.display_status();
             return there ? done : there;
         }
-        if (app.wants_full_screen()) window.set_full_screen(!window.full_screen());
+        if (app.take_full_screen_request()) window.set_full_screen(!window.full_screen());
         (void)platform::wait_for_deadline(pace);
     }
     return {};
@@ -96,10 +97,11 @@ Status run_in_window(App& app, platform::Window& window, const gpu::Instance& in
             if (!canvas) {
                 done = fail(canvas.error());
             } else {
-                done = app.start(canvas->painter);
+                done = app.start(canvas->gpu_context);
                 if (done) done = until_closed(app, *canvas, window, choice);
-                app.drop();
-                (void)canvas->painter.renderer->save_pipelines();  // without them the next start is slower
+                app.release();
+                (void)
+                    canvas->gpu_context.renderer->save_pipelines();  // without them the next start is slower
             }
         }
         if (done || !done.error().lost) {

@@ -1,5 +1,5 @@
-// A camera that circles around a point, as a hand with a mouse moves it. Places on the picture are in heights
-// of the picture from its middle, x to the right and y up, so that nothing depends on its size.
+// The camera: an orbit around a target that the mouse moves, a smooth glide between orbits, and the search
+// for a view of a nut and of the wrench's jaw that obstacles do not hide.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -7,7 +7,7 @@
 
 #include "engine/base/math.hpp"
 #include "game/motion/visibility_model.hpp"
-#include "game/view/stage.hpp"
+#include "game/view/shown_model.hpp"
 
 namespace bolt::view {
 
@@ -22,88 +22,88 @@ struct Orbit {
 Orbit orbit_of(const Viewpoint& view);
 Viewpoint viewpoint_of(const Orbit& orbit);
 
-// What the renderer needs; right from straight above and below too. `aside`: m to the right of the orbit, as
-// one of two eyes is, which meet at the target (stereo.hpp).
-render::Eye eye_of(const Orbit& orbit, const render::BoundingBox& box, float aspect, float aside = 0.0F);
+// The eye for the renderer; well defined at pitch ±90° too. `offset`: m to the right of the orbit, for one of
+// the two eyes of a stereo view, whose axes meet at the target (pictures.hpp).
+render::Eye eye_of(const Orbit& orbit, const render::BoundingBox& box, float aspect, float offset = 0.0F);
 
-// The cursor went this far: half a turn a height. The model follows it.
+// The following take positions and movements of the cursor in units of the picture's height, from its middle,
+// x to the right, y up. So they do not depend on the picture's size.
+
+// Rotates by the cursor's movement, half a turn per picture height; the model follows the cursor.
 void turn(Orbit& orbit, glm::dvec2 by);
 
-// The cursor went this far, and what is at the target's distance goes with it.
+// Moves the target by the cursor's movement: a point at the target's distance follows the cursor.
 void pan(Orbit& orbit, glm::dvec2 by);
 
-// Nearer by notches of a wheel (further if negative), while the point under `at` (at the target's distance)
-// stays there. Distances stay between a thousandth and thirty times the box's size.
+// Approaches by notches of the mouse wheel (recedes if negative). The point under the cursor `at`, at the
+// target's distance, stays there. Clamps the distance to 0.001 … 30 times the box's diagonal.
 void zoom(Orbit& orbit, double notches, glm::dvec2 at, const render::BoundingBox& box);
 
-// From no higher than `eye` (m), as far away as before, and never from less than 5° above the target.
-Orbit from_at_most(const Orbit& orbit, double eye);
+// Lowers the eye to a height of at most `eye` m at the same distance, but not below a pitch of 5°.
+Orbit limit_eye_height(const Orbit& orbit, double eye);
 
-// All of the box, from the side that it is seen from now.
-Orbit framing(const Orbit& orbit, const render::BoundingBox& box, float aspect);
+// Shows the whole box from the direction of the orbit.
+Orbit frame_all(const Orbit& orbit, const render::BoundingBox& box, float aspect);
 
-// The camera glides to where the hand wants it: what is left of the way shrinks by e in 70 ms, whatever the
-// frames' times are. In a straight line in all values, so that a zoom keeps its point in between too.
-struct Glide {
+// A camera that approaches its goal exponentially with a time constant of 70 ms, independent of the frame
+// rate. All values follow the same straight line, so that a zoom keeps its fixed point in between too.
+struct CameraGlide {
     Orbit shown, goal;
 
     void jump(const Orbit& to) { shown = goal = to; }
-    // To another view, the short way around.
-    void go(const Orbit& to);
-    // True: it moved; false: it has been there already.
+    // Sets the goal; the yaw takes the shorter way.
+    void glide_to(const Orbit& to);
+    // Returns false if the goal had been reached before.
     bool advance(double seconds);
 };
 
-// A view in which the eye truly sees a nut and the jaw that goes on it, asked of the same obstacles that hold
-// the wrench.
-
-struct ViewOf {
+// The objects that a view should show. The obstacles are those that also stop the wrench.
+struct ViewTarget {
     const servo::Setup& setup;
-    const servo::ToolContact* touch = nullptr;  // null: nothing can hide anything
+    const servo::ToolContact* contact = nullptr;  // null: there are no obstacles
     std::size_t joint = 0;
-    Vec3 nut{0.0};               // m, its middle
-    std::optional<Pose> wrench;  // where the jaw is or will be; none: only the nut counts
-    // m, the wrist of the hand that works there: the picture, of that shape, is to hold it too.
+    Vec3 nut{0.0};               // m, centre of the nut
+    std::optional<Pose> wrench;  // present or future pose of the wrench; none: only the nut must be visible
+    // m, the wrist of the working hand, which the picture should contain.
     std::optional<Vec3> wrist = std::nullopt;
     double aspect = 16.0 / 9.0;
 };
 
-// 0 … 1: of nut and jaw the lesser.
-double seen_from(const ViewOf& of, motion::Sight& sight, const Vec3& eye);
+// The smaller visible fraction, 0 … 1, of the nut and the wrench's jaw from the eye.
+double visibility_from(const ViewTarget& target, motion::VisibilityModel& model, const Vec3& eye);
 
-// Enough of it, and nobody wants more.
-inline constexpr double well_seen = 0.6;
+// Visible fraction at which a search stops.
+inline constexpr double sufficient_visibility = 0.6;
 
-// Of half the picture's width and height: all but its very edge; and the middle, over which nothing is laid
-// that is written at the edges.
-inline constexpr glm::dvec2 whole_picture(0.88, 0.88), open_middle(0.36, 0.6);
+// Areas about the middle of the picture, as fractions of half its width and height: all but a narrow border,
+// and the part that no text at the borders covers.
+inline constexpr glm::dvec2 picture_area(0.88, 0.88), open_middle(0.36, 0.6);
 
-// Whether a point is in that part of the picture.
-bool holds(const view::Orbit& orbit, const Vec3& point, double aspect,
-           const glm::dvec2& part = whole_picture);
+// Returns whether the point lies in the area of the picture.
+bool is_in_picture(const view::Orbit& orbit, const Vec3& point, double aspect,
+                   const glm::dvec2& area = picture_area);
 
-// The view nearest to `from` in which it is well seen, or the one in which most is; near enough to work by.
-// The nut is in the open middle unless only so the wrist is in the picture.
-view::Orbit find_view(const ViewOf& of, motion::Sight& sight, const view::Orbit& from);
+// The view nearest to `from` with sufficient visibility, or else the one with the greatest visibility, at
+// working distance. Places the nut in the open middle, or anywhere in the picture if the wrist requires it.
+view::Orbit find_view(const ViewTarget& target, motion::VisibilityModel& model, const view::Orbit& from);
 
-// An eye on the head of the wrench, or beside the fingers: near enough to see how the jaw lies on the nut.
-
-// m, in the frame of the tool at work (`of.wrench`, or `fingers` where there is none): from over the handle
-// if nut and jaw are well seen from there, through `swing` (rad about the bolt, signed) of the wrench; else
-// from where they are, as near to the handle as may be; else from where most is seen. Fingers come along x,
-// so their eye looks from the other side.
+// An eye near the jaw for the close-up, fixed to the head of the wrench or, without a wrench, to the fingers.
 struct CloseUpEye {
-    Vec3 at{0.0};
-    double seen = 0.0;  // 0 … 1, the least in the swing
+    Vec3 position{0.0};       // m, in the frame of the tool
+    double visibility = 0.0;  // 0 … 1, the least during the swing
 };
-CloseUpEye close_up_eye(const ViewOf& of, const Pose& tool, double swing, motion::Sight& sight);
 
-// How far off it is, of the nut's width, and its field of view, rad.
+// Searches the directions from above the handle outwards and stops at the first with sufficient visibility
+// during a swing of the wrench by `swing` rad (signed, about the bolt), or else returns the best direction.
+// `tool`: target.wrench, or the fingers' frame if there is no wrench. Fingers approach along x, so their eye
+// is on the opposite side.
+CloseUpEye close_up_eye(const ViewTarget& target, const Pose& tool, double swing,
+                        motion::VisibilityModel& model);
+
+// Distance of the close-up's eye from the nut in nut widths, and its field of view in rad.
 inline constexpr double close_up_distance = 4.5, close_up_fov = to_radians(42.0);
 
-// What V does in the window (find_view.hpp), for simulated trainees.
-
-// Keeps what it has learnt of the shapes: one for each lesson.
-motion::ViewHelp view_help();
+// find_view() for simulated trainees. The function caches surface samples: use one per lesson.
+motion::ViewHelper view_help();
 
 }  // namespace bolt::view

@@ -38,7 +38,7 @@ glm::vec4 color_of(const Palette& palette, Verdict verdict) {
     }
 }
 
-std::string_view sign_of(Verdict verdict) {
+std::string_view symbol_of(Verdict verdict) {
     switch (verdict) {
         case Verdict::low:
             return "▼";
@@ -53,9 +53,9 @@ std::string_view sign_of(Verdict verdict) {
 
 namespace {
 
-constexpr glm::vec2 margin(0.35F, 0.15F);   // em, of a plate (engine/render/passes/annotations.cpp)
+constexpr glm::vec2 margin(0.35F, 0.15F);   // em, of a plate (as in engine/render/passes/annotations.cpp)
 constexpr float gap = 2.0F;                 // px between two plates
-constexpr int sideways = 12, upwards = 24;  // steps to either side that are tried
+constexpr int sideways = 12, upwards = 24;  // steps tried in each direction
 constexpr float step_em = 0.25F;
 
 bool overlap(const LabelBox& a, const LabelBox& b, const glm::vec2& moved) {
@@ -63,50 +63,51 @@ bool overlap(const LabelBox& a, const LabelBox& b, const glm::vec2& moved) {
     return low.x < b.high.x && b.low.x < high.x && low.y < b.high.y && b.low.y < high.y;
 }
 
-// How far outside of the picture, px.
-float outside(const LabelBox& box, const glm::vec2& moved, const glm::vec2& picture) {
+// The length in px by which the moved box extends beyond the picture.
+float overhang(const LabelBox& box, const glm::vec2& moved, const glm::vec2& picture) {
     const glm::vec2 low = box.low + moved, high = box.high + moved;
     return std::max(0.0F, -low.x) + std::max(0.0F, -low.y) + std::max(0.0F, high.x - picture.x) +
            std::max(0.0F, high.y - picture.y);
 }
 
-// Off each of them to each side: out of something large the steps of the grid do not lead.
-void add_ways_out(const LabelBox& box, std::span<const LabelBox> placed, std::vector<glm::vec2>& ways) {
+// Adds the moves that place the box just beside each box that it overlaps. The grid of steps is too small to
+// leave a large box.
+void add_escapes(const LabelBox& box, std::span<const LabelBox> placed, std::vector<glm::vec2>& moves) {
     constexpr float clear = gap + 0.01F;
-    const auto within = [&](const LabelBox& other) { return overlap(box, other, glm::vec2(0.0F)); };
+    const auto overlaps = [&](const LabelBox& other) { return overlap(box, other, glm::vec2(0.0F)); };
     for (const LabelBox& other : placed) {
-        if (!within(other)) continue;
-        ways.emplace_back(other.low.x - box.high.x - clear, 0.0F);
-        ways.emplace_back(other.high.x - box.low.x + clear, 0.0F);
-        ways.emplace_back(0.0F, other.low.y - box.high.y - clear);
-        ways.emplace_back(0.0F, other.high.y - box.low.y + clear);
+        if (!overlaps(other)) continue;
+        moves.emplace_back(other.low.x - box.high.x - clear, 0.0F);
+        moves.emplace_back(other.high.x - box.low.x + clear, 0.0F);
+        moves.emplace_back(0.0F, other.low.y - box.high.y - clear);
+        moves.emplace_back(0.0F, other.high.y - box.low.y + clear);
     }
 }
 
-// The shortest way by which none of it is cut off.
-glm::vec2 way_in(const LabelBox& box, const glm::vec2& picture) {
+// The shortest move that brings the whole box into the picture.
+glm::vec2 move_inside(const LabelBox& box, const glm::vec2& picture) {
     return glm::max(-box.low, glm::vec2(0.0F)) + glm::min(picture - box.high, glm::vec2(0.0F));
 }
 
-// Where the box is free of all that is placed, for the least cost; where it is, if that is nowhere.
+// The move of least cost at which the box overlaps no placed box; zero if there is none.
 glm::vec2 nearest_free(const LabelBox& box, std::span<const LabelBox> placed, float step,
                        const glm::vec2& picture) {
     std::vector<glm::vec2> starts{glm::vec2(0.0F)};
-    if (box.names_seen) starts.push_back(way_in(box, picture));
-    add_ways_out(box, placed, starts);
-    const float cut_off = box.names_seen ? 1000.0F : 4.0F;
+    if (box.anchor_in_picture) starts.push_back(move_inside(box, picture));
+    add_escapes(box, placed, starts);
+    const float overhang_cost = box.anchor_in_picture ? 1000.0F : 4.0F;
     glm::vec2 best(0.0F);
     float least = 1e9F;
     for (const glm::vec2& start : starts)
         for (int right = -sideways; right <= sideways; ++right)
             for (int up = -upwards; up <= upwards; ++up) {
                 const glm::vec2 moved = start + step * glm::vec2(right, -up);
-                // Up rather than down, over its joint rather than beside it.
+                // Prefers up to down, and above the joint to beside it.
                 const float cost = glm::length(moved) + (moved.y > 0.0F ? 0.5F * step : 0.0F) +
-                                   0.1F * std::abs(moved.x) + cut_off * outside(box, moved, picture);
+                                   0.1F * std::abs(moved.x) + overhang_cost * overhang(box, moved, picture);
                 if (cost >= least) continue;
-                const auto taken = [&](const LabelBox& other) { return overlap(box, other, moved); };
-                if (std::any_of(placed.begin(), placed.end(), taken)) continue;
+                const auto collides = [&](const LabelBox& other) { return overlap(box, other, moved); };
+                if (std::any_of(placed.begin(), placed.end(), collides)) continue;
                 least = cost;
                 best = moved;
             }
@@ -119,10 +120,10 @@ LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const rend
                 const glm::vec2& picture) {
     const glm::vec4 clip = eye.clip_from_world * glm::vec4(label.position, 1.0F);
     if (clip.w <= 0.0F) return {};
-    const glm::vec2 named = (0.5F * glm::vec2(clip) / clip.w + 0.5F) * picture;
+    const glm::vec2 anchor = (0.5F * glm::vec2(clip) / clip.w + 0.5F) * picture;
     const bool in_picture =
-        named.x >= 0.0F && named.y >= 0.0F && named.x <= picture.x && named.y <= picture.y;
-    const glm::vec2 at = named + glm::vec2(label.moved_px.x, -label.moved_px.y);
+        anchor.x >= 0.0F && anchor.y >= 0.0F && anchor.x <= picture.x && anchor.y <= picture.y;
+    const glm::vec2 at = anchor + glm::vec2(label.offset_px.x, -label.offset_px.y);
     const glm::vec2 size = text::lay_out(fonts, label.text, label.anchor.x).size;
     const glm::vec2 left_below = -label.anchor * size - margin,
                     right_above = left_below + size + 2.0F * margin;
@@ -130,8 +131,8 @@ LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const rend
             at + label.height * glm::vec2(right_above.x, -left_below.y), true, in_picture};
 }
 
-void move_apart(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,
-                const glm::vec2& picture, std::span<const render::Rectangle> taken) {
+void separate_labels(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,
+                     const glm::vec2& picture, std::span<const render::Rectangle> occupied) {
     std::vector<LabelBox> boxes;
     for (const render::Label& label : labels) boxes.push_back(box_of(fonts, label, eye, picture));
     std::vector<std::size_t> order(labels.size());
@@ -139,12 +140,12 @@ void move_apart(const text::Fonts& fonts, std::span<render::Label> labels, const
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return boxes[a].high.y > boxes[b].high.y; });
     std::vector<LabelBox> placed;
-    for (const render::Rectangle& plate : taken) placed.push_back({plate.low, plate.high, true});
+    for (const render::Rectangle& plate : occupied) placed.push_back({plate.low, plate.high, true});
     for (const std::size_t i : order) {
         LabelBox& box = boxes[i];
-        if (!box.seen || labels[i].stand != render::LabelPlacement::on_screen) continue;
+        if (!box.visible || labels[i].placement != render::LabelPlacement::on_screen) continue;
         const glm::vec2 best = nearest_free(box, placed, step_em * labels[i].height, picture);
-        labels[i].moved_px += glm::vec2(best.x, -best.y);
+        labels[i].offset_px += glm::vec2(best.x, -best.y);
         box.low += best;
         box.high += best;
         placed.push_back(box);

@@ -1,5 +1,5 @@
-// The colours that mean something, and the signs that say the same without any: nobody has to tell red from
-// green.
+// Colours and symbols of states and verdicts, and the layout of labels without overlaps. Each colour has a
+// symbol with the same meaning, so that colour vision is not needed.
 #pragma once
 
 #include <glm/vec4.hpp>
@@ -15,41 +15,41 @@
 namespace bolt::view {
 
 struct Palette {
-    glm::vec4 due{1.0F, 0.78F, 0.1F, 1.0F};     // what is to be done, and the way there
-    glm::vec4 low{1.0F, 0.7F, 0.05F, 1.0F};     // below its window
-    glm::vec4 ok{0.1F, 0.8F, 0.25F, 1.0F};      // inside
-    glm::vec4 high{0.95F, 0.1F, 0.1F, 1.0F};    // above, or damaged
-    glm::vec4 right{0.45F, 0.95F, 0.5F, 1.0F};  // the same of what is being worked at, as text on a plate
-    glm::vec4 wrong{1.0F, 0.35F, 0.3F, 1.0F};
+    glm::vec4 due{1.0F, 0.78F, 0.1F, 1.0F};     // the next task and the path to it
+    glm::vec4 low{1.0F, 0.7F, 0.05F, 1.0F};     // below its tolerance window
+    glm::vec4 ok{0.1F, 0.8F, 0.25F, 1.0F};      // inside the window
+    glm::vec4 high{0.95F, 0.1F, 0.1F, 1.0F};    // above the window, or damaged
+    glm::vec4 right{0.45F, 0.95F, 0.5F, 1.0F};  // text on a plate: the present torque is inside the window
+    glm::vec4 wrong{1.0F, 0.35F, 0.3F, 1.0F};   // text on a plate: the present torque is above the window
 };
 
-// The distinct one also with no red or green cones (tests/view/palette.cpp).
+// The colours of the palette `distinct` differ without red or green cones too (tests/view/palette.cpp).
 Palette palette_of(content::PaletteKind kind);
 
-// What became of a joint; without alpha: nothing.
+// The verdict on a joint; a damaged joint counts as high.
 lesson::Verdict verdict_of(const lesson::JointResult& joint);
+// Alpha 0 for no verdict.
 glm::vec4 color_of(const Palette& palette, lesson::Verdict verdict);
 
-// "▼", "●", "▲", in this order: below, inside, above. Empty for nothing.
-std::string_view sign_of(lesson::Verdict verdict);
-inline constexpr std::string_view due_sign = "◆";
+// "▼" for low, "●" for ok, "▲" for high; empty for no verdict.
+std::string_view symbol_of(lesson::Verdict verdict);
+inline constexpr std::string_view due_symbol = "◆";
 
-// Labels that would lie over each other in a picture are moved apart.
-
-// Of `on_screen` labels, as seen by `eye` in a picture of that size: pixels from the upper left corner, y
-// down, with the margin of a plate. Nothing behind the eye.
+// The plate of a label on the screen, in pixels from the upper left corner, y down.
 struct LabelBox {
     glm::vec2 low{0.0F}, high{0.0F};
-    bool seen = false;
-    bool names_seen = false;  // what it stands at is in the picture
+    bool visible = false;            // false: the anchor is behind the eye
+    bool anchor_in_picture = false;  // the point that the label annotates is in the picture
 };
+
+// The box of a label of placement on_screen, seen from `eye` in a picture of that size.
 LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const render::Eye& eye,
                 const glm::vec2& picture);
 
-// Sets `moved_px` so that no two of them overlap, none is cut off by the picture's edge if what it stands at
-// is not, and none lies under what is `taken` (px from the upper left corner), as far as there is room: each
-// to the free place that is nearest to its own, the one furthest down first.
-void move_apart(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,
-                const glm::vec2& picture, std::span<const render::Rectangle> taken = {});
+// Changes `offset_px` of the labels of placement on_screen so that as far as there is room no two overlap,
+// none covers a rectangle of `occupied` (px), and none whose anchor is in the picture extends beyond it.
+// Moves each label to the nearest free place, beginning with the lowest.
+void separate_labels(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,
+                     const glm::vec2& picture, std::span<const render::Rectangle> occupied = {});
 
 }  // namespace bolt::view

@@ -1,4 +1,4 @@
-// What is looked at: the model of an assembly with the views that its file names, or a bare model.
+// The model of an assembly with the named views of its file, or a bare model file.
 #pragma once
 
 #include <filesystem>
@@ -12,41 +12,42 @@
 namespace bolt::view {
 
 struct Viewpoint {
-    std::string name;  // empty: none that the assembly names
+    std::string name;  // of a view of the assembly; empty: an unnamed viewpoint
     glm::vec3 eye{0.0F}, target{0.0F};
-    float fov = 0.0F;  // rad, vertical; 0: whatever is usual
+    float fov = 0.0F;  // rad, vertical; 0: the default of the program
 };
 
-struct JointPlace {
+struct JointPosition {
     std::string id;
-    glm::vec3 at{0.0F};  // m
+    glm::vec3 position{0.0F};  // m, assembly frame
 };
 
-enum class Level : std::uint8_t { near, far };
+// The detailed model of an assembly, or its simplified one for display from far away.
+enum class DetailLevel : std::uint8_t { near, far };
 
-struct Subject {
-    std::string name;  // of the assembly, or the file's
+struct LoadedModel {
+    std::string name;  // of the assembly, or of the model file
     assets::Model model;
-    std::vector<Viewpoint> views;    // a bare model has none
-    std::vector<JointPlace> joints;  // likewise
-    bool bare = false;
-    std::vector<std::filesystem::path> files;  // that it was made from
+    std::vector<Viewpoint> views;              // empty for a bare model
+    std::vector<JointPosition> joints;         // empty for a bare model
+    bool bare = false;                         // a model file without an assembly
+    std::vector<std::filesystem::path> files;  // all files read, to be watched for changes
 };
 
-// Either a subject and no errors, or all that is wrong.
-struct LoadedSubject {
-    Subject subject;
+// Either a model and no errors, or all errors.
+struct ModelLoadResult {
+    LoadedModel model;
     std::vector<Error> errors;
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
 
-// `what`: a .glb or .gltf, or an assembly: folder, file or name.
-LoadedSubject load_subject(const std::string& what, Level level = Level::near);
+// `source`: a .glb or .gltf file, or the folder, file or name of an assembly.
+ModelLoadResult load_model(const std::string& source, DetailLevel level = DetailLevel::near);
 
-// The view of that name, or an error with the nearest one.
-Result<Viewpoint> named_view(const Subject& subject, const std::string& name);
+// Fails if there is no view of that name; the error suggests the nearest name.
+Result<Viewpoint> named_view(const LoadedModel& model, const std::string& name);
 
-// "studio", or a Radiance .hdr file.
+// `name`: "studio", or the path of a Radiance .hdr file.
 Result<shading::RadianceImage> load_light(const std::string& name);
 
 }  // namespace bolt::view

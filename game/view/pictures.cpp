@@ -12,7 +12,7 @@
 #include "engine/base/result.hpp"
 #include "engine/render/renderer.hpp"
 #include "game/view/labels.hpp"
-#include "game/view/stage.hpp"
+#include "game/view/shown_model.hpp"
 
 namespace bolt::view {
 
@@ -21,7 +21,7 @@ Result<VkExtent2D> parse_size(const std::string& text) {
     char rest = 0;
     const bool read = std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) == 2;
     if (!read || width < 1 || height < 1 || width > 8192 || height > 8192)
-        return fail(ErrorCode::usage, fmt::format("--size \"{}\" is no size", text),
+        return fail(ErrorCode::usage, fmt::format("--size: \"{}\" is not a size", text),
                     "WIDTHxHEIGHT, up to 8192x8192");
     return VkExtent2D{width, height};
 }
@@ -38,28 +38,28 @@ std::filesystem::path pipeline_file() {
     return {};
 }
 
-Result<Painter> make_painter(const gpu::Instance& instance, const gpu::DeviceOptions& on,
-                             const render::RendererOptions& options) {
-    Painter painter;
-    BOLT_TRY_ASSIGN(auto device, gpu::Device::create(instance, on));
-    painter.device = std::move(device);
-    BOLT_TRY_ASSIGN(auto frames, gpu::Frames::create(*painter.device));
-    painter.frames = std::move(frames);
+Result<GpuContext> make_gpu_context(const gpu::Instance& instance, const gpu::DeviceOptions& device_options,
+                                    const render::RendererOptions& options) {
+    GpuContext gpu_context;
+    BOLT_TRY_ASSIGN(auto device, gpu::Device::create(instance, device_options));
+    gpu_context.device = std::move(device);
+    BOLT_TRY_ASSIGN(auto frames, gpu::Frames::create(*gpu_context.device));
+    gpu_context.frames = std::move(frames);
     render::RendererOptions with_cache = options;
     if (with_cache.pipeline_cache.empty()) with_cache.pipeline_cache = pipeline_file();
-    BOLT_TRY_ASSIGN(auto renderer, render::Renderer::create(*painter.device, with_cache));
-    painter.renderer = std::move(renderer);
-    return painter;
+    BOLT_TRY_ASSIGN(auto renderer, render::Renderer::create(*gpu_context.device, with_cache));
+    gpu_context.renderer = std::move(renderer);
+    return gpu_context;
 }
 
-std::vector<float> eyes_aside(bool stereo) {
+std::vector<float> eye_offsets(bool stereo) {
     if (!stereo) return {0.0F};
-    return {-0.5F * eye_distance, 0.5F * eye_distance};
+    return {-0.5F * interpupillary_distance, 0.5F * interpupillary_distance};
 }
 
-glm::mat4 converging(float aside, float distance, const render::Perspective& lens) {
+glm::mat4 convergence_shear(float offset, float distance, const render::Perspective& lens) {
     glm::mat4 shear(1.0F);
-    shear[3][0] = aside / (distance * std::tan(0.5F * lens.fov) * lens.aspect);  // x + this · w
+    shear[3][0] = offset / (distance * std::tan(0.5F * lens.fov) * lens.aspect);  // adds this · w to x
     return shear;
 }
 
@@ -78,7 +78,7 @@ render::Picture side_by_side(std::span<const render::Picture> pictures) {
 Status write_picture(const render::Picture& picture, const std::filesystem::path& file) {
     BOLT_TRY_ASSIGN(const auto png, assets::encode_png(static_cast<int>(picture.width),
                                                        static_cast<int>(picture.height), 4, picture.rgba));
-    std::error_code ignored;  // write_file says why
+    std::error_code ignored;  // write_file reports the error
     if (const auto folder = file.parent_path(); !folder.empty())
         std::filesystem::create_directories(folder, ignored);
     BOLT_TRY(write_file(file, png));
@@ -87,12 +87,12 @@ Status write_picture(const render::Picture& picture, const std::filesystem::path
 
 namespace {
 
-// Which joint it is and what became of it, above the joint: colour alone does not tell everybody.
-Status add_joint(Stage& stage, const Subject& subject, const std::string& node,
+// Outlines the joint and labels it with its name, verdict and torque.
+Status add_joint(ShownModel& shown, const LoadedModel& model, const std::string& node,
                  const lesson::JointResult& joint) {
     const glm::vec4 color = verdict_color(joint);
-    BOLT_TRY(outline(stage, subject, node, color));
-    BOLT_TRY_ASSIGN(const auto box, box_of(stage, subject, node));
+    BOLT_TRY(outline(shown, model, node, color));
+    BOLT_TRY_ASSIGN(const auto box, box_of(shown, model, node));
     if (box.empty() || color.w == 0.0F) return {};
     render::Label label;
     label.text = fmt::format(
@@ -101,11 +101,11 @@ Status add_joint(Stage& stage, const Subject& subject, const std::string& node,
     label.position = {0.5F * (box.low.x + box.high.x), box.high.y, 0.5F * (box.low.z + box.high.z)};
     label.height = 15.0F;
     label.anchor = {0.5F, 0.0F};
-    label.moved_px = {0.0F, 10.0F};
+    label.offset_px = {0.0F, 10.0F};
     label.plate = {0.08F, 0.09F, 0.1F, 0.85F};
     label.color = glm::vec4(glm::mix(glm::vec3(color), glm::vec3(1.0F), 0.35F), 1.0F);
-    label.through = 1.0F;
-    stage.scene.labels.push_back(label);
+    label.occluded_visibility = 1.0F;
+    shown.scene.labels.push_back(label);
     return {};
 }
 
@@ -116,33 +116,33 @@ glm::vec4 verdict_color(const lesson::JointResult& joint) { return color_of({}, 
 Status draw_result(const content::Assembly& assembly, const lesson::LessonResult& result,
                    const std::filesystem::path& folder, VkExtent2D size) {
     if (assembly.models.model.empty() || assembly.views.empty()) return {};
-    LoadedSubject loaded = load_subject(assembly.file);
+    ModelLoadResult loaded = load_model(assembly.file);
     if (!loaded.ok()) return fail(loaded.errors.front());
     BOLT_TRY_ASSIGN(const auto radiance, load_light("studio"));
     BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create({}));
-    BOLT_TRY_ASSIGN(auto painter, make_painter(instance, {}));
-    BOLT_TRY_ASSIGN(auto light, render::upload_environment(*painter.device, radiance));
-    BOLT_TRY_ASSIGN(const auto stage, set_stage(*painter.device, loaded.subject, light));
+    BOLT_TRY_ASSIGN(auto gpu_context, make_gpu_context(instance, {}));
+    BOLT_TRY_ASSIGN(auto light, render::upload_environment(*gpu_context.device, radiance));
+    BOLT_TRY_ASSIGN(const auto shown, show_model(*gpu_context.device, loaded.model, light));
     for (std::size_t i = 0; i < assembly.joints.size() && i < result.joints.size(); ++i) {
         if (assembly.joints[i].node.empty()) continue;
         const std::string& node = assembly.joints[i].node;
-        BOLT_TRY(add_joint(*stage, loaded.subject, node, result.joints[i]));
+        BOLT_TRY(add_joint(*shown, loaded.model, node, result.joints[i]));
     }
     BOLT_TRY_ASSIGN(const auto fonts, text::load_fonts());
-    const std::vector<render::Label> labels = (stage)->scene.labels;
+    const std::vector<render::Label> labels = shown->scene.labels;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    for (const Viewpoint& view : loaded.subject.views) {
-        const float fov = view.fov > 0.0F ? view.fov : usual_fov;
+    for (const Viewpoint& view : loaded.model.views) {
+        const float fov = view.fov > 0.0F ? view.fov : default_fov;
         const render::Eye eye =
-            render::make_eye(view.eye, view.target, lens((stage)->box, view.eye, view.target, fov, aspect));
-        (stage)->scene.labels = labels;
-        move_apart(fonts, (stage)->scene.labels, eye, {size.width, size.height});
+            render::make_eye(view.eye, view.target, lens(shown->box, view.eye, view.target, fov, aspect));
+        shown->scene.labels = labels;
+        separate_labels(fonts, shown->scene.labels, eye, {size.width, size.height});
         BOLT_TRY_ASSIGN(const auto pictures,
-                        render::take_pictures(*painter.device, *painter.frames, *painter.renderer,
-                                              (stage)->scene, {&eye, 1}, size));
+                        render::take_pictures(*gpu_context.device, *gpu_context.frames, *gpu_context.renderer,
+                                              shown->scene, {&eye, 1}, size));
         BOLT_TRY(write_picture(pictures.front(), folder / ("view-" + view.name + ".png")));
     }
-    (void)painter.renderer->save_pipelines();  // without them the next start is slower, no more
+    (void)gpu_context.renderer->save_pipelines();  // a failure only slows down the next start
     return {};
 }
 

@@ -1,4 +1,5 @@
-// WIDTHxHEIGHT, as command lines have it.
+// Drawing to pictures without a window: the GPU context, stereo pairs, PNG files and pictures of a lesson's
+// result.
 #pragma once
 
 #include <filesystem>
@@ -12,56 +13,49 @@
 #include "engine/render/camera.hpp"
 #include "engine/render/renderer.hpp"
 #include "game/lesson/result.hpp"
-#include "game/view/stage.hpp"
+#include "game/view/shown_model.hpp"
 
 namespace bolt::view {
 
+// Parses WIDTHxHEIGHT of a command line, in pixels.
 Result<VkExtent2D> parse_size(const std::string& text);
 
-// A GPU with all that drawing on it takes.
-
-// In the order in which they stand on each other.
-struct Painter {
+// A GPU with its frames and renderer. The order of the members is that of their dependencies.
+struct GpuContext {
     std::unique_ptr<gpu::Device> device;
     std::unique_ptr<gpu::Frames> frames;
     std::unique_ptr<render::Renderer> renderer;
 };
 
-// Where compiled pipelines are kept between starts: boltwright/pipelines in $XDG_CACHE_HOME or ~/.cache;
-// empty without either.
+// The cache file of compiled pipelines: boltwright/pipelines in $XDG_CACHE_HOME or ~/.cache; empty if neither
+// is set.
 std::filesystem::path pipeline_file();
 
-// With the pipelines of the last start, unless the options name another file.
-Result<Painter> make_painter(const gpu::Instance& instance, const gpu::DeviceOptions& on,
-                             const render::RendererOptions& options = {});
+// Loads the pipelines from pipeline_file() unless the options name another file.
+Result<GpuContext> make_gpu_context(const gpu::Instance& instance, const gpu::DeviceOptions& device_options,
+                                    const render::RendererOptions& options = {});
 
-// Two eyes: where they are, and their pictures beside each other.
+inline constexpr float interpupillary_distance = 0.063F;  // m, mean of adults
 
-inline constexpr float eye_distance = 0.063F;  // m, the mean of adults
+// Offsets of the eyes from the middle, m, to the right: left and right eye, or a single eye at 0.
+std::vector<float> eye_offsets(bool stereo);
 
-// m to the right of the middle, of every eye: the left one first, or the one that is there.
-std::vector<float> eyes_aside(bool stereo);
+// A shear to be multiplied before the clip coordinates of an eye at `offset`: points at `distance` m along
+// the axis get the same screen position for both eyes, as on a screen there (off-axis projection, Kooima
+// 2008). Without it the axes of the eyes would be parallel, and near points would not be in both pictures.
+glm::mat4 convergence_shear(float offset, float distance, const render::Perspective& lens);
 
-// To be put before the clip coordinates of an eye that is `aside`: what is `distance` (m) away along the axis
-// is where the other eye sees it too, as on a screen there (the off-axis projection of Kooima, 2008). Without
-// it both eyes would stare into the distance, and what is near would have no place in both of their pictures.
-glm::mat4 converging(float aside, float distance, const render::Perspective& lens);
-
-// Pictures of the same height as one, the first on the left.
+// Joins pictures of equal height, the first on the left.
 render::Picture side_by_side(std::span<const render::Picture> pictures);
 
-// Pictures as PNG files.
-
-// Makes the folder if it is not there, and says the file's name on the standard output.
+// Writes a PNG file, creates its folder if needed, and prints the file's name to the standard output.
 Status write_picture(const render::Picture& picture, const std::filesystem::path& file);
 
-// How a lesson ended, as pictures: every view of the assembly, with a line around each joint in the colour of
-// its verdict.
-
-// Green: OK. Amber: LOW. Red: HIGH, or no longer sound. None: not judged.
+// The outline colour of a joint in the usual palette; alpha 0 for a joint without a verdict.
 glm::vec4 verdict_color(const lesson::JointResult& joint);
 
-// Writes FOLDER/view-NAME.png for each view. Nothing for an assembly without a model or without views.
+// Writes FOLDER/view-NAME.png for each view of the assembly, with every joint outlined in the colour of its
+// verdict and labelled. Writes nothing for an assembly without a model or without views.
 Status draw_result(const content::Assembly& assembly, const lesson::LessonResult& result,
                    const std::filesystem::path& folder, VkExtent2D size);
 

@@ -12,9 +12,9 @@ Pose pose_of_input(const servo::Input& input) {
     return {pose.position, pose.orientation};
 }
 
-void write_hand(Hand& hand, const Snapshot& servo) {
+void write_hand(WorkingHand& hand, const Snapshot& servo) {
     const bool engaged = servo.output.joint >= 0;
-    hand.doing = engaged ? Doing::holding : Doing::resting;
+    hand.action = engaged ? HandAction::holding : HandAction::resting;
     hand.wrench = servo.input.grip == servo::Grip::wrench;
     hand.pinches = servo.input.grip == servo::Grip::fingers;
     hand.nut = engaged ? std::optional(static_cast<std::size_t>(servo.output.joint)) : std::nullopt;
@@ -38,9 +38,9 @@ void write_joints(const WriteHaptics& world, std::span<const joint::JointState> 
 }
 
 void write_output(const WriteHaptics& world, const servo::Output& output) {
-    world.only<Tool>().pose = output.tool;
-    world.only<ToolContact>() = {output.joint, output.slipped, output.touched, output.contacts,
-                                 output.clicked};
+    world.only<HeldTool>().pose = output.tool;
+    world.only<ContactState>() = {output.joint, output.slipped, output.touched, output.contacts,
+                                  output.clicked};
     world.only<DeviceForce>() = {output.force, output.torque, output.fault};
 }
 
@@ -49,12 +49,12 @@ void write_snapshot(const WriteHaptics& world, const Snapshot& servo) {
     write_output(world, servo.output);
     world.only<GuidingForce>() = {servo.input.guide, servo.state.guiding_command.force,
                                   servo.state.guiding_command.torque};
-    write_hand(world.only<Hand>(), servo);
+    write_hand(world.only<WorkingHand>(), servo);
 }
 
 const Joint& joint_at(const ecs::Access<const Joint>& world, std::size_t index) {
     const auto joints = world.pool<Joint>().components();
-    // Joints are created in their order and never destroyed, so the first guess is right.
+    // Joints are created in order and never destroyed, so the position is usually the index.
     if (index < joints.size() && joints[index].index == index) return joints[index];
     const auto found =
         std::find_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.index == index; });

@@ -1,5 +1,5 @@
-// The state of the work as components: plain data that haptic_system writes from the servo's snapshot after
-// each tick. HUD, sound, hints, lesson and drawing read it here. A world without pictures has only these
+// The state of the work as ECS components: plain data that write_snapshot() copies from the servo after each
+// tick. HUD, sound, hints, lesson and drawing read it here. A world without drawing has only these
 // components; the scene adds its own (WorldWith). Lengths in m, angles in rad, forces in N, torques in N·m,
 // poses in the assembly's frame.
 #pragma once
@@ -29,78 +29,76 @@ struct Joint {
     double speed = 0.0;    // rad/s of the nut
     double torque = 0.0;   // of wrench or fingers on the nut, tightening positive
     double clamp = 0.0;    // bolt force
-    double rounded = 0.0;  // m that slipping jaws have worn off each corner of the nut
+    double rounded = 0.0;  // m, wear of each corner of the nut by slipping jaws
 };
 
 // The tool at the pose that the obstacles allow: the wrench in the hand, or the fingertips of an empty hand.
-struct Tool {
+struct HeldTool {
     Pose pose;
 };
 
-// What the tool touches and holds. −1: none.
-struct ToolContact {
+// The contacts of the tool. −1: none.
+struct ContactState {
     std::int16_t joint = -1;         // engaged joint
-    std::int16_t slipped = -1;       // joint over whose corners the jaw slipped in this tick
-    collision::ObstacleId obstacle;  // that the wrench lies against
+    std::int16_t slipped = -1;       // joint on which the jaw slipped over the corners in this tick
+    collision::ObstacleId obstacle;  // obstacle that the wrench touches
     std::uint16_t contacts = 0;      // active and nearly active contacts
     bool clicked = false;            // the torque wrench clicked in this tick
 };
 
-// The force that leads the tool to a nut, before the output stage limits it.
+// The force that guides the tool to a nut, before the limits of the output stage.
 struct GuidingForce {
     std::int16_t joint = -1;  // goal; −1: none
     Vec3 force{0.0};
     Vec3 torque{0.0};
 };
 
-// What the device renders, after scaling and limits.
+// The force that the device renders, after scaling and limits.
 struct DeviceForce {
     Vec3 force{0.0};
     Vec3 torque{0.0};
-    force::Fault fault = force::Fault::none;  // why it renders nothing
+    force::Fault fault = force::Fault::none;  // reason for a zero force
 };
 
-enum class Doing : std::uint8_t {
-    resting,    // the hand waits where it is
-    reaching,   // moves to a nut, to the wrench or to the place where the wrench is laid down
-    lowering,   // onto a nut
+enum class HandAction : std::uint8_t {
+    resting,    // waits in place
+    reaching,   // moves to a nut, to the wrench or to the wrench's resting place
+    lowering,   // moves onto a nut
     holding,    // holds a nut with the wrench or the fingers
-    easing,     // lets the wrench spring back before it comes off
-    lifting,    // off a nut
-    returning,  // fingers go back for the next twist
+    easing,     // lets the wrench spring back before lifting it
+    lifting,    // moves off a nut
+    returning,  // turns the fingers back for the next twist
 };
 
-// The hand that works, moved by a mouse, a device or a recorded session.
-struct Hand {
-    Doing doing = Doing::resting;
-    bool wrench = false;             // the wrench is in the hand
-    bool pinches = false;            // fingers close on a nut
-    std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
-    Pose pose;                       // of the tool or the empty hand, as the hand asks for it
-    Pose to;                         // end of a reach
-    Pose rest;                       // where the wrench lies while it is not in the hand
-    double twisted = 0.0;            // by the fingers since they took the nut
-    double room = std::numeric_limits<double>::infinity();  // that the hand can still turn what it holds
+// The working hand, moved by a mouse, a device or a recorded session.
+struct WorkingHand {
+    HandAction action = HandAction::resting;
+    bool wrench = false;                                    // the wrench is in the hand
+    bool pinches = false;                                   // the fingers are closed on a nut
+    std::optional<std::size_t> nut;                         // joint that the hand moves to, is at or holds
+    Pose pose;                                              // commanded pose of the tool or the empty hand
+    Pose to;                                                // end of a reach
+    Pose rest;                                              // of the wrench while it is not in the hand
+    double twisted = 0.0;                                   // angle by the fingers since they gripped the nut
+    double room = std::numeric_limits<double>::infinity();  // angle by which the hand can still turn the tool
 };
 
-// The measured fingers of a hand that wears a glove; only then the hand's entity has it.
+// The measured fingers of a hand with a glove. The hand's entity has this component only while a glove is
+// worn.
 struct GloveHand {
-    hand::Skeleton fingers;  // 26 joints in the frame of the wrench, in the hand or where it lies
+    hand::Skeleton fingers;  // 26 joints in the wrench's frame
     bool lost = false;       // the glove sends no valid samples
 };
 
-// These components and those of whoever shows them.
+// A world with these components and `More`.
 template <class... More>
 using WorldWith =
-    ecs::Registry<Joint, Tool, ToolContact, GuidingForce, DeviceForce, Hand, GloveHand, More...>;
+    ecs::Registry<Joint, HeldTool, ContactState, GuidingForce, DeviceForce, WorkingHand, GloveHand, More...>;
 using World = WorldWith<>;
 
-// From the servo's snapshot to components. Every program that shows or plays a lesson does this after a tick,
-// before anything else reads the world: the windowed trainer, headless lessons, replays and films.
-
-using ReadHaptics = ecs::Access<const Joint, const Tool, const ToolContact, const GuidingForce,
-                                const DeviceForce, const Hand>;
-using WriteHaptics = ecs::Access<Joint, Tool, ToolContact, GuidingForce, DeviceForce, Hand>;
+using ReadHaptics = ecs::Access<const Joint, const HeldTool, const ContactState, const GuidingForce,
+                                const DeviceForce, const WorkingHand>;
+using WriteHaptics = ecs::Access<Joint, HeldTool, ContactState, GuidingForce, DeviceForce, WorkingHand>;
 
 // The servo after a tick.
 struct Snapshot {
@@ -109,33 +107,34 @@ struct Snapshot {
     const servo::Output& output;
 };
 
-// Writes every component from the snapshot. The hand is where the input has it and holds what is engaged;
-// Hand::rest stays. A program that knows more of the hand (where it moves, a glove) writes that afterwards.
+// Writes every component from the snapshot, after each tick and before anything else reads the world: in the
+// windowed trainer, headless lessons, replays and films. Takes the hand's pose from the input and its nut
+// from the engaged joint, and leaves WorkingHand::rest unchanged. A program with more data about the hand
+// (its goal, a glove) writes that afterwards.
 void write_snapshot(const WriteHaptics& world, const Snapshot& servo);
 
-// Its parts. `rounded` may be empty: no corner is worn.
+// Parts of write_snapshot(). `rounded` may be empty: no corner is worn.
 void write_joints(const WriteHaptics& world, std::span<const joint::JointState> joints,
                   std::span<const double> rounded);
 void write_output(const WriteHaptics& world, const servo::Output& output);
 
-// Creates the entities: one for each joint, one for the tool, one for the hand. `rest`: where the wrench
-// lies.
+// Creates the entities: one for each joint, one for the tool, one for the hand. `rest`: WorkingHand::rest.
 template <class Registry>
 void add_haptics(Registry& world, const servo::State& state, const Pose& rest = {}) {
     for (std::size_t i = 0; i < state.joints.size(); ++i) world.template add<Joint>(world.create()).index = i;
     const ecs::Entity tool = world.create();
-    world.template add<Tool>(tool);
-    world.template add<ToolContact>(tool);
+    world.template add<HeldTool>(tool);
+    world.template add<ContactState>(tool);
     world.template add<GuidingForce>(tool);
     world.template add<DeviceForce>(tool);
-    world.template add<Hand>(world.create()).rest = rest;
+    world.template add<WorkingHand>(world.create()).rest = rest;
     write_joints(world, state.joints, state.rounded);
 }
 
 // Returns the joint with this index, which must exist.
 const Joint& joint_at(const ecs::Access<const Joint>& world, std::size_t index);
 
-// Centre of a joint's nut, which comes down as it turns.
+// Centre of a joint's nut, which moves along the bolt as it turns.
 Vec3 nut_centre(const ecs::Access<const Joint>& world, const servo::Setup& setup, std::size_t joint);
 
 }  // namespace bolt::world

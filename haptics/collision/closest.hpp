@@ -1,5 +1,5 @@
-// The closest points of points, triangles and segments; C. Ericson, Real-Time Collision Detection
-// (2005), 5.1.
+// Closest points of points, triangles and segments (C. Ericson, Real-Time Collision Detection, 2005, 5.1),
+// and Embree point queries with a margin for its single precision.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -51,8 +51,8 @@ inline OnTriangle closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& 
     return {a + ab * (vb * scale) + ac * (vc * scale), 6};
 }
 
-// Where two segments, middle ± half, are closest: parameters in -1 … 1. `inner`: neither at an end, and they
-// are not parallel.
+// Parameters, −1 … 1, of the closest points of two segments middle ± half. `inner`: neither point is at an
+// end and the segments are not parallel.
 struct OnSegments {
     double s = 0.0, t = 0.0;
     bool inner = false;
@@ -71,22 +71,21 @@ inline OnSegments closest_on_segments(const Vec3& middle_a, const Vec3& half_a, 
     const double s = crossed ? (a * bb - b * ab) / determinant : 0.0;
     const double t = crossed ? (a * ab - b * aa) / determinant : 2.0;
     if (std::abs(s) <= 1.0 && std::abs(t) <= 1.0) return {s, t, true};
-    // On the way to the other line's nearest, and back.
+    // Clamp one parameter, take the closest point on the other segment, and vice versa.
     double on_a = std::clamp(s, -1.0, 1.0);
     const double on_b = std::clamp((ab * on_a - b) / bb, -1.0, 1.0);
     on_a = std::clamp((ab * on_b + a) / aa, -1.0, 1.0);
     return {on_a, on_b, false};
 }
 
-// Point queries of Embree, which looks in float: what is within a radius in double is surely found.
+// m; surfaces that are no further apart count as coincident.
+inline constexpr double coincidence_tolerance = 1e-7;
 
-// Surfaces that are no further apart are in one place (m).
-inline constexpr double one_place = 1e-7;
-
+// The radius in float with a margin, so that a query finds everything that is within `radius` in double.
 inline float with_margin(double radius, const Vec3& p) {
     if (!(radius < 1e30)) return FLT_MAX;
     const double size = std::abs(p.x) + std::abs(p.y) + std::abs(p.z) + radius;
-    return static_cast<float>(radius + 1e-6 * size + 2.0 * one_place);
+    return static_cast<float>(radius + 1e-6 * size + 2.0 * coincidence_tolerance);
 }
 
 inline RTCPointQuery make_query(const Vec3& p, double radius) {

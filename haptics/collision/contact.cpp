@@ -6,41 +6,43 @@
 namespace bolt::collision {
 namespace {
 
-constexpr std::uint32_t nothing = 0xffffffffU;
+constexpr std::uint32_t none = 0xffffffffU;
 
 double squared(double x) { return x * x; }
 
-// By how much the normal of a contact that is merged may be off that of a nearer one: the length of the
-// difference, which of unit vectors is at most the angle between them.
-double may_be_off(double distance, double nearer_distance) {
+// The largest difference between the normals of a merged contact and of the nearer one. It is the length of
+// the difference vector, which for unit vectors is at most the angle between them.
+double normal_tolerance(double distance, double nearer_distance) {
     return merge_angle + (distance - nearer_distance) / merge_stride;
 }
 
-// Those kept, dense.
-struct Kept {
-    std::span<KeptContact> cores;
+// The kept contacts in contiguous records.
+struct KeptContacts {
+    std::span<KeptContact> contacts;
     std::size_t count = 0;
 
-    [[nodiscard]] const KeptContact* merging(const Contact& contact, double merge) const {
-        for (const KeptContact& k : cores.first(count)) {
+    [[nodiscard]] const KeptContact* find_merge(const Contact& contact, double merge) const {
+        for (const KeptContact& k : contacts.first(count)) {
             const Vec3 between = contact.on_tool - k.on_tool;
             if (!(glm::dot(between, between) < squared(merge)) || k.obstacle != contact.obstacle) continue;
-            const Vec3 off = contact.normal - k.normal;
-            if (glm::dot(off, off) < squared(may_be_off(contact.distance, k.distance))) return &k;
+            const Vec3 difference = contact.normal - k.normal;
+            if (glm::dot(difference, difference) < squared(normal_tolerance(contact.distance, k.distance)))
+                return &k;
         }
         return nullptr;
     }
 
-    // Whether all are merged, whatever they turn out to be.
-    [[nodiscard]] const KeptContact* surely_merging(const DeferredContact& deferred, double merge) const {
+    // The kept contact that the deferred contact merges with whatever its exact position and normal are; null
+    // if none.
+    [[nodiscard]] const KeptContact* find_certain_merge(const DeferredContact& deferred, double merge) const {
         const double within = merge - static_cast<double>(deferred.blur);
         if (!(within > 0.0)) return nullptr;
-        for (const KeptContact& k : cores.first(count)) {
+        for (const KeptContact& k : contacts.first(count)) {
             const Vec3 between = deferred.on_tool - k.on_tool;
             if (!(glm::dot(between, between) < squared(within)) || k.obstacle != deferred.obstacle) continue;
             const double angle =
-                may_be_off(deferred.lower, k.distance) - static_cast<double>(deferred.spread);
-            // At least the cosine.
+                normal_tolerance(deferred.lower, k.distance) - static_cast<double>(deferred.spread);
+            // Upper bound of the cosine, from its series.
             const double cosine = 1.0 - squared(angle) / 2.0 + squared(squared(angle)) / 24.0;
             if (angle > 0.0 && glm::dot(deferred.normal, k.normal) > std::min(cosine, 1.0)) return &k;
         }
@@ -50,31 +52,33 @@ struct Kept {
 
 class Reducer {
   public:
-    Reducer(ReductionInput& all, ResolveDeferred find) : all_(all), find_(find) {
+    Reducer(ReductionInput& all, ResolveDeferred resolve) : all_(all), resolve_(resolve) {
         for (std::uint32_t i = 0; i < all.count; ++i) all.order[i] = ranked(i);
         std::sort(all.order.begin(), all.order.begin() + static_cast<std::ptrdiff_t>(all.count),
-                  [&](const RankedContact& a, const RankedContact& b) { return comes_before(a, b); });
+                  [&](const RankedContact& a, const RankedContact& b) { return precedes(a, b); });
         for (std::uint32_t i = 0; i < all.deferred.size(); ++i)
-            all.deferred_order[i] = {all.deferred[i].lower, i, nothing};
+            all.deferred_order[i] = {all.deferred[i].lower, i, none};
         const auto deferred = all.deferred_order.first(all.deferred.size());
         std::sort(deferred.begin(), deferred.end(), [](const RankedContact& a, const RankedContact& b) {
             return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
         });
     }
 
-    // Whether there was room for all; if not, the first that found none is in the clearance.
-    bool keep(double merge, std::size_t room, double& clearance) {
+    // Selects the contacts to keep at this merge distance. Returns false if they do not fit `room`;
+    // `clearance` is then reduced to the distance of the first that did not fit.
+    bool select(double merge, std::size_t room, double& clearance) {
         ++round_;
         kept_ = {all_.kept, 0};
         std::size_t next = 0;
-        std::size_t waits = 0;
+        std::size_t next_deferred = 0;
         for (;;) {
-            // What waits is found before anything that might be further.
-            if (waits < all_.deferred.size() &&
-                (next == all_.count || all_.deferred_order[waits].distance <= all_.order[next].distance)) {
-                RankedContact& one = all_.deferred_order[waits++];
+            // A deferred contact is resolved before any contact that might be further away.
+            if (next_deferred < all_.deferred.size() &&
+                (next == all_.count ||
+                 all_.deferred_order[next_deferred].distance <= all_.order[next].distance)) {
+                RankedContact& one = all_.deferred_order[next_deferred++];
                 DeferredContact& deferred = all_.deferred[one.index];
-                if (!is_surely_merged(one, deferred, merge)) find(deferred, next);
+                if (!is_certainly_merged(one, deferred, merge)) resolve(deferred, next);
                 continue;
             }
             if (next == all_.count) return true;
@@ -85,52 +89,52 @@ class Reducer {
                 return false;
             }
             const Contact& contact = all_.near[one.index];
-            kept_.cores[kept_.count++] = {contact.on_tool, contact.normal, contact.distance, contact.obstacle,
-                                          one.index};
+            kept_.contacts[kept_.count++] = {contact.on_tool, contact.normal, contact.distance,
+                                             contact.obstacle, one.index};
             all_.kept_in[one.index] = round_;
         }
     }
 
     std::size_t write(std::span<Contact> out) const {
-        for (std::size_t i = 0; i < kept_.count; ++i) out[i] = all_.near[kept_.cores[i].index];
+        for (std::size_t i = 0; i < kept_.count; ++i) out[i] = all_.near[kept_.contacts[i].index];
         return kept_.count;
     }
 
   private:
     RankedContact ranked(std::uint32_t i) {
         all_.kept_in[i] = 0;
-        return {all_.near[i].distance, i, nothing};
+        return {all_.near[i].distance, i, none};
     }
-    [[nodiscard]] bool comes_before(const RankedContact& a, const RankedContact& b) const {
+    [[nodiscard]] bool precedes(const RankedContact& a, const RankedContact& b) const {
         return a.distance != b.distance ? a.distance < b.distance
                                         : nearer(all_.near[a.index], all_.near[b.index]);
     }
 
-    // What it was merged with at a lesser distance will do again, if it is kept again.
+    // If the contact that this one merged with at a smaller merge distance is kept again, it merges again.
     [[nodiscard]] bool is_merged_again(const RankedContact& one) const {
-        return one.by != nothing && all_.kept_in[one.by] == round_;
+        return one.by != none && all_.kept_in[one.by] == round_;
     }
 
-    // Or found.
-    bool is_surely_merged(RankedContact& one, const DeferredContact& deferred, double merge) const {
+    // True also if the contact has been resolved already.
+    bool is_certainly_merged(RankedContact& one, const DeferredContact& deferred, double merge) const {
         if (deferred.found || is_merged_again(one)) return true;
-        const KeptContact* with = kept_.surely_merging(deferred, merge);
-        if (with != nullptr) one.by = with->index;
-        return with != nullptr;
+        const KeptContact* merged = kept_.find_certain_merge(deferred, merge);
+        if (merged != nullptr) one.by = merged->index;
+        return merged != nullptr;
     }
 
     bool is_merged(RankedContact& one, double merge) const {
         if (is_merged_again(one)) return true;
-        const KeptContact* with = kept_.merging(all_.near[one.index], merge);
-        if (with != nullptr) one.by = with->index;
-        return with != nullptr;
+        const KeptContact* merged = kept_.find_merge(all_.near[one.index], merge);
+        if (merged != nullptr) one.by = merged->index;
+        return merged != nullptr;
     }
 
-    // Puts it where it belongs, which is not before `next`.
-    void find(DeferredContact& deferred, std::size_t next) {
+    // Computes the contact and inserts it in order, at or after `next`.
+    void resolve(DeferredContact& deferred, std::size_t next) {
         deferred.found = true;
         Contact contact;
-        if (!find_(deferred, contact)) return;
+        if (!resolve_(deferred, contact)) return;
         if (all_.count == all_.near.size()) {
             all_.clearance = std::min(all_.clearance, contact.distance);
             return;
@@ -139,17 +143,17 @@ class Reducer {
         const RankedContact one = ranked(static_cast<std::uint32_t>(all_.count));
         const auto begin = all_.order.begin();
         const auto end = begin + static_cast<std::ptrdiff_t>(all_.count);
-        const auto place = std::upper_bound(
-            begin + static_cast<std::ptrdiff_t>(next), end, one,
-            [&](const RankedContact& a, const RankedContact& b) { return comes_before(a, b); });
+        const auto place =
+            std::upper_bound(begin + static_cast<std::ptrdiff_t>(next), end, one,
+                             [&](const RankedContact& a, const RankedContact& b) { return precedes(a, b); });
         std::copy_backward(place, end, end + 1);
         *place = one;
         ++all_.count;
     }
 
     ReductionInput& all_;
-    ResolveDeferred find_;
-    Kept kept_;
+    ResolveDeferred resolve_;
+    KeptContacts kept_;
     std::uint8_t round_ = 0;
 };
 
@@ -164,11 +168,11 @@ bool nearer(const Contact& a, const Contact& b) {
     return false;
 }
 
-ContactQueryResult reduce_contacts(ReductionInput all, ResolveDeferred find, std::span<Contact> out) {
-    Reducer reducer(all, find);
+ContactQueryResult reduce_contacts(ReductionInput all, ResolveDeferred resolve, std::span<Contact> out) {
+    Reducer reducer(all, resolve);
     for (double merge = first_merge_distance;; merge *= 2.0) {
         double clearance = all.clearance;
-        const bool fits = reducer.keep(merge, out.size(), clearance);
+        const bool fits = reducer.select(merge, out.size(), clearance);
         if (!fits && 2.0 * merge <= last_merge_distance) continue;
         return {reducer.write(out), std::min(clearance, all.clearance), !fits};
     }

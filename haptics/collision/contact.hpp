@@ -1,4 +1,5 @@
-// A contact between the tool and an obstacle, and the result of a contact query.
+// A contact between the tool and an obstacle, the result of a contact query, and the reduction of all nearby
+// contacts to the few that constrain the tool.
 #pragma once
 
 #include <compare>
@@ -73,8 +74,6 @@ struct ContactQueryResult {
     std::uint32_t work = 0;  // cost of the query in comparisons of a sample with a surface, approximate
 };
 
-// Reduces all nearby contacts to the few that constrain the tool.
-
 // Two contacts with the same obstacle are merged if their points on the tool are within the merge distance
 // and their normals are nearly parallel; the nearer one is kept. The merge distance starts at
 // `first_merge_distance` and doubles up to `last_merge_distance` until the kept contacts fit the output. The
@@ -137,6 +136,6 @@ struct ReductionInput {
 
 // Writes the kept contacts, nearest first. The result is the same as if all deferred contacts had been
 // resolved beforehand.
-ContactQueryResult reduce_contacts(ReductionInput all, ResolveDeferred find, std::span<Contact> out);
+ContactQueryResult reduce_contacts(ReductionInput all, ResolveDeferred resolve, std::span<Contact> out);
 
 }  // namespace bolt::collision

@@ -10,16 +10,18 @@
 namespace bolt::collision {
 namespace {
 
-constexpr double same = 1e-9;          // m: points closer than this are one
-constexpr double flush = 0.985;        // cos 10°: faces turned less count as lying on each other
-constexpr double by_a_little = 1e-12;  // m: among equals a face goes before edges
-constexpr double parallel = 1e-12;     // of the squared sine between edges
+constexpr double coincidence = 1e-9;  // m; points closer than this count as equal
+// cos 10°; two faces at a smaller angle are clipped against each other.
+constexpr double min_parallel_cosine = 0.985;
+// m by which a later candidate must be better, so that among equals a face precedes edges.
+constexpr double face_preference = 1e-12;
+constexpr double parallel_tolerance = 1e-12;  // of the squared sine of the angle between edges
 constexpr std::uint32_t none = ~0U;
-constexpr std::size_t most_points = 64;   // of a solid
-constexpr std::size_t most_corners = 32;  // of a face that was cut by another
+constexpr std::size_t max_points = 64;   // of a solid
+constexpr std::size_t max_corners = 32;  // of a clipped face
 
-// The one point of three planes, if there is one.
-bool meet(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c, Vec3& point) {
+// Intersects three planes. Returns false if they have no unique common point.
+bool intersect(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c, Vec3& point) {
     const Vec3 bc = glm::cross(b.normal, c.normal);
     const double volume = glm::dot(a.normal, bc);
     if (std::abs(volume) < 1e-9) return false;
@@ -29,9 +31,9 @@ bool meet(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c, Vec3& poin
     return true;
 }
 
-bool inside(std::span<const HalfSpace> half_spaces, const Vec3& p) {
+bool is_inside_all(std::span<const HalfSpace> half_spaces, const Vec3& p) {
     return std::all_of(half_spaces.begin(), half_spaces.end(),
-                       [&](const HalfSpace& h) { return glm::dot(h.normal, p) <= h.offset + same; });
+                       [&](const HalfSpace& h) { return glm::dot(h.normal, p) <= h.offset + coincidence; });
 }
 
 void add_points(std::span<const HalfSpace> h, Convex& solid) {
@@ -39,9 +41,9 @@ void add_points(std::span<const HalfSpace> h, Convex& solid) {
         for (std::size_t j = i + 1; j < h.size(); ++j)
             for (std::size_t k = j + 1; k < h.size(); ++k) {
                 Vec3 p;
-                if (!meet(h[i], h[j], h[k], p) || !inside(h, p)) continue;
+                if (!intersect(h[i], h[j], h[k], p) || !is_inside_all(h, p)) continue;
                 const bool known = std::any_of(solid.points.begin(), solid.points.end(), [&](const Vec3& q) {
-                    return glm::distance(p, q) < 1e3 * same;
+                    return glm::distance(p, q) < 1e3 * coincidence;
                 });
                 if (!known) solid.points.push_back(p);
             }
@@ -51,7 +53,7 @@ void add_face(const HalfSpace& plane, Convex& solid) {
     std::vector<std::uint32_t> loop;
     Vec3 middle(0.0);
     for (std::uint32_t i = 0; i < solid.points.size(); ++i)
-        if (std::abs(glm::dot(plane.normal, solid.points[i]) - plane.offset) < 1e3 * same) {
+        if (std::abs(glm::dot(plane.normal, solid.points[i]) - plane.offset) < 1e3 * coincidence) {
             loop.push_back(i);
             middle += solid.points[i];
         }
@@ -68,7 +70,7 @@ void add_face(const HalfSpace& plane, Convex& solid) {
     solid.faces.push_back({plane, begin, static_cast<std::uint32_t>(solid.loops.size())});
 }
 
-// Edges that are parallel point the same way and follow each other.
+// Orients parallel edges the same way and sorts edges by direction.
 void sort_by_direction(Convex& solid) {
     std::vector<Vec3>& directions = solid.directions;
     for (ConvexEdge& e : solid.edges) {
@@ -91,13 +93,13 @@ std::span<const std::uint32_t> loop_of(const Convex& solid, std::uint32_t face) 
     return {solid.loops.data() + f.begin, f.end - f.begin};
 }
 
-// A solid seen from the other's frame, without allocation.
-struct Placed {
-    std::array<Vec3, most_points> points, normals;  // of faces
+// A solid transformed into the other's frame, without allocation.
+struct PosedConvex {
+    std::array<Vec3, max_points> points, normals;  // of faces
     Vec3 middle{0.0};
     const Convex* solid = nullptr;
 
-    Placed(const Convex& of, const Pose& pose) : middle(pose * of.middle), solid(&of) {
+    PosedConvex(const Convex& of, const Pose& pose) : middle(pose * of.middle), solid(&of) {
         for (std::size_t i = 0; i < of.points.size(); ++i) points[i] = pose * of.points[i];
         for (std::size_t i = 0; i < of.faces.size(); ++i)
             normals[i] = pose.orientation * of.faces[i].plane.normal;
@@ -108,8 +110,8 @@ struct Placed {
     [[nodiscard]] std::span<const Vec3> all() const { return {points.data(), solid->points.size()}; }
 };
 
-double least_along(std::span<const Vec3> points, const Vec3& n) {
-    // Four at a time: one minimum need not wait for the other.
+double min_along(std::span<const Vec3> points, const Vec3& n) {
+    // Four independent minima, so that the comparisons do not wait for each other.
     std::array<double, 4> least;
     least.fill(glm::dot(points[0], n));
     std::size_t i = 0;
@@ -119,8 +121,8 @@ double least_along(std::span<const Vec3> points, const Vec3& n) {
     return std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
 }
 
-// Which edges of the obstacle point along `n`.
-EdgeSet pointing(const Convex& obstacle, const Vec3& n) {
+// The edges of the obstacle whose direction has a positive component along `n`.
+EdgeSet edges_along(const Convex& obstacle, const Vec3& n) {
     EdgeSet set{};
     for (std::size_t d = 0; d < obstacle.directions.size(); ++d) {
         const std::uint64_t all = 0 - std::uint64_t{glm::dot(n, obstacle.directions[d]) > 0.0};
@@ -129,7 +131,7 @@ EdgeSet pointing(const Convex& obstacle, const Vec3& n) {
     return set;
 }
 
-void facing_along(const Convex& obstacle, const Vec3& along, EdgeSet& left, EdgeSet& right) {
+void select_sides(const Convex& obstacle, const Vec3& along, EdgeSet& left, EdgeSet& right) {
     left = right = {};
     for (std::size_t f = 0; f < obstacle.faces.size(); ++f) {
         const std::uint64_t all = 0 - std::uint64_t{glm::dot(obstacle.faces[f].plane.normal, along) > 0.0};
@@ -140,53 +142,55 @@ void facing_along(const Convex& obstacle, const Vec3& along, EdgeSet& left, Edge
     }
 }
 
-void try_pair(const Placed& tool, std::uint32_t i, const Convex& obstacle, std::uint32_t k,
-              Separation& best) {
+void test_edge_pair(const PosedConvex& tool, std::uint32_t i, const Convex& obstacle, std::uint32_t k,
+                    Separation& best) {
     const ConvexEdge& e = tool.solid->edges[i];
     const ConvexEdge& f = obstacle.edges[k];
     const Vec3 p = tool.points[e.from], along = tool.points[e.to] - p;
     const Vec3 q = obstacle.points[f.from], other = obstacle.points[f.to] - q;
     Vec3 n = glm::cross(along, other);
     const double square_length = glm::dot(n, n);
-    if (square_length < parallel * glm::dot(along, along) * glm::dot(other, other)) return;
+    if (square_length < parallel_tolerance * glm::dot(along, along) * glm::dot(other, other)) return;
     if (glm::dot(n, q - obstacle.middle) < 0.0) n = -n;
-    // Most are no better, and seen to be so without a root.
+    // Rejects most pairs without a square root.
     const double scaled = glm::dot(n, p - q);
     if (scaled * std::abs(scaled) < best.distance * std::abs(best.distance) * square_length) return;
     n /= std::sqrt(square_length);
     const double distance = glm::dot(n, p - q);
-    if (distance > best.distance + by_a_little) best = {distance, n, Separation::Kind::edges, k, i};
+    if (distance > best.distance + face_preference) best = {distance, n, FeaturePair::edges, k, i};
 }
 
-// Of two edges the arcs between the normals of their faces cross, one of them mirrored, where each edge
-// parts the other's faces, and both the same way round: only then is their cross product a direction of
-// which both are the outermost. For one edge of the tool that is asked of all of the obstacle at once.
-void try_edges(const Placed& tool, const Convex& obstacle, Separation& best) {
-    std::array<EdgeSet, most_points> along_normal;  // by face of the tool
+// Tests the pairs of edges whose Gauss arcs (between the normals of an edge's faces, one solid's mirrored)
+// cross: each edge's direction separates the normals of the other's faces, both in the same sense. Only then
+// are both edges extreme along their cross product. Bit sets test one edge of the tool against all edges of
+// the obstacle at once.
+void test_edges(const PosedConvex& tool, const Convex& obstacle, Separation& best) {
+    std::array<EdgeSet, max_points> along_normal;  // by face of the tool
     for (std::size_t t = 0; t < tool.solid->faces.size(); ++t)
-        along_normal[t] = pointing(obstacle, tool.normals[t]);
-    EdgeSet left{}, right{};  // edges whose face on that side looks along the one at hand
+        along_normal[t] = edges_along(obstacle, tool.normals[t]);
+    // Edges whose left or right face normal has a positive component along the tool's edge.
+    EdgeSet left{}, right{};
     std::uint32_t known = none;
     for (std::uint32_t i = 0; i < tool.solid->edges.size(); ++i) {
         const ConvexEdge& e = tool.solid->edges[i];
         const EdgeSet &a = along_normal[e.left], &b = along_normal[e.right];
-        EdgeSet parted{a[0] ^ b[0], a[1] ^ b[1]};
-        if ((parted[0] | parted[1]) == 0) continue;
+        EdgeSet separating{a[0] ^ b[0], a[1] ^ b[1]};
+        if ((separating[0] | separating[1]) == 0) continue;
         if (e.direction != known) {
             known = e.direction;
-            facing_along(obstacle, tool.points[e.to] - tool.points[e.from], left, right);
+            select_sides(obstacle, tool.points[e.to] - tool.points[e.from], left, right);
         }
         for (std::uint32_t w = 0; w < 2; ++w) {
-            std::uint64_t crossing = parted[w] & (left[w] ^ right[w]) & (left[w] ^ b[w]);
+            std::uint64_t crossing = separating[w] & (left[w] ^ right[w]) & (left[w] ^ b[w]);
             for (; crossing != 0; crossing &= crossing - 1)
-                try_pair(tool, i, obstacle, 64 * w + static_cast<std::uint32_t>(std::countr_zero(crossing)),
-                         best);
+                test_edge_pair(tool, i, obstacle,
+                               64 * w + static_cast<std::uint32_t>(std::countr_zero(crossing)), best);
         }
     }
 }
 
 struct Polygon {
-    std::array<Vec3, most_corners> corners;
+    std::array<Vec3, max_corners> corners;
     std::size_t count = 0;
 
     void add(const Vec3& p) {
@@ -194,8 +198,8 @@ struct Polygon {
     }
 };
 
-// What of the polygon lies on the inner side of a plane.
-Polygon cut(const Polygon& given, const Vec3& outward, double offset) {
+// The part of the polygon on the inner side of a plane (Sutherland-Hodgman).
+Polygon clip(const Polygon& given, const Vec3& outward, double offset) {
     Polygon left;
     for (std::size_t i = 0; i < given.count; ++i) {
         const Vec3& p = given.corners[i];
@@ -208,15 +212,15 @@ Polygon cut(const Polygon& given, const Vec3& outward, double offset) {
     return left;
 }
 
-// The face that looks most along `n`.
-std::uint32_t facing(std::span<const Vec3> normals, std::size_t count, const Vec3& n) {
+// The face whose normal is most aligned with `n`.
+std::uint32_t most_aligned_face(std::span<const Vec3> normals, std::size_t count, const Vec3& n) {
     std::uint32_t best = 0;
     for (std::uint32_t i = 1; i < count; ++i)
         if (glm::dot(normals[i], n) > glm::dot(normals[best], n)) best = i;
     return best;
 }
 
-// The points of two edges that are nearest to each other; Ericson, Real-Time Collision Detection, 5.1.9.
+// The closest points of two edges; Ericson, Real-Time Collision Detection, 5.1.9.
 void nearest_on_edges(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e, Vec3& on_p, Vec3& on_q) {
     const double a = glm::dot(d, d), b = glm::dot(d, e), c = glm::dot(e, e);
     const Vec3 r = p - q;
@@ -227,13 +231,13 @@ void nearest_on_edges(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e
     on_q = q + t * e;
 }
 
-// The outermost point against `n`, the middle of those that are so to a hair.
-Vec3 outermost(std::span<const Vec3> points, const Vec3& n) {
-    const double least = least_along(points, n);
+// The extreme point along −`n`; the mean of all points that are extreme up to the coincidence tolerance.
+Vec3 extreme_point(std::span<const Vec3> points, const Vec3& n) {
+    const double least = min_along(points, n);
     Vec3 sum(0.0);
     double count = 0.0;
     for (const Vec3& p : points)
-        if (glm::dot(p, n) < least + same) {
+        if (glm::dot(p, n) < least + coincidence) {
             sum += p;
             count += 1.0;
         }
@@ -246,7 +250,7 @@ Convex make_convex(std::span<const HalfSpace> half_spaces) {
     Convex solid;
     add_points(half_spaces, solid);
     for (const HalfSpace& h : half_spaces) add_face(h, solid);
-    assert(solid.points.size() <= most_points && solid.faces.size() <= most_points);
+    assert(solid.points.size() <= max_points && solid.faces.size() <= max_points);
     for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
         const auto loop = loop_of(solid, f);
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -260,7 +264,7 @@ Convex make_convex(std::span<const HalfSpace> half_spaces) {
                 other->right = f;
         }
     }
-    assert(solid.edges.size() <= most_edges);
+    assert(solid.edges.size() <= max_edges);
     sort_by_direction(solid);
     solid.left_of.assign(solid.faces.size(), {});
     solid.right_of.assign(solid.faces.size(), {});
@@ -278,81 +282,83 @@ Convex make_convex(std::span<const HalfSpace> half_spaces) {
 Separation separation(const Convex& tool, const Convex& obstacle, const Pose& to_obstacle, double band) {
     Separation best;
     const Vec3 middle = to_obstacle * tool.middle;
-    const double apart = glm::distance(middle, obstacle.middle) - tool.radius - obstacle.radius;
-    if (apart > band) {
-        best.distance = apart;
+    const double lower_bound = glm::distance(middle, obstacle.middle) - tool.radius - obstacle.radius;
+    if (lower_bound > band) {
+        best.distance = lower_bound;
         return best;
     }
-    const Placed placed(tool, to_obstacle);
+    const PosedConvex posed(tool, to_obstacle);
     best.distance = -1e9;
     for (std::uint32_t i = 0; i < obstacle.faces.size(); ++i) {
         const HalfSpace& plane = obstacle.faces[i].plane;
         if (glm::dot(plane.normal, middle) - plane.offset < best.distance)
             continue;  // no point is further out
-        const double distance = least_along(placed.all(), plane.normal) - plane.offset;
-        if (distance > best.distance + by_a_little)
-            best = {distance, plane.normal, Separation::Kind::obstacle_face, i, 0};
+        const double distance = min_along(posed.all(), plane.normal) - plane.offset;
+        if (distance > best.distance + face_preference)
+            best = {distance, plane.normal, FeaturePair::obstacle_face, i, 0};
         if (distance > band) return best;
     }
     for (std::uint32_t i = 0; i < tool.faces.size(); ++i) {
-        const Vec3& n = placed.normals[i];
-        const double distance = least_along(obstacle.points, n) - placed.offset(i);
-        if (distance > best.distance + by_a_little) best = {distance, -n, Separation::Kind::tool_face, 0, i};
+        const Vec3& n = posed.normals[i];
+        const double distance = min_along(obstacle.points, n) - posed.offset(i);
+        if (distance > best.distance + face_preference) best = {distance, -n, FeaturePair::tool_face, 0, i};
         if (distance > band) return best;
     }
-    try_edges(placed, obstacle, best);
+    test_edges(posed, obstacle, best);
     return best;
 }
 
-std::size_t meeting_points(const Convex& tool, const Convex& obstacle, const Pose& to_obstacle,
-                           const Separation& s, std::span<Contact, most_meeting> out) {
-    const Placed placed(tool, to_obstacle);
+std::size_t contact_points(const Convex& tool, const Convex& obstacle, const Pose& to_obstacle,
+                           const Separation& s, std::span<Contact, max_contact_points> out) {
+    const PosedConvex posed(tool, to_obstacle);
     const Vec3 n = s.normal;
     std::size_t count = 0;
     const auto write = [&](const Vec3& on_tool, double distance, std::uint32_t feature) {
         const auto known = out.first(count);
-        const bool twice = std::any_of(known.begin(), known.end(), [&](const Contact& c) {
+        const bool is_duplicate = std::any_of(known.begin(), known.end(), [&](const Contact& c) {
             return glm::distance(c.on_tool, on_tool) < 1e-5;
         });
-        if (!twice && count < out.size())
+        if (!is_duplicate && count < out.size())
             out[count++] = {on_tool, on_tool - distance * n, n, distance, {}, feature};
     };
-    // First the one that the separation was measured at.
-    if (s.kind == Separation::Kind::edges) {
+    // First the point at which the separation was measured.
+    if (s.features == FeaturePair::edges) {
         const ConvexEdge& e = tool.edges[s.on_tool];
         const ConvexEdge& f = obstacle.edges[s.on_obstacle];
-        const Vec3 p = placed.points[e.from], q = obstacle.points[f.from];
+        const Vec3 p = posed.points[e.from], q = obstacle.points[f.from];
         Vec3 on_tool, on_obstacle;
-        nearest_on_edges(p, placed.points[e.to] - p, q, obstacle.points[f.to] - q, on_tool, on_obstacle);
+        nearest_on_edges(p, posed.points[e.to] - p, q, obstacle.points[f.to] - q, on_tool, on_obstacle);
         write(on_tool, s.distance, 0);
     }
-    std::array<Vec3, most_points> normals;
+    std::array<Vec3, max_points> normals;
     for (std::size_t i = 0; i < obstacle.faces.size(); ++i) normals[i] = obstacle.faces[i].plane.normal;
-    const std::uint32_t below =
-        s.kind == Separation::Kind::obstacle_face ? s.on_obstacle : facing(normals, obstacle.faces.size(), n);
-    const std::uint32_t above =
-        s.kind == Separation::Kind::tool_face ? s.on_tool : facing(placed.normals, tool.faces.size(), -n);
-    const HalfSpace& plane = obstacle.faces[below].plane;
-    const double lean = glm::dot(plane.normal, n);
-    if (lean > flush && -glm::dot(placed.normals[above], n) > flush) {
-        Polygon common;
-        for (const std::uint32_t i : loop_of(tool, above)) common.add(placed.points[i]);
-        const auto loop = loop_of(obstacle, below);
-        for (std::size_t i = 0; i < loop.size() && common.count > 0; ++i) {
+    const std::uint32_t obstacle_face = s.features == FeaturePair::obstacle_face
+                                            ? s.on_obstacle
+                                            : most_aligned_face(normals, obstacle.faces.size(), n);
+    const std::uint32_t tool_face = s.features == FeaturePair::tool_face
+                                        ? s.on_tool
+                                        : most_aligned_face(posed.normals, tool.faces.size(), -n);
+    const HalfSpace& plane = obstacle.faces[obstacle_face].plane;
+    const double cosine = glm::dot(plane.normal, n);
+    if (cosine > min_parallel_cosine && -glm::dot(posed.normals[tool_face], n) > min_parallel_cosine) {
+        Polygon overlap;
+        for (const std::uint32_t i : loop_of(tool, tool_face)) overlap.add(posed.points[i]);
+        const auto loop = loop_of(obstacle, obstacle_face);
+        for (std::size_t i = 0; i < loop.size() && overlap.count > 0; ++i) {
             const Vec3& p = obstacle.points[loop[i]];
             const Vec3 outward = glm::cross(obstacle.points[loop[(i + 1) % loop.size()]] - p, n);
-            common = cut(common, outward, glm::dot(outward, p));
+            overlap = clip(overlap, outward, glm::dot(outward, p));
         }
-        for (std::size_t i = 0; i < common.count; ++i)
-            write(common.corners[i], (glm::dot(plane.normal, common.corners[i]) - plane.offset) / lean,
+        for (std::size_t i = 0; i < overlap.count; ++i)
+            write(overlap.corners[i], (glm::dot(plane.normal, overlap.corners[i]) - plane.offset) / cosine,
                   static_cast<std::uint32_t>(i + 1));
     }
     if (count > 0) return count;
-    if (s.kind == Separation::Kind::tool_face) {
-        const Vec3 on_obstacle = outermost(obstacle.points, -n);
+    if (s.features == FeaturePair::tool_face) {
+        const Vec3 on_obstacle = extreme_point(obstacle.points, -n);
         write(on_obstacle + s.distance * n, s.distance, 0);
     } else {
-        write(outermost(placed.all(), n), s.distance, 0);
+        write(extreme_point(posed.all(), n), s.distance, 0);
     }
     return count;
 }

@@ -1,11 +1,12 @@
-// Convex solids with few faces, and where two of them meet: exact, for parts that fit into each other with a
-// tenth of a millimetre to spare.
+// Convex solids with few faces, their separation and their contact points. Exact, for parts that fit into
+// each other with a clearance of a tenth of a millimetre.
 //
-// Two convex solids are apart by s along n if one lies wholly on one side of a slab of that width. The
-// greatest s over all n is the distance where they are apart and face meets corner or edge meets edge, less
-// than the distance where corner meets corner, and minus the depth where they are in each other; it is found
-// among the normals of both solids' faces and the cross products of those edges whose Gauss arcs cross
-// (Gottschalk, Lin, Manocha, SIGGRAPH 1996; for the arcs: Gregorius, Game Developers Conference 2013).
+// Two convex solids are separated by s along n if a slab of width s, normal to n, lies between them. The
+// greatest s over all n equals the distance if the nearest features are face and corner or two edges; it is
+// less than the distance if they are two corners, and minus the penetration depth if the solids overlap. It
+// is found among the normals of both solids' faces and the cross products of those pairs of edges whose arcs
+// on the Gauss map cross (Gottschalk, Lin, Manocha, SIGGRAPH 1996; for the arcs: Gregorius, Game Developers
+// Conference 2013).
 #pragma once
 
 #include <array>
@@ -24,52 +25,57 @@ struct HalfSpace {
 
 struct ConvexFace {
     HalfSpace plane;
-    std::uint32_t begin = 0, end = 0;  // its corners in `loops`, counter-clockwise seen from outside
+    std::uint32_t begin = 0, end = 0;  // range of its corners in `loops`, counter-clockwise seen from outside
 };
 
 struct ConvexEdge {
-    std::uint32_t from = 0, to = 0;     // points
-    std::uint32_t left = 0, right = 0;  // faces
-    std::uint32_t direction = 0;        // the same for edges that point the same way; edges are in its order
+    std::uint32_t from = 0, to = 0;     // indices of points
+    std::uint32_t left = 0, right = 0;  // indices of faces
+    // Index in `directions`; parallel edges share it, and edges are sorted by it.
+    std::uint32_t direction = 0;
 };
 
-// A set of a solid's edges.
+// A set of a solid's edges, one bit each.
 using EdgeSet = std::array<std::uint64_t, 2>;
-inline constexpr std::size_t most_edges = 128;
+inline constexpr std::size_t max_edges = 128;
 
 struct Convex {
     std::vector<Vec3> points;
     std::vector<ConvexFace> faces;
     std::vector<ConvexEdge> edges;
     std::vector<std::uint32_t> loops;
-    std::vector<EdgeSet> left_of, right_of;  // by face: the edges that have it on that side
-    std::vector<Vec3> directions;            // that edges have
-    std::vector<EdgeSet> in_direction;       // and which
+    std::vector<EdgeSet> left_of, right_of;  // by face: the edges that have it on their left or right side
+    std::vector<Vec3> directions;            // unit, distinct directions of edges
+    std::vector<EdgeSet> in_direction;       // by direction: the edges that have it
     Vec3 middle{0.0};
-    double radius = 0.0;  // m, about the middle
+    double radius = 0.0;  // m, of the bounding sphere about `middle`
 };
 
-// What the half spaces leave, which must be bounded; those that cut nothing off are left out.
+// The intersection of the half spaces, which must be bounded. Half spaces that cut nothing off give no face.
 Convex make_convex(std::span<const HalfSpace> half_spaces);
 
-// How far two solids are apart, and along what.
+enum class FeaturePair : std::uint8_t { obstacle_face, tool_face, edges };
+
+// The separation of two solids and the features that determine it.
 struct Separation {
-    double distance = 0.0;  // m, the greatest; below 0 they are in each other
+    double distance = 0.0;  // m, greatest over all directions; negative: the solids overlap
     Vec3 normal{0.0};       // unit, in the obstacle's frame, from the obstacle to the tool
-    // The features that meet: one of the obstacle and one of the tool. Faces count from 0; of edges both are
-    // given.
-    enum class Kind : std::uint8_t { obstacle_face, tool_face, edges } kind = Kind::obstacle_face;
+    // The features that determine the separation, as indices of faces or edges; for a face only its own index
+    // is set.
+    FeaturePair features = FeaturePair::obstacle_face;
     std::uint32_t on_obstacle = 0, on_tool = 0;
 };
 
-// `to_obstacle`: the tool's frame to the obstacle's. Beyond `band` some lower bound that is > band.
+// `to_obstacle`: the tool's frame to the obstacle's. If the separation exceeds `band` (m), some lower bound >
+// band is returned.
 Separation separation(const Convex& tool, const Convex& obstacle, const Pose& to_obstacle, double band);
 
-inline constexpr std::size_t most_meeting = 12;
+inline constexpr std::size_t max_contact_points = 12;
 
-// Where they meet, in the obstacle's frame: the corners of what two nearly parallel faces have in common, or
-// a point. The normal of all is the separation's, no distance is less than its. Returns how many.
-std::size_t meeting_points(const Convex& tool, const Convex& obstacle, const Pose& to_obstacle,
-                           const Separation& separation, std::span<Contact, most_meeting> out);
+// Writes the contact points in the obstacle's frame: the corners of the overlap of two nearly parallel faces,
+// or one point. All have the separation's normal, and no distance is less than the separation's. Returns
+// their number.
+std::size_t contact_points(const Convex& tool, const Convex& obstacle, const Pose& to_obstacle,
+                           const Separation& separation, std::span<Contact, max_contact_points> out);
 
 }  // namespace bolt::collision

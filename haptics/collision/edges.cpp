@@ -21,17 +21,17 @@ bool nearer_crossing(const Crossing& a, const Crossing& b) {
 struct EdgeGathering {
     const Solid* solid;
     const EdgePiece* piece;
-    double length;    // half the piece's
+    double length;    // m, half the piece's length
     glm::vec3 along;  // unit
     std::array<glm::vec3, 2> inward;
-    glm::vec3 low, high;   // of its box
-    float asked_in_float;  // the radius, with a margin
+    glm::vec3 low, high;  // m, bounding box of the piece
+    float radius_float;   // m, the radius with a margin
     double radius, band;
     std::array<Crossing, 16> found;
     std::size_t count = 0;
     double clear, turn = infinite_distance;
     FacingEdges* facing = nullptr;
-    double dropped = infinite_distance;
+    double nearest_dropped = infinite_distance;
 
     void add(Crossing crossing) {
         if (count < found.size()) {
@@ -40,34 +40,35 @@ struct EdgeGathering {
         }
         const auto last = std::max_element(found.begin(), found.end(), nearer_crossing);
         if (nearer_crossing(crossing, *last)) std::swap(crossing, *last);
-        dropped = std::min(dropped, crossing.distance);
+        nearest_dropped = std::min(nearest_dropped, crossing.distance);
     }
 };
 
-// How far the common perpendicular is from leading out of both solids, as a cosine; at most 0: it does. Else
-// some face, vertex or other edge is nearer.
-double off_facing(const Ridge& edge, const EdgePiece& piece, const Vec3& normal) {
-    double off = -1.0;
+// The cosine by which the common perpendicular fails to point out of both solids. At most 0: it points out of
+// both, so the edges face each other; otherwise a face, vertex or other edge is nearer.
+double facing_excess(const Ridge& edge, const EdgePiece& piece, const Vec3& normal) {
+    double excess = -1.0;
     for (std::size_t i = 0; i < 2; ++i)
-        off = std::max({off, glm::dot(normal, Vec3(edge.inward[i])), -glm::dot(normal, piece.inward[i])});
+        excess =
+            std::max({excess, glm::dot(normal, Vec3(edge.inward[i])), -glm::dot(normal, piece.inward[i])});
     constexpr double slack = 1e-6;
-    return off - slack;
+    return excess - slack;
 }
 
-// A turn (rad) that lasts long enough not to ask how far the edge is.
-constexpr double worth_a_turn = 0.02;
+// rad; if the piece must turn by more than this before the edge can face it, the distance is not computed.
+constexpr double useful_turn = 0.02;
 
-// Whether the edge is surely further than the radius from all of the piece: by their boxes.
-bool is_beyond(const EdgeGathering& g, const Ridge& edge) {
+// Returns true if the bounding boxes prove that the edge is further than the radius from the piece.
+bool is_out_of_radius(const EdgeGathering& g, const Ridge& edge) {
     const glm::vec3 low = glm::min(edge.ends[0], edge.ends[1]);
     const glm::vec3 high = glm::max(edge.ends[0], edge.ends[1]);
-    const glm::vec3 beside = glm::max(glm::max(low - g.high, g.low - high), glm::vec3(0.0F));
-    return glm::dot(beside, beside) > g.asked_in_float * g.asked_in_float;
+    const glm::vec3 gap = glm::max(glm::max(low - g.high, g.low - high), glm::vec3(0.0F));
+    return glm::dot(gap, gap) > g.radius_float * g.radius_float;
 }
 
-// Whether the piece has to turn by far until the common perpendicular leads out of both solids; most edges
-// are done with so.
-bool is_off_by_far(EdgeGathering& g, const Ridge& edge) {
+// Returns true if the piece must turn by more than useful_turn before the common perpendicular points out of
+// both solids. This rejects most edges.
+bool needs_large_turn(EdgeGathering& g, const Ridge& edge) {
     constexpr float rounding_of_turns = 1e-3F;
     const glm::vec3 across = glm::cross(g.along, edge.along);
     float plus = -1.0F, minus = -1.0F;
@@ -77,13 +78,13 @@ bool is_off_by_far(EdgeGathering& g, const Ridge& edge) {
         minus = std::max({minus, -of_edge, of_piece});
     }
     const double turn = static_cast<double>(std::min(plus, minus) / 3.0F - rounding_of_turns);
-    if (turn > worth_a_turn) g.facing->turn = std::min(g.facing->turn, turn);
-    return turn > worth_a_turn;
+    if (turn > useful_turn) g.facing->turn = std::min(g.facing->turn, turn);
+    return turn > useful_turn;
 }
 
-// One edge against the piece. Why the bounds hold: turning the piece by φ turns the perpendicular by 1.5 φ
-// over the sine between the edges at most, while φ is below a third of that sine.
-void meet(EdgeGathering& g, std::uint32_t index) {
+// Compares one edge with the piece. The bounds hold because turning the piece by φ turns the perpendicular by
+// at most 1.5 φ divided by the sine of the angle between the edges, while φ is below a third of that sine.
+void add_edge_pair(EdgeGathering& g, std::uint32_t index) {
     const Ridge& edge = g.solid->ridges[index];
     const Vec3 a(edge.ends[0]);
     const Vec3 b(edge.ends[1]);
@@ -96,15 +97,15 @@ void meet(EdgeGathering& g, std::uint32_t index) {
     Crossing crossing;
     if (sine > 1e-3) {
         crossing.normal = across / size;
-        const double off = std::min(off_facing(edge, *g.piece, crossing.normal),
-                                    off_facing(edge, *g.piece, -crossing.normal));
-        const double turn = off * sine / 3.0;
+        const double excess = std::min(facing_excess(edge, *g.piece, crossing.normal),
+                                       facing_excess(edge, *g.piece, -crossing.normal));
+        const double turn = excess * sine / 3.0;
         if (turn >= g.turn) return;
-        if (turn > worth_a_turn) {
+        if (turn > useful_turn) {
             g.turn = turn;
             return;
         }
-        if (off > 0.0) {
+        if (excess > 0.0) {
             const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
             const Vec3 between = g.piece->middle + at.s * g.piece->half - middle - at.t * half;
             if (glm::dot(between, between) <= g.radius * g.radius) g.turn = turn;
@@ -116,7 +117,8 @@ void meet(EdgeGathering& g, std::uint32_t index) {
     crossing.on_edge = middle + at.t * half;
     const double apart = glm::length(crossing.on_piece - crossing.on_edge);
     if (apart > g.radius) return;
-    // Edges that are nearly parallel are compared at their middles only: off by their angle at most.
+    // Nearly parallel edges are compared at their middles only; the error is at most their angle times the
+    // length.
     const double beyond = apart - max_crossing_depth - (at.inner ? 0.0 : 2e-3 * g.length);
     if (!(sine > 1e-3)) {
         g.clear = std::min(g.clear, beyond);
@@ -128,14 +130,15 @@ void meet(EdgeGathering& g, std::uint32_t index) {
         const Vec3 between = middle - g.piece->middle;
         const double on_piece = glm::dot(glm::cross(between, half), across) / (size * size);
         const double on_edge = glm::dot(glm::cross(between, g.piece->half), across) / (size * size);
-        // By how much the feet of the perpendicular lie beyond the ends. They move by 1.12 of the way and 4.8
-        // of the distance and turn, over the sine, at most.
+        // m by which the feet of the perpendicular lie beyond the ends. A displacement moves them by at
+        // most 1.12 times itself, a turn by at most 4.8 times the distance times the turn, both divided by
+        // the sine.
         const double over =
             std::max((std::abs(on_piece) - 1.0) * g.length, (std::abs(on_edge) - 1.0) * length);
         double clear = std::min(apart, 0.4 * over * sine);
         double turn = std::min(0.05 * sine, over * sine * sine / (10.0 * apart));
-        // The lines are apart, and cannot pass each other before they have come together: their distance
-        // falls by the way and by turn times how far the foot is, at most.
+        // The lines are apart and must touch before they can pass each other. Their distance decreases at
+        // most by the displacement plus the turn times the distance of the foot.
         const double distance = -glm::dot(between, crossing.normal);
         if (const double until = std::min(apart, 0.8 * distance); until > clear) {
             clear = until;
@@ -152,7 +155,7 @@ void meet(EdgeGathering& g, std::uint32_t index) {
     crossing.distance = glm::dot(crossing.on_piece - crossing.on_edge, crossing.normal);
     crossing.edge = edge.sharp_edge;
     if (crossing.distance > 0.0) {
-        // The other way round only by coming through.
+        // The edges can change sides only by passing through each other.
         g.clear = std::min(g.clear, 0.9 * crossing.distance);
         g.turn = std::min(g.turn, 0.1 * sine);
     } else {
@@ -165,11 +168,11 @@ void meet(EdgeGathering& g, std::uint32_t index) {
 bool gather_edge(RTCPointQueryFunctionArguments* arguments) {
     auto& g = *static_cast<EdgeGathering*>(arguments->userPtr);
     const Ridge& edge = g.solid->ridges[arguments->primID];
-    if (is_beyond(g, edge) || is_off_by_far(g, edge)) return false;
+    if (is_out_of_radius(g, edge) || needs_large_turn(g, edge)) return false;
     FacingEdges& facing = *g.facing;
     facing.all = facing.all && facing.count < facing.ridges.size();
     if (facing.all) facing.ridges[facing.count++] = arguments->primID;
-    meet(g, arguments->primID);
+    add_edge_pair(g, arguments->primID);
     return false;
 }
 
@@ -177,7 +180,7 @@ bool is_inside(const Solid& solid, const Vec3& point) {
     return query_point(solid, point, infinite_distance, 0.0, {}).distance < 0.0;
 }
 
-EdgeGathering gathering(const Solid& solid, const EdgePiece& piece, double radius, double band) {
+EdgeGathering make_gathering(const Solid& solid, const EdgePiece& piece, double radius, double band) {
     EdgeGathering g;
     g.solid = &solid;
     g.piece = &piece;
@@ -188,10 +191,10 @@ EdgeGathering gathering(const Solid& solid, const EdgePiece& piece, double radiu
     return g;
 }
 
-Crossings conclude(EdgeGathering& g, const Solid& other, const Pose& to_other,
-                   std::span<Crossing> crossings) {
+Crossings select_crossings(EdgeGathering& g, const Solid& other, const Pose& to_other,
+                           std::span<Crossing> crossings) {
     std::sort(g.found.begin(), g.found.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_crossing);
-    Crossings result{0, std::min(g.band, g.dropped), g.clear, g.turn};
+    Crossings result{0, std::min(g.band, g.nearest_dropped), g.clear, g.turn};
     for (const Crossing& c : std::span(g.found).first(g.count)) {
         if (c.distance < -ambiguous_depth && !is_inside(*g.solid, c.on_piece) &&
             (c.distance < -g.band || !is_inside(other, to_other * c.on_edge)))
@@ -213,7 +216,7 @@ Crossings query_edges(const Solid& solid, const EdgePiece& piece, const Solid& o
     facing.all = true;
     facing.turn = infinite_distance;
     if (!solid.edge_scene) return {0, band, infinite_distance, infinite_distance};
-    EdgeGathering g = gathering(solid, piece, radius, band);
+    EdgeGathering g = make_gathering(solid, piece, radius, band);
     g.facing = &facing;
     g.along = glm::vec3(piece.half / g.length);
     for (std::size_t i = 0; i < 2; ++i) g.inward[i] = glm::vec3(piece.inward[i]);
@@ -221,37 +224,38 @@ Crossings query_edges(const Solid& solid, const EdgePiece& piece, const Solid& o
     const glm::vec3 extent = glm::abs(glm::vec3(piece.half));
     g.low = middle - extent;
     g.high = middle + extent;
-    g.asked_in_float = with_margin(g.radius, piece.middle);
+    g.radius_float = with_margin(g.radius, piece.middle);
     RTCPointQuery query = make_query(piece.middle, g.length + g.radius);
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(solid.edge_scene.get(), &query, &context, gather_edge, &g);
     g.turn = std::min(g.turn, facing.turn);
-    return conclude(g, other, to_other, crossings);
+    return select_crossings(g, other, to_other, crossings);
 }
 
 Crossings query_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
                              const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
                              const FacingEdges& facing) {
-    EdgeGathering g = gathering(solid, piece, radius, band);
+    EdgeGathering g = make_gathering(solid, piece, radius, band);
     g.turn = facing.turn;
-    for (std::uint32_t i = 0; i < facing.count; ++i) meet(g, facing.ridges[i]);
-    return conclude(g, other, to_other, crossings);
+    for (std::uint32_t i = 0; i < facing.count; ++i) add_edge_pair(g, facing.ridges[i]);
+    return select_crossings(g, other, to_other, crossings);
 }
 
 Crossings query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
                              const Pose& to_other, double turned, double band, bool near_before,
                              EdgeCache& cache, bool& searched, std::span<Crossing> crossings) {
     const double turn = turned - cache.turned;
-    const double way =
+    const double displacement =
         glm::length(piece.middle - Vec3(cache.at)) + glm::length(piece.half) * turn + rounding_in_float;
     const double deepest = std::max(band, max_crossing_depth);
-    searched = !(cache.facing.all && cache.radius - way > deepest + band + min_cached_distance &&
+    searched = !(cache.facing.all && cache.radius - displacement > deepest + band + min_cached_distance &&
                  cache.facing.turn - turn > min_cached_turn);
     if (!searched) {
         FacingEdges facing = cache.facing;
         facing.turn -= turn;
-        return query_facing_edges(solid, piece, other, to_other, cache.radius - way, band, crossings, facing);
+        return query_facing_edges(solid, piece, other, to_other, cache.radius - displacement, band, crossings,
+                                  facing);
     }
     cache.at = glm::vec3(piece.middle);
     cache.turned = turned;

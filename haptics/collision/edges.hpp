@@ -1,4 +1,5 @@
-// Edge against edge: a straight piece of one solid's convex edge against the convex edges of another solid.
+// Contacts between edges: a straight piece of one solid's convex edge against the convex edges of another
+// solid.
 #pragma once
 
 #include "haptics/collision/solid.hpp"

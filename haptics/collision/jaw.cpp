@@ -7,27 +7,27 @@
 namespace bolt::collision {
 namespace {
 
-// Over the opening, as tools/models/wrench makes them.
+// Dimensions divided by the opening, as in tools/assets/models/wrench.cpp.
 constexpr double thickness_share = 0.5, throat_share = 0.6, tip_share = 0.7, bevel_share = 0.025;
 constexpr double lead_in_share = 0.035, round_share = 0.129;  // chords of the radii 0.06 and 0.22
-constexpr double half_head_at_tip = 0.735;                    // where the jaw ends and its head's circle is
+constexpr double half_head_at_tip = 0.735;                    // half the width of the head at its tips
 
-constexpr double slope = pi / 6.0;  // of a nut's chamfers
+constexpr double slope = pi / 6.0;  // rad, of a nut's chamfers
 constexpr double sixth = pi / 3.0;
 
 Vec3 direction(double angle) { return {std::cos(angle), std::sin(angle), 0.0}; }
 
-void cap(double half, std::vector<HalfSpace>& planes) {
+void add_end_planes(double half, std::vector<HalfSpace>& planes) {
     planes.push_back({{0, 0, 1}, half});
     planes.push_back({{0, 0, -1}, half});
 }
 
-HalfSpace through(const Vec3& normal, const Vec3& point) {
+HalfSpace plane_through(const Vec3& normal, const Vec3& point) {
     const Vec3 n = glm::normalize(normal);
     return {n, glm::dot(n, point)};
 }
 
-Convex turned(std::vector<HalfSpace> planes, double angle) {
+Convex rotated_convex(std::vector<HalfSpace> planes, double angle) {
     const Quat turn = glm::angleAxis(angle, Vec3(0, 0, 1));
     for (HalfSpace& plane : planes) plane.normal = turn * plane.normal;
     return make_convex(planes);
@@ -35,35 +35,35 @@ Convex turned(std::vector<HalfSpace> planes, double angle) {
 
 // One of the two jaws, on the side of +Y or −Y.
 Convex half_jaw(const Jaw& j, double side) {
-    const double flat = 0.5 * j.opening, back = jaw_cover * j.opening, high = 0.5 * j.thickness;
+    const double flat = 0.5 * j.opening, back = jaw_cover * j.opening, half_thickness = 0.5 * j.thickness;
     const double head = half_head_at_tip * j.opening;
     std::vector<HalfSpace> planes{{{0, -side, 0}, -flat},
                                   {{0, side, 0}, flat + back},
                                   {{-1, 0, 0}, j.tip},
                                   {{1, 0, 0}, j.throat + back}};
-    cap(high, planes);
+    add_end_planes(half_thickness, planes);
     for (const double up : {1.0, -1.0})
-        planes.push_back(through({0, -side, up}, {0, side * flat, up * (high - j.bevel)}));
-    planes.push_back(through({-1, -side, 0}, {-j.tip, side * (flat + j.lead_in), 0}));
-    planes.push_back(through({-1, side, 0}, {-j.tip, side * (head - j.round), 0}));
-    return turned(planes, j.head_angle);
+        planes.push_back(plane_through({0, -side, up}, {0, side * flat, up * (half_thickness - j.bevel)}));
+    planes.push_back(plane_through({-1, -side, 0}, {-j.tip, side * (flat + j.lead_in), 0}));
+    planes.push_back(plane_through({-1, side, 0}, {-j.tip, side * (head - j.round), 0}));
+    return rotated_convex(planes, j.head_angle);
 }
 
 Convex bottom(const Jaw& j) {
-    const double wide = (0.5 + jaw_cover) * j.opening, high = 0.5 * j.thickness;
+    const double wide = (0.5 + jaw_cover) * j.opening, half_thickness = 0.5 * j.thickness;
     std::vector<HalfSpace> planes{{{-1, 0, 0}, -j.throat},
                                   {{1, 0, 0}, j.throat + jaw_cover * j.opening},
                                   {{0, 1, 0}, wide},
                                   {{0, -1, 0}, wide}};
-    cap(high, planes);
+    add_end_planes(half_thickness, planes);
     for (const double up : {1.0, -1.0})
-        planes.push_back(through({-1, 0, up}, {j.throat, 0, up * (high - j.bevel)}));
-    return turned(planes, j.head_angle);
+        planes.push_back(plane_through({-1, 0, up}, {j.throat, 0, up * (half_thickness - j.bevel)}));
+    return rotated_convex(planes, j.head_angle);
 }
 
-// Of a line p + t up, 0 ≤ t ≤ length, the length within |coordinate| ≤ half; it begins at `start` and grows
-// by `rate`.
-double within(double start, double rate, double length, double half) {
+// The length of the part of a line on which |coordinate| ≤ half. Along the line, of length `length`, the
+// coordinate starts at `start` and changes by `rate` per unit of length.
+double length_within(double start, double rate, double length, double half) {
     if (std::abs(rate) < 1e-12) return std::abs(start) <= half ? length : 0.0;
     const double a = (-half - start) / rate, b = (half - start) / rate;
     return std::clamp(std::max(a, b), 0.0, length) - std::clamp(std::min(a, b), 0.0, length);
@@ -86,14 +86,14 @@ Jaw make_jaw(double opening, double head_angle, double thickness, double throat,
 
 double HexagonPrism::half_side() const { return 0.5 * across_flats / std::sqrt(3.0); }
 
-double HexagonPrism::fall() const {
+double HexagonPrism::corner_drop() const {
     return std::max(0.0, across_flats / std::sqrt(3.0) - 0.5 * bearing) * std::tan(slope);
 }
 
 JawParts jaw_parts(const Jaw& jaw) { return {half_jaw(jaw, 1.0), half_jaw(jaw, -1.0), bottom(jaw)}; }
 
 bool covered_by_jaw(const JawParts& parts, const Vec3& point) {
-    constexpr double facets = 20e-6;  // m, that a mesh may stick out of what it is made from
+    constexpr double facets = 20e-6;  // m by which a mesh may exceed the exact shape
     return std::any_of(parts.begin(), parts.end(), [&](const Convex& part) {
         return std::all_of(part.faces.begin(), part.faces.end(), [&](const ConvexFace& face) {
             return glm::dot(face.plane.normal, point) <= face.plane.offset + facets;
@@ -108,7 +108,7 @@ Convex hexagon(const HexagonPrism& p) {
         const Vec3 out = direction(0.5 * i * sixth);
         for (const double up : {1.0, -1.0}) {
             const Vec3 rim = 0.5 * p.bearing * out + Vec3(0, 0, up > 0.0 ? p.height : 0.0);
-            planes.push_back(through(std::sin(slope) * out + Vec3(0, 0, up * std::cos(slope)), rim));
+            planes.push_back(plane_through(std::sin(slope) * out + Vec3(0, 0, up * std::cos(slope)), rim));
         }
     }
     return make_convex(planes);
@@ -126,15 +126,16 @@ JawSeat seat_of(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
     seat.tilt = std::asin(std::clamp(across.z, -1.0, 1.0));
     const Vec3 middle(0.0, 0.0, wrench.position.z);
     seat.aside = glm::dot(middle - wrench.position, across);
-    const double fall = prism.fall(), side = prism.half_side();
+    const double corner_drop = prism.corner_drop(), side = prism.half_side();
     seat.overlap = prism.height;
     for (const double a : {-side, side})
         for (const double b : {-0.5, 0.5}) {
-            const Vec3 corner = a * along + b * prism.across_flats * out + Vec3(0, 0, fall);
-            seat.overlap = std::min(seat.overlap, within(glm::dot(corner - wrench.position, normal), normal.z,
-                                                         prism.height - 2.0 * fall, jaw.half_flat()));
+            const Vec3 corner = a * along + b * prism.across_flats * out + Vec3(0, 0, corner_drop);
+            seat.overlap =
+                std::min(seat.overlap, length_within(glm::dot(corner - wrench.position, normal), normal.z,
+                                                     prism.height - 2.0 * corner_drop, jaw.half_flat()));
         }
-    // The axis sees the jaw's middle this far along the flats.
+    // m along the flats from the axis to the jaw's middle.
     const double ahead = glm::dot(wrench.position, along);
     seat.toward_mouth = std::min(side, jaw.tip - jaw.lead_in - ahead);
     seat.toward_throat = std::min(side, jaw.throat + ahead);
@@ -142,15 +143,15 @@ JawSeat seat_of(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
 }
 
 std::size_t jaw_contacts(const JawParts& jaw, const Convex& hexagon, const Pose& wrench, const Pose& nut,
-                         double band, ObstacleId obstacle, std::span<Contact, most_jaw_contacts> out) {
+                         double band, ObstacleId obstacle, std::span<Contact, max_jaw_contacts> out) {
     const Pose to_nut = inverse(nut) * wrench;
     std::size_t count = 0;
     for (std::uint32_t part = 0; part < jaw.size(); ++part) {
         const Separation s = separation(jaw[part], hexagon, to_nut, band);
         if (s.distance > band) continue;
-        std::array<Contact, most_meeting> found;
-        const std::size_t points = meeting_points(jaw[part], hexagon, to_nut, s, found);
-        const std::size_t room = std::min(points, most_jaw_contacts / jaw.size());
+        std::array<Contact, max_contact_points> found;
+        const std::size_t points = contact_points(jaw[part], hexagon, to_nut, s, found);
+        const std::size_t room = std::min(points, max_jaw_contacts / jaw.size());
         std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(points),
                   [](const Contact& a, const Contact& b) {
                       return a.distance != b.distance ? a.distance < b.distance : a.feature < b.feature;

@@ -1,9 +1,10 @@
-// The jaw of an open-end wrench and the hexagon that it goes onto: both in closed form, so that a clearance
-// of a tenth of a millimetre is just that, and how the one sits on the other.
+// The jaw of an open-end wrench and the hexagon of a nut, both as exact convex solids, so that a clearance of
+// a tenth of a millimetre is represented exactly; the seat of the jaw on the hexagon, and their contacts.
 //
-// Frame of the wrench: origin in the middle of the jaw, at mid thickness and on the bolt's axis when it sits
-// square; Z its normal. The throat lies along X turned by the head's angle about Z, the mouth opposite.
-// Frame of the nut: origin on its bearing face, +Z along the bolt, a corner along +X (servo/touch.hpp).
+// Frame of the wrench: origin in the middle of the jaw at mid thickness, which is on the bolt's axis when the
+// jaw sits square; Z normal to the wrench. The throat points along X rotated by the head angle about Z, the
+// mouth the opposite way. Frame of the nut: origin on its bearing face, +Z along the bolt, a corner along +X
+// (nut_pose in servo/setup.hpp).
 #pragma once
 
 #include <array>
@@ -22,65 +23,67 @@ struct Jaw {
     double lead_in = 0.0;     // m, 45° at the tips
     double round = 0.0;       // m, 45° outside at the tips
 
-    // Half the height over which its flats are flat.
+    // m, half the height of the flats without their bevels.
     [[nodiscard]] double half_flat() const { return 0.5 * thickness - bevel; }
 };
 
-// A jaw of the proportions of our models (tools/models/wrench); `thickness`, `throat`, `tip` of 0 m: as those
-// have them.
+// A jaw with the proportions of our models (tools/assets/models/wrench.cpp). A `thickness`, `throat` or `tip`
+// of 0 takes the models' proportion.
 Jaw make_jaw(double opening, double head_angle, double thickness = 0.0, double throat = 0.0,
              double tip = 0.0);
 
 struct HexagonPrism {
     double across_flats = 0.0;  // s, m
     double height = 0.0;        // m
-    double bearing = 0.0;  // m, diameter of the flat ring on both faces: from there chamfers fall by 30°
+    double bearing = 0.0;  // m, diameter of the flat ring on both faces; outside it the chamfers fall by 30°
 
-    // From the middle of a flat to a corner.
+    // m, from the middle of a flat to a corner.
     [[nodiscard]] double half_side() const;
-    // That a corner is lower than the face, m.
-    [[nodiscard]] double fall() const;
+    // m by which a corner is lower than the face.
+    [[nodiscard]] double corner_drop() const;
 };
 
-// Two jaws and the bottom between them, in the wrench's frame. What is further than `jaw_cover` openings from
-// the slot is not part of it.
+// The two jaws and the bottom between them, in the wrench's frame. They extend `jaw_cover` openings beyond
+// the slot.
 using JawParts = std::array<Convex, 3>;
 inline constexpr double jaw_cover = 0.3;
 JawParts jaw_parts(const Jaw& jaw);
 
-// Whether a point of a wrench, in its frame, is of what those parts stand for: a head may be broader outside
-// at its tips, and has fillets in its throat.
+// Returns true if a point of the wrench's mesh, in the wrench's frame, belongs to the region that the parts
+// represent. A real head may be broader at its tips and has fillets in its throat.
 bool covered_by_jaw(const JawParts& parts, const Vec3& point);
 
-// The cone of the chamfers as twelve tangent planes.
+// A hexagon with its chamfers; each chamfer cone is represented by twelve tangent planes.
 Convex hexagon(const HexagonPrism& prism);
 
-// How a jaw sits.
+// The position of a jaw on a hexagon.
 struct JawSeat {
-    double misalignment = 0.0;  // rad, −30° … 30°, of jaw against hexagon, tightening positive
-    double overlap = 0.0;       // m of height in which flat lies on flat at every corner that can bear
-    double toward_throat = 0.0, toward_mouth = 0.0;  // m from the axis along the flats to where they bear
-    double aside = 0.0;                              // m, from the middle of the slot to the bolt's axis
-    double tilt = 0.0;                               // rad, about the flats' length
+    double misalignment = 0.0;  // rad, −30° … 30°, of the jaw to the hexagon, tightening positive
+    double overlap = 0.0;       // m, height over which jaw and nut overlap at every corner that can bear
+    // m along the flats from the axis to the two ends of the contact.
+    double toward_throat = 0.0, toward_mouth = 0.0;
+    double aside = 0.0;  // m, from the middle of the slot to the bolt's axis
+    double tilt = 0.0;   // rad, about the flats' length
 
-    // Whether the hexagon is between the flats, wherever it points.
-    [[nodiscard]] bool around(double opening) const {
+    // Returns true if the hexagon is between the flats, at whatever angle.
+    [[nodiscard]] bool surrounds(double opening) const {
         return overlap > 0.0 && toward_throat + toward_mouth > 0.0 && std::abs(aside) < 0.25 * opening;
     }
 };
 
-// `wrench`: its frame to the nut's.
+// `wrench`: pose of the wrench in the nut's frame.
 JawSeat seat_of(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench);
 
-inline constexpr std::size_t most_jaw_contacts = 18;
+inline constexpr std::size_t max_jaw_contacts = 18;
 
-// Contacts of the jaw with one hexagon, poses to the assembly; `obstacle` names it. Distances are as
-// convex.hpp has them: exact wherever face meets something, or edge meets edge.
+// Writes the contacts of the jaw with one hexagon up to `band` (m) and returns their number. Poses are to the
+// assembly; `obstacle` is copied to the contacts. Distances are separations as in convex.hpp: exact if a face
+// or two edges are nearest.
 std::size_t jaw_contacts(const JawParts& jaw, const Convex& hexagon, const Pose& wrench, const Pose& nut,
-                         double band, ObstacleId obstacle, std::span<Contact, most_jaw_contacts> out);
+                         double band, ObstacleId obstacle, std::span<Contact, max_jaw_contacts> out);
 
-// Lines of action moved, square to the axis, to where they meet it: such contacts hold a body in all but its
-// turn about the axis.
+// Shifts the lines of action, perpendicular to the axis, until they intersect it. The contacts then constrain
+// a body except for its rotation about the axis.
 void remove_axial_moment(const Vec3& on_axis, const Vec3& axis, std::span<Contact> contacts);
 
 }  // namespace bolt::collision

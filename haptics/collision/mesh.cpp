@@ -9,7 +9,7 @@
 namespace bolt::collision {
 namespace {
 
-// Edge `corner` of `triangle`, under the key of its two vertices, the smaller first.
+// Edge `corner` of `triangle`. The key combines its two vertices, the smaller first.
 struct HalfEdge {
     std::uint64_t key;
     std::uint32_t triangle;
@@ -23,8 +23,9 @@ bool before(const glm::vec3& a, const glm::vec3& b) {
     return a.z < b.z;
 }
 
-// What each vertex becomes when those in one place are one; the first given stays.
-std::vector<std::uint32_t> weld(std::span<const glm::vec3> vertices, std::vector<glm::vec3>& kept) {
+// Merges vertices at the same position. Returns the new index of each vertex; the first of equal ones is
+// kept.
+std::vector<std::uint32_t> weld_vertices(std::span<const glm::vec3> vertices, std::vector<glm::vec3>& kept) {
     std::vector<std::uint32_t> order(vertices.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -36,17 +37,17 @@ std::vector<std::uint32_t> weld(std::span<const glm::vec3> vertices, std::vector
         const bool same = i > 0 && vertices[order[i]] == vertices[order[i - 1]];
         first[order[i]] = same ? first[order[i - 1]] : order[i];
     }
-    std::vector<std::uint32_t> becomes(vertices.size());
+    std::vector<std::uint32_t> welded(vertices.size());
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
         if (first[i] != i) continue;
-        becomes[i] = static_cast<std::uint32_t>(kept.size());
+        welded[i] = static_cast<std::uint32_t>(kept.size());
         kept.push_back(vertices[i]);
     }
-    for (std::uint32_t i = 0; i < vertices.size(); ++i) becomes[i] = becomes[first[i]];
-    return becomes;
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) welded[i] = welded[first[i]];
+    return welded;
 }
 
-Vec3 in_face(const std::array<Vec3, 3>& face, std::size_t edge, const Vec3& normal) {
+Vec3 inward_in_face(const std::array<Vec3, 3>& face, std::size_t edge, const Vec3& normal) {
     return glm::normalize(glm::cross(normal, face[(edge + 1) % 3] - face[edge]));
 }
 
@@ -55,7 +56,7 @@ SharpEdge make_edge(const ContactMesh& mesh, const HalfEdge& a, const HalfEdge& 
     const auto face_b = corners(mesh, b.triangle);
     const Vec3 normal_a(mesh.face_normals[a.triangle]);
     const Vec3 normal_b(mesh.face_normals[b.triangle]);
-    const Vec3 inward_b = in_face(face_b, b.corner, normal_b);
+    const Vec3 inward_b = inward_in_face(face_b, b.corner, normal_b);
     SharpEdge edge{};
     const auto& t = mesh.triangles[a.triangle];
     edge.vertices = {t[a.corner], t[(a.corner + 1U) % 3]};
@@ -63,21 +64,21 @@ SharpEdge make_edge(const ContactMesh& mesh, const HalfEdge& a, const HalfEdge& 
     edge.angle = static_cast<float>(
         std::atan2(glm::length(glm::cross(normal_a, normal_b)), glm::dot(normal_a, normal_b)));
     edge.normals = {glm::vec3(normal_a), glm::vec3(normal_b)};
-    edge.inward = {glm::vec3(in_face(face_a, a.corner, normal_a)), glm::vec3(inward_b)};
+    edge.inward = {glm::vec3(inward_in_face(face_a, a.corner, normal_a)), glm::vec3(inward_b)};
     edge.convex = glm::dot(normal_a, inward_b) < 0.0;
     return edge;
 }
 
-double height_over(const std::array<Vec3, 3>& face, std::size_t edge) {
+double height_above_edge(const std::array<Vec3, 3>& face, std::size_t edge) {
     const Vec3 along = face[(edge + 1) % 3] - face[edge];
     return glm::length(glm::cross(along, face[(edge + 2) % 3] - face[edge])) / glm::length(along);
 }
 
-// Of two faces: a sharp edge, a round one that needs points, or neither.
+// Records the edge between two faces as sharp, as round if it needs samples, or not at all.
 void add_edge(ContactMesh& mesh, const HalfEdge& a, const HalfEdge& b) {
     const SharpEdge edge = make_edge(mesh, a, b);
-    const double width = std::min(height_over(corners(mesh, a.triangle), a.corner),
-                                  height_over(corners(mesh, b.triangle), b.corner));
+    const double width = std::min(height_above_edge(corners(mesh, a.triangle), a.corner),
+                                  height_above_edge(corners(mesh, b.triangle), b.corner));
     const auto angle = static_cast<double>(edge.angle);
     if (0.5 * angle * width > edge_rise || angle > to_radians(20.0)) {
         mesh.sharp_edges.push_back(edge);
@@ -90,7 +91,7 @@ void add_edge(ContactMesh& mesh, const HalfEdge& a, const HalfEdge& b) {
         mesh.round_edges.push_back({edge.vertices, edge.triangle, static_cast<float>(spacing)});
 }
 
-void join_edges(ContactMesh& mesh) {
+void classify_edges(ContactMesh& mesh) {
     std::vector<HalfEdge> halves;
     halves.reserve(3 * mesh.triangles.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
@@ -127,7 +128,7 @@ void join_edges(ContactMesh& mesh) {
     }
 }
 
-void join_vertices(ContactMesh& mesh) {
+void compute_vertex_normals(ContactMesh& mesh) {
     std::vector<Vec3> normals(mesh.vertices.size(), Vec3(0.0));
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto face = corners(mesh, t);
@@ -141,23 +142,23 @@ void join_vertices(ContactMesh& mesh) {
     mesh.vertex_normals.assign(normals.begin(), normals.end());
 }
 
-// The corners about each vertex, in the order of triangles.
-struct Fans {
-    std::vector<std::uint32_t> first;    // by vertex, and one more
+// The triangle corners at each vertex, in the order of triangles (CSR).
+struct VertexCorners {
+    std::vector<std::uint32_t> first;    // by vertex; size vertices + 1
     std::vector<std::uint32_t> corners;  // triangle × 3 + corner
 };
 
-Fans fans_of(const ContactMesh& mesh) {
-    Fans fans;
-    fans.first.assign(mesh.vertices.size() + 1, 0);
+VertexCorners corners_by_vertex(const ContactMesh& mesh) {
+    VertexCorners by_vertex;
+    by_vertex.first.assign(mesh.vertices.size() + 1, 0);
     for (const auto& t : mesh.triangles)
-        for (const std::uint32_t v : t) ++fans.first[v + 1];
-    std::partial_sum(fans.first.begin(), fans.first.end(), fans.first.begin());
-    fans.corners.resize(3 * mesh.triangles.size());
-    std::vector<std::uint32_t> next(fans.first.begin(), fans.first.end() - 1);
-    for (std::uint32_t i = 0; i < fans.corners.size(); ++i)
-        fans.corners[next[mesh.triangles[i / 3][i % 3]]++] = i;
-    return fans;
+        for (const std::uint32_t v : t) ++by_vertex.first[v + 1];
+    std::partial_sum(by_vertex.first.begin(), by_vertex.first.end(), by_vertex.first.begin());
+    by_vertex.corners.resize(3 * mesh.triangles.size());
+    std::vector<std::uint32_t> next(by_vertex.first.begin(), by_vertex.first.end() - 1);
+    for (std::uint32_t i = 0; i < by_vertex.corners.size(); ++i)
+        by_vertex.corners[next[mesh.triangles[i / 3][i % 3]]++] = i;
+    return by_vertex;
 }
 
 bool is_creased(const glm::vec3& a, const glm::vec3& b) {
@@ -165,17 +166,18 @@ bool is_creased(const glm::vec3& a, const glm::vec3& b) {
     return glm::dot(Vec3(a), Vec3(b)) < least;
 }
 
-// Of one vertex: which corners belong to one smooth surface, and its normal there.
+// Groups the corners of a vertex into smooth surfaces (union-find) and computes the normal of each.
 class Smoother {
   public:
     explicit Smoother(ContactMesh& mesh) : mesh_(mesh) {}
 
-    void run(std::span<const std::uint32_t> corners_here) {
+    void process_vertex(std::span<const std::uint32_t> corners_here) {
         group_.resize(corners_here.size());
         std::iota(group_.begin(), group_.end(), 0U);
         bool ends_crease = false;
         for (std::uint32_t i = 0; i < corners_here.size(); ++i) {
-            // The edge that leaves the vertex here comes to it in the next triangle about it.
+            // The edge that leaves the vertex in this triangle arrives at it in the next triangle around the
+            // vertex.
             const std::uint32_t t = corners_here[i] / 3, leaving = corners_here[i] % 3;
             const std::uint32_t to = mesh_.triangles[t][(leaving + 1) % 3];
             std::size_t neighbours = 0;
@@ -191,8 +193,8 @@ class Smoother {
                 is_creased(mesh_.face_normals[t], mesh_.face_normals[corners_here[other] / 3]);
             if (crease_here) {
                 ends_crease = true;
-                mark(t, 3 + leaving);
-                if (neighbours == 1) mark(corners_here[other] / 3, 3 + (corners_here[other] + 2) % 3);
+                mark_creased(t, 3 + leaving);
+                if (neighbours == 1) mark_creased(corners_here[other] / 3, 3 + (corners_here[other] + 2) % 3);
             } else {
                 join(i, other);
             }
@@ -202,7 +204,7 @@ class Smoother {
             sums_[root(i)] += weighted_normal(corners_here[i]);
         for (std::uint32_t i = 0; i < corners_here.size(); ++i) {
             const std::uint32_t t = corners_here[i] / 3, corner = corners_here[i] % 3;
-            if (ends_crease) mark(t, corner);
+            if (ends_crease) mark_creased(t, corner);
             const Vec3& sum = sums_[root(i)];
             const double length = glm::length(sum);
             mesh_.smooth_normals[t][corner] = length > 0.0 ? glm::vec3(sum / length) : mesh_.face_normals[t];
@@ -210,7 +212,7 @@ class Smoother {
     }
 
   private:
-    void mark(std::uint32_t triangle, std::uint32_t region) {
+    void mark_creased(std::uint32_t triangle, std::uint32_t region) {
         mesh_.creased[triangle] = static_cast<std::uint8_t>(mesh_.creased[triangle] | 1U << region);
     }
     [[nodiscard]] std::uint32_t root(std::uint32_t i) const {
@@ -234,13 +236,15 @@ class Smoother {
     std::vector<Vec3> sums_;
 };
 
-void smooth(ContactMesh& mesh) {
+void compute_smooth_normals(ContactMesh& mesh) {
     mesh.smooth_normals.resize(mesh.triangles.size());
     mesh.creased.assign(mesh.triangles.size(), 0);
-    const Fans fans = fans_of(mesh);
+    const VertexCorners by_vertex = corners_by_vertex(mesh);
     Smoother smoother(mesh);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-        smoother.run(std::span(fans.corners).subspan(fans.first[v], fans.first[v + 1] - fans.first[v]));
+        smoother.process_vertex(
+            std::span(by_vertex.corners)
+                .subspan(by_vertex.first[v], by_vertex.first[v + 1] - by_vertex.first[v]));
 }
 
 }  // namespace
@@ -251,7 +255,7 @@ Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
         return fail(ErrorCode::bad_content, "the contact mesh has more than 2^32 vertices or indices");
     if (indices.size() % 3 != 0)
         return fail(ErrorCode::bad_content, fmt::format("the contact mesh has {} indices", indices.size()),
-                    "three a triangle");
+                    "three per triangle");
     for (std::size_t i = 0; i < vertices.size(); ++i)
         for (int k = 0; k < 3; ++k)
             if (!(std::abs(vertices[i][k]) <= 1e3F))
@@ -261,17 +265,17 @@ Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
     for (const std::uint32_t i : indices)
         if (i >= vertices.size())
             return fail(ErrorCode::bad_content,
-                        fmt::format("the contact mesh names vertex {} of {}", i, vertices.size()));
+                        fmt::format("the contact mesh refers to vertex {} of {}", i, vertices.size()));
 
     ContactMesh mesh;
-    const std::vector<std::uint32_t> becomes = weld(vertices, mesh.vertices);
+    const std::vector<std::uint32_t> welded = weld_vertices(vertices, mesh.vertices);
     for (std::size_t i = 0; i < indices.size(); i += 3) {
-        mesh.triangles.push_back({becomes[indices[i]], becomes[indices[i + 1]], becomes[indices[i + 2]]});
+        mesh.triangles.push_back({welded[indices[i]], welded[indices[i + 1]], welded[indices[i + 2]]});
         const auto [a, b, c] = corners(mesh, mesh.triangles.size() - 1);
         const Vec3 normal = glm::cross(b - a, c - a);
         const double longest =
             std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
-        // Thinner than a millionth of its length: float vertices give it no normal.
+        // A triangle thinner than a millionth of its length has no reliable normal in float.
         if (!(glm::length(normal) > 1e-6 * longest)) {
             mesh.triangles.pop_back();
             ++mesh.without_area;
@@ -281,13 +285,13 @@ Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
     }
     if (mesh.triangles.empty())
         return fail(ErrorCode::bad_content, "the contact mesh has no triangle with an area");
-    join_edges(mesh);
-    join_vertices(mesh);
-    smooth(mesh);
+    classify_edges(mesh);
+    compute_vertex_normals(mesh);
+    compute_smooth_normals(mesh);
     return mesh;
 }
 
-ContactMesh moved(ContactMesh mesh, const Pose& pose) {
+ContactMesh transformed(ContactMesh mesh, const Pose& pose) {
     const auto turn = [&](glm::vec3& v) { v = glm::vec3(pose.orientation * Vec3(v)); };
     for (glm::vec3& v : mesh.vertices) v = glm::vec3(pose * Vec3(v));
     for (glm::vec3& v : mesh.face_normals) turn(v);

@@ -23,13 +23,13 @@ struct DistanceBound {
 };
 
 // The last query of a sample or cluster: its middle in the surface's frame, the lower bound there, and the
-// accumulated turn. The motion since then is at most the way of the middle plus the sample's size times the
-// turn, which is a tighter bound than the tool's whole motion.
+// accumulated turn. The motion since then is at most the displacement of the middle plus the sample's size
+// times the turn, which is a tighter bound than the tool's whole motion.
 struct CachedQuery {
-    glm::vec3 at;   // m
-    float lower;    // m
-    double turned;  // rad
-    bool met;       // edge pieces: an edge was within `short_lookahead`
+    glm::vec3 at;    // m
+    float lower;     // m
+    double turned;   // rad
+    bool edge_near;  // edge pieces: an edge was within `short_lookahead`
 };
 
 // The cache of one solid's samples against the other's surface.
@@ -37,8 +37,8 @@ struct Bounds {
     std::vector<std::vector<DistanceBound>> levels;  // by level and cluster; holds for all samples of it
     std::vector<std::vector<CachedQuery>> level_queries;
     std::vector<DistanceBound> samples;
-    std::vector<CachedQuery> seen;  // by sample
-    std::vector<EdgeCache> edges;   // by piece
+    std::vector<CachedQuery> sample_queries;  // by sample
+    std::vector<EdgeCache> edges;             // by piece
 };
 
 // The cache of the tool and one body.
@@ -61,17 +61,17 @@ struct NarrowPhaseState {
 };
 
 // Allocates everything that `find_contacts` needs for this world and tool.
-NarrowPhaseState make_narrow_phase(const World& world, const ToolShape& tool);
+NarrowPhaseState make_narrow_phase(const CollisionWorld& world, const ToolShape& tool);
 
 // Discards all cached bounds. The next result is the same, at a higher cost.
-void clear_cache(NarrowPhaseState& state, const World& world, const ToolShape& tool);
+void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const ToolShape& tool);
 
 // Writes the contacts up to `band` (m) between the tool at `pose` and the bodies of the world that are on.
 // Penetration has no limit except for edges against edges (edges.hpp). Distances are those of the meshes,
 // computed in double; the equation of `Contact` holds to 1e-9 m. `clearance` is the band if all contacts were
-// written or merged (contact_reduction.hpp), otherwise the distance up to which they are complete. `work`
-// depends on the cache. Does not allocate.
-ContactQueryResult find_contacts(const World& world, const ToolShape& tool, const Pose& pose, double band,
-                                 NarrowPhaseState& state, std::span<Contact> out);
+// written or merged (contact.hpp), otherwise the distance up to which they are complete. `work` depends on
+// the cache. Does not allocate.
+ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
+                                 double band, NarrowPhaseState& state, std::span<Contact> out);
 
 }  // namespace bolt::collision

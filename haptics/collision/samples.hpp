@@ -1,7 +1,8 @@
 // Points and edge pieces of a solid that can be the first to touch another solid, in a hierarchy of clusters.
 //
 // Two solids touch where at least one of them curves outward: at a corner, along an edge (against an edge or
-// a round face), or on a round face. Flat and hollow regions need no samples: whatever touches them has some.
+// a round face), or on a round face. Flat and concave regions need no samples, because a solid that touches
+// them has samples there.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +13,15 @@
 namespace bolt::collision {
 
 // A point, or a piece of a convex edge.
-struct Sample {
+struct SurfaceSample {
     static constexpr std::uint32_t no_piece = 0xffffffffU;
     Vec3 at{0.0};                    // m; the middle of an edge piece
     std::uint32_t triangle = 0;      // one that it lies on
-    std::uint32_t piece = no_piece;  // index in `Samples::pieces`; no_piece: a point
+    std::uint32_t piece = no_piece;  // index in `SurfaceSamples::pieces`; no_piece: a point
 };
 
-struct Piece {
+// The extent of an edge piece about its sample.
+struct PieceExtent {
     Vec3 half{0.0};                // m, from the middle to the end
     double half_length = 0.0;      // m
     std::array<Vec3, 2> inward{};  // as in SharpEdge
@@ -30,17 +32,17 @@ struct Cluster {
     Vec3 middle{0.0};     // m
     double radius = 0.0;  // m
     double reach = 0.0;   // m, greatest distance of its samples from the frame's origin
-    std::uint32_t begin = 0,
-                  end = 0;  // range of samples on level 0, of clusters of the level below elsewhere
+    // Range of samples on level 0; on other levels range of clusters of the level below.
+    std::uint32_t begin = 0, end = 0;
 };
 
 inline constexpr std::size_t cluster_size = 16;  // children of a cluster at most
 
-struct Samples {
-    std::vector<Sample> samples;  // those of a cluster are consecutive
-    std::vector<Piece> pieces;
-    std::vector<std::vector<Cluster>>
-        levels;  // level 0 holds samples; the last has at most cluster_size clusters
+struct SurfaceSamples {
+    std::vector<SurfaceSample> samples;  // those of a cluster are consecutive
+    std::vector<PieceExtent> pieces;
+    // Level 0 holds samples; the last level has at most cluster_size clusters.
+    std::vector<std::vector<Cluster>> levels;
 };
 
 struct SampleOptions {
@@ -59,6 +61,6 @@ struct SampleOptions {
 inline constexpr double keen_angle = 20.0 * pi / 180.0;
 
 // Deterministic: the same mesh gives the same samples in the same order.
-Samples make_samples(const Solid& solid, const SampleOptions& options);
+SurfaceSamples make_samples(const Solid& solid, const SampleOptions& options);
 
 }  // namespace bolt::collision

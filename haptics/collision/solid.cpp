@@ -43,7 +43,7 @@ Result<SceneHandle> commit(RTCDevice device, RTCGeometry geometry) {
 
 Status build_scenes(Solid& solid) {
     const std::unique_ptr<RTCDeviceTy, DeviceRelease> device(rtcNewDevice("threads=1"));
-    if (!device) return fail(ErrorCode::failed, "Embree opens no device");
+    if (!device) return fail(ErrorCode::failed, "Embree cannot create a device");
     const auto new_geometry = [&](RTCGeometryType type) {
         return std::unique_ptr<RTCGeometryTy, GeometryRelease>(rtcNewGeometry(device.get(), type));
     };
@@ -122,8 +122,6 @@ bool blocked(const Solid& solid, const Vec3& from, const Vec3& to) {
     return ray.tfar < 0.0F;
 }
 
-// A point against a surface: candidates from Embree or from a list, and the sides that they make.
-
 namespace {
 
 struct Candidate {
@@ -148,27 +146,27 @@ bool is_behind_surface(const ContactMesh& mesh, const Vec3& p, const Candidate& 
     return glm::dot(p - c.point, pseudonormal(mesh, c)) < 0.0;
 }
 
-// What one point query has found so far. The set kept does not depend on the order of arrival: it is the
-// nearest ones by distance and triangle.
-struct Gathering {
-    static constexpr std::size_t room = 64;
+// Candidates of one point query. The kept set does not depend on the order of arrival: it holds the nearest
+// candidates, ordered by distance and triangle.
+struct PointGathering {
+    static constexpr std::size_t capacity = 64;
     const ContactMesh* mesh;
     const std::array<glm::vec3, 3>* corners;
     const std::uint32_t* part;
     Vec3 p;
     double band2, radius2;
-    double asked2;  // the square of the radius that is looked within now
-    glm::vec3 rounded;
-    float asked_in_float;  // the square of Embree's radius
+    double query_radius2;  // square of the current search radius
+    glm::vec3 point_float;
+    float query_radius2_float;  // square of Embree's search radius
     static constexpr double limit = std::numeric_limits<double>::infinity();
     Candidate nearest{limit, 0xffffffffU, 6, {}};
-    // Where surfaces of several parts are in one place: the nearest that the point is inside of.
+    // Among coincident surfaces of several parts, the nearest that the point is inside of.
     Candidate inside = nearest;
-    std::array<Candidate, room> kept;
+    std::array<Candidate, capacity> kept;
     std::size_t count = 0;
-    std::size_t furthest = 0;  // of the kept, once they fill the room
+    std::size_t furthest = 0;  // index in `kept`; valid when it is full
 
-    [[nodiscard]] double limit2() const { return count < room ? band2 : kept[furthest].squared; }
+    [[nodiscard]] double limit2() const { return count < capacity ? band2 : kept[furthest].squared; }
 
     void consider_inside(const Candidate& c) {
         if (nearer(c, inside) && is_behind_surface(*mesh, p, c)) inside = c;
@@ -180,15 +178,15 @@ struct Gathering {
     }
     void add(const Candidate& found) {
         if (nearest.squared < limit && part[found.triangle] != part[nearest.triangle] &&
-            std::sqrt(found.squared) <= std::sqrt(nearest.squared) + one_place) {
+            std::sqrt(found.squared) <= std::sqrt(nearest.squared) + coincidence_tolerance) {
             consider_inside(found);
             consider_inside(nearest);
         }
         if (nearer(found, nearest)) nearest = found;
         if (found.squared > band2) return;
-        if (count < room) {
+        if (count < capacity) {
             kept[count++] = found;
-            if (count == room) find_furthest();
+            if (count == capacity) find_furthest();
             return;
         }
         if (!nearer(found, kept[furthest])) return;
@@ -197,103 +195,107 @@ struct Gathering {
     }
 };
 
-// The square of the distance to the triangle's box.
-float beside_box(const std::array<glm::vec3, 3>& t, const glm::vec3& p) {
+// Square of the distance to the triangle's bounding box.
+float squared_box_distance(const std::array<glm::vec3, 3>& t, const glm::vec3& p) {
     const glm::vec3 low = glm::min(glm::min(t[0], t[1]), t[2]);
     const glm::vec3 high = glm::max(glm::max(t[0], t[1]), t[2]);
-    const glm::vec3 beside = glm::max(glm::max(low - p, p - high), glm::vec3(0.0F));
-    return glm::dot(beside, beside);
+    const glm::vec3 gap = glm::max(glm::max(low - p, p - high), glm::vec3(0.0F));
+    return glm::dot(gap, gap);
 }
 
-bool gather(RTCPointQueryFunctionArguments* arguments) {
-    auto& g = *static_cast<Gathering*>(arguments->userPtr);
+bool gather_triangle(RTCPointQueryFunctionArguments* arguments) {
+    auto& g = *static_cast<PointGathering*>(arguments->userPtr);
     const auto& t = g.corners[arguments->primID];
-    // Embree asks for all triangles of a leaf; most are set aside by their box.
-    if (beside_box(t, g.rounded) > g.asked_in_float) return false;
+    // Embree calls this for all triangles of a leaf; the box test rejects most of them.
+    if (squared_box_distance(t, g.point_float) > g.query_radius2_float) return false;
     const auto [point, region] = closest_on_triangle(g.p, {Vec3(t[0]), Vec3(t[1]), Vec3(t[2])});
     const Vec3 between = g.p - point;
     g.add({glm::dot(between, between), arguments->primID, region, point});
     const double needed2 = std::max(g.limit2(), std::min(g.nearest.squared, g.radius2));
-    if (!(needed2 < g.asked2)) return false;
-    g.asked2 = needed2;
+    if (!(needed2 < g.query_radius2)) return false;
+    g.query_radius2 = needed2;
     const float radius = std::min(arguments->query->radius, with_margin(std::sqrt(needed2), g.p));
     arguments->query->radius = radius;
-    g.asked_in_float = radius * radius;
+    g.query_radius2_float = radius * radius;
     return true;
 }
 
 SeparatingPlane make_plane(const ContactMesh& mesh, const Vec3& p, const Candidate& c) {
     const Vec3 pseudo = pseudonormal(mesh, c);
     const Vec3 between = p - c.point;
-    SeparatingPlane side{std::sqrt(c.squared), c.point, {}, c.triangle};
+    SeparatingPlane plane{std::sqrt(c.squared), c.point, {}, c.triangle};
     const bool inside = glm::dot(between, pseudo) < 0.0;
-    // On the surface itself, or over a face, the direction is the surface's own.
-    side.normal = c.region < 6 && side.distance > 1e-9 ? between / (inside ? -side.distance : side.distance)
-                                                       : glm::normalize(pseudo);
-    if (inside) side.distance = -side.distance;
-    return side;
+    // On the surface itself and above the inside of a face, the direction is the surface's normal.
+    plane.normal = c.region < 6 && plane.distance > 1e-9
+                       ? between / (inside ? -plane.distance : plane.distance)
+                       : glm::normalize(pseudo);
+    if (inside) plane.distance = -plane.distance;
+    return plane;
 }
 
-// Of several surfaces in one place the one that the point is inside of counts: where parts touch, a point in
-// one of them is on the other's surface too, from outside.
-SeparatingPlane nearest_plane(const Gathering& g) {
-    const bool inside = g.inside.squared < Gathering::limit &&
-                        std::sqrt(g.inside.squared) <= std::sqrt(g.nearest.squared) + one_place;
+// The plane of the nearest surface. Where parts touch, surfaces coincide, and the one that the point is
+// inside of takes precedence: a point inside one part also lies on the other part's surface, from outside.
+SeparatingPlane nearest_plane(const PointGathering& g) {
+    const bool inside = g.inside.squared < PointGathering::limit &&
+                        std::sqrt(g.inside.squared) <= std::sqrt(g.nearest.squared) + coincidence_tolerance;
     return make_plane(*g.mesh, g.p, inside ? g.inside : g.nearest);
 }
 
-// Whether all of the triangle that is within the band lies behind the side's plane, but for the tolerance.
-bool is_behind(const ContactMesh& mesh, const Candidate& c, const SeparatingPlane& side, double band2) {
+// Returns true if the part of the triangle within the band lies behind the plane, up to plane_tolerance.
+bool is_behind_plane(const ContactMesh& mesh, const Candidate& c, const SeparatingPlane& plane,
+                     double band2) {
     double highest = -std::numeric_limits<double>::infinity();
     for (const Vec3& v : corners(mesh, c.triangle))
-        highest = std::max(highest, glm::dot(v - side.point, side.normal));
+        highest = std::max(highest, glm::dot(v - plane.point, plane.normal));
     if (highest <= plane_tolerance) return true;
     const Vec3 face(mesh.face_normals[c.triangle]);
-    const double along = glm::dot(face, side.normal);
+    const double along = glm::dot(face, plane.normal);
     const double slope = std::sqrt(std::max(0.0, 1.0 - along * along));
-    const double height = glm::dot(c.point - side.point, side.normal);
-    // Nothing of the band is further from the closest point than this, within the triangle's plane.
+    const double height = glm::dot(c.point - plane.point, plane.normal);
+    // Upper bound of the distance, within the triangle's plane, from the closest point to any point of the
+    // band.
     const double span = std::sqrt(std::max(0.0, band2 - c.squared)) + std::sqrt(c.squared);
     return height + slope * span <= plane_tolerance;
 }
 
-// What the candidates amount to; `first` is the nearest of them.
-PointQueryResult conclude(Gathering& g, const SeparatingPlane& first, double band,
-                          std::span<SeparatingPlane> planes) {
-    PointQueryResult near;
-    near.complete = band;
-    // When the room is full Embree stops looking further: whether there was more is not known.
-    if (g.count == Gathering::room) near.complete = std::sqrt(g.kept[g.furthest].squared);
+// Selects the separating planes among the candidates; `first` is the nearest.
+PointQueryResult select_planes(PointGathering& g, const SeparatingPlane& first, double band,
+                               std::span<SeparatingPlane> planes) {
+    PointQueryResult result;
+    result.complete = band;
+    // When `kept` is full the search radius shrinks, so completeness beyond its furthest entry is unknown.
+    if (g.count == PointGathering::capacity) result.complete = std::sqrt(g.kept[g.furthest].squared);
     std::sort(g.kept.begin(), g.kept.begin() + static_cast<std::ptrdiff_t>(g.count), nearer);
-    near.distance = first.distance;
-    if (first.distance > band) return near;
+    result.distance = first.distance;
+    if (first.distance > band) return result;
     if (planes.empty()) {
-        near.complete = std::min(near.complete, first.distance);
-        return near;
+        result.complete = std::min(result.complete, first.distance);
+        return result;
     }
-    planes[near.planes++] = first;
+    planes[result.planes++] = first;
     for (std::size_t i = 0; i < g.count; ++i) {
         const Candidate& c = g.kept[i];
         if (c.triangle == first.triangle) continue;
-        const auto written = planes.first(near.planes);
-        if (std::any_of(written.begin(), written.end(),
-                        [&](const SeparatingPlane& side) { return is_behind(*g.mesh, c, side, g.band2); }))
+        const auto written = planes.first(result.planes);
+        if (std::any_of(written.begin(), written.end(), [&](const SeparatingPlane& plane) {
+                return is_behind_plane(*g.mesh, c, plane, g.band2);
+            }))
             continue;
-        const SeparatingPlane side = make_plane(*g.mesh, g.p, c);
-        // Seen from behind: inside, where the nearest surface alone leads out.
-        if (side.distance < 0.0 || glm::dot(g.p - c.point, Vec3(g.mesh->face_normals[c.triangle])) < 0.0)
+        const SeparatingPlane plane = make_plane(*g.mesh, g.p, c);
+        // A face seen from behind: the point is inside, and only the nearest surface leads out.
+        if (plane.distance < 0.0 || glm::dot(g.p - c.point, Vec3(g.mesh->face_normals[c.triangle])) < 0.0)
             continue;
-        if (near.planes == planes.size()) {
-            near.complete = std::min(near.complete, side.distance);
+        if (result.planes == planes.size()) {
+            result.complete = std::min(result.complete, plane.distance);
             break;
         }
-        planes[near.planes++] = side;
+        planes[result.planes++] = plane;
     }
-    return near;
+    return result;
 }
 
-Gathering gathering(const Solid& solid, const Vec3& point, double band) {
-    Gathering g;
+PointGathering make_gathering(const Solid& solid, const Vec3& point, double band) {
+    PointGathering g;
     g.mesh = &solid.mesh;
     g.corners = solid.corners.data();
     g.part = solid.part.data();
@@ -306,45 +308,45 @@ Gathering gathering(const Solid& solid, const Vec3& point, double band) {
 
 PointQueryResult query_point(const Solid& solid, const Vec3& point, double radius, double band,
                              std::span<SeparatingPlane> planes) {
-    Gathering g = gathering(solid, point, band);
+    PointGathering g = make_gathering(solid, point, band);
     const double within = std::max(radius, band);
-    g.radius2 = g.asked2 = within * within;
+    g.radius2 = g.query_radius2 = within * within;
     RTCPointQuery query = make_query(point, within);
-    g.rounded = glm::vec3(point);
-    g.asked_in_float = query.radius < 1e18F ? query.radius * query.radius : FLT_MAX;
+    g.point_float = glm::vec3(point);
+    g.query_radius2_float = query.radius < 1e18F ? query.radius * query.radius : FLT_MAX;
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
-    rtcPointQuery(solid.scene.get(), &query, &context, gather, &g);
+    rtcPointQuery(solid.scene.get(), &query, &context, gather_triangle, &g);
 
     if (!(g.nearest.squared <= g.radius2)) {
-        PointQueryResult near;
-        near.complete = band;
-        return near;
+        PointQueryResult result;
+        result.complete = band;
+        return result;
     }
-    return conclude(g, nearest_plane(g), band, planes);
+    return select_planes(g, nearest_plane(g), band, planes);
 }
 
 namespace {
 
-using Four [[gnu::vector_size(16)]] = float;
+using Float4 [[gnu::vector_size(16)]] = float;
 
-Four four(const float* from) {
-    Four v;
+Float4 load4(const float* from) {
+    Float4 v;
     std::memcpy(&v, from, sizeof v);
     return v;
 }
 
-// The squares of the distances to boxes as a place has them; which is the least.
-std::size_t beside_boxes(const float* boxes, std::size_t count, const glm::vec3& p, float* squared) {
-    Four least = Four{} + FLT_MAX;
+// Writes the squared distances to the boxes of an OctreeLeaf. Returns the index of the least.
+std::size_t squared_box_distances(const float* boxes, std::size_t count, const glm::vec3& p, float* squared) {
+    Float4 least = Float4{} + FLT_MAX;
     for (std::size_t i = 0; i < count; i += 4) {
-        Four sum{};
+        Float4 sum{};
         for (std::size_t k = 0; k < 3; ++k) {
-            const Four at = Four{} + p[static_cast<int>(k)];
-            const Four below = four(boxes + k * count + i) - at;
-            const Four above = at - four(boxes + (k + 3) * count + i);
-            const Four beside = below > above ? below : above;
-            const Four clear = beside > 0.0F ? beside : Four{};
+            const Float4 at = Float4{} + p[static_cast<int>(k)];
+            const Float4 below = load4(boxes + k * count + i) - at;
+            const Float4 above = at - load4(boxes + (k + 3) * count + i);
+            const Float4 gap = below > above ? below : above;
+            const Float4 clear = gap > 0.0F ? gap : Float4{};
             sum += clear * clear;
         }
         std::memcpy(squared + i, &sum, sizeof sum);
@@ -356,7 +358,7 @@ std::size_t beside_boxes(const float* boxes, std::size_t count, const glm::vec3&
     return first;
 }
 
-bool rises(const std::array<glm::vec3, 3>& t, const Vec3& normal, double height) {
+bool rises_above(const std::array<glm::vec3, 3>& t, const Vec3& normal, double height) {
     return std::max({glm::dot(Vec3(t[0]), normal), glm::dot(Vec3(t[1]), normal),
                      glm::dot(Vec3(t[2]), normal)}) > height;
 }
@@ -364,58 +366,58 @@ bool rises(const std::array<glm::vec3, 3>& t, const Vec3& normal, double height)
 }  // namespace
 
 std::optional<PointQueryResult> query_listed(const Solid& solid, const TriangleOctree& octree,
-                                             const OctreeQuery& seen, const Vec3& point, double band,
+                                             const OctreeQuery& found, const Vec3& point, double band,
                                              std::span<SeparatingPlane> planes) {
-    const OctreeLeaf& leaf = *seen.leaf;
-    Gathering g = gathering(solid, point, band);
-    const glm::vec3 rounded(point);
-    constexpr std::size_t room = max_listed;
+    const OctreeLeaf& leaf = *found.leaf;
+    PointGathering g = make_gathering(solid, point, band);
+    const glm::vec3 point_float(point);
+    constexpr std::size_t capacity = max_listed;
     const std::span<const std::uint32_t> listed(&octree.triangles[leaf.begin], leaf.end - leaf.begin);
-    std::array<float, room> beside;
-    const std::size_t first =
-        beside_boxes(&octree.boxes[leaf.boxes], (listed.size() + 3) / 4 * 4, rounded, beside.data());
+    std::array<float, capacity> gap;
+    const std::size_t first = squared_box_distances(&octree.boxes[leaf.boxes], (listed.size() + 3) / 4 * 4,
+                                                    point_float, gap.data());
     const auto compare = [&](std::size_t i) {
         const auto& t = g.corners[listed[i]];
         const auto [at, region] = closest_on_triangle(point, {Vec3(t[0]), Vec3(t[1]), Vec3(t[2])});
         const Vec3 between = point - at;
         g.add({glm::dot(between, between), listed[i], region, at});
-        beside[i] = FLT_MAX;
+        gap[i] = FLT_MAX;
     };
     const auto in_float = [&](double squared) {
         const float margin = with_margin(std::sqrt(squared), point);
         return margin * margin;
     };
-    // Which are within can hardly be predicted: they are collected without asking.
-    std::array<std::uint16_t, room> near;
+    // Branch-free, because the outcome of the comparison is unpredictable.
+    std::array<std::uint16_t, capacity> in_radius;
     const auto collect = [&](float within) {
         std::size_t count = 0;
         for (std::size_t i = 0; i < listed.size(); ++i) {
-            near[count] = static_cast<std::uint16_t>(i);
-            count += beside[i] <= within ? 1U : 0U;
+            in_radius[count] = static_cast<std::uint16_t>(i);
+            count += gap[i] <= within ? 1U : 0U;
         }
-        return std::span(near).first(count);
+        return std::span(in_radius).first(count);
     };
     compare(first);
     float within = in_float(g.nearest.squared);
     for (const std::uint16_t i : collect(within)) {
-        if (beside[i] > within) continue;
+        if (gap[i] > within) continue;
         compare(i);
         within = in_float(g.nearest.squared);
     }
-    if (!(g.nearest.squared <= seen.unlisted * seen.unlisted)) return std::nullopt;
-    const SeparatingPlane first_side = nearest_plane(g);
+    if (!(g.nearest.squared <= found.unlisted * found.unlisted)) return std::nullopt;
+    const SeparatingPlane first_plane = nearest_plane(g);
     if (leaf.convex) {
-        const bool told = first_side.distance <= band && !planes.empty();
-        if (told) planes[0] = first_side;
-        return PointQueryResult{first_side.distance, told ? 1U : 0U, band};
+        const bool writes_plane = first_plane.distance <= band && !planes.empty();
+        if (writes_plane) planes[0] = first_plane;
+        return PointQueryResult{first_plane.distance, writes_plane ? 1U : 0U, band};
     }
-    // Further sides are there only where something rises above the first.
-    if (first_side.distance <= band) {
-        const double height = glm::dot(first_side.point, first_side.normal) + plane_tolerance;
+    // Further planes exist only where something rises above the first.
+    if (first_plane.distance <= band) {
+        const double height = glm::dot(first_plane.point, first_plane.normal) + plane_tolerance;
         for (const std::uint16_t i : collect(in_float(g.band2)))
-            if (rises(g.corners[listed[i]], first_side.normal, height)) compare(i);
+            if (rises_above(g.corners[listed[i]], first_plane.normal, height)) compare(i);
     }
-    return conclude(g, first_side, band, planes);
+    return select_planes(g, first_plane, band, planes);
 }
 
 }  // namespace bolt::collision

@@ -30,19 +30,19 @@ struct OctreeLeaf {
     bool convex = false;
 };
 
+struct OctreeNode {
+    float distance;     // m, signed, at the centre
+    std::int32_t next;  // > 0: index of the first of eight children; < 0: minus the leaf's index; 0: empty
+};
+
 struct TriangleOctree {
-    struct Node {
-        float distance;  // m, signed, at the centre
-        std::int32_t
-            next;  // > 0: index of the first of eight children; < 0: minus the leaf's index; 0: empty
-    };
     Vec3 low{0.0};                                  // m, lowest corner of the first root cell
     double root = 0.0;                              // m, size of a root cell
     double per_root = 0.0;                          // 1 / root
     std::array<double, octree_levels + 1> sizes{};  // m, cell size by level
     double rounding = 0.0;                          // m; exceeds the error of points and distances in float
     std::array<int, 3> roots{};                     // root cells along each axis; 0: the octree is empty
-    std::vector<Node> nodes;                        // root cells first, x fastest
+    std::vector<OctreeNode> nodes;                  // root cells first, x fastest
     std::vector<OctreeLeaf> leaves;                 // the first is a placeholder
     std::vector<std::uint32_t> triangles;
     std::vector<float> boxes;
@@ -65,14 +65,14 @@ OctreeQuery query(const TriangleOctree& octree, const Vec3& point);
 struct OctreeCursor {
     Vec3 middle{0.0};    // m, from `TriangleOctree::low`
     double half = -1.0;  // m, half the cell's size
-    const TriangleOctree::Node* node = nullptr;
+    const OctreeNode* node = nullptr;
 };
 OctreeQuery query(const TriangleOctree& octree, const Vec3& point, OctreeCursor& last);
 
-// As `query_point`, among the listed triangles of `seen.leaf`, which must not be null. Empty if the nearest
-// listed triangle is further than `seen.unlisted`. `band` must not exceed octree_reach.
+// As `query_point`, among the listed triangles of `found.leaf`, which must not be null. Empty if the nearest
+// listed triangle is further than `found.unlisted`. `band` must not exceed octree_reach.
 std::optional<PointQueryResult> query_listed(const Solid& solid, const TriangleOctree& octree,
-                                             const OctreeQuery& seen, const Vec3& point, double band,
+                                             const OctreeQuery& found, const Vec3& point, double band,
                                              std::span<SeparatingPlane> planes);
 
 }  // namespace bolt::collision

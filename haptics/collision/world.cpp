@@ -10,14 +10,14 @@
 namespace bolt::collision {
 namespace {
 
-Status add_shape(World& world, std::span<const ContactMesh> parts, std::vector<ObstacleId> ids,
+Status add_shape(CollisionWorld& world, std::span<const ContactMesh> parts, std::vector<ObstacleId> ids,
                  const WorldOptions& options) {
     Result<Solid> solid = make_solid(parts);
     if (!solid) return fail(solid.error());
     world.shapes.push_back({std::move(*solid), {}, {}, std::move(ids)});
-    Shape& shape = world.shapes.back();
+    CollisionShape& shape = world.shapes.back();
     shape.octree = make_triangle_octree(shape.solid, options.cell);
-    // Closer than the tool's: at 1.5 mm a fillet of the wrench got 0.14 mm deep onto a ridge
+    // Spaced more densely than the tool's: at 1.5 mm a fillet of the wrench penetrated a ridge by 0.14 mm
     // (bolt-contact-validation).
     shape.samples = make_samples(shape.solid, {.edges = false, .round = true, .along_edges = 1.1e-3});
     return {};
@@ -27,8 +27,8 @@ Status add_shape(World& world, std::span<const ContactMesh> parts, std::vector<O
 
 Result<ToolShape> make_tool(std::span<const ContactMesh> parts, const ToolOptions& options) {
     if (!(options.samples.longest_piece > 0.0) || options.samples.on_faces > 1'000'000)
-        return fail(ErrorCode::bad_content,
-                    "a tool's edge pieces need a length, and a million points on its faces are enough");
+        return fail(ErrorCode::bad_content, "the tool's sample options are invalid",
+                    "a positive length of edge pieces and at most 1,000,000 points on faces");
     for (const ContactMesh& part : parts)
         if (part.open_edges > 0)
             return fail(ErrorCode::bad_content,
@@ -41,25 +41,27 @@ Result<ToolShape> make_tool(std::span<const ContactMesh> parts, const ToolOption
     return tool;
 }
 
-Result<World> make_world(std::span<const Obstacle> obstacles, const WorldOptions& options) {
-    World world;
-    std::vector<ContactMesh> still;
+Result<CollisionWorld> make_world(std::span<const Obstacle> obstacles, const WorldOptions& options) {
+    CollisionWorld world;
+    std::vector<ContactMesh> fixed;
     std::vector<ObstacleId> ids;
     for (const Obstacle& o : obstacles) {
         if (o.mesh == nullptr || o.mesh->triangles.empty())
             return fail(ErrorCode::bad_content,
-                        fmt::format("{} {} has no contact mesh; expected a mesh with triangles",
-                                    o.id.is_nut() ? "nut" : "fixed obstacle", o.id.index()));
+                        fmt::format("{} {} has no contact mesh", o.id.is_nut() ? "nut" : "fixed obstacle",
+                                    o.id.index()),
+                        "a mesh with triangles");
         if (o.moves) continue;
-        still.push_back(moved(*o.mesh, o.pose));
+        fixed.push_back(transformed(*o.mesh, o.pose));
         ids.push_back(o.id);
     }
-    if (!still.empty()) {
-        if (const Status added = add_shape(world, still, std::move(ids), options); !added)
+    if (!fixed.empty()) {
+        if (const Status added = add_shape(world, fixed, std::move(ids), options); !added)
             return fail(added.error());
         world.bodies.push_back({{}, 0, {}, true});
     }
-    std::map<const ContactMesh*, std::size_t> shapes;  // looked up only: the order of addresses shows nowhere
+    // Used for lookup only, so the order of addresses does not affect the result.
+    std::map<const ContactMesh*, std::size_t> shapes;
     for (const Obstacle& o : obstacles) {
         if (!o.moves) continue;
         const auto [at, is_new] = shapes.try_emplace(o.mesh, world.shapes.size());
@@ -71,18 +73,19 @@ Result<World> make_world(std::span<const Obstacle> obstacles, const WorldOptions
     return world;
 }
 
-std::optional<std::size_t> find_body(const World& world, ObstacleId id) {
+std::optional<std::size_t> find_body(const CollisionWorld& world, ObstacleId id) {
     for (std::size_t i = 0; i < world.bodies.size(); ++i)
         if (world.bodies[i].id == id && world.shapes[world.bodies[i].shape].part_ids.empty()) return i;
     return std::nullopt;
 }
 
-ObstacleId obstacle_of(const World& world, const Body& body, std::uint32_t triangle) {
-    const Shape& shape = world.shapes[body.shape];
+ObstacleId obstacle_of(const CollisionWorld& world, const Body& body, std::uint32_t triangle) {
+    const CollisionShape& shape = world.shapes[body.shape];
     return shape.part_ids.empty() ? body.id : shape.part_ids[shape.solid.part[triangle]];
 }
 
-bool occluded(const World& world, const Vec3& from, const Vec3& to, std::optional<std::size_t> ignored) {
+bool occluded(const CollisionWorld& world, const Vec3& from, const Vec3& to,
+              std::optional<std::size_t> ignored) {
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
         const Body& body = world.bodies[i];
         if (!body.on || i == ignored) continue;
@@ -92,7 +95,7 @@ bool occluded(const World& world, const Vec3& from, const Vec3& to, std::optiona
     return false;
 }
 
-double signed_distance(const World& world, const Vec3& point) {
+double signed_distance(const CollisionWorld& world, const Vec3& point) {
     double distance = infinite_distance;
     for (const Body& body : world.bodies) {
         if (!body.on) continue;
@@ -105,27 +108,29 @@ double signed_distance(const World& world, const Vec3& point) {
 
 namespace {
 
-constexpr double off_surface = 50e-6;  // m, where a line of sight ends: more than float is off by
+// m in front of the surface, where a line of sight ends; exceeds the error in float.
+constexpr double off_surface = 50e-6;
 
-// The additive recurrence with the plastic number (Roberts, 2018): even in two dimensions at any count.
+// The additive recurrence with the plastic number (Roberts, 2018) is evenly distributed in two dimensions for
+// any count.
 constexpr double plastic = 1.3247179572447460;
 double fraction(double x) { return x - std::floor(x); }
 
-Visibility visibility(const World& world, std::optional<std::size_t> body, const Solid& solid,
+Visibility visibility(const CollisionWorld& world, std::optional<std::size_t> body, const Solid& solid,
                       const Pose& pose, std::span<const SurfacePoint> points, const Vec3& eye) {
-    const Vec3 eye_there = inverse(pose) * eye;
-    double alone = 0.0, seen = 0.0;
-    for (const SurfacePoint& spot : points) {
-        const Vec3 at = spot.at + off_surface * spot.normal;
-        const Vec3 to_eye = eye_there - at;
+    const Vec3 eye_local = inverse(pose) * eye;
+    double alone = 0.0, visible = 0.0;
+    for (const SurfacePoint& sample : points) {
+        const Vec3 at = sample.at + off_surface * sample.normal;
+        const Vec3 to_eye = eye_local - at;
         const double distance2 = glm::dot(to_eye, to_eye);
-        const double facing = glm::dot(spot.normal, to_eye);
-        if (facing <= 0.0 || blocked(solid, eye_there, at)) continue;
-        const double size = spot.area * facing / (distance2 * std::sqrt(distance2));
+        const double facing = glm::dot(sample.normal, to_eye);
+        if (facing <= 0.0 || blocked(solid, eye_local, at)) continue;
+        const double size = sample.area * facing / (distance2 * std::sqrt(distance2));
         alone += size;
-        if (!occluded(world, eye, pose * at, body)) seen += size;
+        if (!occluded(world, eye, pose * at, body)) visible += size;
     }
-    return {alone > 0.0 ? seen / alone : 0.0, seen};
+    return {alone > 0.0 ? visible / alone : 0.0, visible};
 }
 
 }  // namespace
@@ -154,20 +159,20 @@ std::vector<SurfacePoint> sample_surface(const ContactMesh& mesh, std::size_t co
 
 std::vector<SurfacePoint> sample_outer_surface(const Solid& solid, std::size_t count) {
     std::vector<SurfacePoint> points = sample_surface(solid.mesh, count);
-    std::erase_if(points, [&](const SurfacePoint& spot) {
-        return blocked(solid, spot.at + 2.0 * off_surface * spot.normal,
-                       spot.at + 2.0 * solid.radius * spot.normal);
+    std::erase_if(points, [&](const SurfacePoint& sample) {
+        return blocked(solid, sample.at + 2.0 * off_surface * sample.normal,
+                       sample.at + 2.0 * solid.radius * sample.normal);
     });
     return points;
 }
 
-Visibility visibility_of(const World& world, std::size_t body, std::span<const SurfacePoint> points,
+Visibility visibility_of(const CollisionWorld& world, std::size_t body, std::span<const SurfacePoint> points,
                          const Vec3& eye) {
     const Body& own = world.bodies[body];
     return visibility(world, body, world.shapes[own.shape].solid, own.pose, points, eye);
 }
 
-Visibility visibility_of(const World& world, const Solid& solid, const Pose& pose,
+Visibility visibility_of(const CollisionWorld& world, const Solid& solid, const Pose& pose,
                          std::span<const SurfacePoint> points, const Vec3& eye) {
     return visibility(world, std::nullopt, solid, pose, points, eye);
 }

@@ -1,6 +1,6 @@
-// The world that the tool collides with, and the tool's own shape. Fixed obstacles are joined into one solid;
-// bodies that move keep frames of their own. Both are built at load; poses and switches may change between
-// ticks, which does not allocate.
+// The world that the tool collides with, the tool's own shape, and the visible fraction of a body. Fixed
+// obstacles are joined into one solid; bodies that move keep frames of their own. World and tool are built at
+// load; poses and switches may change between ticks, which does not allocate.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct ToolOptions {
 struct ToolShape {
     Solid solid;
     TriangleOctree octree;
-    Samples samples;
+    SurfaceSamples samples;
     [[nodiscard]] double reach() const { return solid.reach; }  // m, greatest distance from the tool's origin
 };
 
@@ -40,10 +40,10 @@ struct WorldOptions {
 };
 
 // A solid of the world and the samples of it that are tested against the tool.
-struct Shape {
+struct CollisionShape {
     Solid solid;
     TriangleOctree octree;
-    Samples samples;
+    SurfaceSamples samples;
     std::vector<ObstacleId> part_ids;  // of the fixed obstacles; empty for the shape of a moving body
 };
 
@@ -54,31 +54,28 @@ struct Body {
     bool on = true;
 };
 
-struct World {
-    std::vector<Shape> shapes;
+struct CollisionWorld {
+    std::vector<CollisionShape> shapes;
     std::vector<Body> bodies;  // the first is the union of the fixed obstacles, if there are any
 };
 
 // Fails if an obstacle has no mesh or its mesh has no triangles.
-Result<World> make_world(std::span<const Obstacle> obstacles, const WorldOptions& options = {});
+Result<CollisionWorld> make_world(std::span<const Obstacle> obstacles, const WorldOptions& options = {});
 
 // The index in `bodies` of the moving body with this id.
-std::optional<std::size_t> find_body(const World& world, ObstacleId id);
+std::optional<std::size_t> find_body(const CollisionWorld& world, ObstacleId id);
 
 // The obstacle that a triangle of a body's mesh belongs to.
-ObstacleId obstacle_of(const World& world, const Body& body, std::uint32_t triangle);
+ObstacleId obstacle_of(const CollisionWorld& world, const Body& body, std::uint32_t triangle);
 
 // True if a body that is on intersects the segment between two points. `ignored`: index of a body to skip.
-bool occluded(const World& world, const Vec3& from, const Vec3& to,
+bool occluded(const CollisionWorld& world, const Vec3& from, const Vec3& to,
               std::optional<std::size_t> ignored = std::nullopt);
 
 // m, from a point to the nearest body that is on; infinite without one.
-double signed_distance(const World& world, const Vec3& point);
+double signed_distance(const CollisionWorld& world, const Vec3& point);
 
-// The visible fraction of a body from an eye point, by rays. Used to choose views and to decide what a
-// simulated trainee sees. The cost does not depend on a picture's size.
-
-// A sample of a surface, in the frame of its body.
+// A sample of a surface, in the frame of its body, for the visibility queries below.
 struct SurfacePoint {
     Vec3 at{0.0};       // m
     Vec3 normal{0.0};   // unit, outward
@@ -92,17 +89,18 @@ std::vector<SurfacePoint> sample_surface(const ContactMesh& mesh, std::size_t co
 std::vector<SurfacePoint> sample_outer_surface(const Solid& solid, std::size_t count);
 
 struct Visibility {
-    double share = 0.0;  // 0…1 of what would be visible of the body alone; 0 if that is nothing
+    double share = 0.0;  // 0…1 of the angle that is visible without the other bodies; 0 if that is 0
     double angle = 0.0;  // sr, visible solid angle
 };
 
-// Visibility of the body with this index in the world's current state. Other bodies that are off hide
-// nothing; the body itself may be off. With n points the error of the share is about 1/√n.
-Visibility visibility_of(const World& world, std::size_t body, std::span<const SurfacePoint> points,
+// Visibility of the body with this index in the world's current state, by rays. Used to choose views and to
+// decide what a simulated trainee sees. Other bodies that are off hide nothing; the body itself may be off.
+// With n points the error of the share is about 1/√n.
+Visibility visibility_of(const CollisionWorld& world, std::size_t body, std::span<const SurfacePoint> points,
                          const Vec3& eye);
 
 // The same for a solid that is not part of the world, such as a tool in the hand.
-Visibility visibility_of(const World& world, const Solid& solid, const Pose& pose,
+Visibility visibility_of(const CollisionWorld& world, const Solid& solid, const Pose& pose,
                          std::span<const SurfacePoint> points, const Vec3& eye);
 
 }  // namespace bolt::collision

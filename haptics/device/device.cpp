@@ -22,25 +22,25 @@ Timer virtual_timer(VirtualTime& time) {
 
 namespace {
 
-std::string sensed(const Description& d) {
+std::string sensing_text(const Description& d) {
     switch (d.sensing) {
         case Sensing::pose:
-            return "says where the hand is, in six degrees of freedom";
+            return "senses the pose of the hand in six degrees of freedom";
         case Sensing::rate:
-            return "says how fast the hand wants to go, in six degrees of freedom";
+            return "senses a commanded velocity in six degrees of freedom";
         case Sensing::turn:
-            return "says how far it is turned about its one axis";
+            return "senses the angle of its one axis";
     }
     return {};
 }
 
-std::string reached(const Vec3& reach) {
+std::string reach_text(const Vec3& reach) {
     if (reach == Vec3(0.0)) return {};
     return fmt::format(", within {:.0f} x {:.0f} x {:.0f} cm", 200.0 * reach.x, 200.0 * reach.y,
                        200.0 * reach.z);
 }
 
-std::string rendered(const Description& d) {
+std::string rendering_text(const Description& d) {
     const auto axes = [&](int first) {
         return std::count(d.renders.begin() + first, d.renders.begin() + first + 3, true);
     };
@@ -58,11 +58,11 @@ std::string rendered(const Description& d) {
 
 std::vector<std::string> summary_lines(const Description& d) {
     std::vector<std::string> lines;
-    lines.push_back(fmt::format("{}{}, {:.0f} times a second{}; {} button{}", sensed(d), reached(d.reach),
-                                d.rate,
+    lines.push_back(fmt::format("{}{}, {:.0f} times a second{}; {} button{}", sensing_text(d),
+                                reach_text(d.reach), d.rate,
                                 d.silent_at_rest || d.sensing == Sensing::rate ? " while it moves" : "",
                                 d.buttons, d.buttons == 1 ? "" : "s"));
-    lines.push_back(rendered(d));
+    lines.push_back(rendering_text(d));
     lines.insert(lines.end(), d.remarks.begin(), d.remarks.end());
     return lines;
 }

@@ -1,5 +1,5 @@
-// A clock and a wait function for device threads: the machine's steady clock, or virtual time that advances
-// only by waiting, so that tests are fast and repeatable.
+// The interface of a device driver, the description and samples of a device, its configuration, and the timer
+// of device threads.
 #pragma once
 
 #include <array>
@@ -16,6 +16,8 @@
 
 namespace bolt::device {
 
+// A clock and a wait function for device threads: the machine's steady clock, or virtual time that advances
+// only by waiting, so that tests are fast and repeatable.
 struct Timer {
     std::function<double()> now;  // s, monotonic
     std::function<void(double seconds)> wait;
@@ -29,11 +31,7 @@ struct VirtualTime {
 
 Timer virtual_timer(VirtualTime& time);  // `time` must outlive the timer
 
-// The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
-// lost device (DeviceSupervisor does) nor talks to the servo (DeviceThread does).
-//
-// Device frame: x to the right, y up, z towards the user, origin in the middle of the reach. All calls come
-// from one thread.
+// Device frame: x to the right, y up, z towards the user, origin in the middle of the reach.
 
 enum class Sensing : std::uint8_t {
     pose,  // the pose of the hand
@@ -65,13 +63,16 @@ struct Sample {
     double time = 0.0;           // s, when it was read, on the caller's clock
 };
 
-class Device {
+// The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
+// lost device (DeviceSupervisor does) nor exchanges data with the servo (DeviceThread does). All calls come
+// from one thread.
+class DeviceDriver {
   public:
-    Device() = default;
-    Device(const Device&) = delete;
-    Device& operator=(const Device&) = delete;
+    DeviceDriver() = default;
+    DeviceDriver(const DeviceDriver&) = delete;
+    DeviceDriver& operator=(const DeviceDriver&) = delete;
     // Releases the force if the device is still connected.
-    virtual ~Device() = default;
+    virtual ~DeviceDriver() = default;
 
     [[nodiscard]] virtual const Description& describe() const = 0;
 
@@ -84,10 +85,9 @@ class Device {
 };
 
 // Opens the device; called again after each loss. The error tells the user what to do.
-using DeviceFactory = std::function<Result<std::unique_ptr<Device>>()>;
+using DeviceFactory = std::function<Result<std::unique_ptr<DeviceDriver>>()>;
 
 // Properties that a wheel does not report: the builder of the station enters them.
-
 struct WheelConfig {
     // Motor torque at full drive, N·m. Overestimating it weakens the rendered torque, which is the safe side;
     // the default is that of the strongest wheels on the market.
@@ -111,9 +111,8 @@ struct PuckResponse {
     double silence = 0.1;     // s without a report while deflected until the velocity becomes zero
 };
 
-// Describes a device in plain text for `boltwright devices`.
-
-// One line each for what it senses, what it renders, and its remarks.
+// Describes a device in plain text for `boltwright devices`: one line each for what it senses, what it
+// renders, and its remarks.
 std::vector<std::string> summary_lines(const Description& description);
 
 }  // namespace bolt::device

@@ -22,7 +22,7 @@ bool renders(const Description& d) {
 }
 
 // Clamps a command to the limits of the device.
-force::OutputCommand within(const Description& d, force::OutputCommand command) {
+force::OutputCommand clamp_to_limits(const Description& d, force::OutputCommand command) {
     for (int i = 0; i < 3; ++i) {
         if (!d.renders[static_cast<std::size_t>(i)]) command.force[i] = 0.0;
         if (!d.renders[static_cast<std::size_t>(i) + 3]) command.torque[i] = 0.0;
@@ -61,7 +61,7 @@ bool DeviceSupervisor::is_valid(const Sample& s) const {
 }
 
 bool DeviceSupervisor::try_open(std::uint64_t number) {
-    Result<std::unique_ptr<Device>> opened = open_();
+    Result<std::unique_ptr<DeviceDriver>> opened = open_();
     const double now = timer_.now();
     next_try_ = now + retry_delay_;
     retry_delay_ = std::min(2.0 * retry_delay_, options_.max_retry_delay);
@@ -79,7 +79,7 @@ bool DeviceSupervisor::try_open(std::uint64_t number) {
     last_sample_ = now;
     command_number_ = number;
     command_time_ = now - options_.command_timeout;
-    may_hold_force_ = true;  // whoever had it before may have left it so
+    may_hold_force_ = true;  // an earlier user may have left a force
     rendering_ = false;
     report_.state = DeviceState::silent;
     if (!expects_samples()) {
@@ -105,40 +105,40 @@ void DeviceSupervisor::handle_loss(const Error& error) {
     next_try_ = timer_.now() + retry_delay_;
 }
 
-Status DeviceSupervisor::write(const ForceCommand& order, double now) {
+Status DeviceSupervisor::write(const ForceCommand& requested, double now) {
     if (!renders(*report_.description)) return {};
-    const bool is_new = order.number != command_number_;
+    const bool is_new = requested.number != command_number_;
     if (is_new) {
-        command_number_ = order.number;
+        command_number_ = requested.number;
         command_time_ = now;
     }
     const bool stale = now - command_time_ >= options_.command_timeout;
     force::OutputCommand command;
-    if (order.enabled && !stale && finite(order.command))
-        command = within(*report_.description, order.command);
+    if (requested.enabled && !stale && finite(requested.command))
+        command = clamp_to_limits(*report_.description, requested.command);
     const bool forces = command.force != Vec3(0.0) || command.torque != Vec3(0.0);
     // Repeat an unchanged force: some devices drop it when writes stop.
     if (!(forces && is_new) && !(!forces && may_hold_force_)) return {};
-    if (stale && order.enabled && rendering_) ++report_.lapses;
+    if (stale && requested.enabled && rendering_) ++report_.lapses;
     BOLT_TRY(device_->write(command));
     ++report_.writes;
     may_hold_force_ = rendering_ = forces;
     return {};
 }
 
-void DeviceSupervisor::track_silence(bool heard, double now) {
-    if (heard) {
+void DeviceSupervisor::track_silence(bool received, double now) {
+    if (received) {
         ++report_.samples;
         last_sample_ = now;
-        retry_delay_ =
-            options_.first_retry_delay;  // opening alone proves nothing: some are lost at the first word
+        retry_delay_ = options_.first_retry_delay;  // a successful opening is not enough: some devices are
+                                                    // lost at the first read or write
         report_.state = DeviceState::usable;
         report_.trouble.clear();
         return;
     }
     if (!expects_samples() || now - last_sample_ < options_.silence) return;
     report_.state = DeviceState::silent;
-    const std::string trouble = report_.description->name + " is plugged in and says nothing of sense";
+    const std::string trouble = report_.description->name + " is connected but sends no valid samples";
     if (report_.trouble != trouble) report_.trouble = trouble;
     if (now - last_sample_ < options_.reopen_after) return;
     ++report_.silences;
@@ -146,14 +146,14 @@ void DeviceSupervisor::track_silence(bool heard, double now) {
     next_try_ = now + retry_delay_;
 }
 
-std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> order) {
+std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> latest_command) {
     if (!device_) {
         const double now = timer_.now();
         if (now < next_try_) {
             timer_.wait(std::min(next_try_ - now, 5e-3));
             return {};
         }
-        if (!try_open(order().number)) return {};
+        if (!try_open(latest_command().number)) return {};
     }
     Result<std::optional<Sample>> read = device_->read(read_timeout_);
     if (!read) {
@@ -166,7 +166,7 @@ std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> order) 
         ++report_.malformed;
         sample.reset();
     }
-    if (Status written = write(order(), now); !written) {
+    if (Status written = write(latest_command(), now); !written) {
         handle_loss(written.error());
         return sample;
     }
@@ -176,7 +176,7 @@ std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> order) 
 
 namespace {
 
-constexpr double tell_every = 0.1;  // s between two reports of nothing but counts
+constexpr double report_interval = 0.1;  // s between two reports if only counters have changed
 
 // True if the report must be published now.
 bool changed(const DeviceReport& now, const DeviceReport& before) {
@@ -211,27 +211,27 @@ struct DeviceThread::Shared {
     Timer timer = steady_timer();
     DeviceSupervisor supervisor;
     DeviceMailboxes mailboxes;
-    std::uint64_t number = 0;               // of orders; the servo's
-    std::atomic<double> back{timer.now()};  // s, from the device
+    std::uint64_t number = 0;                      // of commands; used by the servo thread
+    std::atomic<double> last_return{timer.now()};  // s, time of the driver's last return
     std::jthread thread;
 
     void run(const std::stop_token& stop) {
         if (options.priority > 0) {
-            sched_param wanted{};
-            wanted.sched_priority = options.priority;
+            sched_param parameters{};
+            parameters.sched_priority = options.priority;
             // Errors are ignored: the servo's thread reports missing permission (servo/thread.hpp).
-            pthread_setschedparam(pthread_self(), SCHED_FIFO, &wanted);
+            pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
         }
         DeviceSnapshot snapshot;
         DeviceReport before;
-        double told_at = 0.0;
+        double published_at = 0.0;
         while (!stop.stop_requested()) {
             run_once(supervisor, mailboxes, snapshot);
-            back.store(timer.now(), std::memory_order_relaxed);
+            last_return.store(timer.now(), std::memory_order_relaxed);
             const DeviceReport& now = supervisor.report();
-            if (!changed(now, before) && timer.now() - told_at < tell_every) continue;
+            if (!changed(now, before) && timer.now() - published_at < report_interval) continue;
             before = now;
-            told_at = timer.now();
+            published_at = timer.now();
             mailboxes.reports.write(now);
         }
         supervisor.close();
@@ -269,7 +269,7 @@ const DeviceReport& DeviceThread::report() {
 }
 
 double DeviceThread::blocked_for() const {
-    return shared_->timer.now() - shared_->back.load(std::memory_order_relaxed);
+    return shared_->timer.now() - shared_->last_return.load(std::memory_order_relaxed);
 }
 
 Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(double timeout) {

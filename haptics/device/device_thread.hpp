@@ -1,6 +1,5 @@
-// Keeps one device usable: opens it, reopens it with exponential backoff after a loss or silence, reports the
-// problem in plain text, and releases the force when commands stop. Its only effects are the device's and the
-// timer's; device_thread.hpp runs it on a thread.
+// Runs a device on its own thread. A supervisor keeps it usable; mailboxes exchange the latest command and
+// the latest sample with the servo, so the servo never waits for a device.
 #pragma once
 
 #include <atomic>
@@ -45,6 +44,9 @@ struct DeviceReport {
     std::uint64_t lapses = 0;  // command timeouts while a force was rendered
 };
 
+// Keeps one device usable: opens it, reopens it with exponential backoff after a loss or silence, reports the
+// problem in plain text, and releases the force when commands stop. Its only effects are the device's and the
+// timer's; DeviceThread runs it on a thread.
 class DeviceSupervisor {
   public:
     DeviceSupervisor(DeviceFactory open, Timer timer, const SupervisorOptions& options = {});
@@ -53,8 +55,8 @@ class DeviceSupervisor {
     ~DeviceSupervisor();  // closes
 
     // Waits a few milliseconds at most for a sample or for the next attempt to open, then writes the command
-    // that `order` returns. nullopt: no new valid sample.
-    std::optional<Sample> poll(FunctionRef<ForceCommand()> order);
+    // that `latest_command` returns. nullopt: no new valid sample.
+    std::optional<Sample> poll(FunctionRef<ForceCommand()> latest_command);
 
     // Releases the force if possible and closes the device.
     void close();
@@ -63,9 +65,9 @@ class DeviceSupervisor {
 
   private:
     bool try_open(std::uint64_t number);
-    Status write(const ForceCommand& order, double now);
+    Status write(const ForceCommand& requested, double now);
     void handle_loss(const Error& error);
-    void track_silence(bool heard, double now);
+    void track_silence(bool received, double now);
     [[nodiscard]] bool is_valid(const Sample& sample) const;
     [[nodiscard]] bool expects_samples() const;
 
@@ -73,7 +75,7 @@ class DeviceSupervisor {
     Timer timer_;
     SupervisorOptions options_;
     DeviceReport report_;
-    std::unique_ptr<Device> device_;
+    std::unique_ptr<DeviceDriver> device_;
     double read_timeout_ = 0.0;
     double retry_delay_ = 0.0, next_try_ = 0.0;  // s
     double last_sample_ = 0.0;                   // time of the last valid sample
@@ -82,9 +84,6 @@ class DeviceSupervisor {
     bool rendering_ = false;                     // the last write was not zero
     bool may_hold_force_ = false;                // a force may remain: no zero has been written since
 };
-
-// Runs a device on its own thread. Mailboxes exchange the latest command and the latest sample with the
-// servo, so the servo never waits for a device.
 
 // The device as the servo sees it.
 struct DeviceSnapshot {

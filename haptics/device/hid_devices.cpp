@@ -24,7 +24,8 @@ std::string utf8(const wchar_t* wide) {
     for (; wide != nullptr && *wide != 0; ++wide) {
         const auto c = static_cast<std::uint32_t>(*wide);
         if (c < 0x80) {
-            if (c >= 0x20 && c != 0x7f) out += static_cast<char>(c);  // a device's name goes to terminals
+            if (c >= 0x20 && c != 0x7f)
+                out += static_cast<char>(c);  // no control characters, because names are printed on terminals
         } else if (c < 0x800) {
             out += static_cast<char>(0xc0 | c >> 6U);
             out += static_cast<char>(0x80 | (c & 0x3fU));
@@ -37,25 +38,26 @@ std::string utf8(const wchar_t* wide) {
     return out;
 }
 
-struct Seen {
-    HidIdentity who;
+struct HidNode {
+    HidIdentity identity;
     std::string path;
 };
 
 // One entry per node; hidapi lists one per collection of a device.
-std::vector<Seen> seen() {
-    std::vector<Seen> out;
+std::vector<HidNode> enumerate_nodes() {
+    std::vector<HidNode> out;
     const std::lock_guard lock(hidapi_lock());
     hid_device_info* first = hid_enumerate(0, 0);
     for (const hid_device_info* d = first; d != nullptr; d = d->next) {
         if (d->path == nullptr) continue;
-        if (std::any_of(out.begin(), out.end(), [&](const Seen& s) { return s.path == d->path; })) continue;
+        if (std::any_of(out.begin(), out.end(), [&](const HidNode& s) { return s.path == d->path; }))
+            continue;
         out.push_back(
             {{d->vendor_id, d->product_id, utf8(d->product_string), utf8(d->serial_number)}, d->path});
     }
     hid_free_enumeration(first);
     // Natural order: hidraw10 after hidraw9.
-    std::sort(out.begin(), out.end(), [](const Seen& a, const Seen& b) {
+    std::sort(out.begin(), out.end(), [](const HidNode& a, const HidNode& b) {
         return std::pair(a.path.size(), a.path) < std::pair(b.path.size(), b.path);
     });
     return out;
@@ -63,10 +65,11 @@ std::vector<Seen> seen() {
 
 // Identifies pucks by vendor and product if the descriptor cannot be read: 3Dconnexion, also under Logitech's
 // name.
-HidKind kind_by_number(const HidIdentity& who) {
-    if (who.vendor == board_vendor && who.product == board_product) return HidKind::board;
-    const bool logitech = who.vendor == 0x046d && who.product >= 0xc603 && who.product <= 0xc62b;
-    return who.vendor == 0x256f || logitech ? HidKind::puck : HidKind::other;
+HidKind kind_by_number(const HidIdentity& identity) {
+    if (identity.vendor == board_vendor && identity.product == board_product) return HidKind::board;
+    const bool logitech =
+        identity.vendor == 0x046d && identity.product >= 0xc603 && identity.product <= 0xc62b;
+    return identity.vendor == 0x256f || logitech ? HidKind::puck : HidKind::other;
 }
 
 Status check_driver_support(HidKind kind, const ReportDescriptor& descriptor) {
@@ -79,99 +82,103 @@ Status check_driver_support(HidKind kind, const ReportDescriptor& descriptor) {
     return {};
 }
 
-ListedDevice listed(const Seen& one) {
-    ListedDevice l;
-    l.path = one.path;
-    l.id = id_of(one.who);
-    l.name = one.who.name.empty() ? l.id : one.who.name;
+ListedDevice listed(const HidNode& one) {
+    ListedDevice device;
+    device.path = one.path;
+    device.id = id_of(one.identity);
+    device.name = one.identity.name.empty() ? device.id : one.identity.name;
     const auto bytes = descriptor_of(one.path);
     if (!bytes) {
-        l.trouble = bytes.error();
-        return l;
+        device.trouble = bytes.error();
+        return device;
     }
     const auto descriptor = parse_report_descriptor(*bytes);
     if (!descriptor) {
-        l.kind = kind_by_number(one.who);
-        l.trouble = descriptor.error();
-        return l;
+        device.kind = kind_by_number(one.identity);
+        device.trouble = descriptor.error();
+        return device;
     }
-    l.kind = kind_of(one.who, *descriptor);
-    if (l.kind == HidKind::other) return l;
-    if (Status known = check_driver_support(l.kind, *descriptor); !known) {
-        l.trouble = known.error();
-    } else if (Status can = can_open_hid(one.path); !can) {
-        l.trouble = can.error();
-        if (l.kind == HidKind::wheel && !l.trouble->lost)
-            l.trouble->expected += fmt::format("; for this wheel with the line {} in it", udev_rule(one.who));
+    device.kind = kind_of(one.identity, *descriptor);
+    if (device.kind == HidKind::other) return device;
+    if (Status support = check_driver_support(device.kind, *descriptor); !support) {
+        device.trouble = support.error();
+    } else if (Status access = can_open_hid(one.path); !access) {
+        device.trouble = access.error();
+        if (device.kind == HidKind::wheel && !device.trouble->lost)
+            device.trouble->expected +=
+                fmt::format(", with the additional line {} for this wheel", udev_rule(one.identity));
     }
-    return l;
+    return device;
 }
 
 }  // namespace
 
-HidKind kind_of(const HidIdentity& who, const ReportDescriptor& descriptor) {
-    if (who.vendor == board_vendor && who.product == board_product) return HidKind::board;
+HidKind kind_of(const HidIdentity& identity, const ReportDescriptor& descriptor) {
+    if (identity.vendor == board_vendor && identity.product == board_product) return HidKind::board;
     for (const Collection& c : descriptor.collections)
         if (c.usage == multi_axis_controller) return HidKind::puck;
-    for (const Field& f : descriptor.fields)
+    for (const ReportField& f : descriptor.fields)
         if (f.usage.page == force_page && f.kind != ReportKind::input) return HidKind::wheel;
     return HidKind::other;
 }
 
-std::string id_of(const HidIdentity& who) {
-    std::string id = fmt::format("{:04x}:{:04x}", who.vendor, who.product);
-    if (!who.serial.empty()) id += ':' + who.serial;
+std::string id_of(const HidIdentity& identity) {
+    std::string id = fmt::format("{:04x}:{:04x}", identity.vendor, identity.product);
+    if (!identity.serial.empty()) id += ':' + identity.serial;
     return id;
 }
 
-std::string udev_rule(const HidIdentity& who) {
-    return fmt::format(R"(KERNEL=="hidraw*", KERNELS=="*:{:04X}:{:04X}.*", TAG+="uaccess")", who.vendor,
-                       who.product);
+std::string udev_rule(const HidIdentity& identity) {
+    return fmt::format(R"(KERNEL=="hidraw*", KERNELS=="*:{:04X}:{:04X}.*", TAG+="uaccess")", identity.vendor,
+                       identity.product);
 }
 
 std::vector<ListedDevice> list_devices(bool others) {
     std::vector<ListedDevice> out;
-    for (const Seen& one : seen()) out.push_back(listed(one));
-    std::erase_if(out, [](const ListedDevice& l) { return l.trouble && l.trouble->lost; });  // gone meanwhile
+    for (const HidNode& one : enumerate_nodes()) out.push_back(listed(one));
+    std::erase_if(out, [](const ListedDevice& device) {
+        return device.trouble && device.trouble->lost;
+    });  // disconnected in the meantime
     // Supported devices first, so that their ids do not depend on `others`: a puck's receiver is also a
     // keyboard.
-    const auto is_other = [](const ListedDevice& l) { return l.kind == HidKind::other; };
-    std::stable_partition(out.begin(), out.end(), [&](const ListedDevice& l) { return !is_other(l); });
+    const auto is_other = [](const ListedDevice& device) { return device.kind == HidKind::other; };
+    std::stable_partition(out.begin(), out.end(),
+                          [&](const ListedDevice& device) { return !is_other(device); });
     if (!others) std::erase_if(out, is_other);
-    std::map<std::string, int> met;
-    for (ListedDevice& l : out)
-        if (const int n = ++met[l.id]; n > 1) l.id += fmt::format("#{}", n);
+    std::map<std::string, int> id_counts;
+    for (ListedDevice& device : out)
+        if (const int n = ++id_counts[device.id]; n > 1) device.id += fmt::format("#{}", n);
     return out;
 }
 
-Result<std::unique_ptr<Device>> open(const ListedDevice& listed, const WheelConfig& config,
-                                     const PuckResponse& response) {
+Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const WheelConfig& config,
+                                           const PuckResponse& response) {
     if (listed.trouble) return fail(*listed.trouble);
     BOLT_TRY_ASSIGN(const auto bytes, descriptor_of(listed.path));
     BOLT_TRY_ASSIGN(const auto descriptor, parse_report_descriptor(bytes));
-    BOLT_TRY_ASSIGN(auto line, open_hid(listed.path));
+    BOLT_TRY_ASSIGN(auto transport, open_hid(listed.path));
     switch (listed.kind) {
         case HidKind::puck:
-            return make_space_mouse(std::move(line), descriptor, listed.name, listed.id, response);
+            return make_space_mouse(std::move(transport), descriptor, listed.name, listed.id, response);
         case HidKind::board:
-            return make_open_ffboard(std::move(line), descriptor, listed.name, listed.id, config);
+            return make_open_ffboard(std::move(transport), descriptor, listed.name, listed.id, config);
         case HidKind::wheel:
-            return make_wheel(std::move(line), descriptor, listed.name, listed.id, config);
+            return make_wheel(std::move(transport), descriptor, listed.name, listed.id, config);
         case HidKind::other:
             break;
     }
     return fail(ErrorCode::no_device, fmt::format("{} is not a supported device", listed.name),
-                "a SpaceMouse, or a wheel with force feedback");
+                "a SpaceMouse or a wheel with force feedback");
 }
 
 DeviceFactory factory_for(std::string id, const WheelConfig& config, const PuckResponse& response) {
-    return [id = std::move(id), config, response]() -> Result<std::unique_ptr<Device>> {
-        for (const ListedDevice& l : list_devices())
-            if (l.id == id) return open(l, config, response);
+    return [id = std::move(id), config, response]() -> Result<std::unique_ptr<DeviceDriver>> {
+        for (const ListedDevice& device : list_devices())
+            if (device.id == id) return open(device, config, response);
         Error error;
         error.code = ErrorCode::no_device;
         error.what = fmt::format("there is no device {}", id);
-        error.expected = "a device that is plugged in; `boltwright devices` lists them";
+        error.expected = "a connected device; `boltwright devices` lists them";
         error.lost = true;
         return fail(std::move(error));
     };

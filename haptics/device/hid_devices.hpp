@@ -25,8 +25,8 @@ struct HidIdentity {
 
 struct ListedDevice {
     std::string path;  // for example /dev/hidraw3; changes when the device is replugged
-    std::string
-        id;  // VENDOR:PRODUCT[:SERIAL], for example 256f:c62e; #2 is appended for a second identical device
+    // VENDOR:PRODUCT[:SERIAL], for example 256f:c62e; #2 is appended for a second identical device.
+    std::string id;
     std::string name;
     HidKind kind = HidKind::other;
     std::optional<Error> trouble;  // why it cannot be used, with a remedy
@@ -35,16 +35,16 @@ struct ListedDevice {
 // The devices connected now; with `others` also unsupported ones such as keyboards.
 std::vector<ListedDevice> list_devices(bool others = false);
 
-Result<std::unique_ptr<Device>> open(const ListedDevice& listed, const WheelConfig& config = {},
-                                     const PuckResponse& response = {});
+Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const WheelConfig& config = {},
+                                           const PuckResponse& response = {});
 
 // The factory searches for the id each time it opens.
 DeviceFactory factory_for(std::string id, const WheelConfig& config = {}, const PuckResponse& response = {});
 
 // Pure functions used by the above.
-HidKind kind_of(const HidIdentity& who, const ReportDescriptor& descriptor);
-std::string id_of(const HidIdentity& who);
+HidKind kind_of(const HidIdentity& identity, const ReportDescriptor& descriptor);
+std::string id_of(const HidIdentity& identity);
 // A udev rule for a device that tools/udev does not cover.
-std::string udev_rule(const HidIdentity& who);
+std::string udev_rule(const HidIdentity& identity);
 
 }  // namespace bolt::device

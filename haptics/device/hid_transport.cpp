@@ -20,15 +20,15 @@ namespace {
 
 constexpr std::size_t longest_report = 4096;
 
-constexpr const char* permission =
+constexpr const char* permission_remedy =
     "the udev rule: sudo cp tools/udev/60-boltwright.rules /etc/udev/rules.d/ && "
     "sudo udevadm control --reload, then plug it in again";
 
-struct Close {
+struct HidClose {
     void operator()(hid_device* device) const { hid_close(device); }
 };
 
-std::string words(hid_device* device) {
+std::string hidapi_error(hid_device* device) {
     const wchar_t* wide = hid_error(device);
     std::string narrow;
     for (; wide != nullptr && *wide != 0; ++wide) narrow += *wide < 128 ? static_cast<char>(*wide) : '?';
@@ -43,40 +43,41 @@ class HidapiTransport : public HidTransport {
         const int ms = static_cast<int>(std::ceil(std::clamp(timeout, 0.0, 1e6) * 1e3));
         errno = 0;
         const int n = hid_read_timeout(device_.get(), read_.data(), read_.size(), ms);
-        if (n < 0 && errno == EINTR) return std::span<const std::uint8_t>();  // a signal, no loss
-        if (n < 0) return gone("nothing can be read from");
+        if (n < 0 && errno == EINTR)
+            return std::span<const std::uint8_t>();  // interrupted by a signal; the device is not lost
+        if (n < 0) return device_lost("read from");
         return std::span<const std::uint8_t>(read_.data(), static_cast<std::size_t>(n));
     }
 
     Status write(std::span<const std::uint8_t> report) override {
-        if (hid_write(device_.get(), report.data(), report.size()) < 0) return gone("nothing can be sent to");
+        if (hid_write(device_.get(), report.data(), report.size()) < 0) return device_lost("write to");
         return {};
     }
 
     Status send_feature(std::span<const std::uint8_t> report) override {
         if (hid_send_feature_report(device_.get(), report.data(), report.size()) < 0)
-            return gone("nothing can be set on");
+            return device_lost("send a feature report to");
         return {};
     }
 
     Result<std::span<const std::uint8_t>> get_feature(std::span<std::uint8_t> report) override {
         const int n = hid_get_feature_report(device_.get(), report.data(), report.size());
-        if (n < 0) return gone("no answer can be had from");
+        if (n < 0) return device_lost("get a feature report from");
         return std::span<const std::uint8_t>(report.data(),
                                              std::min(report.size(), static_cast<std::size_t>(n)));
     }
 
   private:
-    [[nodiscard]] tl::unexpected<Error> gone(const char* what) const {
+    [[nodiscard]] tl::unexpected<Error> device_lost(const char* what) const {
         Error error;
         error.code = ErrorCode::no_device;
-        error.what = fmt::format("{} {} any more: {}", what, path_, words(device_.get()));
-        error.expected = "a device that stays plugged in";
+        error.what = fmt::format("cannot {} {}: {}", what, path_, hidapi_error(device_.get()));
+        error.expected = "a device that stays connected";
         error.lost = true;
         return fail(std::move(error));
     }
 
-    std::unique_ptr<hid_device, Close> device_;
+    std::unique_ptr<hid_device, HidClose> device_;
     std::string path_;
     std::array<std::uint8_t, longest_report> read_{};
 };
@@ -103,12 +104,12 @@ Status can_open_hid(const std::filesystem::path& node) {
     error.code = ErrorCode::no_device;
     error.what = fmt::format("cannot open {}: {}", node.string(), std::strerror(why));
     if (why == EACCES || why == EPERM)
-        error.expected = permission;
+        error.expected = permission_remedy;
     else if (why == ENOENT || why == ENODEV || why == ENXIO) {
-        error.expected = "a device that is plugged in";
+        error.expected = "a connected device";
         error.lost = true;
     } else if (why == EBUSY)
-        error.expected = "a device that no other program has to itself";
+        error.expected = "a device that no other program has opened exclusively";
     return fail(std::move(error));
 }
 
@@ -117,8 +118,9 @@ Result<std::unique_ptr<HidTransport>> open_hid(const std::filesystem::path& node
     const std::lock_guard lock(hidapi_lock());
     hid_device* device = hid_open_path(node.c_str());
     if (device == nullptr)
-        return fail(ErrorCode::no_device, fmt::format("cannot open {}: {}", node.string(), words(nullptr)),
-                    "a device that is plugged in");
+        return fail(ErrorCode::no_device,
+                    fmt::format("cannot open {}: {}", node.string(), hidapi_error(nullptr)),
+                    "a connected device");
     return std::make_unique<HidapiTransport>(device, node.string());
 }
 
@@ -131,7 +133,7 @@ Result<std::vector<std::uint8_t>> descriptor_of(const std::filesystem::path& nod
         Error error;
         error.code = ErrorCode::no_device;
         error.what = fmt::format("{} has no report descriptor", node.string());
-        error.expected = "a device that is plugged in";
+        error.expected = "a connected device";
         error.lost = true;
         return fail(std::move(error));
     }

@@ -1,5 +1,5 @@
-// Reads and writes the reports of one HID device. hidapi_transport.hpp implements it for the kernel,
-// tools/emulate for emulated devices.
+// The transport of HID reports: its interface, and its implementation for the kernel's hidraw nodes through
+// hidapi. tools/emulate implements the interface for emulated devices.
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,7 @@
 
 namespace bolt::device {
 
+// Reads and writes the reports of one HID device.
 class HidTransport {
   public:
     HidTransport() = default;
@@ -34,18 +35,16 @@ class HidTransport {
 };
 
 // A monotonic clock in s, for time stamps and timeouts.
-using Clock = std::function<double()>;
+using SecondsClock = std::function<double()>;
 
 double steady_seconds();
 
 // hidapi has one global error string and frees it in every call without an open device. Hold this lock during
 // such calls; two threads that enumerate at once crash without it.
-
 std::mutex& hidapi_lock();
 
-// HidTransport for the kernel's hidraw nodes, through hidapi.
-
-// Errors: not permitted (names the udev rule), disconnected.
+// Opens a hidraw node. Fails if access is not permitted (the error names the udev rule) or the device is
+// disconnected.
 Result<std::unique_ptr<HidTransport>> open_hid(const std::filesystem::path& node);
 
 // Checks that the node can be opened for reading and writing, with the same errors.

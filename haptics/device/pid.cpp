@@ -18,14 +18,14 @@ constexpr Usage set_effect = pid(0x21), block_index = pid(0x22), constant_force 
                 enable_actuators = pid(0x97), stop_all_effects = pid(0x99), device_reset = pid(0x9a),
                 create_effect = pid(0xab);
 
-constexpr ReportKind sent[] = {ReportKind::output, ReportKind::feature};
+constexpr ReportKind output_kinds[] = {ReportKind::output, ReportKind::feature};
 
 struct MessageBuilder {
     PidMessage message;
     std::span<std::uint8_t> body() { return std::span(message.bytes).subspan(1); }
 };
 
-MessageBuilder made(const ReportDescriptor& descriptor, const Field& field) {
+MessageBuilder make_message(const ReportDescriptor& descriptor, const ReportField& field) {
     MessageBuilder m;
     m.message.kind = field.kind;
     m.message.bytes.resize(1 + report_size(descriptor, field.kind, field.report));
@@ -33,18 +33,19 @@ MessageBuilder made(const ReportDescriptor& descriptor, const Field& field) {
     return m;
 }
 
-void put(MessageBuilder& m, const Field& field, std::int64_t value) {
+void set_field(MessageBuilder& m, const ReportField& field, std::int64_t value) {
     if (field.report == m.message.bytes[0]) write_value(field, value, m.body());
 }
 
 // A message that consists of one selector; empty if the device lacks it.
-std::optional<MessageBuilder> chosen(const ReportDescriptor& descriptor, Usage option,
-                                     std::optional<Usage> within = std::nullopt) {
-    for (const ReportKind kind : sent)
+std::optional<MessageBuilder> selector_message(const ReportDescriptor& descriptor, Usage option,
+                                               std::optional<Usage> within = std::nullopt) {
+    for (const ReportKind kind : output_kinds)
         if (const auto choice = find_selector(descriptor, kind, option, within)) {
-            MessageBuilder m = made(descriptor, choice->field);
-            put(m, choice->field, choice->value);
-            if (const Field* block = within ? find_field(descriptor, kind, block_index, within) : nullptr;
+            MessageBuilder m = make_message(descriptor, choice->field);
+            set_field(m, choice->field, choice->value);
+            if (const ReportField* block =
+                    within ? find_field(descriptor, kind, block_index, within) : nullptr;
                 block != nullptr && block->report == choice->field.report)
                 m.message.block = *block;
             return m;
@@ -52,44 +53,44 @@ std::optional<MessageBuilder> chosen(const ReportDescriptor& descriptor, Usage o
     return std::nullopt;
 }
 
-const Field* sent_field(const ReportDescriptor& descriptor, Usage usage, Usage within) {
-    for (const ReportKind kind : sent)
-        if (const Field* field = find_field(descriptor, kind, usage, within)) return field;
+const ReportField* output_field(const ReportDescriptor& descriptor, Usage usage, Usage within) {
+    for (const ReportKind kind : output_kinds)
+        if (const ReportField* field = find_field(descriptor, kind, usage, within)) return field;
     return nullptr;
 }
 
 // Converts seconds to counts of a field. Fields without a unit use milliseconds, as in the standard's
 // examples.
-std::int64_t counts_of(const Field& field, double seconds) {
+std::int64_t to_counts(const ReportField& field, double seconds) {
     constexpr std::uint32_t si_seconds = 0x1001, english_seconds = 0x1003;
-    const bool says = field.unit == si_seconds || field.unit == english_seconds;
-    const double unit = says ? std::pow(10.0, field.exponent) : 1e-3;
+    const bool has_unit = field.unit == si_seconds || field.unit == english_seconds;
+    const double unit = has_unit ? std::pow(10.0, field.exponent) : 1e-3;
     double counts = std::clamp(seconds / unit, 0.0, 1e9);
     const auto physical = static_cast<double>(field.physical_high - field.physical_low);
-    if (says && physical > 0.0) counts *= static_cast<double>(field.high - field.low) / physical;
+    if (has_unit && physical > 0.0) counts *= static_cast<double>(field.high - field.low) / physical;
     return std::max<std::int64_t>(std::llround(counts), 1);
 }
 
 PidMessage set_effect_message(const ReportDescriptor& descriptor) {
-    std::optional<MessageBuilder> m = chosen(descriptor, constant_force, set_effect);
+    std::optional<MessageBuilder> m = selector_message(descriptor, constant_force, set_effect);
     if (!m) return {};
     const auto field = [&](Usage usage) {
         return find_field(descriptor, m->message.kind, usage, set_effect);
     };
-    if (const Field* f = field(duration)) put(*m, *f, counts_of(*f, effect_life));
-    if (const Field* f = field(gain)) put(*m, *f, f->high);
+    if (const ReportField* f = field(duration)) set_field(*m, *f, to_counts(*f, effect_life));
+    if (const ReportField* f = field(gain)) set_field(*m, *f, f->high);
     // The first axis that can be enabled is the wheel's. Trigger button and start delay stay zero (none).
-    for (const Field& f : descriptor.fields)
+    for (const ReportField& f : descriptor.fields)
         if (f.kind == m->message.kind && f.report == m->message.bytes[0] &&
             find_field(descriptor, f.kind, f.usage, axes_enable) == &f) {
-            put(*m, f, 1);
+            set_field(*m, f, 1);
             break;
         }
-    if (const Field* f = field(direction_enable)) put(*m, *f, 1);
+    if (const ReportField* f = field(direction_enable)) set_field(*m, *f, 1);
     // Direction 90° from north: from the right. Devices name the slots by ordinals or by axes.
-    for (const Field& f : descriptor.fields)
+    for (const ReportField& f : descriptor.fields)
         if (f.kind == m->message.kind && find_field(descriptor, f.kind, f.usage, direction) == &f) {
-            put(*m, f, f.low + (f.high - f.low) / 4);
+            set_field(*m, f, f.low + (f.high - f.low) / 4);
             break;
         }
     return std::move(m->message);
@@ -99,110 +100,112 @@ PidMessage set_effect_message(const ReportDescriptor& descriptor) {
 
 Result<PidLayout> pid_layout(const ReportDescriptor& descriptor) {
     PidLayout layout;
-    const Field* strength = sent_field(descriptor, magnitude, set_constant_force);
+    const ReportField* strength = output_field(descriptor, magnitude, set_constant_force);
     if (strength == nullptr)
         return fail(ErrorCode::no_device, "the device has no constant-force effect",
-                    "a wheel with USB's force feedback (PID)");
+                    "a wheel with USB force feedback (PID)");
     if (strength->low >= 0 || strength->high <= 0)
         return fail(ErrorCode::no_device, "the device's constant force has one sign only",
                     "a signed magnitude");
-    std::optional<MessageBuilder> start = chosen(descriptor, op_start, effect_operation);
-    std::optional<MessageBuilder> stop = chosen(descriptor, op_stop, effect_operation);
+    std::optional<MessageBuilder> start = selector_message(descriptor, op_start, effect_operation);
+    std::optional<MessageBuilder> stop = selector_message(descriptor, op_stop, effect_operation);
     if (!start || !stop)
         return fail(ErrorCode::no_device, "the device cannot start and stop effects",
-                    "the report \"effect operation\" of USB's force feedback");
-    if (const Field* loops = find_field(descriptor, start->message.kind, loop_count, effect_operation))
-        put(*start, *loops, 1);
+                    "the report \"effect operation\" of USB force feedback");
+    if (const ReportField* loops = find_field(descriptor, start->message.kind, loop_count, effect_operation))
+        set_field(*start, *loops, 1);
     layout.start = std::move(start->message);
     layout.stop = std::move(stop->message);
 
-    MessageBuilder force = made(descriptor, *strength);
+    MessageBuilder force = make_message(descriptor, *strength);
     layout.magnitude = *strength;
-    if (const Field* block = find_field(descriptor, strength->kind, block_index, set_constant_force))
+    if (const ReportField* block = find_field(descriptor, strength->kind, block_index, set_constant_force))
         force.message.block = *block;
-    layout.force = std::move(force.message);
+    layout.set_force = std::move(force.message);
 
     const auto control = [&](Usage option) {
-        std::optional<MessageBuilder> m = chosen(descriptor, option);
+        std::optional<MessageBuilder> m = selector_message(descriptor, option);
         return m ? std::move(m->message) : PidMessage{};
     };
     layout.reset = control(device_reset);
     layout.stop_all = control(stop_all_effects);
     layout.enable = control(enable_actuators);
-    if (const Field* f = sent_field(descriptor, device_gain, device_gain_report)) {
-        MessageBuilder m = made(descriptor, *f);
-        put(m, *f, f->high);
+    if (const ReportField* f = output_field(descriptor, device_gain, device_gain_report)) {
+        MessageBuilder m = make_message(descriptor, *f);
+        set_field(m, *f, f->high);
         layout.gain = std::move(m.message);
     }
-    if (std::optional<MessageBuilder> m = chosen(descriptor, constant_force, create_effect))
+    if (std::optional<MessageBuilder> m = selector_message(descriptor, constant_force, create_effect))
         layout.create = std::move(m->message);
-    layout.set = set_effect_message(descriptor);
-    if (const Field* f = sent_field(descriptor, block_index, block_free)) {
-        MessageBuilder m = made(descriptor, *f);
+    layout.set_effect = set_effect_message(descriptor);
+    if (const ReportField* f = output_field(descriptor, block_index, block_free)) {
+        MessageBuilder m = make_message(descriptor, *f);
         m.message.block = *f;
         layout.free = std::move(m.message);
     }
-    if (const Field* f = find_field(descriptor, ReportKind::feature, block_index, block_load)) {
-        MessageBuilder m = made(descriptor, *f);
+    if (const ReportField* f = find_field(descriptor, ReportKind::feature, block_index, block_load)) {
+        MessageBuilder m = make_message(descriptor, *f);
         m.message.block = *f;
-        layout.loaded = std::move(m.message);
-        if (const auto well = find_selector(descriptor, ReportKind::feature, load_success, block_load)) {
-            layout.status = well->field;
-            layout.loaded_well = well->value;
+        layout.block_load = std::move(m.message);
+        if (const auto success = find_selector(descriptor, ReportKind::feature, load_success, block_load)) {
+            layout.status = success->field;
+            layout.load_success = success->value;
         }
     }
     return layout;
 }
 
 Result<std::optional<std::int64_t>> parse_block_load(const PidLayout& layout,
-                                                     std::span<const std::uint8_t> answer) {
-    if (answer.empty() || !layout.loaded.block) return std::nullopt;
-    const auto body = answer.subspan(1);
-    const auto block = value_of(*layout.loaded.block, body);
+                                                     std::span<const std::uint8_t> reply) {
+    if (reply.empty() || !layout.block_load.block) return std::nullopt;
+    const auto body = reply.subspan(1);
+    const auto block = value_of(*layout.block_load.block, body);
     if (!block) return std::nullopt;
     if (layout.status && layout.status->array) {
         const auto status = value_of(*layout.status, body);
         if (!status || *status < layout.status->low || *status > layout.status->high) return std::nullopt;
-        if (*status != layout.loaded_well)
-            return fail(ErrorCode::no_device, "the device has no room for an effect",
+        if (*status != layout.load_success)
+            return fail(ErrorCode::no_device, "the device has no memory left for an effect",
                         "a device that no other program uses; unplug it and plug it in again");
     }
-    if (*block < layout.loaded.block->low || *block > layout.loaded.block->high) return std::nullopt;
+    if (*block < layout.block_load.block->low || *block > layout.block_load.block->high) return std::nullopt;
     return block;
 }
 
 void select_block(PidLayout& layout, std::int64_t block) {
-    for (PidMessage* m : {&layout.set, &layout.force, &layout.start, &layout.stop, &layout.free})
+    for (PidMessage* m : {&layout.set_effect, &layout.set_force, &layout.start, &layout.stop, &layout.free})
         if (m->block && !m->bytes.empty()) write_value(*m->block, block, std::span(m->bytes).subspan(1));
 }
 
 void set_magnitude(PidLayout& layout, double share) {
     const double s = std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0.0;
     const auto most = static_cast<double>(s < 0.0 ? -layout.magnitude.low : layout.magnitude.high);
-    write_value(layout.magnitude, std::llround(s * most), std::span(layout.force.bytes).subspan(1));
+    write_value(layout.magnitude, std::llround(s * most), std::span(layout.set_force.bytes).subspan(1));
 }
 
 namespace {
 
-constexpr double tell_again = 0.1;                  // s
-constexpr double start_again = 0.25 * effect_life;  // s
-constexpr int most_questions = 60;                  // until an effect is loaded; as many as Linux asks
+constexpr double refresh_interval = 0.1;                 // s
+constexpr double restart_interval = 0.25 * effect_life;  // s
+constexpr int max_polls = 60;  // until an effect is loaded; the number that Linux uses
 
-Status send(HidTransport& line, const PidMessage& message) {
+Status send(HidTransport& transport, const PidMessage& message) {
     if (message.bytes.empty()) return {};
-    return message.kind == ReportKind::feature ? line.send_feature(message.bytes) : line.write(message.bytes);
+    return message.kind == ReportKind::feature ? transport.send_feature(message.bytes)
+                                               : transport.write(message.bytes);
 }
 
-Result<std::int64_t> load(HidTransport& line, const PidLayout& layout) {
+Result<std::int64_t> load_effect(HidTransport& transport, const PidLayout& layout) {
     // Devices without a "create" or "block load" report have fixed effect blocks; use the first.
-    const std::int64_t first = layout.force.block ? std::max<std::int64_t>(layout.force.block->low, 1) : 1;
+    const std::int64_t first =
+        layout.set_force.block ? std::max<std::int64_t>(layout.set_force.block->low, 1) : 1;
     if (layout.create.bytes.empty()) return first;
-    BOLT_TRY(send(line, layout.create));
-    if (layout.loaded.bytes.empty()) return first;
-    for (int i = 0; i < most_questions; ++i) {
-        std::vector<std::uint8_t> answer = layout.loaded.bytes;
-        BOLT_TRY_ASSIGN(const auto got, line.get_feature(answer));
-        BOLT_TRY_ASSIGN(const auto block, parse_block_load(layout, got));
+    BOLT_TRY(send(transport, layout.create));
+    if (layout.block_load.bytes.empty()) return first;
+    for (int i = 0; i < max_polls; ++i) {
+        std::vector<std::uint8_t> reply = layout.block_load.bytes;
+        BOLT_TRY_ASSIGN(const auto received, transport.get_feature(reply));
+        BOLT_TRY_ASSIGN(const auto block, parse_block_load(layout, received));
         if (block) return *block;
     }
     return fail(ErrorCode::no_device, "the device does not report the block of a new effect",
@@ -211,40 +214,41 @@ Result<std::int64_t> load(HidTransport& line, const PidLayout& layout) {
 
 }  // namespace
 
-Status PidForce::start(HidTransport& line, double now) {
+Status PidForce::start(HidTransport& transport, double now) {
     // Some devices keep a centring spring after a reset.
     for (const PidMessage* m : {&layout_.reset, &layout_.stop_all, &layout_.enable, &layout_.gain})
-        BOLT_TRY(send(line, *m));
-    BOLT_TRY_ASSIGN(const auto block, load(line, layout_));
+        BOLT_TRY(send(transport, *m));
+    BOLT_TRY_ASSIGN(const auto block, load_effect(transport, layout_));
     select_block(layout_, block);
     set_magnitude(layout_, 0.0);
     begun_ = true;
-    for (const PidMessage* m : {&layout_.set, &layout_.force, &layout_.start}) BOLT_TRY(send(line, *m));
-    sent_ = layout_.force.bytes;
+    for (const PidMessage* m : {&layout_.set_effect, &layout_.set_force, &layout_.start})
+        BOLT_TRY(send(transport, *m));
+    sent_ = layout_.set_force.bytes;
     sent_at_ = started_at_ = now;
     return {};
 }
 
-Status PidForce::update(HidTransport& line, double share, double now) {
+Status PidForce::update(HidTransport& transport, double share, double now) {
     set_magnitude(layout_, share);
-    if (now - started_at_ >= start_again) {
-        BOLT_TRY(send(line, layout_.start));
+    if (now - started_at_ >= restart_interval) {
+        BOLT_TRY(send(transport, layout_.start));
         started_at_ = now;
     }
-    if (layout_.force.bytes == sent_ && now - sent_at_ < tell_again) return {};
-    BOLT_TRY(send(line, layout_.force));
-    sent_ = layout_.force.bytes;
+    if (layout_.set_force.bytes == sent_ && now - sent_at_ < refresh_interval) return {};
+    BOLT_TRY(send(transport, layout_.set_force));
+    sent_ = layout_.set_force.bytes;
     sent_at_ = now;
     return {};
 }
 
-void PidForce::stop(HidTransport& line) {
+void PidForce::stop(HidTransport& transport) {
     if (!begun_) return;
     begun_ = false;
     set_magnitude(layout_, 0.0);
     // Send all three even if one fails.
-    for (const PidMessage* m : {&layout_.force, &layout_.stop, &layout_.free, &layout_.stop_all})
-        static_cast<void>(send(line, *m));
+    for (const PidMessage* m : {&layout_.set_force, &layout_.stop, &layout_.free, &layout_.stop_all})
+        static_cast<void>(send(transport, *m));
 }
 
 }  // namespace bolt::device

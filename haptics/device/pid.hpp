@@ -1,5 +1,5 @@
-// Messages of USB force feedback (usage page "Physical Interface Device", PID) for one constant force. No
-// I/O; pid_force.hpp sends them.
+// USB force feedback (usage page "Physical Interface Device", PID) with one constant force: its messages, and
+// PidForce, which sends them.
 //
 // Source: USB-IF, Device Class Definition for Physical Interface Devices 1.0. Deviations of real devices
 // follow Linux' hid-pidff.c.
@@ -18,30 +18,30 @@ constexpr double effect_life = 1.0;
 
 struct PidMessage {
     ReportKind kind = ReportKind::output;
-    std::vector<std::uint8_t> bytes;  // begins with the id; empty: the device has no such message
-    std::optional<Field> block;       // index of the effect
+    std::vector<std::uint8_t> bytes;   // begins with the id; empty: the device has no such message
+    std::optional<ReportField> block;  // index of the effect
 };
 
 struct PidLayout {
     PidMessage reset, stop_all, enable;  // device control
     PidMessage gain;                     // device gain
     PidMessage create;                   // creates a constant-force effect
-    PidMessage loaded;                   // feature to read: block index and status of the new effect
-    PidMessage set;                      // effect parameters: duration and direction (from the right)
-    PidMessage force;                    // magnitude of the constant force
+    PidMessage block_load;               // feature to read: block index and status of the new effect
+    PidMessage set_effect;               // effect parameters: duration and direction (from the right)
+    PidMessage set_force;                // magnitude of the constant force
     PidMessage start, stop, free;        // effect operation
-    Field magnitude;                     // in `force`
-    std::optional<Field> status;         // in `loaded`
-    std::int64_t loaded_well = 0;
+    ReportField magnitude;               // in `set_force`
+    std::optional<ReportField> status;   // in `block_load`
+    std::int64_t load_success = 0;       // value of `status` after a successful load
 };
 
 // Error: the device has no constant force, or none of both signs.
 Result<PidLayout> pid_layout(const ReportDescriptor& descriptor);
 
-// Parses the `loaded` report: the block index, nullopt if loading is not complete, an error if memory is
+// Parses the `block_load` report: the block index, nullopt if loading is not complete, an error if memory is
 // full.
 Result<std::optional<std::int64_t>> parse_block_load(const PidLayout& layout,
-                                                     std::span<const std::uint8_t> answer);
+                                                     std::span<const std::uint8_t> reply);
 
 // Writes the block index into all messages of the effect.
 void select_block(PidLayout& layout, std::int64_t block);
@@ -50,18 +50,17 @@ void select_block(PidLayout& layout, std::int64_t block);
 void set_magnitude(PidLayout& layout, double share);
 
 // Runs the constant-force effect of a wheel: creates, updates, restarts and stops it.
-
 class PidForce {
   public:
     explicit PidForce(PidLayout layout) : layout_(std::move(layout)) {}
 
     // Resets the device, stops all effects of earlier users, then creates ours and starts it at zero.
-    Status start(HidTransport& line, double now);
+    Status start(HidTransport& transport, double now);
     // `share` is −1 … 1 of full scale, positive to the left. Sends changes at once, and repeats the value
     // before the effect's duration ends; some devices also drop a force that is not refreshed.
-    Status update(HidTransport& line, double share, double now);
+    Status update(HidTransport& transport, double share, double now);
     // Best effort: ignores write errors.
-    void stop(HidTransport& line);
+    void stop(HidTransport& transport);
 
   private:
     PidLayout layout_;

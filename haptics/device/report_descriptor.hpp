@@ -1,5 +1,5 @@
-// Parses a HID report descriptor: which bits of which report have which meaning. Devices of one class differ
-// in all of it, so drivers read it from the device.
+// Parses a HID report descriptor, which states the meaning of the bits of each report, and decodes reports
+// with it. Devices of one class differ in their reports, so drivers read the descriptor from the device.
 //
 // Source: USB-IF, Device Class Definition for Human Interface Devices 1.11, section 6.2.2; usages: HID Usage
 // Tables.
@@ -23,7 +23,7 @@ struct Usage {
 };
 
 // One value in a report, or one slot of an array of usages.
-struct Field {
+struct ReportField {
     ReportKind kind = ReportKind::input;
     std::uint8_t report = 0;  // report id; 0: reports are not numbered
     std::uint32_t bit = 0;    // offset after the id byte
@@ -53,8 +53,8 @@ struct ReportLength {
 
 struct ReportDescriptor {
     std::vector<Collection> collections;
-    std::vector<Field> fields;  // without padding and fields wider than 32 bits
-    std::vector<Usage> slots;   // usages that array slots can hold
+    std::vector<ReportField> fields;  // without padding and fields wider than 32 bits
+    std::vector<Usage> slots;         // usages that array slots can hold
     std::vector<ReportLength> reports;
     bool numbered = false;  // reports begin with an id
 };
@@ -66,12 +66,12 @@ Result<ReportDescriptor> parse_report_descriptor(std::span<const std::uint8_t> b
 std::size_t report_size(const ReportDescriptor& descriptor, ReportKind kind, std::uint8_t report);
 
 // The first field with this kind and usage, inside a collection of usage `within` if given; nullptr if none.
-const Field* find_field(const ReportDescriptor& descriptor, ReportKind kind, Usage usage,
-                        std::optional<Usage> within = std::nullopt);
+const ReportField* find_field(const ReportDescriptor& descriptor, ReportKind kind, Usage usage,
+                              std::optional<Usage> within = std::nullopt);
 
 // An option that the host selects: a usage of an array, or a one-bit field.
 struct Selector {
-    Field field;
+    ReportField field;
     std::int64_t value = 0;  // value that selects it
 };
 std::optional<Selector> find_selector(const ReportDescriptor& descriptor, ReportKind kind, Usage option,
@@ -79,23 +79,21 @@ std::optional<Selector> find_selector(const ReportDescriptor& descriptor, Report
 
 // The value of a field in a report without id. nullopt: the report is too short, or the value is the null
 // state.
-std::optional<std::int64_t> value_of(const Field& field, std::span<const std::uint8_t> report);
+std::optional<std::int64_t> value_of(const ReportField& field, std::span<const std::uint8_t> report);
 
 // Clamps the value to the field's range and writes it into a report without id. Returns false if the report
 // is too short.
-bool write_value(const Field& field, std::int64_t value, std::span<std::uint8_t> report);
+bool write_value(const ReportField& field, std::int64_t value, std::span<std::uint8_t> report);
 
 // Maps the logical range to −1 … 1 if it includes negative values, otherwise to 0 … 1.
-double normalized_value(const Field& field, std::int64_t value);
-
-// Finds and decodes the buttons of a HID device.
+double normalized_value(const ReportField& field, std::int64_t value);
 
 // One-bit fields of the Button page, sorted by button number.
-std::vector<Field> find_button_fields(const ReportDescriptor& descriptor);
+std::vector<ReportField> find_button_fields(const ReportDescriptor& descriptor);
 
 // Decodes a report without its id into `pressed` (bit i: button i). Returns false if it contains no buttons.
-bool decode_buttons(const std::vector<Field>& buttons, std::uint8_t id, std::span<const std::uint8_t> report,
-                    std::uint32_t& pressed);
+bool decode_buttons(const std::vector<ReportField>& buttons, std::uint8_t id,
+                    std::span<const std::uint8_t> report, std::uint32_t& pressed);
 
 // Removes the id that hidapi puts in front of a report and returns it; 0 if reports are not numbered, nullopt
 // if the id is missing.

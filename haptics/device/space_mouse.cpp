@@ -18,11 +18,11 @@ Result<SixAxisLayout> six_axis_layout(const ReportDescriptor& descriptor) {
     SixAxisLayout layout;
     layout.numbered = descriptor.numbered;
     for (std::uint16_t i = 0; i < 6; ++i) {
-        const Field* axis = find_field(descriptor, ReportKind::input,
-                                       {generic_desktop, static_cast<std::uint16_t>(first_axis + i)});
+        const ReportField* axis = find_field(descriptor, ReportKind::input,
+                                             {generic_desktop, static_cast<std::uint16_t>(first_axis + i)});
         if (axis == nullptr || axis->array)
             return fail(ErrorCode::no_device, "the device does not report six axes",
-                        "pushes along and turns about x, y and z");
+                        "translation along and rotation about x, y and z");
         layout.axes[i] = *axis;
     }
     layout.buttons = find_button_fields(descriptor);
@@ -32,28 +32,28 @@ Result<SixAxisLayout> six_axis_layout(const ReportDescriptor& descriptor) {
 bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> report, SixAxisState& state) {
     const auto id = strip_report_id(layout.numbered, report);
     if (!id) return false;
-    bool told = false;
+    bool decoded = false;
     for (std::size_t i = 0; i < layout.axes.size(); ++i) {
-        const Field& axis = layout.axes[i];
+        const ReportField& axis = layout.axes[i];
         if (axis.report != *id) continue;
         const auto value = value_of(axis, report);
         if (!value) continue;
         state.share[i] = normalized_value(axis, *value);
-        told = true;
+        decoded = true;
     }
-    return decode_buttons(layout.buttons, *id, report, state.buttons) || told;
+    return decode_buttons(layout.buttons, *id, report, state.buttons) || decoded;
 }
 
 namespace {
 
-constexpr double usual_rate = 125.0;  // 1/s; what wired ones send while they are pushed
-constexpr int most_at_once = 64;      // reports that the kernel keeps for a reader
+constexpr double nominal_rate = 125.0;  // 1/s, of wired pucks while deflected
+constexpr int max_reports = 64;         // size of the kernel's queue of reports
 
-class SpaceMouse : public Device {
+class SpaceMouse : public DeviceDriver {
   public:
-    SpaceMouse(std::unique_ptr<HidTransport> line, SixAxisLayout layout, Description description,
-               const PuckResponse& response, Clock clock)
-        : line_(std::move(line)),
+    SpaceMouse(std::unique_ptr<HidTransport> transport, SixAxisLayout layout, Description description,
+               const PuckResponse& response, SecondsClock clock)
+        : transport_(std::move(transport)),
           layout_(std::move(layout)),
           description_(std::move(description)),
           response_(response),
@@ -62,22 +62,22 @@ class SpaceMouse : public Device {
     [[nodiscard]] const Description& describe() const override { return description_; }
 
     Result<std::optional<Sample>> read(double timeout) override {
-        const double asked = clock_();
-        if (pushed_) timeout = std::clamp(told_ + response_.silence - asked, 0.0, timeout);
-        for (int i = 0; i < most_at_once; ++i) {
-            BOLT_TRY_ASSIGN(const auto report, line_->read(i == 0 ? timeout : 0.0));
+        const double start = clock_();
+        if (deflected_) timeout = std::clamp(last_report_ + response_.silence - start, 0.0, timeout);
+        for (int i = 0; i < max_reports; ++i) {
+            BOLT_TRY_ASSIGN(const auto report, transport_->read(i == 0 ? timeout : 0.0));
             if (report.empty()) break;
             if (!decode_report(layout_, report, state_)) continue;
-            told_ = clock_();
+            last_report_ = clock_();
             const auto moves = [&](double share) { return std::abs(share) > response_.dead_zone; };
-            pushed_ = std::any_of(state_.share.begin(), state_.share.end(), moves);
-            news_ = true;
+            deflected_ = std::any_of(state_.share.begin(), state_.share.end(), moves);
+            has_report_ = true;
         }
         const double now = clock_();
-        if (!std::exchange(news_, false) && pushed_) {
-            if (now < told_ + response_.silence) return std::nullopt;
+        if (!std::exchange(has_report_, false) && deflected_) {
+            if (now < last_report_ + response_.silence) return std::nullopt;
             state_.share.fill(0.0);
-            pushed_ = false;
+            deflected_ = false;
         }
         Sample sample;
         const PuckRates rates = rates_of(state_, response_);
@@ -91,14 +91,14 @@ class SpaceMouse : public Device {
     Status write(const force::OutputCommand&) override { return {}; }
 
   private:
-    std::unique_ptr<HidTransport> line_;
+    std::unique_ptr<HidTransport> transport_;
     SixAxisLayout layout_;
     Description description_;
     PuckResponse response_;
-    Clock clock_;
+    SecondsClock clock_;
     SixAxisState state_;
-    double told_ = 0.0;
-    bool pushed_ = false, news_ = false;
+    double last_report_ = 0.0;
+    bool deflected_ = false, has_report_ = false;
 };
 
 }  // namespace
@@ -106,27 +106,29 @@ class SpaceMouse : public Device {
 PuckRates rates_of(const SixAxisState& state, const PuckResponse& response) {
     const auto rate = [&](std::size_t axis, double most) {
         const double share = std::clamp(state.share[axis], -1.0, 1.0);
-        const double felt = std::max(std::abs(share) - response.dead_zone, 0.0) / (1.0 - response.dead_zone);
-        return std::copysign(most * felt * felt, share);
+        const double response_share =
+            std::max(std::abs(share) - response.dead_zone, 0.0) / (1.0 - response.dead_zone);
+        return std::copysign(most * response_share * response_share, share);
     };
     // 3Dconnexion: x right, y towards the user, z down.
     const double v = response.speed, w = response.turn_speed;
     return {{rate(0, v), -rate(2, v), rate(1, v)}, {rate(3, w), -rate(5, w), rate(4, w)}};
 }
 
-Result<std::unique_ptr<Device>> make_space_mouse(std::unique_ptr<HidTransport> line,
-                                                 const ReportDescriptor& descriptor, std::string name,
-                                                 std::string id, const PuckResponse& response, Clock clock) {
+Result<std::unique_ptr<DeviceDriver>> make_space_mouse(std::unique_ptr<HidTransport> transport,
+                                                       const ReportDescriptor& descriptor, std::string name,
+                                                       std::string id, const PuckResponse& response,
+                                                       SecondsClock clock) {
     BOLT_TRY_ASSIGN(auto layout, six_axis_layout(descriptor));
     Description description;
     description.name = std::move(name);
     description.id = std::move(id);
     description.sensing = Sensing::rate;
     description.limits.force = description.limits.torque = 0.0;
-    description.rate = usual_rate;
+    description.rate = nominal_rate;
     description.buttons = static_cast<int>(layout.buttons.size());
-    return std::make_unique<SpaceMouse>(std::move(line), std::move(layout), std::move(description), response,
-                                        std::move(clock));
+    return std::make_unique<SpaceMouse>(std::move(transport), std::move(layout), std::move(description),
+                                        response, std::move(clock));
 }
 
 }  // namespace bolt::device

@@ -1,5 +1,5 @@
-// Decodes a spring-centred puck with six axes (SpaceMouse class). The report descriptor locates the axes;
-// some devices send all six in one report, others translation and rotation in two.
+// Decoder and driver of a spring-centred puck with six axes (SpaceMouse class). The report descriptor locates
+// the axes; some devices send all six in one report, others translation and rotation in two.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 namespace bolt::device {
 
 struct SixAxisLayout {
-    std::array<Field, 6> axes;   // x, y, z, then rotations about them
-    std::vector<Field> buttons;  // sorted by button number
+    std::array<ReportField, 6> axes;   // x, y, z, then rotations about them
+    std::vector<ReportField> buttons;  // sorted by button number
     bool numbered = false;
 };
 
@@ -31,14 +31,13 @@ Result<SixAxisLayout> six_axis_layout(const ReportDescriptor& descriptor);
 // it has none of these fields or is too short.
 bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> report, SixAxisState& state);
 
-// A puck as a Device: deflection becomes velocity (Sensing::rate). It renders no force.
-
-// A puck at rest sends nothing, so read() then returns zero velocity. If reports stop while it is deflected,
-// the velocity becomes zero after response.silence.
-Result<std::unique_ptr<Device>> make_space_mouse(std::unique_ptr<HidTransport> line,
-                                                 const ReportDescriptor& descriptor, std::string name,
-                                                 std::string id, const PuckResponse& response = {},
-                                                 Clock clock = steady_seconds);
+// The driver of a puck: deflection becomes velocity (Sensing::rate). It renders no force. A puck at rest
+// sends nothing, so read() then returns zero velocity. If reports stop while it is deflected, the velocity
+// becomes zero after response.silence.
+Result<std::unique_ptr<DeviceDriver>> make_space_mouse(std::unique_ptr<HidTransport> transport,
+                                                       const ReportDescriptor& descriptor, std::string name,
+                                                       std::string id, const PuckResponse& response = {},
+                                                       SecondsClock clock = steady_seconds);
 
 struct PuckRates {
     Vec3 velocity{0.0};          // m/s, device.hpp's frame

@@ -11,12 +11,12 @@ namespace bolt::device {
 
 namespace {
 
-struct Pushed {
-    PuckInput push;
+struct TimedInput {
+    PuckInput input;
     double time = 0.0;  // s
 };
 
-Vec3 faster(const Vec3& share, double fastest) {
+Vec3 quadratic_response(const Vec3& share, double fastest) {
     Vec3 speed(0.0);
     for (int i = 0; i < 3; ++i) {
         const double s = std::clamp(share[i], -1.0, 1.0);
@@ -31,15 +31,15 @@ struct VirtualPuck::Shared {
     VirtualPuckOptions options;
     Timer timer;
     Description description;
-    TripleBuffer<Pushed> pushes;
+    TripleBuffer<TimedInput> inputs;
 };
 
 namespace {
 
 template <class Shared>
-class Opened final : public Device {
+class VirtualPuckDevice final : public DeviceDriver {
   public:
-    explicit Opened(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {}
+    explicit VirtualPuckDevice(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {}
 
     [[nodiscard]] const Description& describe() const override { return shared_->description; }
 
@@ -50,12 +50,13 @@ class Opened final : public Device {
         if (due > timeout) return std::optional<Sample>{};
         Sample sample;
         sample.time = last_ = shared_->timer.now();
-        shared_->pushes.update();
-        const Pushed& pushed = shared_->pushes.latest();
-        if (sample.time - pushed.time < shared_->options.input_timeout) {
-            sample.velocity = faster(pushed.push.along, shared_->options.speed);
-            sample.angular_velocity = faster(pushed.push.about, shared_->options.angular_speed);
-            sample.buttons = pushed.push.buttons;
+        shared_->inputs.update();
+        const TimedInput& latest_input = shared_->inputs.latest();
+        if (sample.time - latest_input.time < shared_->options.input_timeout) {
+            sample.velocity = quadratic_response(latest_input.input.along, shared_->options.speed);
+            sample.angular_velocity =
+                quadratic_response(latest_input.input.about, shared_->options.angular_speed);
+            sample.buttons = latest_input.input.buttons;
         }
         return sample;
     }
@@ -73,7 +74,7 @@ VirtualPuck::VirtualPuck(const VirtualPuckOptions& options, Timer timer)
     : shared_(std::make_shared<Shared>()) {
     shared_->options = options;
     shared_->timer = std::move(timer);
-    shared_->pushes.write({{}, shared_->timer.now() - options.input_timeout});
+    shared_->inputs.write({{}, shared_->timer.now() - options.input_timeout});
     Description& d = shared_->description;
     d.name = "mouse and keyboard";
     d.id = "puck";
@@ -86,19 +87,19 @@ VirtualPuck::VirtualPuck(VirtualPuck&&) noexcept = default;
 VirtualPuck& VirtualPuck::operator=(VirtualPuck&&) noexcept = default;
 VirtualPuck::~VirtualPuck() = default;
 
-void VirtualPuck::set_input(const PuckInput& push) { shared_->pushes.write({push, shared_->timer.now()}); }
+void VirtualPuck::set_input(const PuckInput& input) { shared_->inputs.write({input, shared_->timer.now()}); }
 
 DeviceFactory VirtualPuck::open() {
-    return [shared = shared_]() -> Result<std::unique_ptr<Device>> {
-        return std::make_unique<Opened<Shared>>(shared);
+    return [shared = shared_]() -> Result<std::unique_ptr<DeviceDriver>> {
+        return std::make_unique<VirtualPuckDevice<Shared>>(shared);
     };
 }
 
 namespace {
 
-class Recorded final : public Device {
+class RecordedDevice final : public DeviceDriver {
   public:
-    Recorded(Description description, Recording recording, Timer timer)
+    RecordedDevice(Description description, Recording recording, Timer timer)
         : description_(std::move(description)),
           recording_(std::move(recording)),
           timer_(std::move(timer)),
@@ -143,19 +144,20 @@ class Recorded final : public Device {
 
 DeviceFactory recorded(Description description, Recording recording, Timer timer) {
     return [description = std::move(description), recording = std::move(recording),
-            timer = std::move(timer)]() -> Result<std::unique_ptr<Device>> {
+            timer = std::move(timer)]() -> Result<std::unique_ptr<DeviceDriver>> {
         if (!recording(0))
             return fail(ErrorCode::failed, "the recording has no samples", "a session with ticks");
-        return std::make_unique<Recorded>(description, recording, timer);
+        return std::make_unique<RecordedDevice>(description, recording, timer);
     };
 }
 
 namespace {
 
 constexpr double longest_step = 0.5e-3;  // s
-constexpr double forgets = 0.05;         // s after which nobody watched: the hand is where it means to be
+// s without a read or write after which the hand jumps to the intended pose.
+constexpr double idle_reset = 0.05;
 
-tl::unexpected<Error> gone(const Description& description) {
+tl::unexpected<Error> device_lost(const Description& description) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = description.name + " is not plugged in";
@@ -166,9 +168,9 @@ tl::unexpected<Error> gone(const Description& description) {
 
 }  // namespace
 
-class SimulatedDevice::Connection final : public Device {
+class SimulatedDevice::Connection final : public DeviceDriver {
   public:
-    explicit Connection(SimulatedDevice& thing) : device_(thing), due_(thing.timer_.now()) {}
+    explicit Connection(SimulatedDevice& device) : device_(device), due_(device.timer_.now()) {}
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
     ~Connection() override { device_.command_ = {}; }
@@ -180,11 +182,11 @@ class SimulatedDevice::Connection final : public Device {
         const double until = device_.timer_.now() + timeout;
         if (device_.is_active(InjectedFault::silent) || due_ > until) {
             device_.timer_.wait(timeout);
-            if (device_.cut()) return gone(describe());
+            if (device_.is_unplugged()) return device_lost(describe());
             return std::optional<Sample>{};
         }
         device_.timer_.wait(due_ - device_.timer_.now());
-        if (device_.cut()) return gone(describe());
+        if (device_.is_unplugged()) return device_lost(describe());
         device_.advance();
         // Missed samples are skipped.
         due_ = std::max(due_, device_.now_.time - 1.0 / describe().rate) + 1.0 / describe().rate;
@@ -202,7 +204,7 @@ class SimulatedDevice::Connection final : public Device {
     Status write(const force::OutputCommand& command) override {
         wait_if_stuck();
         if (device_.is_active(InjectedFault::slow)) device_.timer_.wait(slow_write_time);
-        if (device_.cut()) return gone(describe());
+        if (device_.is_unplugged()) return device_lost(describe());
         device_.advance();
         const force::OutputLimits& limits = describe().limits;
         device_.command_ = {force::clamp_length(command.force, limits.force),
@@ -227,8 +229,8 @@ SimulatedDevice::SimulatedDevice(SimulatedDeviceOptions design, Timer timer)
 }
 
 DeviceFactory SimulatedDevice::open() {
-    return [this]() -> Result<std::unique_ptr<Device>> {
-        if (cut()) return gone(options_.description);
+    return [this]() -> Result<std::unique_ptr<DeviceDriver>> {
+        if (is_unplugged()) return device_lost(options_.description);
         advance();
         return std::make_unique<Connection>(*this);
     };
@@ -249,8 +251,8 @@ const FaultInterval* SimulatedDevice::find(InjectedFault what) const {
 
 bool SimulatedDevice::is_active(InjectedFault what) const { return find(what) != nullptr; }
 
-// Without power the motors also lose their command.
-bool SimulatedDevice::cut() {
+// Returns true while unplugged. Without power the motors also lose their command.
+bool SimulatedDevice::is_unplugged() {
     if (!is_active(InjectedFault::unplugged)) return false;
     command_ = {};
     return true;
@@ -263,7 +265,7 @@ force::OutputCommand SimulatedDevice::rendered() const {
 // Advances the hand to the current time.
 void SimulatedDevice::advance() {
     const double now = timer_.now();
-    if (!options_.hand || !begun_ || now - time_ > forgets) {
+    if (!options_.hand || !begun_ || now - time_ > idle_reset) {
         now_ = options_.script(now);
         velocity_ = angular_velocity_ = Vec3(0.0);
         turn_rate_ = 0.0;
@@ -271,31 +273,32 @@ void SimulatedDevice::advance() {
     } else if (now > time_) {
         const auto steps = static_cast<int>(std::ceil((now - time_) / longest_step));
         const double dt = (now - time_) / steps;
-        const Sample meant = options_.script(now);
-        for (int i = 0; i < steps; ++i) step(meant, dt);
-        now_.velocity = meant.velocity;
-        now_.angular_velocity = meant.angular_velocity;
-        now_.buttons = meant.buttons;
+        const Sample intended = options_.script(now);
+        for (int i = 0; i < steps; ++i) step(intended, dt);
+        now_.velocity = intended.velocity;
+        now_.angular_velocity = intended.angular_velocity;
+        now_.buttons = intended.buttons;
     }
     time_ = now_.time = now;
 }
 
 // Semi-implicit Euler; stable for much stiffer springs at this step.
-void SimulatedDevice::step(const Sample& meant, double dt) {
+void SimulatedDevice::step(const Sample& intended, double dt) {
     const HandImpedance& hand = *options_.hand;
     const force::OutputCommand force = rendered();
     if (options_.description.sensing == Sensing::turn) {
-        const double torque = hand.torsion * (meant.turn - now_.turn) - hand.angular_damping * turn_rate_ +
+        const double torque = hand.torsion * (intended.turn - now_.turn) - hand.angular_damping * turn_rate_ +
                               glm::dot(force.torque, options_.description.axis);
         turn_rate_ += torque / hand.inertia * dt;
         now_.turn += turn_rate_ * dt;
         return;
     }
-    const Vec3 push = hand.stiffness * (meant.pose.position - now_.pose.position) - hand.damping * velocity_;
-    velocity_ += (push + force.force) / hand.mass * dt;
+    const Vec3 input =
+        hand.stiffness * (intended.pose.position - now_.pose.position) - hand.damping * velocity_;
+    velocity_ += (input + force.force) / hand.mass * dt;
     now_.pose.position += velocity_ * dt;
     const Vec3 off =
-        rotation_vector(glm::normalize(meant.pose.orientation * glm::conjugate(now_.pose.orientation)));
+        rotation_vector(glm::normalize(intended.pose.orientation * glm::conjugate(now_.pose.orientation)));
     const Vec3 twist = hand.torsion * off - hand.angular_damping * angular_velocity_;
     angular_velocity_ += (twist + force.torque) / hand.inertia * dt;
     now_.pose.orientation = glm::normalize(rotation(angular_velocity_ * dt) * now_.pose.orientation);

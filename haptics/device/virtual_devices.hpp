@@ -1,4 +1,5 @@
-// Mouse and keyboard as a puck: the window sets the deflection, the device reports it.
+// Devices without hardware: mouse and keyboard as a puck, recorded samples, and a simulated device with fault
+// injection.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +24,7 @@ struct VirtualPuckOptions {
     double input_timeout = 0.25;  // s without set_input() until the deflection is zero (a window may hang)
 };
 
+// Mouse and keyboard as a puck: the window sets the deflection, the device reports it.
 class VirtualPuck {
   public:
     VirtualPuck(const VirtualPuckOptions& options, Timer timer);
@@ -31,7 +33,7 @@ class VirtualPuck {
     ~VirtualPuck();
 
     // Call at least once a frame, from one thread. Never waits.
-    void set_input(const PuckInput& push);
+    void set_input(const PuckInput& input);
 
     // The device may outlive the puck; it then reports rest.
     [[nodiscard]] DeviceFactory open();
@@ -41,18 +43,12 @@ class VirtualPuck {
     std::shared_ptr<Shared> shared_;
 };
 
-// A device that plays recorded samples at their recorded times. The caller supplies the samples.
-
 // Returns sample `index`, with increasing times; nullopt after the last.
 using Recording = std::function<std::optional<Sample>(std::size_t index)>;
 
-// Restarts at each opening. After the last sample the pose stays and all buttons are released. Rendered force
-// has no effect.
+// A device that plays recorded samples at their recorded times; restarts at each opening. After the last
+// sample the pose stays and all buttons are released. Rendered force has no effect.
 DeviceFactory recorded(Description description, Recording recording, Timer timer);
-
-// A simulated device: a script gives the intended motion, an optional hand impedance yields to the rendered
-// force, and faults of real devices can be injected. Works on any clock. Not thread-safe: one thread uses it,
-// or a test without threads in virtual time.
 
 enum class InjectedFault : std::uint8_t {
     unplugged,     // read and write fail, it cannot be opened, the motors have no power
@@ -84,7 +80,9 @@ struct SimulatedDeviceOptions {
     std::vector<FaultInterval> faults;
 };
 
-// The device itself, plugged in or not. It must outlive the connections that open() creates.
+// A simulated device: a script gives the intended motion, an optional hand impedance yields to the rendered
+// force, and faults of real devices can be injected. Works on any clock. Not thread-safe: one thread uses it,
+// or a test without threads in virtual time. It must outlive the connections that open() creates.
 class SimulatedDevice {
   public:
     SimulatedDevice(SimulatedDeviceOptions design, Timer timer);
@@ -100,8 +98,8 @@ class SimulatedDevice {
   private:
     class Connection;
     void advance();
-    bool cut();
-    void step(const Sample& meant, double dt);
+    bool is_unplugged();
+    void step(const Sample& intended, double dt);
     [[nodiscard]] const FaultInterval* find(InjectedFault what) const;
 
     SimulatedDeviceOptions options_;

@@ -13,11 +13,11 @@ namespace bolt::device::board {
 
 namespace {
 
-void put(std::span<std::uint8_t> at, std::uint64_t value) {
+void put_little_endian(std::span<std::uint8_t> at, std::uint64_t value) {
     for (std::size_t i = 0; i < at.size(); ++i) at[i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
-std::uint64_t take(std::span<const std::uint8_t> at) {
+std::uint64_t get_little_endian(std::span<const std::uint8_t> at) {
     std::uint64_t value = 0;
     for (std::size_t i = 0; i < at.size(); ++i) value |= static_cast<std::uint64_t>(at[i]) << (8 * i);
     return value;
@@ -30,28 +30,28 @@ std::array<std::uint8_t, report_bytes> encode_message(const Message& message) {
     const std::span<std::uint8_t> all(bytes);
     bytes[0] = report_id;
     bytes[1] = static_cast<std::uint8_t>(message.type);
-    put(all.subspan(2, 2), message.of_class);
+    put_little_endian(all.subspan(2, 2), message.of_class);
     bytes[4] = message.instance;
-    put(all.subspan(5, 4), message.command);
-    put(all.subspan(9, 8), static_cast<std::uint64_t>(message.data));
-    put(all.subspan(17, 8), message.address);
+    put_little_endian(all.subspan(5, 4), message.command);
+    put_little_endian(all.subspan(9, 8), static_cast<std::uint64_t>(message.data));
+    put_little_endian(all.subspan(17, 8), message.address);
     return bytes;
 }
 
 std::optional<Message> decode_message(std::span<const std::uint8_t> report) {
     if (report.size() < report_bytes || report[0] != report_id) return std::nullopt;
     Message m;
-    m.type = static_cast<Type>(report[1]);
-    m.of_class = static_cast<std::uint16_t>(take(report.subspan(2, 2)));
+    m.type = static_cast<MessageType>(report[1]);
+    m.of_class = static_cast<std::uint16_t>(get_little_endian(report.subspan(2, 2)));
     m.instance = report[4];
-    m.command = static_cast<std::uint32_t>(take(report.subspan(5, 4)));
-    m.data = static_cast<std::int64_t>(take(report.subspan(9, 8)));
-    m.address = take(report.subspan(17, 8));
+    m.command = static_cast<std::uint32_t>(get_little_endian(report.subspan(5, 4)));
+    m.data = static_cast<std::int64_t>(get_little_endian(report.subspan(9, 8)));
+    m.address = get_little_endian(report.subspan(17, 8));
     return m;
 }
 
 std::optional<std::int64_t> reply_value(Command question, const Message& message) {
-    if (message.type != Type::request || message.of_class != axis_class || message.instance != 0 ||
+    if (message.type != MessageType::request || message.of_class != axis_class || message.instance != 0 ||
         message.command != static_cast<std::uint32_t>(question))
         return std::nullopt;
     return message.data;
@@ -70,12 +70,12 @@ constexpr Usage steering{0x02, 0xc8}, joystick_x{0x01, 0x30}, wheel{0x01, 0x38};
 Result<WheelAxis> wheel_axis(const ReportDescriptor& descriptor) {
     WheelAxis layout;
     layout.numbered = descriptor.numbered;
-    const Field* axis = nullptr;
+    const ReportField* axis = nullptr;
     for (const Usage usage : {steering, joystick_x, wheel})
         if (axis == nullptr) axis = find_field(descriptor, ReportKind::input, usage);
     if (axis == nullptr || axis->array || axis->relative || axis->high <= axis->low)
-        return fail(ErrorCode::no_device, "the device does not say how far it is turned",
-                    "a wheel whose reports hold its steering or x axis");
+        return fail(ErrorCode::no_device, "the device does not report its angle",
+                    "a wheel whose reports contain a steering or x axis");
     layout.axis = *axis;
     layout.buttons = find_button_fields(descriptor);
     return layout;
@@ -95,23 +95,23 @@ bool decode_report(const WheelAxis& layout, std::span<const std::uint8_t> report
 
 namespace {
 
-constexpr double usual_rate = 1000.0;    // 1/s
-constexpr double believed_rest = 0.25;   // s
-constexpr double answer_patience = 0.1;  // s for an answer of a board while it is opened
-constexpr double ask_again = 0.005;      // s, for the encoder, if no answer came
-constexpr double live_every = 0.004;     // s, for the encoder, where only the board's life is of interest
-constexpr int most_tries = 3;
-constexpr std::int64_t most_degrees = 65535;  // what a board has room for
-constexpr int most_at_once = 256;             // reports in one read
+constexpr double nominal_rate = 1000.0;   // 1/s
+constexpr double rest_timeout = 0.25;     // s
+constexpr double reply_timeout = 0.1;     // s, for a reply of a board during opening
+constexpr double position_retry = 0.005;  // s until an unanswered request of the encoder position is repeated
+constexpr double position_interval = 0.004;  // s between requests that only check that the board is alive
+constexpr int max_attempts = 3;
+constexpr std::int64_t max_degrees = 65535;  // largest range that a board can report
+constexpr int max_reports = 256;             // reports per read
 
 // The common part of wheels and boards: transport, axis and force.
 struct WheelCore {
-    std::unique_ptr<HidTransport> line;
+    std::unique_ptr<HidTransport> transport;
     WheelAxis axis;
     PidForce force;
     Description description;
     WheelConfig config;
-    Clock clock;
+    SecondsClock clock;
     double available = 0.0;  // N·m at a share of 1
     WheelState state;
 
@@ -121,7 +121,7 @@ struct WheelCore {
         torque = std::clamp(torque, -description.limits.torque, description.limits.torque);
         const double share = available > 0.0 ? torque / available : 0.0;
         // Our torque is positive to the right, the effect's to the left.
-        return force.update(*line, config.reversed ? share : -share, clock());
+        return force.update(*transport, config.reversed ? share : -share, clock());
     }
 
     [[nodiscard]] Sample sample(double turn) const {
@@ -133,13 +133,19 @@ struct WheelCore {
     }
 };
 
-Result<WheelCore> make_hub(std::unique_ptr<HidTransport> line, const ReportDescriptor& descriptor,
-                           std::string name, std::string id, const WheelConfig& config, Clock clock) {
+Result<WheelCore> make_core(std::unique_ptr<HidTransport> transport, const ReportDescriptor& descriptor,
+                            std::string name, std::string id, const WheelConfig& config, SecondsClock clock) {
     BOLT_TRY_ASSIGN(auto axis, wheel_axis(descriptor));
     BOLT_TRY_ASSIGN(auto layout, pid_layout(descriptor));
-    WheelCore hub{std::move(line), std::move(axis),  PidForce(std::move(layout)), {},
-                  config,          std::move(clock), config.full_torque,          {}};
-    Description& d = hub.description;
+    WheelCore core{std::move(transport),
+                   std::move(axis),
+                   PidForce(std::move(layout)),
+                   {},
+                   config,
+                   std::move(clock),
+                   config.full_torque,
+                   {}};
+    Description& d = core.description;
     d.name = std::move(name);
     d.id = std::move(id);
     d.sensing = Sensing::turn;
@@ -149,115 +155,115 @@ Result<WheelCore> make_hub(std::unique_ptr<HidTransport> line, const ReportDescr
     // Below the stiffness that the wheel's own damping stabilises: b/τ with 0.1 N·m·s/rad and a 3 ms round
     // trip.
     d.limits.torsion = 20.0;
-    d.rate = usual_rate;
-    d.buttons = static_cast<int>(hub.axis.buttons.size());
-    return hub;
+    d.rate = nominal_rate;
+    d.buttons = static_cast<int>(core.axis.buttons.size());
+    return core;
 }
 
-void describe_torque(WheelCore& hub) {
-    Description& d = hub.description;
-    d.limits.torque = std::min(hub.config.max_torque, hub.available);
+void describe_torque(WheelCore& core) {
+    Description& d = core.description;
+    d.limits.torque = std::min(core.config.max_torque, core.available);
     for (int i = 0; i < 3; ++i)
         d.renders[static_cast<std::size_t>(3 + i)] =
-            d.limits.torque > 0.0 && std::abs(hub.config.axis[i]) > 0.01;
+            d.limits.torque > 0.0 && std::abs(core.config.axis[i]) > 0.01;
     d.remarks.push_back(fmt::format(
         "renders at most {:.1f} N·m, assuming that the motor gives {:.1f} N·m at full drive; a rig "
         "file can change this",
-        d.limits.torque, hub.available));
+        d.limits.torque, core.available));
 }
 
-class Wheel : public Device {
+class Wheel : public DeviceDriver {
   public:
-    explicit Wheel(WheelCore hub) : hub_(std::move(hub)), told_(hub_.clock()) {}
-    ~Wheel() override { hub_.force.stop(*hub_.line); }
+    explicit Wheel(WheelCore core) : core_(std::move(core)), last_report_(core_.clock()) {}
+    ~Wheel() override { core_.force.stop(*core_.transport); }
 
-    [[nodiscard]] const Description& describe() const override { return hub_.description; }
+    [[nodiscard]] const Description& describe() const override { return core_.description; }
 
     Result<std::optional<Sample>> read(double timeout) override {
-        for (int i = 0; i < most_at_once; ++i) {
-            BOLT_TRY_ASSIGN(const auto report, hub_.line->read(i == 0 ? timeout : 0.0));
+        for (int i = 0; i < max_reports; ++i) {
+            BOLT_TRY_ASSIGN(const auto report, core_.transport->read(i == 0 ? timeout : 0.0));
             if (report.empty()) break;
-            if (!decode_report(hub_.axis, report, hub_.state)) continue;
-            told_ = hub_.clock();
-            known_ = true;
+            if (!decode_report(core_.axis, report, core_.state)) continue;
+            last_report_ = core_.clock();
+            has_angle_ = true;
         }
-        if (!known_ || hub_.clock() - told_ > believed_rest) return std::nullopt;
-        return hub_.sample(hub_.state.share * 0.5 * hub_.config.range);
+        if (!has_angle_ || core_.clock() - last_report_ > rest_timeout) return std::nullopt;
+        return core_.sample(core_.state.share * 0.5 * core_.config.range);
     }
 
-    Status write(const force::OutputCommand& command) override { return hub_.write(command); }
+    Status write(const force::OutputCommand& command) override { return core_.write(command); }
 
   private:
-    WheelCore hub_;
-    double told_;
-    bool known_ = false;
+    WheelCore core_;
+    double last_report_;
+    bool has_angle_ = false;
 };
 
-class OpenFfboard : public Device {
+class OpenFfboard : public DeviceDriver {
   public:
-    OpenFfboard(WheelCore hub, double range) : hub_(std::move(hub)), range_(range) {}
-    ~OpenFfboard() override { hub_.force.stop(*hub_.line); }
+    OpenFfboard(WheelCore core, double range) : core_(std::move(core)), range_(range) {}
+    ~OpenFfboard() override { core_.force.stop(*core_.transport); }
 
-    [[nodiscard]] const Description& describe() const override { return hub_.description; }
+    [[nodiscard]] const Description& describe() const override { return core_.description; }
 
     Result<std::optional<Sample>> read(double timeout) override {
-        timeout = std::min(timeout, live_every);  // it may have to be asked again
-        const double begun = hub_.clock();
-        const double since = begun - asked_at_;
+        timeout = std::min(timeout, position_interval);  // a request may have to be repeated
+        const double begun = core_.clock();
+        const double since = begun - requested_at_;
         // Replies delay axis reports, so request no more than needed.
-        if (since >= (waits_ ? ask_again : has_counts() ? 0.0 : live_every)) {
+        if (since >= (reply_pending_ ? position_retry : has_counts() ? 0.0 : position_interval)) {
             const auto question =
                 board::encode_message({.command = static_cast<std::uint32_t>(board::Command::position)});
-            BOLT_TRY(hub_.line->write(question));
-            asked_at_ = begun;
-            waits_ = true;
+            BOLT_TRY(core_.transport->write(question));
+            requested_at_ = begun;
+            reply_pending_ = true;
         }
-        bool news = false;
-        for (int i = 0; i < most_at_once; ++i) {
-            const double left = news ? 0.0 : std::max(begun + timeout - hub_.clock(), 0.0);
-            BOLT_TRY_ASSIGN(const auto report, hub_.line->read(left));
+        bool has_sample = false;
+        for (int i = 0; i < max_reports; ++i) {
+            const double left = has_sample ? 0.0 : std::max(begun + timeout - core_.clock(), 0.0);
+            BOLT_TRY_ASSIGN(const auto report, core_.transport->read(left));
             if (report.empty()) break;
             if (const auto message = board::decode_message(report)) {
                 const auto counts = reply_value(board::Command::position, *message);
                 if (!counts) continue;
-                waits_ = false;
+                reply_pending_ = false;
                 counts_ = static_cast<double>(*counts);
-                news = news || told_ || has_counts();
-            } else if (decode_report(hub_.axis, report, hub_.state)) {
-                told_ = true;
-                news = news || !has_counts();
+                has_sample = has_sample || has_axis_ || has_counts();
+            } else if (decode_report(core_.axis, report, core_.state)) {
+                has_axis_ = true;
+                has_sample = has_sample || !has_counts();
             }
         }
-        if (!news) return std::nullopt;
-        return hub_.sample(has_counts() ? counts_ / hub_.config.counts_per_turn * 2.0 * pi
-                                        : hub_.state.share * 0.5 * range_);
+        if (!has_sample) return std::nullopt;
+        return core_.sample(has_counts() ? counts_ / core_.config.counts_per_turn * 2.0 * pi
+                                         : core_.state.share * 0.5 * range_);
     }
 
-    Status write(const force::OutputCommand& command) override { return hub_.write(command); }
+    Status write(const force::OutputCommand& command) override { return core_.write(command); }
 
   private:
-    [[nodiscard]] bool has_counts() const { return hub_.config.counts_per_turn > 0.0; }
+    [[nodiscard]] bool has_counts() const { return core_.config.counts_per_turn > 0.0; }
 
-    WheelCore hub_;
+    WheelCore core_;
     double range_, counts_ = 0.0;
-    double asked_at_ = -1.0;
-    bool waits_ = false;  // for an answer
-    bool told_ = false;   // its axis, at least once
+    double requested_at_ = -1.0;
+    bool reply_pending_ = false;  // a position request is not answered yet
+    bool has_axis_ = false;       // an axis report has arrived
 };
 
 // nullopt: no reply.
-Result<std::optional<std::int64_t>> ask(WheelCore& hub, board::Command question) {
-    for (int i = 0; i < most_tries; ++i) {
+Result<std::optional<std::int64_t>> query_setting(WheelCore& core, board::Command question) {
+    for (int i = 0; i < max_attempts; ++i) {
         const auto bytes = board::encode_message({.command = static_cast<std::uint32_t>(question)});
-        BOLT_TRY(hub.line->write(bytes));
-        const double until = hub.clock() + answer_patience;
-        for (int n = 0; n < most_at_once; ++n) {
-            BOLT_TRY_ASSIGN(const auto report, hub.line->read(std::max(until - hub.clock(), 0.0)));
+        BOLT_TRY(core.transport->write(bytes));
+        const double until = core.clock() + reply_timeout;
+        for (int n = 0; n < max_reports; ++n) {
+            BOLT_TRY_ASSIGN(const auto report, core.transport->read(std::max(until - core.clock(), 0.0)));
             if (report.empty()) break;
             if (const auto message = board::decode_message(report)) {
-                if (const auto answer = reply_value(question, *message)) return answer;
+                if (const auto reply = reply_value(question, *message)) return reply;
             } else {
-                decode_report(hub.axis, report, hub.state);
+                decode_report(core.axis, report, core.state);
             }
         }
     }
@@ -266,45 +272,48 @@ Result<std::optional<std::int64_t>> ask(WheelCore& hub, board::Command question)
 
 }  // namespace
 
-Result<std::unique_ptr<Device>> make_wheel(std::unique_ptr<HidTransport> line,
-                                           const ReportDescriptor& descriptor, std::string name,
-                                           std::string id, const WheelConfig& config, Clock clock) {
-    BOLT_TRY_ASSIGN(auto hub, make_hub(std::move(line), descriptor, std::move(name), std::move(id), config,
-                                       std::move(clock)));
-    hub.description.silent_at_rest = true;
-    describe_torque(hub);
-    hub.description.remarks.push_back(
-        fmt::format("taken to turn {:.0f} degrees from stop to stop", to_degrees(config.range)));
-    BOLT_TRY(hub.force.start(*hub.line, hub.clock()));
-    return std::make_unique<Wheel>(std::move(hub));
+Result<std::unique_ptr<DeviceDriver>> make_wheel(std::unique_ptr<HidTransport> transport,
+                                                 const ReportDescriptor& descriptor, std::string name,
+                                                 std::string id, const WheelConfig& config,
+                                                 SecondsClock clock) {
+    BOLT_TRY_ASSIGN(auto core, make_core(std::move(transport), descriptor, std::move(name), std::move(id),
+                                         config, std::move(clock)));
+    core.description.silent_at_rest = true;
+    describe_torque(core);
+    core.description.remarks.push_back(
+        fmt::format("assumed to turn {:.0f} degrees from stop to stop", to_degrees(config.range)));
+    BOLT_TRY(core.force.start(*core.transport, core.clock()));
+    return std::make_unique<Wheel>(std::move(core));
 }
 
-Result<std::unique_ptr<Device>> make_open_ffboard(std::unique_ptr<HidTransport> line,
-                                                  const ReportDescriptor& descriptor, std::string name,
-                                                  std::string id, const WheelConfig& config, Clock clock) {
-    BOLT_TRY_ASSIGN(auto hub, make_hub(std::move(line), descriptor, std::move(name), std::move(id), config,
-                                       std::move(clock)));
-    const auto degrees = ask(hub, board::Command::degrees);
+Result<std::unique_ptr<DeviceDriver>> make_open_ffboard(std::unique_ptr<HidTransport> transport,
+                                                        const ReportDescriptor& descriptor, std::string name,
+                                                        std::string id, const WheelConfig& config,
+                                                        SecondsClock clock) {
+    BOLT_TRY_ASSIGN(auto core, make_core(std::move(transport), descriptor, std::move(name), std::move(id),
+                                         config, std::move(clock)));
+    const auto degrees = query_setting(core, board::Command::degrees);
     if (!degrees) return fail(degrees.error());
-    if (!*degrees || **degrees <= 0 || **degrees > most_degrees)
+    if (!*degrees || **degrees <= 0 || **degrees > max_degrees)
         return fail(ErrorCode::no_device,
-                    fmt::format("{} does not say how far its axis turns", hub.description.name),
+                    fmt::format("{} does not report the range of its axis", core.description.name),
                     "an OpenFFBoard whose main class is a force feedback wheel, with commands over HID");
-    const auto power = ask(hub, board::Command::power);
+    const auto power = query_setting(core, board::Command::power);
     if (!power) return fail(power.error());
     // If the power is unknown, assume full power: the rendered torque is then too weak, never too strong.
-    const double let = *power ? std::clamp(static_cast<double>(**power) / board::full_power, 0.0, 1.0) : 1.0;
-    hub.available = config.full_torque * let;
-    describe_torque(hub);
-    if (hub.available <= 0.0)
-        hub.description.remarks.emplace_back(
-            "its power is set to nothing; OpenFFBoard's configurator sets it");
+    const double power_share =
+        *power ? std::clamp(static_cast<double>(**power) / board::full_power, 0.0, 1.0) : 1.0;
+    core.available = config.full_torque * power_share;
+    describe_torque(core);
+    if (core.available <= 0.0)
+        core.description.remarks.emplace_back(
+            "its power is set to zero; set it with OpenFFBoard's configurator");
     if (config.counts_per_turn <= 0.0)
-        hub.description.remarks.push_back(fmt::format(
-            "turns {} degrees from stop to stop; tell the encoder's counts per turn for turns without end",
+        core.description.remarks.push_back(fmt::format(
+            "turns {} degrees from stop to stop; enter the encoder's counts per turn for an unlimited angle",
             **degrees));
-    BOLT_TRY(hub.force.start(*hub.line, hub.clock()));
-    return std::make_unique<OpenFfboard>(std::move(hub), to_radians(static_cast<double>(**degrees)));
+    BOLT_TRY(core.force.start(*core.transport, core.clock()));
+    return std::make_unique<OpenFfboard>(std::move(core), to_radians(static_cast<double>(**degrees)));
 }
 
 }  // namespace bolt::device

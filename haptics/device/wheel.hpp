@@ -1,5 +1,5 @@
-// Encodes and decodes the vendor report of OpenFFBoard (1209:ffb0), which reads settings that USB force
-// feedback lacks. No I/O.
+// Wheels with USB force feedback as device drivers: one rotating axis (Sensing::turn) that renders torque;
+// and the vendor report of OpenFFBoard.
 //
 // Source: OpenFFBoard wiki, "Commands" (HID). Command numbers of the axis class up to 9 agree in all firmware
 // versions that we compared; higher numbers differ.
@@ -15,13 +15,15 @@
 #include "haptics/device/hid_transport.hpp"
 #include "haptics/device/report_descriptor.hpp"
 
+// Encodes and decodes the vendor report of OpenFFBoard (1209:ffb0), which reads settings that USB force
+// feedback lacks. No I/O.
 namespace bolt::device::board {
 
 constexpr std::uint8_t report_id = 0xa1;
 constexpr std::size_t report_bytes = 25;  // with the id
 constexpr std::uint16_t axis_class = 0x0a01;
 
-enum class Type : std::uint8_t {
+enum class MessageType : std::uint8_t {
     write = 0,
     request = 1,
     info = 2,
@@ -39,7 +41,7 @@ enum class Command : std::uint32_t {
 constexpr double full_power = 32767.0;
 
 struct Message {
-    Type type = Type::request;
+    MessageType type = MessageType::request;
     std::uint16_t of_class = axis_class;
     std::uint8_t instance = 0;
     std::uint32_t command = 0;
@@ -58,13 +60,12 @@ std::optional<std::int64_t> reply_value(Command question, const Message& message
 
 }  // namespace bolt::device::board
 
-// Decodes the angle and the buttons of a wheel.
-
 namespace bolt::device {
 
+// The fields of a wheel's input report.
 struct WheelAxis {
-    Field axis;                  // usage Steering, or X of a joystick
-    std::vector<Field> buttons;  // sorted by button number
+    ReportField axis;                  // usage Steering, or X of a joystick
+    std::vector<ReportField> buttons;  // sorted by button number
     bool numbered = false;
 };
 
@@ -78,20 +79,18 @@ Result<WheelAxis> wheel_axis(const ReportDescriptor& descriptor);
 // Decodes an input report (numbered reports begin with their id). Returns false if it has no angle.
 bool decode_report(const WheelAxis& layout, std::span<const std::uint8_t> report, WheelState& state);
 
-// Wheels with USB force feedback as devices: one rotating axis (Sensing::turn) that renders torque.
+// Opens any wheel. Range and motor torque come from `config`. A wheel at rest sends nothing; silence counts
+// as rest for 0.25 s.
+Result<std::unique_ptr<DeviceDriver>> make_wheel(std::unique_ptr<HidTransport> transport,
+                                                 const ReportDescriptor& descriptor, std::string name,
+                                                 std::string id, const WheelConfig& config = {},
+                                                 SecondsClock clock = steady_seconds);
 
-// Any wheel. Range and motor torque come from `config`. A wheel at rest sends nothing; silence counts as rest
-// for 0.25 s.
-Result<std::unique_ptr<Device>> make_wheel(std::unique_ptr<HidTransport> line,
-                                           const ReportDescriptor& descriptor, std::string name,
-                                           std::string id, const WheelConfig& config = {},
-                                           Clock clock = steady_seconds);
-
-// An OpenFFBoard: range and power are read at opening, the encoder continuously, so that silence at rest is
-// detected as a loss. The angle is unlimited if `config` gives counts per turn.
-Result<std::unique_ptr<Device>> make_open_ffboard(std::unique_ptr<HidTransport> line,
-                                                  const ReportDescriptor& descriptor, std::string name,
-                                                  std::string id, const WheelConfig& config = {},
-                                                  Clock clock = steady_seconds);
+// Opens an OpenFFBoard: range and power are read at opening, the encoder continuously, so that silence at
+// rest is detected as a loss. The angle is unlimited if `config` gives counts per turn.
+Result<std::unique_ptr<DeviceDriver>> make_open_ffboard(std::unique_ptr<HidTransport> transport,
+                                                        const ReportDescriptor& descriptor, std::string name,
+                                                        std::string id, const WheelConfig& config = {},
+                                                        SecondsClock clock = steady_seconds);
 
 }  // namespace bolt::device

@@ -1,5 +1,6 @@
-// Maps the device's small workspace to the assembly's: rotation, scale and clutch. While the clutch is held
-// the tool stands still and the hand can return to the middle of its reach, like lifting a mouse.
+// Maps the device's small workspace to the assembly's (rotation, scale and clutch), and a bolt's torque to
+// the device's range. While the clutch is held the tool stands still and the hand can return to the middle of
+// its reach, like lifting a mouse.
 #pragma once
 
 #include "engine/base/math.hpp"

@@ -1,6 +1,6 @@
-// The law of the guiding force: towards the target and inversely proportional to its distance, as in the
-// paper of 2018, but bounded and with limited stiffness; and the torque that aligns a jaw with a hexagon.
-// guide.hpp plans the path.
+// The guiding force: its law, the planning of its path around obstacles, and its step. The force points
+// towards the target and is inversely proportional to the distance, as in the paper of 2018, but bounded and
+// with limited stiffness; a torque aligns the jaw with the hexagon.
 #pragma once
 
 #include <array>

@@ -32,8 +32,8 @@ struct OutputLimits {
     double angular_speed = 50.0;  // rad/s
     double jump = 0.03;           // m in one tick; more is a faulty sample
     double angular_jump = 0.5;    // rad in one tick
-    double silence =
-        0.008;  // s without a sample before the output is released; `release` counts from the last sample
+    // s without a sample before the output is released; `release` counts from the last sample.
+    double silence = 0.008;
     double recovery = 0.1;  // s of valid samples after a fault before the output ramps up
 };
 
@@ -47,10 +47,8 @@ inline Vec3 clamp_length(const Vec3& v, double most) {
     return length <= most ? v : unit * (most / glm::length(unit));
 }
 
-// Reduces a device's forces, for trainees who need weaker ones.
-
-// Multiplies the limits of force and torque and their rates by `scale`, clamped to 0 … 1; NaN counts as 0.
-// Stiffness, damping, speeds and times are unchanged.
+// Weaker limits, for trainees who need weaker forces: multiplies the limits of force and torque and their
+// rates by `scale`, clamped to 0 … 1; NaN counts as 0. Stiffness, damping, speeds and times are unchanged.
 inline OutputLimits scaled(const OutputLimits& limits, double scale) {
     const double share = scale > 0.0 ? std::min(scale, 1.0) : 0.0;
     OutputLimits less = limits;

@@ -8,8 +8,8 @@ namespace bolt::force {
 namespace {
 
 constexpr double speed_smoothing = 0.005;  // s, of the velocity that the speed limits check
-constexpr double smoothing =
-    0.0015;  // s, of the velocity that damping uses; unfiltered encoder steps would be felt as noise
+// s, of the velocity that damping uses; unfiltered encoder steps would be felt as noise.
+constexpr double smoothing = 0.0015;
 
 bool is_pose(const PortInput& input) {
     const Pose& p = input.pose;
@@ -43,7 +43,7 @@ bool update_motion(const OutputLimits& limits, WatchdogState& s, const Pose& pos
 }
 
 Fault check_sample(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
-                   bool request_is_sound, double dt) {
+                   bool request_is_finite, double dt) {
     s.quiet += 1 + input.missed;
     s.motion.fresh = s.motion.begins = false;
     if (input.fresh) {
@@ -70,7 +70,7 @@ Fault check_sample(const OutputLimits& limits, WatchdogState& s, const PortInput
     if (glm::length(s.mean_velocity) > share * limits.speed ||
         glm::length(s.mean_angular_velocity) > share * limits.angular_speed)
         return Fault::too_fast;
-    return request_is_sound ? Fault::none : Fault::bad_request;
+    return request_is_finite ? Fault::none : Fault::bad_request;
 }
 
 }  // namespace
@@ -95,10 +95,10 @@ const char* name(Fault fault) {
     return "";
 }
 
-bool watch(const OutputLimits& limits, WatchdogState& s, const PortInput& input, bool request_is_sound,
+bool watch(const OutputLimits& limits, WatchdogState& s, const PortInput& input, bool request_is_finite,
            double dt) {
     const Fault before = s.fault;
-    const Fault now = check_sample(limits, s, input, request_is_sound, dt);
+    const Fault now = check_sample(limits, s, input, request_is_finite, dt);
     // ISO 13850: the stop overrides everything, lasts until a deliberate reset, and the reset starts nothing
     // by itself.
     if (input.stop || (before == Fault::stopped && !(input.reset && !input.enabled))) {

@@ -1,5 +1,6 @@
-// Checks the device's samples. On a fault the output goes to zero, the fault is reported, and after a time
-// without faults the output ramps up again. Only the emergency stop latches.
+// The output stage through which all forces pass; nothing else writes to a device. Its parts, in order:
+// watchdog (permits or blocks the output), passivity observer and controller, limiter (ramp, slew rate,
+// clamp, release).
 #pragma once
 
 #include <array>
@@ -9,6 +10,9 @@
 #include "haptics/force/output_limits.hpp"
 
 namespace bolt::force {
+
+// The watchdog checks the device's samples. On a fault the output goes to zero, the fault is reported, and
+// after a time without faults the output ramps up again. Only the emergency stop latches.
 
 enum class Fault : std::uint8_t {
     none,
@@ -55,14 +59,14 @@ struct WatchdogState {
         mean_angular_velocity{0.0};  // smoothed over 5 ms; compared with the speed limits
 };
 
-// One tick of dt. Returns true if the output may be rendered. `request_is_sound`: the requested force is
-// finite.
-bool watch(const OutputLimits& limits, WatchdogState& state, const PortInput& input, bool request_is_sound,
+// The watchdog. One tick of dt. Returns true if the output may be rendered. `request_is_finite`: the
+// requested force is finite.
+bool watch(const OutputLimits& limits, WatchdogState& state, const PortInput& input, bool request_is_finite,
            double dt);
 
-// Time-domain passivity: observes the energy at the device's port and removes energy that the rendering
-// generates. A sampled, delayed and slew-limited spring returns more energy than was put in, which a hand
-// feels as vibration.
+// Time-domain passivity control: observes the energy at the device's port and removes energy that the
+// rendering generates. A sampled, delayed and slew-limited spring returns more energy than was put in, which
+// a hand feels as vibration.
 //
 // Hannaford, Ryu: Time-domain passivity control of haptic interfaces. IEEE Trans. Robotics and Automation
 // 18(1), 2002. The stored energy is the reference, as in Ryu, Preusche, Hannaford, Hirzinger: Time domain
@@ -72,10 +76,8 @@ bool watch(const OutputLimits& limits, WatchdogState& state, const PortInput& in
 // the hand put in shortly before.
 struct ForceRequest {
     OutputCommand command;
-    double stored_energy =
-        0.0;  // J that the springs behind it hold and may give back; never more than they do
-    double injected_energy =
-        0.0;  // J that they gained in this tick by no work of the hand: help that is meant to be
+    double stored_energy = 0.0;    // J stored in the springs behind it; must not be overestimated
+    double injected_energy = 0.0;  // J gained in this tick without work of the hand: intended help
 };
 
 struct PassivityState {
@@ -116,8 +118,7 @@ OutputCommand control(const OutputLimits& limits, PassivityState& state, const M
 // Call after each tick with the command that was sent.
 void note_sent(PassivityState& state, const OutputCommand& sent);
 
-// The last step of the output stage. Its output is finite, within the device's limits, and within the slew
-// rates.
+// The limiter, the last step. Its output is finite, within the device's limits, and within the slew rates.
 
 struct OutputState {
     Vec3 force{0.0};
@@ -135,12 +136,6 @@ inline OutputCommand limit_output(const OutputLimits& limits, OutputState& state
                                   const OutputCommand& requested, bool enabled, double dt) {
     return limit_output(limits, state, requested, enabled, dt, limits.release);
 }
-
-// All forces pass through this stage; nothing else writes to a device.
-//
-//   watchdog    permits or blocks the output         watchdog.hpp
-//   passivity   observer, then controller            passivity.hpp
-//   limiter     ramp, slew limit, clamp, release     limiter.hpp
 
 struct OutputStage {
     WatchdogState watchdog;

@@ -11,7 +11,7 @@ namespace bolt::hand {
 namespace {
 
 // True if the line to the other contact lies in the friction cone of this one.
-bool pushes_at(const FingertipContact& one, const FingertipContact& other) {
+bool pushes_towards(const FingertipContact& one, const FingertipContact& other) {
     const Vec3 between = other.point - one.point;
     return glm::dot(between, -one.normal) >= std::cos(friction_angle) * glm::length(between);
 }
@@ -19,25 +19,27 @@ bool pushes_at(const FingertipContact& one, const FingertipContact& other) {
 }  // namespace
 
 FingertipGrasp fingertip_grasp(const collision::ToolShape& tool, const Fingertips& tips) {
-    FingertipGrasp made;
+    FingertipGrasp grasp;
     for (std::size_t i = 0; i < fingers; ++i) {
-        FingertipContact& tip = made.tips[i];
-        std::array<collision::SeparatingPlane, 1> side;
-        const double far =
-            std::abs(collision::query_point(tool.solid, tips.at[i], sight + tips.radius, 0.0, {}).distance);
-        if (far > sight + tips.radius) continue;
-        // A margin, so that the closest side is among the candidates.
-        if (collision::query_point(tool.solid, tips.at[i], far + 1e-6, far + 1e-6, side).planes == 0)
+        FingertipContact& tip = grasp.tips[i];
+        std::array<collision::SeparatingPlane, 1> planes;
+        const double distance = std::abs(
+            collision::query_point(tool.solid, tips.at[i], contact_query_range + tips.radius, 0.0, {})
+                .distance);
+        if (distance > contact_query_range + tips.radius) continue;
+        // The margin ensures that the closest plane is among the candidates.
+        if (collision::query_point(tool.solid, tips.at[i], distance + 1e-6, distance + 1e-6, planes).planes ==
+            0)
             continue;
-        tip = {side[0].distance - tips.radius, side[0].point, side[0].normal};
+        tip = {planes[0].distance - tips.radius, planes[0].point, planes[0].normal};
     }
-    const FingertipContact& thumb = made.tips[0];
+    const FingertipContact& thumb = grasp.tips[0];
     for (std::size_t i = 1; i < fingers; ++i) {
-        const FingertipContact& finger = made.tips[i];
-        made.held = made.held || (thumb.distance <= touching && finger.distance <= touching &&
-                                  pushes_at(thumb, finger) && pushes_at(finger, thumb));
+        const FingertipContact& finger = grasp.tips[i];
+        grasp.held = grasp.held || (thumb.distance <= touch_distance && finger.distance <= touch_distance &&
+                                    pushes_towards(thumb, finger) && pushes_towards(finger, thumb));
     }
-    return made;
+    return grasp;
 }
 
 namespace {
@@ -48,24 +50,24 @@ using hand::Angles;
 using hand::Capsule;
 using hand::digits;
 
-constexpr std::size_t links = 3;        // parts that the three joints move
-constexpr std::size_t most_balls = 12;  // of a link
-constexpr double leap = 0.1e-3;         // m that a ball may be in an edge that it passes by
-constexpr double sight = 60e-3;         // m: what is further from a ball is taken to be that far
-constexpr double careful = 3e-3;        // m: a link nearer than this is looked at ball by ball
-constexpr double sure = 5e-3;           // m: a ball that is surely this far is not looked at anew
-constexpr double exact = 1e-6;          // m from where a digit stops; or after so many guesses:
-constexpr int most_guesses = 12;
+constexpr std::size_t links = 3;                // bones that the three joints move
+constexpr std::size_t max_spheres = 12;         // per link
+constexpr double edge_tolerance = 0.1e-3;       // m by which a sphere may pass through an edge
+constexpr double query_range = 60e-3;           // m; greater distances count as this
+constexpr double sphere_query_distance = 3e-3;  // m; a nearer link is queried sphere by sphere
+constexpr double exact_distance = 5e-3;         // m; a sphere whose bound exceeds this is not queried again
+constexpr double root_tolerance = 1e-6;         // m, tolerance of the position at which a digit stops
+constexpr int max_guesses = 12;
 
 // The cached distance of one sphere, with the closure fraction at which it was computed.
-struct Known {
-    double deep = -infinite_distance, share = 0.0;
+struct CachedDistance {
+    double distance = -infinite_distance, share = 0.0;
 };
 
-struct Three {
+struct JointAngles {
     std::array<double*, 3> at;
 };
-Three joints_of(Angles& angles, std::size_t digit) {
+JointAngles joints_of(Angles& angles, std::size_t digit) {
     if (digit == 0) return {{&angles.thumb.abduction, &angles.thumb.mcp, &angles.thumb.ip}};
     hand::FingerAngles& finger = angles.fingers[digit - 1];
     return {{&finger.mcp, &finger.pip, &finger.dip}};
@@ -73,29 +75,30 @@ Three joints_of(Angles& angles, std::size_t digit) {
 
 // Distance of a point to the tool; a lower bound is returned if it exceeds `enough`.
 double signed_distance(const collision::ToolShape& tool, const Vec3& at, double enough) {
-    const collision::OctreeQuery seen = collision::query(tool.octree, at);
-    if (seen.lower > enough) return seen.lower;
-    const double distance = query_point(tool.solid, at, std::min(sight, seen.upper + 1e-6), 0.0, {}).distance;
-    return distance == infinite_distance ? sight : distance;
+    const collision::OctreeQuery octree_query = collision::query(tool.octree, at);
+    if (octree_query.lower > enough) return octree_query.lower;
+    const double distance =
+        query_point(tool.solid, at, std::min(query_range, octree_query.upper + 1e-6), 0.0, {}).distance;
+    return distance == infinite_distance ? query_range : distance;
 }
 
-std::size_t balls_of(const Capsule& tube) {
+std::size_t sphere_count(const Capsule& tube) {
     const double length = glm::length(tube.to - tube.from);
-    return std::min(most_balls, static_cast<std::size_t>(std::ceil(length / ball_spacing)) + 1);
+    return std::min(max_spheres, static_cast<std::size_t>(std::ceil(length / ball_spacing)) + 1);
 }
 
-struct Ball {
+struct Sphere {
     Vec3 at;
     double radius;
 };
-Ball ball_of(const Capsule& tube, std::size_t i, std::size_t balls) {
-    const double t = static_cast<double>(i) / static_cast<double>(balls - 1);
+Sphere sphere_of(const Capsule& tube, std::size_t i, std::size_t spheres) {
+    const double t = static_cast<double>(i) / static_cast<double>(spheres - 1);
     return {tube.from + t * (tube.to - tube.from),
             tube.radius_from + t * (tube.radius_to - tube.radius_from)};
 }
 
 // Lower bound (m) of the distance of all spheres of a capsule; it may be loose beyond `enough`.
-double clearance(const collision::ToolShape& tool, const Capsule& tube, double enough) {
+double capsule_clearance(const collision::ToolShape& tool, const Capsule& tube, double enough) {
     const double around = 0.5 * glm::length(tube.to - tube.from) + std::max(tube.radius_from, tube.radius_to);
     return signed_distance(tool, 0.5 * (tube.from + tube.to), around + enough) - around;
 }
@@ -106,21 +109,20 @@ struct MovingDigit {
     const Pose& wrist;
     std::size_t number;
     std::array<double, 3> from{}, to{};  // rad, of its joints
-    Angles angles;                       // the others' as measured
+    Angles angles;                       // of all digits; the others' as measured
     hand::Skeleton joints;
     // Penetration of each sphere with the digit open (m, negative); it does not stop the digit.
-    std::array<std::array<double, most_balls>, links> before{};
-    std::array<std::array<Known, most_balls>, links> known{};  // on the way that it is on now
+    std::array<std::array<double, max_spheres>, links> open_penetration{};
+    std::array<std::array<CachedDistance, max_spheres>, links> cached{};  // during the current motion
 
-    // Of a link: its tube. The thumb's metacarpal, the first, is in the flesh of the palm and touches
-    // nothing.
-    [[nodiscard]] bool bare(std::size_t link) const { return number != 0 || link != 0; }
+    // False for the thumb's metacarpal, which is inside the flesh of the palm and touches nothing.
+    [[nodiscard]] bool collides(std::size_t link) const { return number != 0 || link != 0; }
     [[nodiscard]] Capsule tube_of(std::size_t link) const {
         return hand::tube(hand, joints, number, link + (number == 0 ? 0 : 1));
     }
 
     void bend(const std::array<double, 3>& share) {
-        const Three joint = joints_of(angles, number);
+        const JointAngles joint = joints_of(angles, number);
         for (std::size_t k = 0; k < 3; ++k) *joint.at[k] = from[k] + share[k] * (to[k] - from[k]);
         place_digit(hand, angles, wrist, number, joints);
     }
@@ -143,61 +145,61 @@ struct MovingDigit {
     }
 };
 
-struct Room {
-    double step = 1.0;                   // the share that may be added before anything can be `leap` deep
-    bool free = true;                    // nothing is deeper than the tolerance
-    std::size_t link = 0;                // that is deepest
-    double deepest = infinite_distance;  // m, signed, beyond what was before
+struct DigitQuery {
+    double step = 1.0;                   // largest safe increase of the fraction
+    bool free = true;                    // no sphere is deeper than stop_tolerance
+    std::size_t link = 0;                // the deepest link
+    double deepest = infinite_distance;  // m, signed, relative to the penetration with the digit open
 };
 
-// At this share of the way, with the digit bent so. A ball that is surely further than `enough` from touching
-// is not looked at again.
-Room look(MovingDigit& digit, std::size_t first, double share, double enough) {
-    Room room;
-    const auto found = [&](std::size_t link, double deep, double speed) {
-        room.step = std::min(room.step, std::max(deep + leap, 0.0) / std::max(speed, 1e-9));
-        if (deep >= room.deepest) return;
-        room.deepest = deep;
-        room.link = link;
+// Queries the spheres of a digit that is bent to the fraction `share`. A sphere whose cached bound exceeds
+// `enough` (m) is not queried again.
+DigitQuery query_digit(MovingDigit& digit, std::size_t first, double share, double enough) {
+    DigitQuery result;
+    const auto found = [&](std::size_t link, double distance, double speed) {
+        result.step = std::min(result.step, std::max(distance + edge_tolerance, 0.0) / std::max(speed, 1e-9));
+        if (distance >= result.deepest) return;
+        result.deepest = distance;
+        result.link = link;
     };
     for (std::size_t link = 0; link < links; ++link) {
-        if (!digit.bare(link)) continue;
+        if (!digit.collides(link)) continue;
         const Capsule tube = digit.tube_of(link);
-        const double clear = clearance(digit.tool, tube, careful);
-        if (clear > careful) {
+        const double clear = capsule_clearance(digit.tool, tube, sphere_query_distance);
+        if (clear > sphere_query_distance) {
             found(link, clear, digit.speed(link, first, tube.to));
             continue;
         }
-        const std::size_t balls = balls_of(tube);
-        for (std::size_t i = 0; i < balls; ++i) {
-            const Ball ball = ball_of(tube, i, balls);
-            const double speed = digit.speed(link, first, ball.at);
-            Known& known = digit.known[link][i];
-            const double surely = known.deep - speed * std::abs(share - known.share);
-            if (surely > enough) {
-                found(link, surely, speed);
+        const std::size_t spheres = sphere_count(tube);
+        for (std::size_t i = 0; i < spheres; ++i) {
+            const Sphere sphere = sphere_of(tube, i, spheres);
+            const double speed = digit.speed(link, first, sphere.at);
+            CachedDistance& cached = digit.cached[link][i];
+            const double bound = cached.distance - speed * std::abs(share - cached.share);
+            if (bound > enough) {
+                found(link, bound, speed);
                 continue;
             }
-            const double distance = signed_distance(digit.tool, ball.at, ball.radius + sure);
-            known = {distance - ball.radius - digit.before[link][i], share};
-            found(link, known.deep, speed);
+            const double distance = signed_distance(digit.tool, sphere.at, sphere.radius + exact_distance);
+            cached = {distance - sphere.radius - digit.open_penetration[link][i], share};
+            found(link, cached.distance, speed);
         }
     }
-    room.free = room.deepest >= -stop_tolerance;
-    return room;
+    result.free = result.deepest >= -stop_tolerance;
+    return result;
 }
 
-void remember_open(MovingDigit& digit) {
+void record_open_penetration(MovingDigit& digit) {
     digit.bend({0.0, 0.0, 0.0});
     for (std::size_t link = 0; link < links; ++link) {
-        if (!digit.bare(link)) continue;
+        if (!digit.collides(link)) continue;
         const Capsule tube = digit.tube_of(link);
-        if (clearance(digit.tool, tube, 0.0) > 0.0) continue;
-        const std::size_t balls = balls_of(tube);
-        for (std::size_t i = 0; i < balls; ++i) {
-            const Ball ball = ball_of(tube, i, balls);
-            digit.before[link][i] =
-                std::min(0.0, signed_distance(digit.tool, ball.at, ball.radius) - ball.radius);
+        if (capsule_clearance(digit.tool, tube, 0.0) > 0.0) continue;
+        const std::size_t spheres = sphere_count(tube);
+        for (std::size_t i = 0; i < spheres; ++i) {
+            const Sphere sphere = sphere_of(tube, i, spheres);
+            digit.open_penetration[link][i] =
+                std::min(0.0, signed_distance(digit.tool, sphere.at, sphere.radius) - sphere.radius);
         }
     }
 }
@@ -210,28 +212,29 @@ std::optional<std::size_t> advance(MovingDigit& digit, std::size_t first, DigitS
         for (std::size_t k = first; k < 3; ++k) stop.share[k] = s;
         digit.bend(stop.share);
     };
-    for (auto& balls : digit.known) balls.fill({});
+    for (auto& spheres : digit.cached) spheres.fill({});
     bend_to(share);
-    Room room = look(digit, first, share, sure);
+    DigitQuery result = query_digit(digit, first, share, exact_distance);
     for (; share < 1.0 && stop.steps < max_steps; ++stop.steps) {
-        double free = share, hit = std::min(1.0, share + room.step), above = room.deepest + stop_tolerance;
+        double free = share, hit = std::min(1.0, share + result.step),
+               above = result.deepest + stop_tolerance;
         bend_to(hit);
-        room = look(digit, first, hit, sure);
-        if (room.free) {
+        result = query_digit(digit, first, hit, exact_distance);
+        if (result.free) {
             share = hit;
             continue;
         }
         // Root finding for the contact: regula falsi with occasional bisection.
-        double below = room.deepest + stop_tolerance;
-        std::size_t link = room.link;
-        for (int i = 0; i < most_guesses && above > exact; ++i) {
+        double below = result.deepest + stop_tolerance;
+        std::size_t link = result.link;
+        for (int i = 0; i < max_guesses && above > root_tolerance; ++i) {
             const double part = i % 3 == 2 ? 0.5 : std::clamp(above / (above - below), 0.1, 0.9);
             const double guess = free + part * (hit - free);
             bend_to(guess);
-            room = look(digit, first, guess, stop_tolerance);
-            if (!room.free) link = room.link;
-            (room.free ? free : hit) = guess;
-            (room.free ? above : below) = room.deepest + stop_tolerance;
+            result = query_digit(digit, first, guess, stop_tolerance);
+            if (!result.free) link = result.link;
+            (result.free ? free : hit) = guess;
+            (result.free ? above : below) = result.deepest + stop_tolerance;
         }
         bend_to(free);
         return link;
@@ -243,17 +246,17 @@ hand::FingertipContact nearest_of(const MovingDigit& digit) {
     hand::FingertipContact best;
     for (std::size_t link = 1; link < links; ++link) {
         const Capsule tube = digit.tube_of(link);
-        const std::size_t balls = balls_of(tube);
-        for (std::size_t i = 0; i < balls; ++i) {
-            const Ball ball = ball_of(tube, i, balls);
-            const collision::OctreeQuery seen = collision::query(digit.tool.octree, ball.at);
-            if (seen.lower - ball.radius >= best.distance) continue;
-            const double centre = signed_distance(digit.tool, ball.at, sight);
-            if (centre >= sight || centre - ball.radius >= best.distance) continue;
-            std::array<collision::SeparatingPlane, 1> side;
+        const std::size_t spheres = sphere_count(tube);
+        for (std::size_t i = 0; i < spheres; ++i) {
+            const Sphere sphere = sphere_of(tube, i, spheres);
+            const collision::OctreeQuery octree_query = collision::query(digit.tool.octree, sphere.at);
+            if (octree_query.lower - sphere.radius >= best.distance) continue;
+            const double centre = signed_distance(digit.tool, sphere.at, query_range);
+            if (centre >= query_range || centre - sphere.radius >= best.distance) continue;
+            std::array<collision::SeparatingPlane, 1> planes;
             const double band = std::abs(centre) + 1e-6;
-            if (query_point(digit.tool.solid, ball.at, band, band, side).planes == 0) continue;
-            best = {side[0].distance - ball.radius, side[0].point, side[0].normal};
+            if (query_point(digit.tool.solid, sphere.at, band, band, planes).planes == 0) continue;
+            best = {planes[0].distance - sphere.radius, planes[0].point, planes[0].normal};
         }
     }
     return best;
@@ -275,22 +278,22 @@ FingerClosure close_fingers(const collision::ToolShape& tool, const hand::Hand& 
     for (std::size_t number = 0; number < hand::digit_count; ++number) {
         MovingDigit digit{tool, hand, wrist, number, {}, {}, measured, {}, {}, {}};
         DigitStop& stop = closure.digits[number];
-        const Three joint = joints_of(digit.angles, number);
+        const JointAngles joint = joints_of(digit.angles, number);
         for (std::size_t k = 0; k < 3; ++k) {
             digit.to[k] = *joint.at[k];
-            digit.from[k] = std::min(digit.to[k], 0.0);  // bent back beyond straight: it stays there
+            digit.from[k] = std::min(digit.to[k], 0.0);  // a joint bent back beyond straight stays there
         }
-        if (number == 0) digit.from[0] = std::max(digit.to[0], hand::thumb_abduction_span.high);
-        remember_open(digit);
+        if (number == 0) digit.from[0] = std::max(digit.to[0], hand::thumb_abduction_range.high);
+        record_open_penetration(digit);
         stop.share = {0.0, 0.0, 0.0};
         for (std::size_t first = 0; first < links;) {
             const auto link = advance(digit, first, stop);
             if (!link) break;
             stop.touches = true;
-            first = std::max(first, *link) + 1;  // what is between the wrist and the part that touches stays
+            first = std::max(first, *link) + 1;  // joints between the wrist and the touching bone stop
         }
         stop.nearest = nearest_of(digit);
-        const Three shown = joints_of(closure.angles, number);
+        const JointAngles shown = joints_of(closure.angles, number);
         for (std::size_t k = 0; k < 3; ++k) *shown.at[k] = *joint.at[k];
     }
     return closure;

@@ -1,4 +1,4 @@
-// Contact of fingertips with a tool, and whether they hold it.
+// Contact of the digits with a tool: whether fingertips hold it, and how far the fingers close on it.
 #pragma once
 
 #include <array>
@@ -17,28 +17,30 @@ struct Fingertips {
 };
 
 struct FingertipContact {
-    double distance =
-        collision::infinite_distance;  // m, signed, from pad to tool; infinite_distance beyond `sight`
-    Vec3 point{0.0};                   // m, on the tool's surface, tool frame
-    Vec3 normal{0.0};                  // unit, outward there
+    // m, signed, from pad to tool; infinite_distance beyond contact_query_range.
+    double distance = collision::infinite_distance;
+    Vec3 point{0.0};   // m, on the tool's surface, tool frame
+    Vec3 normal{0.0};  // unit, outward, at `point`
 };
 
 struct FingertipGrasp {
     std::array<FingertipContact, fingers> tips;
-    bool held = false;  // the thumb and another finger press from opposite sides
+    bool held = false;  // thumb and another finger press from opposite sides
 };
 
-inline constexpr double sight = 50e-3;    // m, range of the query
-inline constexpr double touching = 2e-3;  // m: compliance of the pads plus error of the glove
+inline constexpr double contact_query_range = 50e-3;  // m, range of the query
+// m; covers the compliance of the pads and the error of the glove.
+inline constexpr double touch_distance = 2e-3;
 
 // Two soft contacts hold an object if the line between them lies in both friction cones (Nguyen, Int. J.
-// Robotics Research 7(3), 1988). 45° is the upper bound for skin on dry steel: the simulation must not drop
-// what a hand would hold.
+// Robotics Research 7(3), 1988). 45° is the upper bound for skin on dry steel, so that the simulation does
+// not drop a tool that a hand would hold.
 inline constexpr double friction_angle = pi / 4.0;
 
 FingertipGrasp fingertip_grasp(const collision::ToolShape& tool, const Fingertips& tips);
 
-// Closes the fingers on the tool without penetration; the glove does not sense the tool.
+// Finger closure: closes the fingers on the tool without penetration, because the glove does not sense the
+// tool.
 //
 // Each digit moves from open to its measured flexion, all joints in proportion, and stops at first contact.
 // Open is a straight finger, or a straight thumb at full abduction. Joints beyond the touching bone continue,
@@ -56,7 +58,7 @@ struct DigitStop {
     // Fraction 0 … 1 of the measured flexion reached by MCP, PIP, DIP; for the thumb by abduction, MCP, IP.
     std::array<double, 3> share{1.0, 1.0, 1.0};
     bool touches = false;
-    // The nearest point of its last two bones to the tool.
+    // Nearest point of the tool to the digit's last two bones.
     hand::FingertipContact nearest;
     int steps = 0;
 };

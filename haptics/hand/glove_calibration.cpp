@@ -12,7 +12,7 @@ namespace bolt::hand {
 
 namespace {
 
-constexpr double least_span = 5.0;  // counts: less is no measurement of anything
+constexpr double least_span = 5.0;  // counts; a smaller span is not a usable measurement
 constexpr std::array<const char*, posture_count> posture_names = {"flat hand", "fist", "spread hand",
                                                                   "thumb across"};
 
@@ -54,7 +54,7 @@ std::optional<double> degrees_in(Posture posture, Sensor s) {
     return std::nullopt;
 }
 
-struct Seen {
+struct PostureReading {
     double raw = 0.0, angle = 0.0, deviation = 0.0;
     Posture posture = Posture::flat;
 };
@@ -65,8 +65,9 @@ double median(std::vector<double> values) {
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-// The readings of a sensor in a posture; empty: none.
-std::optional<Seen> seen(const PostureSamples& held, Sensor sensor) {
+// The reading of a sensor in a posture; nullopt if the posture does not define its angle or has no samples of
+// it.
+std::optional<PostureReading> posture_reading(const PostureSamples& held, Sensor sensor) {
     const std::optional<double> at = posture_angle(held.posture, sensor);
     if (!at) return std::nullopt;
     std::vector<double> raw;
@@ -76,19 +77,19 @@ std::optional<Seen> seen(const PostureSamples& held, Sensor sensor) {
     double mean = 0.0, squares = 0.0;
     for (const double r : raw) mean += r / static_cast<double>(raw.size());
     for (const double r : raw) squares += square(r - mean) / static_cast<double>(raw.size());
-    return Seen{median(raw), *at, std::sqrt(squares), held.posture};
+    return PostureReading{median(raw), *at, std::sqrt(squares), held.posture};
 }
 
 // Least-squares fit of angle over raw reading.
-std::optional<LinearFit> fit(const std::vector<Seen>& at) {
+std::optional<LinearFit> fit_line(const std::vector<PostureReading>& at) {
     double raw = 0.0, angle = 0.0;
     const auto n = static_cast<double>(at.size());
-    for (const Seen& s : at) {
+    for (const PostureReading& s : at) {
         raw += s.raw / n;
         angle += s.angle / n;
     }
     double both = 0.0, raws = 0.0;
-    for (const Seen& s : at) {
+    for (const PostureReading& s : at) {
         both += (s.raw - raw) * (s.angle - angle);
         raws += square(s.raw - raw);
     }
@@ -109,12 +110,12 @@ std::optional<double> posture_angle(Posture posture, Sensor sensor) {
 }
 
 Result<CalibrationResult> calibrate(std::span<const PostureSamples> held) {
-    const auto has = [&](Posture posture) {
+    const auto has_posture = [&](Posture posture) {
         return std::any_of(held.begin(), held.end(),
                            [&](const PostureSamples& h) { return h.posture == posture; });
     };
     for (const Posture posture : {Posture::flat, Posture::fist})
-        if (!has(posture))
+        if (!has_posture(posture))
             return fail(ErrorCode::failed,
                         fmt::format("the posture \"{}\" is missing",
                                     posture_names[static_cast<std::size_t>(posture)]),
@@ -129,24 +130,26 @@ Result<CalibrationResult> calibrate(std::span<const PostureSamples> held) {
     bool any = false, trembled = false;
     for (std::size_t i = 0; i < sensor_count; ++i) {
         const auto sensor = static_cast<Sensor>(i);
-        std::vector<Seen> at;
+        std::vector<PostureReading> at;
         for (const PostureSamples& h : held)
-            if (const auto s = seen(h, sensor)) at.push_back(*s);
-        if (at.size() < 2) continue;  // not a sensor of this glove, or no posture tells about it
+            if (const auto s = posture_reading(h, sensor)) at.push_back(*s);
+        if (at.size() < 2) continue;  // not a sensor of this glove, or the postures do not determine it
         const auto [low, high] = std::minmax_element(
-            at.begin(), at.end(), [](const Seen& a, const Seen& b) { return a.raw < b.raw; });
+            at.begin(), at.end(),
+            [](const PostureReading& a, const PostureReading& b) { return a.raw < b.raw; });
         SensorQuality& q = result.quality[i];
         q.span = high->raw - low->raw;
         any = true;
-        const std::optional<LinearFit> line = q.span >= least_span ? fit(at) : std::nullopt;
+        const std::optional<LinearFit> line = q.span >= least_span ? fit_line(at) : std::nullopt;
         if (!line) {
             result.score = 0.0;
-            result.remarks.push_back(fmt::format(
-                "{}: moved by {:.0f} counts only; is the glove on properly, and was the posture taken?",
-                name_of(sensor), q.span));
+            result.remarks.push_back(
+                fmt::format("{}: moved by {:.0f} counts only; is the glove worn properly, and did the hand "
+                            "take the posture?",
+                            name_of(sensor), q.span));
             continue;
         }
-        for (const Seen& s : at) {
+        for (const PostureReading& s : at) {
             q.noise = std::max(q.noise, std::abs(line->gain) * s.deviation);
             q.residual = std::max(q.residual, std::abs(angle(*line, s.raw) - s.angle));
         }
@@ -164,10 +167,10 @@ namespace {
 
 constexpr std::size_t blocks = 6, lines_of_block = 4;
 constexpr std::size_t offset_word = 5, gain_word = 8;  // from 0
-constexpr double steepest = 0.2;                       // rad a count: 255 of them are eight turns
+constexpr double max_gain = 0.2;                       // rad per count; 255 counts would be eight turns
 
 // The sensor of each line; nullopt: none.
-constexpr std::array<std::array<std::optional<Sensor>, lines_of_block>, blocks> order = {{
+constexpr std::array<std::array<std::optional<Sensor>, lines_of_block>, blocks> sensor_order = {{
     {Sensor::thumb_roll, Sensor::thumb_mpj, Sensor::thumb_ij, Sensor::thumb_abduction},
     {Sensor::index_mpj, Sensor::index_pij, Sensor::index_dij, std::nullopt},
     {Sensor::middle_mpj, Sensor::middle_pij, Sensor::middle_dij, Sensor::middle_abduction},
@@ -193,12 +196,12 @@ std::vector<Word> words_of(std::string_view line) {
     return words;
 }
 
-struct Reader {
+struct CalFileReader {
     std::string_view left;
     const std::string& file;
     int line = 0;
 
-    [[nodiscard]] tl::unexpected<Error> wrong(int column, std::string what, std::string expected) const {
+    [[nodiscard]] tl::unexpected<Error> error_at(int column, std::string what, std::string expected) const {
         Error error;
         error.code = ErrorCode::bad_content;
         error.what = std::move(what);
@@ -208,9 +211,9 @@ struct Reader {
         error.column = column;
         return fail(std::move(error));
     }
-    Result<std::string_view> next(const char* wanted) {
+    Result<std::string_view> next(const char* expected) {
         ++line;
-        if (left.empty()) return wrong(1, "the calibration ends here", wanted);
+        if (left.empty()) return error_at(1, "the calibration ends here", expected);
         const std::size_t end = std::min(left.find('\n'), left.size());
         const std::string_view text = left.substr(0, end);
         left.remove_prefix(std::min(end + 1, left.size()));
@@ -219,15 +222,15 @@ struct Reader {
     [[nodiscard]] Result<double> number(const std::vector<Word>& words, std::size_t i,
                                         const char* what) const {
         if (i >= words.size())
-            return wrong(words.empty() ? 1 : words.back().column,
-                         fmt::format("the line has {} words", words.size()),
-                         fmt::format("the {} as word {}", what, i + 1));
+            return error_at(words.empty() ? 1 : words.back().column,
+                            fmt::format("the line has {} words", words.size()),
+                            fmt::format("the {} as word {}", what, i + 1));
         double value = 0.0;
         const std::string_view text = words[i].text;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
         if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-            return wrong(words[i].column, fmt::format("\"{}\" is not a number", text.substr(0, 40)),
-                         fmt::format("the {}", what));
+            return error_at(words[i].column, fmt::format("\"{}\" is not a number", text.substr(0, 40)),
+                            fmt::format("the {}", what));
         return value;
     }
 };
@@ -235,39 +238,41 @@ struct Reader {
 }  // namespace
 
 Result<Calibration> parse_cal(std::string_view text, const std::string& file) {
-    Reader reader{text, file};
-    BOLT_TRY(reader.next("a line of title"));
+    CalFileReader reader{text, file};
+    BOLT_TRY(reader.next("a title line"));
     Calibration calibration;
-    std::optional<double> gain_elsewhere;
+    std::optional<double> middle_abduction_gain;
     for (std::size_t block = 0; block < blocks; ++block) {
         BOLT_TRY(reader.next("the heading of a finger or of the palm"));
         for (std::size_t i = 0; i < lines_of_block; ++i) {
             BOLT_TRY_ASSIGN(const auto line, reader.next("a sensor's line"));
             const auto words = words_of(line);
             BOLT_TRY_ASSIGN(const auto offset, reader.number(words, offset_word, "offset in counts"));
-            BOLT_TRY_ASSIGN(const auto gain, reader.number(words, gain_word, "gain in radians a count"));
-            if (std::abs(gain) > steepest)
-                return reader.wrong(words[gain_word].column, fmt::format("a gain of {} rad per count", gain),
-                                    fmt::format("at most {}", steepest));
-            if (block == index_block && i == gain_of_middle_abduction) gain_elsewhere = gain;
-            const auto& sensor = order[block][i];
+            BOLT_TRY_ASSIGN(const auto gain, reader.number(words, gain_word, "gain in radians per count"));
+            if (std::abs(gain) > max_gain)
+                return reader.error_at(words[gain_word].column,
+                                       fmt::format("a gain of {} rad per count", gain),
+                                       fmt::format("at most {}", max_gain));
+            if (block == index_block && i == gain_of_middle_abduction) middle_abduction_gain = gain;
+            const auto& sensor = sensor_order[block][i];
             if (sensor && gain != 0.0) calibration.fits[index(*sensor)] = LinearFit{gain, offset};
         }
     }
     auto& abduction = calibration.fits[index(Sensor::middle_abduction)];
-    if (abduction && gain_elsewhere && *gain_elsewhere != 0.0) abduction->gain = *gain_elsewhere;
+    if (abduction && middle_abduction_gain && *middle_abduction_gain != 0.0)
+        abduction->gain = *middle_abduction_gain;
     return calibration;
 }
 
 namespace {
 
-double furthest(const PerSensor<std::uint8_t>& a, const PerSensor<std::uint8_t>& b) {
+double max_difference(const PerSensor<std::uint8_t>& a, const PerSensor<std::uint8_t>& b) {
     int most = 0;
     for (std::size_t i = 0; i < sensor_count; ++i) most = std::max(most, std::abs(int{a[i]} - int{b[i]}));
     return most;
 }
 
-void wait(CalibrationSession& session, double now) {
+void restart_posture(CalibrationSession& session, double now) {
     if (session.phase == CalibrationPhase::holding) session.taken.pop_back();
     session.phase = CalibrationPhase::moving;
     session.held_for = 0.0;
@@ -281,7 +286,7 @@ void finish(CalibrationSession& session) {
     if (calibrated) session.result = std::move(*calibrated);
 }
 
-// The posture has been sampled long enough.
+// Continues with the next posture, or finishes after the last.
 void next(CalibrationSession& session, double now) {
     const auto number = static_cast<std::size_t>(session.requested) + 1;
     session.trouble = CalibrationTrouble::none;
@@ -313,7 +318,7 @@ const char* message_for(CalibrationTrouble trouble) {
         case CalibrationTrouble::none:
             return "";
         case CalibrationTrouble::silent:
-            return "The glove gives nothing; is it switched on and plugged in?";
+            return "The glove sends no data; is it switched on and plugged in?";
         case CalibrationTrouble::restless:
             return "Take the posture and hold the hand still for two seconds.";
         case CalibrationTrouble::unmoved:
@@ -329,14 +334,14 @@ void update(CalibrationSession& session, const GloveFrame* frame, double now) {
         session.requested_since = session.still_since = session.last_frame = now;
     }
     if (now - session.last_frame > session.options.silence) {
-        wait(session, now);
+        restart_posture(session, now);
         session.trouble = CalibrationTrouble::silent;
     }
     if (frame == nullptr) return;
     if (session.trouble == CalibrationTrouble::silent) session.trouble = CalibrationTrouble::none;
     session.last_frame = now;
-    if (furthest(frame->raw, session.rest) > session.options.still) {
-        wait(session, now);
+    if (max_difference(frame->raw, session.rest) > session.options.still) {
+        restart_posture(session, now);
         session.rest = frame->raw;
     }
     if (session.phase == CalibrationPhase::moving) {
@@ -344,7 +349,7 @@ void update(CalibrationSession& session, const GloveFrame* frame, double now) {
             session.trouble = CalibrationTrouble::restless;
         const bool left =
             session.taken.empty() ||
-            furthest(session.rest, session.taken.back().samples.front()) >= session.options.moved;
+            max_difference(session.rest, session.taken.back().samples.front()) >= session.options.moved;
         if (!left || now - session.still_since < session.options.settle) return;
         session.phase = CalibrationPhase::holding;
         session.taken.push_back({session.requested, {}});

@@ -1,5 +1,6 @@
-// Maps glove readings to angles by one linear fit per sensor, angle = gain × (raw − offset), the form that
-// the vendor's software uses. Postures of the trainee determine the fits and their quality.
+// Calibration of a glove: maps readings to angles by one linear fit per sensor, angle = gain × (raw −
+// offset), the form that the vendor's software uses. The fits come from postures of the trainee, which a
+// session guides, or from the vendor's calibration file.
 //
 // Angles in rad. Flexion: 0 with the hand flat, positive towards the palm. Abduction: 0 with the fingers side
 // by side, positive apart; the thumb's is 0 at the index finger. Thumb roll: 0 in the palm's plane, positive
@@ -66,16 +67,12 @@ inline constexpr double poor_noise = 3.0 * pi / 180.0;
 // has no samples.
 Result<CalibrationResult> calibrate(std::span<const PostureSamples> postures);
 
-// Reads the calibration file of the vendor's software: a title line, then a heading and four lines for each
+// Parses the calibration file of the vendor's software: a title line, then a heading and four lines for each
 // finger and the palm. The sixth word of a line is a sensor's offset (counts), the ninth its gain (rad per
 // count). The fourth line exists even for fingers without a fourth sensor; the gain of the middle finger's
-// abduction is in the index finger's fourth line, where that software writes it.
-
-// Errors name `file`, line and column.
+// abduction is in the index finger's fourth line, where that software writes it. Errors name `file`, line and
+// column.
 Result<Calibration> parse_cal(std::string_view text, const std::string& file);
-
-// Guides a trainee through the four calibration postures. Each is sampled while the hand is still; the result
-// includes a quality score. Pure: its inputs are frames and time.
 
 enum class CalibrationPhase : std::uint8_t {
     moving,   // waiting for the hand to reach the posture and rest
@@ -95,6 +92,8 @@ struct CalibrationSessionOptions {
     double patience = 20.0;  // s in one posture until the trouble is shown
 };
 
+// Guides a trainee through the four calibration postures. Each is sampled while the hand is still; the result
+// includes a quality score. Pure: its inputs are frames and time.
 struct CalibrationSession {
     CalibrationSessionOptions options;
     CalibrationPhase phase = CalibrationPhase::moving;

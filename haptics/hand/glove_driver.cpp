@@ -25,7 +25,7 @@ namespace bolt::hand {
 
 namespace {
 
-tl::unexpected<Error> gone(const char* what) {
+tl::unexpected<Error> port_lost(const char* what) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = fmt::format("the glove's port is lost: {} ({})", what, std::strerror(errno));
@@ -37,11 +37,9 @@ tl::unexpected<Error> cannot_open(const std::filesystem::path& path) {
     const int why = errno;
     std::string expected;
     if (why == EACCES || why == EPERM)
-        expected =
-            "a user of the group that the port belongs to (mostly dialout), or the udev rule that comes with "
-            "this";
+        expected = "a user in the port's group (usually dialout), or the udev rule in tools/udev";
     else if (why == ENOENT || why == ENXIO || why == ENODEV)
-        expected = "a port that is there; is the glove's adapter plugged in?";
+        expected = "an existing port; is the glove's adapter plugged in?";
     else if (why == EBUSY)
         expected = "a port that no other program has open";
     return fail(ErrorCode::no_device, fmt::format("cannot open {}: {}", path.string(), std::strerror(why)),
@@ -49,7 +47,7 @@ tl::unexpected<Error> cannot_open(const std::filesystem::path& path) {
 }
 
 // FTDI adapters buffer bytes for 16 ms by default.
-void ask_for_low_latency(int file) {
+void request_low_latency(int file) {
     serial_struct serial{};
     if (ioctl(file, TIOCGSERIAL, &serial) != 0) return;
     serial.flags |= static_cast<int>(ASYNC_LOW_LATENCY);
@@ -61,7 +59,7 @@ void ask_for_low_latency(int file) {
 Result<SerialPort> SerialPort::open(const std::filesystem::path& path) {
     const int file = ::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) return cannot_open(path);
-    SerialPort line(file);
+    SerialPort serial(file);
     termios settings{};
     if (tcgetattr(file, &settings) != 0)
         return fail(ErrorCode::no_device, fmt::format("{} is not a serial port", path.string()),
@@ -76,9 +74,9 @@ Result<SerialPort> SerialPort::open(const std::filesystem::path& path) {
     if (tcsetattr(file, TCSANOW, &settings) != 0)
         return fail(ErrorCode::no_device,
                     fmt::format("{} cannot be set to 115200 baud: {}", path.string(), std::strerror(errno)));
-    ask_for_low_latency(file);
+    request_low_latency(file);
     tcflush(file, TCIOFLUSH);
-    return line;
+    return serial;
 }
 
 SerialPort::SerialPort(SerialPort&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
@@ -88,22 +86,23 @@ SerialPort& SerialPort::operator=(SerialPort&& other) noexcept {
 }
 SerialPort::~SerialPort() {
     if (file_ < 0) return;
-    ioctl(file_, TIOCNXCL);  // a pseudo-terminal would stay closed to others as long as its other end is open
+    ioctl(file_,
+          TIOCNXCL);  // otherwise a pseudo-terminal would stay exclusive as long as its other end is open
     close(file_);
 }
 
 Result<std::vector<std::uint8_t>> SerialPort::read(double timeout) {
     pollfd wait{file_, POLLIN, 0};
     const int ready = poll(&wait, 1, static_cast<int>(timeout * 1e3));
-    if (ready < 0 && errno != EINTR) return gone("poll");
+    if (ready < 0 && errno != EINTR) return port_lost("poll");
     std::vector<std::uint8_t> bytes;
     if (ready <= 0) return bytes;
     bytes.resize(4096);
     const ssize_t n = ::read(file_, bytes.data(), bytes.size());
-    if (n < 0 && errno != EAGAIN && errno != EINTR) return gone("read");
+    if (n < 0 && errno != EAGAIN && errno != EINTR) return port_lost("read");
     if (n <= 0 && (wait.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0) {
         errno = EIO;
-        return gone("hung up");
+        return port_lost("hung up");
     }
     bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
     return bytes;
@@ -116,11 +115,11 @@ Status SerialPort::write(const std::vector<std::uint8_t>& bytes) {
             at += static_cast<std::size_t>(n);
             continue;
         }
-        if (n < 0 && errno != EAGAIN && errno != EINTR) return gone("write");
+        if (n < 0 && errno != EAGAIN && errno != EINTR) return port_lost("write");
         pollfd wait{file_, POLLOUT, 0};
         if (poll(&wait, 1, 1000) == 0) {
             errno = ETIMEDOUT;
-            return gone("write");
+            return port_lost("write");
         }
     }
     return {};
@@ -143,13 +142,13 @@ std::vector<std::filesystem::path> serial_ports() {
 Status check_port_access(const std::filesystem::path& port) {
     if (faccessat(AT_FDCWD, port.c_str(), R_OK | W_OK, AT_EACCESS) == 0) return {};
     const int why = errno;
-    std::string expected = "a port that is there; is the glove's adapter plugged in?";
+    std::string expected = "an existing port; is the glove's adapter plugged in?";
     struct stat node {};
     if (why != ENOENT && stat(port.c_str(), &node) == 0) {
         const group* owner = getgrgid(node.st_gid);
-        expected = fmt::format("a user of the group {0}: sudo usermod -aG {0} NAME, then log in again",
+        expected = fmt::format("a user in the group {0}: sudo usermod -aG {0} NAME, then log in again",
                                owner != nullptr ? owner->gr_name : std::to_string(node.st_gid).c_str());
-        if (owner != nullptr && owner->gr_gid == 0) expected = "a port that not only root may use";
+        if (owner != nullptr && owner->gr_gid == 0) expected = "a port that users other than root may access";
     }
     return fail(ErrorCode::no_device, fmt::format("{} cannot be used: {}", port.string(), std::strerror(why)),
                 std::move(expected));
@@ -166,21 +165,21 @@ std::optional<int> latency_timer_ms(const std::filesystem::path& port, const std
 
 namespace {
 
-constexpr double first_retry_delay = 0.1, max_retry_delay = 1.0;  // s between two tries to open the port
-constexpr double patience = 5e-3;  // s: as long as the thread may sleep in one go
+constexpr double first_retry_delay = 0.1, max_retry_delay = 1.0;  // s between two attempts to open the port
+constexpr double read_timeout = 5e-3;                             // s, longest wait of the thread
 
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void put(std::array<char, 200>& words, const std::string& text) {
-    const std::size_t n = std::min(text.size(), words.size() - 1);
-    std::copy_n(text.begin(), n, words.begin());
-    words[n] = '\0';
+void copy_text(std::array<char, 200>& target, const std::string& text) {
+    const std::size_t n = std::min(text.size(), target.size() - 1);
+    std::copy_n(text.begin(), n, target.begin());
+    target[n] = '\0';
 }
 
-// Silence counts from the first frame on.
-void listen(GloveReport& report, std::uint64_t frames, double time) {
+// Updates the longest silence, which counts from the first frame on.
+void update_silence(GloveReport& report, std::uint64_t frames, double time) {
     if (frames > 0) report.longest_silence = std::max(report.longest_silence, time - report.newest);
 }
 
@@ -194,14 +193,14 @@ struct GloveDriver::Shared {
     std::jthread thread;
 
     // Serves one opening of the port, until it is lost or the thread stops.
-    void talk(SerialPort& line, GloveReport& report, std::uint64_t& number, const std::stop_token& stop) {
+    void serve(SerialPort& serial, GloveReport& report, std::uint64_t& number, const std::stop_token& stop) {
         GloveSession session(options);
         const GloveReport before = report;
         std::vector<std::uint8_t> received;
         while (!stop.stop_requested()) {
             const double time = now();
-            listen(report, number, time);
-            const auto said = session.update(received, time, [&](const GloveFrame& frame) {
+            update_silence(report, number, time);
+            const auto outgoing = session.update(received, time, [&](const GloveFrame& frame) {
                 samples.write({frame, ++number, time});
                 report.newest = time;
             });
@@ -211,13 +210,13 @@ struct GloveDriver::Shared {
             report.frames = before.frames + session.frames();
             report.lost_bytes = before.lost_bytes + session.lost_bytes();
             report.handshakes = before.handshakes + session.handshakes();
-            put(report.trouble, session.trouble());
+            copy_text(report.trouble, session.trouble());
             reports.write(report);
-            if (!said.empty())
-                if (const Status sent = line.write(said); !sent)
-                    return put(report.trouble, sent.error().message());
-            auto read = line.read(patience);
-            if (!read) return put(report.trouble, read.error().message());
+            if (!outgoing.empty())
+                if (const Status sent = serial.write(outgoing); !sent)
+                    return copy_text(report.trouble, sent.error().message());
+            auto read = serial.read(read_timeout);
+            if (!read) return copy_text(report.trouble, read.error().message());
             received = std::move(*read);
         }
     }
@@ -227,18 +226,18 @@ struct GloveDriver::Shared {
         std::uint64_t number = 0;
         double pause = first_retry_delay;
         while (!stop.stop_requested()) {
-            Result<SerialPort> line = SerialPort::open(port);
-            if (line) {
+            Result<SerialPort> serial = SerialPort::open(port);
+            if (serial) {
                 ++report.openings;
                 report.open = true;
-                talk(*line, report, number, stop);
+                serve(*serial, report, number, stop);
                 pause = first_retry_delay;
             } else {
-                put(report.trouble, line.error().message());
+                copy_text(report.trouble, serial.error().message());
             }
             report.open = false;
             report.state = GloveState::silent;
-            listen(report, number, now());
+            update_silence(report, number, now());
             reports.write(report);
             for (double until = now() + pause; now() < until && !stop.stop_requested();)
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -1,4 +1,4 @@
-// A serial port, or a pseudo-terminal that stands for one: 115200 baud, 8N1, raw, no flow control.
+// The driver of a glove on a serial port: the port, checks of its adapter, and the thread that reads it.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +11,20 @@
 
 namespace bolt::hand {
 
+// A serial port or a pseudo-terminal: 115200 baud, 8N1, raw, no flow control.
 class SerialPort {
   public:
-    // Errors say what to do: no such port, not permitted (which group), in use, not a serial port.
+    // Fails if there is no such port, access is not permitted (the error names the group), the port is in
+    // use, or it is not a serial port.
     static Result<SerialPort> open(const std::filesystem::path& path);
 
     SerialPort(SerialPort&& other) noexcept;
     SerialPort& operator=(SerialPort&& other) noexcept;
     ~SerialPort();
 
-    // Waits until something comes, at most `timeout` seconds. Empty: nothing came. An error with `lost`: the
-    // port is gone.
+    // Waits at most `timeout` seconds for bytes; empty on timeout. Error::lost: the port has disappeared.
     Result<std::vector<std::uint8_t>> read(double timeout);
-    // All of it, or an error; waits at most a second.
+    // Writes all bytes or fails. Times out after one second without progress.
     Status write(const std::vector<std::uint8_t>& bytes);
 
   private:
@@ -31,10 +32,8 @@ class SerialPort {
     int file_ = -1;
 };
 
-// Ports that a glove may be on, by their names that stay the same, best first.
+// Ports that a glove may be connected to, under their persistent names if available, sorted.
 std::vector<std::filesystem::path> serial_ports();
-
-// Checks of the serial adapter of a glove: permission and latency.
 
 // Checks that the port can be opened, without opening it, because some devices reset when their port opens.
 // The error names the group that the user must join.
@@ -44,8 +43,6 @@ Status check_port_access(const std::filesystem::path& port);
 // `devices`: the sysfs folder.
 std::optional<int> latency_timer_ms(const std::filesystem::path& port,
                                     const std::filesystem::path& devices = "/sys/bus/usb-serial/devices");
-
-// A glove on a serial port, read by its own thread. Readers get the latest sample and report without waiting.
 
 struct GloveSample {
     GloveFrame frame;
@@ -63,6 +60,7 @@ struct GloveReport {
     double newest = 0.0, longest_silence = 0.0;
 };
 
+// Reads a glove on its own thread. Readers get the latest sample and report without waiting.
 class GloveDriver {
   public:
     // Returns immediately. If the port cannot be opened, the thread retries and the report has the reason.

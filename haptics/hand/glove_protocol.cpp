@@ -46,37 +46,37 @@ const char* name_of(Sensor sensor) { return names[index(sensor)]; }
 
 namespace {
 
-enum class Verdict { whole, wanting, wrong };
+enum class FrameMatch { complete, incomplete, mismatch };
 
-// Classifies the bytes that follow a letter.
-Verdict judge(const GloveFrameReader& reader, GloveFrame& frame) {
+// Matches the bytes of the reader, which begin with a letter, against the frame layout.
+FrameMatch match_frame(const GloveFrameReader& reader, GloveFrame& frame) {
     const GloveFrameLayout& layout = reader.layout;
     const auto bytes = std::span(reader.bytes).first(reader.count);
-    if (bytes.front() != static_cast<std::uint8_t>(reader.letter)) return Verdict::wrong;
+    if (bytes.front() != static_cast<std::uint8_t>(reader.letter)) return FrameMatch::mismatch;
     const auto sensors = sensors_of(layout.sensors);
     for (std::size_t i = 0; i < sensors.size(); ++i) {
-        if (1 + i == bytes.size()) return Verdict::wanting;
-        if (bytes[1 + i] == 0) return Verdict::wrong;
+        if (1 + i == bytes.size()) return FrameMatch::incomplete;
+        if (bytes[1 + i] == 0) return FrameMatch::mismatch;
         frame.raw[index(sensors[i])] = bytes[1 + i];
     }
     std::size_t at = 1 + sensors.size() + (layout.time ? 5U : 0U);
     if (layout.status) {
-        if (at >= bytes.size()) return Verdict::wanting;
+        if (at >= bytes.size()) return FrameMatch::incomplete;
         frame.status = bytes[at++];
     }
     for (; at < bytes.size(); at += 2) {
-        if (bytes[at] == 0) return Verdict::whole;
-        if (bytes[at] != 'e' || (frame.too_slow && frame.unplugged)) return Verdict::wrong;
-        if (at + 1 == bytes.size()) return Verdict::wanting;
-        bool& complaint = bytes[at + 1] == 's' ? frame.too_slow : frame.unplugged;
-        if ((bytes[at + 1] != 's' && bytes[at + 1] != 'g') || complaint) return Verdict::wrong;
-        complaint = true;
+        if (bytes[at] == 0) return FrameMatch::complete;
+        if (bytes[at] != 'e' || (frame.too_slow && frame.unplugged)) return FrameMatch::mismatch;
+        if (at + 1 == bytes.size()) return FrameMatch::incomplete;
+        bool& flag = bytes[at + 1] == 's' ? frame.too_slow : frame.unplugged;
+        if ((bytes[at + 1] != 's' && bytes[at + 1] != 'g') || flag) return FrameMatch::mismatch;
+        flag = true;
     }
-    return Verdict::wanting;
+    return FrameMatch::incomplete;
 }
 
 // The letter did not start a frame; continue with the next one.
-void give_up(GloveFrameReader& reader) {
+void resynchronise(GloveFrameReader& reader) {
     const auto end = reader.bytes.begin() + static_cast<std::ptrdiff_t>(reader.count);
     const auto next = std::find(reader.bytes.begin() + 1, end, static_cast<std::uint8_t>(reader.letter));
     reader.lost += static_cast<std::uint64_t>(next - reader.bytes.begin());
@@ -92,10 +92,10 @@ void read_frames(GloveFrameReader& reader, std::span<const std::uint8_t> bytes,
         reader.bytes[reader.count++] = byte;
         while (reader.count > 0) {
             GloveFrame frame;
-            const Verdict verdict = judge(reader, frame);
-            if (verdict == Verdict::wanting) break;
-            if (verdict == Verdict::wrong) {
-                give_up(reader);
+            const FrameMatch match_result = match_frame(reader, frame);
+            if (match_result == FrameMatch::incomplete) break;
+            if (match_result == FrameMatch::mismatch) {
+                resynchronise(reader);
                 continue;
             }
             ++reader.frames;
@@ -109,61 +109,61 @@ namespace {
 
 constexpr std::uint8_t stop_streaming = 0x03;
 constexpr double ticks_per_second = 115200.0;  // of the glove's sample clock
-constexpr std::size_t longest_answer = 64;
+constexpr std::size_t longest_reply = 64;
 
-enum class Match { yes, wanting, no };
+enum class Match { yes, incomplete, no };
 
-// True if the bytes begin with this prefix.
-Match begins(std::span<const std::uint8_t> bytes, std::string_view with) {
+// Compares the beginning of the bytes with a prefix; `incomplete` if there are too few bytes.
+Match match_prefix(std::span<const std::uint8_t> bytes, std::string_view with) {
     for (std::size_t i = 0; i < with.size(); ++i) {
-        if (i == bytes.size()) return Match::wanting;
+        if (i == bytes.size()) return Match::incomplete;
         if (bytes[i] != static_cast<std::uint8_t>(with[i])) return Match::no;
     }
     return Match::yes;
 }
 
-constexpr std::string_view unknown = {"e?\r\n\0", 5};
+constexpr std::string_view unknown_command = {"e?\r\n\0", 5};
 
 }  // namespace
 
-std::vector<std::uint8_t> GloveHandshake::question() const {
+std::vector<std::uint8_t> GloveHandshake::query_bytes() const {
     const auto bytes = [](std::string_view text) { return Bytes(text.begin(), text.end()); };
     switch (step_) {
-        case Step::silencing:
+        case HandshakeStep::silencing:
             return {stop_streaming};
-        case Step::sensors:
+        case HandshakeStep::sensors:
             return bytes("?S");
-        case Step::samples:
+        case HandshakeStep::samples:
             return bytes("?N");
-        case Step::set_samples:
+        case HandshakeStep::set_samples:
             return {'N', static_cast<std::uint8_t>(identity_.sensors)};
-        case Step::hand:
+        case HandshakeStep::hand:
             return bytes("?R");
-        case Step::plugged:
+        case HandshakeStep::plugged:
             return bytes("?G");
-        case Step::version:
+        case HandshakeStep::version:
             return bytes("?V");
-        case Step::no_status:
+        case HandshakeStep::no_status:
             return {'U', 0};
-        case Step::no_time:
+        case HandshakeStep::no_time:
             return {'D', 0};
-        case Step::rate:
+        case HandshakeStep::rate:
             return bytes(fmt::format("t {} 1\r", std::lround(ticks_per_second / options_.rate)));
-        case Step::streaming:
+        case HandshakeStep::streaming:
             return {'S'};
     }
     return {};
 }
 
-GloveHandshake::Bytes GloveHandshake::ask(Step step, double now) {
-    tries_ = step == step_ ? tries_ + 1 : 1;
+GloveHandshake::Bytes GloveHandshake::start_step(HandshakeStep step, double now) {
+    attempts_ = step == step_ ? attempts_ + 1 : 1;
     step_ = step;
     since_ = last_byte_ = now;
-    if (step != Step::streaming) answer_.clear();
-    return question();
+    if (step != HandshakeStep::streaming) reply_.clear();
+    return query_bytes();
 }
 
-void GloveHandshake::give_up(std::string what, std::string expected) {
+void GloveHandshake::fail_with(std::string what, std::string expected) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = std::move(what);
@@ -173,62 +173,65 @@ void GloveHandshake::give_up(std::string what, std::string expected) {
 
 // Returns true if the reply to this step is complete; drops unrelated bytes before it. "Unknown command"
 // counts as a reply where old firmware lacks the command.
-bool GloveHandshake::take_answer() {
-    const Bytes asked = question();
-    while (!answer_.empty()) {
-        if (begins(answer_, unknown) == Match::yes) {
-            answer_.erase(answer_.begin(), answer_.begin() + static_cast<std::ptrdiff_t>(unknown.size()));
-            if (step_ == Step::sensors || step_ == Step::samples || step_ == Step::set_samples) {
-                give_up("what is on the line does not know its sensors", "a CyberGlove of 18 or 22 sensors");
+bool GloveHandshake::parse_reply() {
+    const Bytes query = query_bytes();
+    while (!reply_.empty()) {
+        if (match_prefix(reply_, unknown_command) == Match::yes) {
+            reply_.erase(reply_.begin(),
+                         reply_.begin() + static_cast<std::ptrdiff_t>(unknown_command.size()));
+            if (step_ == HandshakeStep::sensors || step_ == HandshakeStep::samples ||
+                step_ == HandshakeStep::set_samples) {
+                fail_with("the device on the port does not report its sensors",
+                          "a CyberGlove with 18 or 22 sensors");
                 return false;
             }
             return true;
         }
-        if (begins(answer_, unknown) == Match::wanting) return false;
-        const std::string_view letters(reinterpret_cast<const char*>(asked.data()),
-                                       asked.front() == '?' ? 2U : 1U);
-        const Match match = begins(answer_, letters);
-        if (match == Match::wanting) return false;
+        if (match_prefix(reply_, unknown_command) == Match::incomplete) return false;
+        const std::string_view letters(reinterpret_cast<const char*>(query.data()),
+                                       query.front() == '?' ? 2U : 1U);
+        const Match match = match_prefix(reply_, letters);
+        if (match == Match::incomplete) return false;
         if (match == Match::yes) {
             std::uint8_t value = 0;
-            if (step_ == Step::version || step_ == Step::rate) {
-                const auto end = std::find(answer_.begin(), answer_.end(), 0);
-                if (end == answer_.end() && answer_.size() < longest_answer) return false;
-                if (step_ == Step::version)
-                    for (auto c = answer_.begin() + 2; c != end; ++c)
+            if (step_ == HandshakeStep::version || step_ == HandshakeStep::rate) {
+                const auto end = std::find(reply_.begin(), reply_.end(), 0);
+                if (end == reply_.end() && reply_.size() < longest_reply) return false;
+                if (step_ == HandshakeStep::version)
+                    for (auto c = reply_.begin() + 2; c != end; ++c)
                         if (*c >= 0x20 && *c < 0x7f) identity_.version += static_cast<char>(*c);
-                answer_.erase(answer_.begin(), end == answer_.end() ? end : end + 1);
+                reply_.erase(reply_.begin(), end == reply_.end() ? end : end + 1);
                 return true;
             }
-            const std::size_t length = letters.size() + (asked.front() == '?' ? 2U : 1U);
-            if (answer_.size() < length) return false;
-            if (answer_[length - 1] == 0) {
-                value = answer_[length - 2];
-                answer_.erase(answer_.begin(), answer_.begin() + static_cast<std::ptrdiff_t>(length));
-                return take_value(value);
+            const std::size_t length = letters.size() + (query.front() == '?' ? 2U : 1U);
+            if (reply_.size() < length) return false;
+            if (reply_[length - 1] == 0) {
+                value = reply_[length - 2];
+                reply_.erase(reply_.begin(), reply_.begin() + static_cast<std::ptrdiff_t>(length));
+                return store_value(value);
             }
         }
-        answer_.erase(answer_.begin());
+        reply_.erase(reply_.begin());
     }
     return false;
 }
 
-bool GloveHandshake::take_value(std::uint8_t value) {
+bool GloveHandshake::store_value(std::uint8_t value) {
     switch (step_) {
-        case Step::sensors:
+        case HandshakeStep::sensors:
             identity_.sensors = value;
             if (sensors_of(value).empty()) {
-                give_up(fmt::format("the glove has {} sensors", value), "18 or 22");
+                fail_with(fmt::format("the glove has {} sensors", value), "18 or 22");
                 return false;
             }
             return true;
-        case Step::samples:
+        case HandshakeStep::samples:
             samples_ = value;
             return true;
-        case Step::hand:
+        case HandshakeStep::hand:
             identity_.hand = value != 0 ? Side::right : Side::left;
             return true;
-        case Step::plugged:
+        case HandshakeStep::plugged:
             identity_.plugged = (value & 1U) != 0;
             return true;
         default:
@@ -240,28 +243,29 @@ std::vector<std::uint8_t> GloveHandshake::update(std::span<const std::uint8_t> r
     if (failed_ || done()) return {};
     if (!started_) {
         started_ = true;
-        return ask(Step::silencing, now);
+        return start_step(HandshakeStep::silencing, now);
     }
     if (!received.empty()) last_byte_ = now;
-    if (step_ == Step::silencing) {
-        if (now - last_byte_ >= options_.quiet) return ask(Step::sensors, now);
+    if (step_ == HandshakeStep::silencing) {
+        if (now - last_byte_ >= options_.quiet) return start_step(HandshakeStep::sensors, now);
         if (now - since_ < options_.longest_quiet) return {};
-        if (tries_ < options_.tries) return ask(Step::silencing, now);
-        give_up("the line is never quiet", "a CyberGlove at 115200 baud, which stops streaming when told to");
+        if (attempts_ < options_.tries) return start_step(HandshakeStep::silencing, now);
+        fail_with("the port is never quiet", "a CyberGlove at 115200 baud, which stops streaming on command");
         return {};
     }
-    answer_.insert(answer_.end(), received.begin(), received.end());
-    if (take_answer()) {
-        Step next = static_cast<Step>(static_cast<int>(step_) + 1);
-        if (next == Step::set_samples && samples_ == identity_.sensors) next = Step::hand;
-        return ask(next, now);
+    reply_.insert(reply_.end(), received.begin(), received.end());
+    if (parse_reply()) {
+        HandshakeStep next = static_cast<HandshakeStep>(static_cast<int>(step_) + 1);
+        if (next == HandshakeStep::set_samples && samples_ == identity_.sensors) next = HandshakeStep::hand;
+        return start_step(next, now);
     }
     if (failed_) return {};
     if (now - since_ < options_.patience) return {};
-    if (tries_ < options_.tries) return ask(step_, now);
-    if (step_ >= Step::hand) return ask(static_cast<Step>(static_cast<int>(step_) + 1), now);
-    give_up("nothing on the line answers as a glove",
-            "a CyberGlove at 115200 baud; is its box switched on, and is this its port?");
+    if (attempts_ < options_.tries) return start_step(step_, now);
+    if (step_ >= HandshakeStep::hand)
+        return start_step(static_cast<HandshakeStep>(static_cast<int>(step_) + 1), now);
+    fail_with("no device on the port answers as a glove",
+              "a CyberGlove at 115200 baud; is its interface unit switched on, and is this its port?");
     return {};
 }
 
@@ -288,21 +292,21 @@ std::vector<std::uint8_t> GloveSession::update(std::span<const std::uint8_t> rec
             ++frames_;
             since_ = now;
             unplugged = frame.unplugged;
-            trouble_ = frame.unplugged  ? "the glove is not plugged into its box"
-                       : frame.too_slow ? "the line is too slow for this rate of samples"
+            trouble_ = frame.unplugged  ? "the glove is not plugged into its interface unit"
+                       : frame.too_slow ? "the serial line is too slow for this sample rate"
                                         : "";
             if (!frame.unplugged) on_frame(frame);
         });
         identity_.plugged = !unplugged;
         if (now - since_ < options_.silence) return {};
-        trouble_ = "the glove gives nothing any more";
+        trouble_ = "the glove has stopped sending data";
         return start_handshake(now, GloveState::silent);
     }
     if (state_ == GloveState::rejected) {
         if (now - since_ < options_.pause) return {};
         return start_handshake(now, GloveState::handshake);
     }
-    auto said = handshake_.update(received, now);
+    auto outgoing = handshake_.update(received, now);
     if (handshake_.done()) {
         identity_ = handshake_.identity();
         reader_.layout = {identity_.sensors, false, false};
@@ -315,7 +319,7 @@ std::vector<std::uint8_t> GloveSession::update(std::span<const std::uint8_t> rec
         state_ = GloveState::rejected;
         since_ = now;
     }
-    return said;
+    return outgoing;
 }
 
 }  // namespace bolt::hand

@@ -1,6 +1,5 @@
-// The bend sensors of a CyberGlove and their order in the samples of a glove with 18 or 22 sensors. Source:
-// Kessler, Hodges and Walker, "Evaluation of the CyberGlove as a whole-hand input device", ACM TOCHI 2(4),
-// 1995.
+// The protocol of a CyberGlove: its sensors, frames, handshake and session. Pure: bytes and time in, bytes
+// and frames out; glove_driver.hpp adds the port and the thread.
 #pragma once
 
 #include <array>
@@ -16,8 +15,9 @@
 
 namespace bolt::hand {
 
-// In the order of a glove with 22 sensors. MPJ: knuckle; PIJ, DIJ: the next joints; IJ: the thumb's last
-// joint.
+// The bend sensors in the order of a glove with 22 sensors. MPJ: knuckle; PIJ, DIJ: the next joints; IJ: the
+// thumb's last joint. Source: Kessler, Hodges and Walker, "Evaluation of the CyberGlove as a whole-hand input
+// device", ACM TOCHI 2(4), 1995.
 enum class Sensor : std::uint8_t {
     thumb_roll,  // rotation of the thumb across the palm
     thumb_mpj,
@@ -56,8 +56,6 @@ std::span<const Sensor> sensors_of(std::size_t count);
 
 const char* name_of(Sensor sensor);
 
-// Finds frames in the byte stream of a glove, which may lose, insert or change bytes.
-//
 // A frame is a letter ('S' when streaming, 'G' when polled), one byte 1 … 255 per sensor, five bytes of time
 // and one of status if enabled, 'e' and a letter if the glove reports an error, and a zero. Without the time
 // no other byte is zero, so incomplete frames are detected and the reader resynchronises at the next zero.
@@ -86,13 +84,11 @@ struct GloveFrameReader {
     std::uint64_t lost = 0;  // bytes outside valid frames
 };
 
-// Accepts bytes in blocks of any size and calls `on_frame` for each complete frame. Allocates nothing.
+// Finds frames in the byte stream of a glove, which may lose, insert or change bytes. Accepts bytes in blocks
+// of any size and calls `on_frame` for each complete frame. Allocates nothing.
 void read_frames(GloveFrameReader& reader, std::span<const std::uint8_t> bytes,
                  FunctionRef<void(const GloveFrame&)> on_frame);
 
-// The handshake with a glove: reads its identity and configures the stream. Pure: bytes and time in, bytes
-// out.
-//
 // The reply to a query ('?' and a letter) repeats both and adds the value; the reply to a setting is its
 // letter. Each ends with a zero. The reply to an unknown command is "e?", a newline and a zero.
 
@@ -111,6 +107,7 @@ struct GloveHandshakeOptions {
     double longest_quiet = 1.0;  // s until a line that keeps sending is rejected
 };
 
+// The handshake with a glove: reads its identity and configures the stream.
 class GloveHandshake {
   public:
     explicit GloveHandshake(const GloveHandshakeOptions& options = {}) : options_(options) {}
@@ -119,12 +116,12 @@ class GloveHandshake {
     // possibly none. Call until done() or failed(): when bytes arrive, and at least every 20 ms.
     std::vector<std::uint8_t> update(std::span<const std::uint8_t> received, double now);
 
-    [[nodiscard]] bool done() const { return step_ == Step::streaming; }
+    [[nodiscard]] bool done() const { return step_ == HandshakeStep::streaming; }
     [[nodiscard]] const std::optional<Error>& failed() const { return failed_; }
     [[nodiscard]] const GloveIdentity& identity() const { return identity_; }
 
   private:
-    enum class Step : std::uint8_t {
+    enum class HandshakeStep : std::uint8_t {
         silencing,
         sensors,
         samples,
@@ -139,25 +136,22 @@ class GloveHandshake {
     };
     using Bytes = std::vector<std::uint8_t>;
 
-    [[nodiscard]] Bytes question() const;
-    bool take_answer();
-    bool take_value(std::uint8_t value);
-    Bytes ask(Step step, double now);
-    void give_up(std::string what, std::string expected);
+    [[nodiscard]] Bytes query_bytes() const;
+    bool parse_reply();
+    bool store_value(std::uint8_t value);
+    Bytes start_step(HandshakeStep step, double now);
+    void fail_with(std::string what, std::string expected);
 
     GloveHandshakeOptions options_;
     GloveIdentity identity_;
     std::optional<Error> failed_;
-    Bytes answer_;
-    Step step_ = Step::silencing;
+    Bytes reply_;
+    HandshakeStep step_ = HandshakeStep::silencing;
     bool started_ = false;
     double since_ = 0.0, last_byte_ = 0.0;
-    int tries_ = 0;
+    int attempts_ = 0;
     std::uint8_t samples_ = 0;  // sampling mode that the glove reports
 };
-
-// The whole communication with a glove: handshake, stream, and a new handshake after silence. Pure: bytes and
-// time in, bytes and frames out; glove_driver.hpp adds the port and the thread.
 
 enum class GloveState : std::uint8_t {
     handshake,  // identifying the glove
@@ -172,6 +166,7 @@ struct GloveSessionOptions {
     double pause = 1.0;     // s until a rejected device is tried again
 };
 
+// The whole communication with a glove: handshake, stream, and a new handshake after silence.
 class GloveSession {
   public:
     explicit GloveSession(const GloveSessionOptions& options = {});

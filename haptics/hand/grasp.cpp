@@ -7,20 +7,21 @@
 namespace bolt::hand {
 namespace {
 
-bool touches(const hand::FingertipContact& contact) { return contact.distance <= hand::touching; }
+bool touches(const hand::FingertipContact& contact) { return contact.distance <= hand::touch_distance; }
 
-// Larger than the friction angle of two fingertips (fingertip_contact.hpp): the palm supports a closed hand.
+// rad; larger than the friction angle of two fingertips (finger_closure.hpp), because the palm supports a
+// closed hand.
 constexpr double opposing = to_radians(60.0);
 
-bool pushes_at(const hand::FingertipContact& one, const hand::FingertipContact& other) {
+bool pushes_towards(const hand::FingertipContact& one, const hand::FingertipContact& other) {
     const Vec3 between = other.point - one.point;
     return glm::dot(between, -one.normal) >= std::cos(opposing) * glm::length(between);
 }
 
-// Combines the touching fingers into one virtual finger (M. A. Arbib, T.
+// Returns true if the thumb opposes the touching fingers combined into one virtual finger (M. A. Arbib, T.
 // Iberall, D. Lyons, Coordinated control programs for movements of the hand, Exp. Brain Res. Suppl. 10,
 // 1985).
-bool together(const FingerClosure& closure) {
+bool opposed_by_virtual_finger(const FingerClosure& closure) {
     hand::FingertipContact all{0.0, Vec3(0.0), Vec3(0.0)};
     double count = 0.0;
     for (std::size_t i = 1; i < hand::digit_count; ++i) {
@@ -31,11 +32,11 @@ bool together(const FingerClosure& closure) {
         count += 1.0;
     }
     const double length = glm::length(all.normal);
-    if (count == 0.0 || length < 0.5 * count) return false;  // they push at each other
+    if (count == 0.0 || length < 0.5 * count) return false;  // the fingers push against each other
     all.point /= count;
     all.normal /= length;
     const hand::FingertipContact& thumb = closure.digits[0].nearest;
-    return touches(thumb) && pushes_at(thumb, all) && pushes_at(all, thumb);
+    return touches(thumb) && pushes_towards(thumb, all) && pushes_towards(all, thumb);
 }
 
 // The touching bones of thumb and fingers as fingertips for fingertip_grasp().
@@ -44,7 +45,7 @@ hand::Fingertips tips_of(const collision::ToolShape& tool, const FingerClosure& 
     for (std::size_t i = 0; i < hand::digit_count; ++i) {
         const hand::FingertipContact& nearest = closure.digits[i].nearest;
         tips.at[i] = touches(nearest) ? nearest.point + (nearest.distance + tips.radius) * nearest.normal
-                                      : Vec3(2.0 * (tool.reach() + hand::sight), 0.0, 0.0);
+                                      : Vec3(2.0 * (tool.reach() + hand::contact_query_range), 0.0, 0.0);
     }
     return tips;
 }
@@ -54,7 +55,7 @@ bool grasps(const collision::ToolShape& tool, const FingerClosure& closure, std:
     const auto touching = std::count_if(closure.digits.begin() + 1, closure.digits.end(),
                                         [](const DigitStop& digit) { return touches(digit.nearest); });
     return touching >= static_cast<std::ptrdiff_t>(fingers) &&
-           (together(closure) || hand::fingertip_grasp(tool, tips_of(tool, closure)).held);
+           (opposed_by_virtual_finger(closure) || hand::fingertip_grasp(tool, tips_of(tool, closure)).held);
 }
 
 // True if the thumb or all fingers are beyond the release distance.
@@ -81,12 +82,12 @@ GraspEvent update_glove_loss(GraspState& grip, const GraspOptions& options, cons
 // Updates by a frame that arrived `gap` seconds after the one before.
 GraspEvent decide(GraspState& grip, const GraspOptions& options, double gap) {
     grip.release_blocked_for = std::max(0.0, grip.release_blocked_for - gap);
-    const bool contrary =
+    const bool contradicts =
         grip.held ? grip.release_blocked_for == 0.0 && away(grip.closure, options.release_distance)
                   : grip.grasping;
-    grip.change_pending_for = contrary && grip.change_pending ? grip.change_pending_for + gap : 0.0;
-    grip.change_pending = contrary;
-    if (!contrary || grip.change_pending_for < (grip.held ? options.release_delay : options.grasp_delay))
+    grip.change_pending_for = contradicts && grip.change_pending ? grip.change_pending_for + gap : 0.0;
+    grip.change_pending = contradicts;
+    if (!contradicts || grip.change_pending_for < (grip.held ? options.release_delay : options.grasp_delay))
         return GraspEvent::none;
     grip.held = !grip.held;
     grip.change_pending = false;
@@ -97,8 +98,8 @@ bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.o
 
 }  // namespace
 
-const char* message_for(GraspEvent told, bool held) {
-    switch (told) {
+const char* message_for(GraspEvent event, bool held) {
+    switch (event) {
         case GraspEvent::none:
             return "";
         case GraspEvent::grasped:

@@ -6,7 +6,7 @@
 namespace bolt::hand {
 namespace {
 
-double within(const Span& span, double angle) {
+double clamp_to_range(const AngleRange& span, double angle) {
     return std::isfinite(angle) ? std::clamp(angle, span.low, span.high) : 0.0;
 }
 
@@ -14,21 +14,22 @@ double within(const Span& span, double angle) {
 
 Angles clamp_to_limits(const Angles& angles) {
     Angles out;
-    out.thumb = {within(thumb_roll_span, angles.thumb.roll),
-                 within(thumb_abduction_span, angles.thumb.abduction),
-                 within(thumb_mcp_span, angles.thumb.mcp), within(thumb_ip_span, angles.thumb.ip)};
+    out.thumb = {clamp_to_range(thumb_roll_range, angles.thumb.roll),
+                 clamp_to_range(thumb_abduction_range, angles.thumb.abduction),
+                 clamp_to_range(thumb_mcp_range, angles.thumb.mcp),
+                 clamp_to_range(thumb_ip_range, angles.thumb.ip)};
     for (std::size_t i = 0; i < out.fingers.size(); ++i) {
         const FingerAngles& from = angles.fingers[i];
         FingerAngles& to = out.fingers[i];
-        to.mcp = within(mcp_span, from.mcp);
-        to.pip = within(pip_span, from.pip);
-        to.dip = within(dip_span, from.dip);
+        to.mcp = clamp_to_range(mcp_range, from.mcp);
+        to.pip = clamp_to_range(pip_range, from.pip);
+        to.dip = clamp_to_range(dip_range, from.dip);
         const double share = std::clamp(1.0 - to.mcp / (0.5 * pi), 0.0, 1.0);
-        to.side = within({side_span.low * share, side_span.high * share}, from.side);
+        to.side = clamp_to_range({side_range.low * share, side_range.high * share}, from.side);
     }
-    out.arch = within(arch_span, angles.arch);
-    out.wrist_flexion = within(wrist_flexion_span, angles.wrist_flexion);
-    out.wrist_side = within(wrist_side_span, angles.wrist_side);
+    out.arch = clamp_to_range(arch_range, angles.arch);
+    out.wrist_flexion = clamp_to_range(wrist_flexion_range, angles.wrist_flexion);
+    out.wrist_side = clamp_to_range(wrist_side_range, angles.wrist_side);
     return out;
 }
 
@@ -44,7 +45,7 @@ Quat frame(const Vec3& forward, const Vec3& up) {
 
 struct Bones {
     std::size_t first;                // joint of the metacarpal
-    Vec3 base_mm;                     // where it stands
+    Vec3 base_mm;                     // its position
     std::array<double, 4> length_mm;  // metacarpal, proximal, middle and distal phalanx
     double tissue_mm;                 // beyond the bone at the tip
 };
@@ -55,7 +56,7 @@ constexpr std::array<Bones, 4> bones{{
     {little_metacarpal, {18.5, -0.5, -27.0}, {53.69, 32.74, 18.11, 15.96}, 3.73},
 }};
 
-// Degrees at rest: yaw to the little finger, pitch to the palm, roll to the little finger, flexion.
+// Angles at rest in degrees: yaw to the little finger, pitch to the palm, roll to the little finger, flexion.
 struct Rest {
     double metacarpal_turn, metacarpal_drop, turn, roll;
     std::array<double, 3> flexion;
@@ -158,18 +159,18 @@ constexpr double ring_share = 20.0 / 27.0;  // of the palm's arch
 
 Quat flexed(double angle) { return glm::angleAxis(-angle, along_x); }
 
-const Quat none(1.0, 0.0, 0.0, 0.0);
+const Quat no_rotation(1.0, 0.0, 0.0, 0.0);
 
 // Poses a right hand of scale 1 joint by joint, in the wrist frame.
-struct Bending {
+struct DigitPose {
     const Skeleton& flat;
     std::array<Pose, 6> at{};  // the wrist, then the digit's joints
     std::size_t first = 0;     // the digit's
 
-    explicit Bending(const Skeleton& skeleton) : flat(skeleton) {}
+    explicit DigitPose(const Skeleton& skeleton) : flat(skeleton) {}
 
     // Rotates the digit's next joint by `swing` in its parent's frame, then by `turn` in its own.
-    void hang(std::size_t k, const Quat& swing, const Quat& turn) {
+    void attach(std::size_t k, const Quat& swing, const Quat& turn) {
         const std::size_t joint = first + k, parent = k == 0 ? static_cast<std::size_t>(wrist) : joint - 1;
         const Quat back = glm::conjugate(flat.rotation[parent]);
         const Pose& on = at[k];
@@ -178,24 +179,25 @@ struct Bending {
     }
 };
 
-void bend_thumb(Bending& hand, const ThumbAngles& angles) {
+void pose_thumb(DigitPose& hand, const ThumbAngles& angles) {
     // Wrist frame: −X points to the thumb's side, −Y out of the palm.
-    hand.hang(0, glm::angleAxis(angles.roll, along_z) * glm::angleAxis(angles.abduction, along_y), none);
-    hand.hang(1, none, flexed(angles.mcp));
-    hand.hang(2, none, flexed(angles.ip));
-    hand.hang(3, none, none);
+    hand.attach(0, glm::angleAxis(angles.roll, along_z) * glm::angleAxis(angles.abduction, along_y),
+                no_rotation);
+    hand.attach(1, no_rotation, flexed(angles.mcp));
+    hand.attach(2, no_rotation, flexed(angles.ip));
+    hand.attach(3, no_rotation, no_rotation);
 }
 
-void bend_finger(Bending& hand, const FingerAngles& angles, double arch, double to_little) {
-    hand.hang(0, none, flexed(arch));
-    hand.hang(1, glm::angleAxis(-to_little * angles.side, along_y), flexed(angles.mcp));
-    hand.hang(2, none, flexed(angles.pip));
-    hand.hang(3, none, flexed(angles.dip));
-    hand.hang(4, none, none);
+void pose_finger(DigitPose& hand, const FingerAngles& angles, double arch, double to_little) {
+    hand.attach(0, no_rotation, flexed(arch));
+    hand.attach(1, glm::angleAxis(-to_little * angles.side, along_y), flexed(angles.mcp));
+    hand.attach(2, no_rotation, flexed(angles.pip));
+    hand.attach(3, no_rotation, flexed(angles.dip));
+    hand.attach(4, no_rotation, no_rotation);
 }
 
 // Maps a joint of the unit right hand to this hand and wrist pose.
-void put(const Hand& hand, const Pose& wrist_pose, std::size_t joint, const Pose& at, Skeleton& out) {
+void write_joint(const Hand& hand, const Pose& wrist_pose, std::size_t joint, const Pose& at, Skeleton& out) {
     const bool right = hand.side == Side::right;
     const Quat& q = at.orientation;
     const Vec3 position = right ? at.position : at.position * Vec3(-1.0, 1.0, 1.0);
@@ -210,20 +212,20 @@ Hand make_hand(Side side, double length) { return {side, length / skeleton_lengt
 void place_digit(const Hand& hand, const Angles& angles, const Pose& wrist_pose, std::size_t digit,
                  Skeleton& out) {
     constexpr std::array<double, 5> arch{0.0, 0.0, 0.0, ring_share, 1.0};
-    Bending bent(hand.flat);
+    DigitPose bent(hand.flat);
     bent.first = digits[digit].first;
     if (digit == 0)
-        bend_thumb(bent, angles.thumb);
+        pose_thumb(bent, angles.thumb);
     else
-        bend_finger(bent, angles.fingers[digit - 1], arch[digit] * angles.arch, digit == 1 ? -1.0 : 1.0);
+        pose_finger(bent, angles.fingers[digit - 1], arch[digit] * angles.arch, digit == 1 ? -1.0 : 1.0);
     for (std::size_t k = 0; k < digits[digit].count; ++k)
-        put(hand, wrist_pose, bent.first + k, bent.at[k + 1], out);
+        write_joint(hand, wrist_pose, bent.first + k, bent.at[k + 1], out);
 }
 
 Skeleton joints(const Hand& hand, const Angles& angles, const Pose& wrist_pose) {
     Skeleton out;
     for (const std::size_t joint : {wrist, palm})
-        put(hand, wrist_pose, joint, {hand.flat.position[joint], hand.flat.rotation[joint]}, out);
+        write_joint(hand, wrist_pose, joint, {hand.flat.position[joint], hand.flat.rotation[joint]}, out);
     for (std::size_t digit = 0; digit < digit_count; ++digit)
         place_digit(hand, angles, wrist_pose, digit, out);
     return out;

@@ -1,6 +1,6 @@
-// Joint angles of a hand in rad: the output of the glove, the input of the kinematics. All zero is a flat
-// hand, fingers and thumb straight and side by side in the plane of the palm. Flexion towards the palm is
-// positive.
+// The hand: joint angles and their limits, the 26 joints of XR_EXT_hand_tracking, forward kinematics, and
+// capsules for collision. Angles in rad; all zero is a flat hand, fingers and thumb straight and side by side
+// in the plane of the palm. Flexion towards the palm is positive.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace bolt::hand {
 // Anatomical names: MCP is the knuckle, then PIP and DIP.
 struct FingerAngles {
     double mcp = 0.0, pip = 0.0, dip = 0.0;
-    double side =
-        0.0;  // abduction, away from the middle finger; for the middle finger towards the little finger
+    // Abduction, away from the middle finger; for the middle finger towards the little finger.
+    double side = 0.0;
 };
 
 struct ThumbAngles {
@@ -32,44 +32,43 @@ struct Angles {
     double wrist_side = 0.0;  // towards the thumb
 };
 
-// Ranges of the joints of a hand. Readings beyond them are errors of the glove and would show a broken
-// finger.
+// Ranges of the joints. Readings beyond them are errors of the glove and would display a broken finger.
 //
 // Sources: the American Academy of Orthopaedic Surgeons (Joint Motion: Method of Measuring and
 // Recording, 1965), a PIP of 110° as in J. Lin, Y. Wu, T. S. Huang, Modeling the constraints of human hand
 // motion (IEEE Workshop on Human Motion, 2000); of the carpometacarpal joints those of M. El-shennawy et al.
-// (J. Hand Surg. 26A(6), 2001, 1030-1035). They are population means, so `margin` is added on both sides.
+// (J. Hand Surg. 26A(6), 2001, 1030-1035). They are population means, so `range_margin` is added on both
+// sides.
 
-struct Span {
+struct AngleRange {
     double low = 0.0, high = 0.0;  // rad
 };
 
-inline constexpr double margin = to_radians(10.0);
+inline constexpr double range_margin = to_radians(10.0);
 
-constexpr Span degrees(double low, double high) {
-    return {to_radians(low) - margin, to_radians(high) + margin};
+constexpr AngleRange degrees(double low, double high) {
+    return {to_radians(low) - range_margin, to_radians(high) + range_margin};
 }
 
-inline constexpr Span mcp_span = degrees(-45.0, 90.0);
-inline constexpr Span pip_span = degrees(0.0, 110.0);
-inline constexpr Span dip_span = degrees(0.0, 90.0);
-inline constexpr Span side_span = degrees(-10.0, 20.0);
-inline constexpr Span thumb_roll_span = degrees(0.0, 90.0);
-inline constexpr Span thumb_abduction_span = degrees(0.0, 60.0);
-inline constexpr Span thumb_mcp_span = degrees(0.0, 50.0);
-inline constexpr Span thumb_ip_span = degrees(-20.0, 80.0);
-inline constexpr Span arch_span = degrees(0.0, 27.0);
-inline constexpr Span wrist_flexion_span = degrees(-70.0, 80.0);
-inline constexpr Span wrist_side_span = degrees(-30.0, 20.0);
+inline constexpr AngleRange mcp_range = degrees(-45.0, 90.0);
+inline constexpr AngleRange pip_range = degrees(0.0, 110.0);
+inline constexpr AngleRange dip_range = degrees(0.0, 90.0);
+inline constexpr AngleRange side_range = degrees(-10.0, 20.0);
+inline constexpr AngleRange thumb_roll_range = degrees(0.0, 90.0);
+inline constexpr AngleRange thumb_abduction_range = degrees(0.0, 60.0);
+inline constexpr AngleRange thumb_mcp_range = degrees(0.0, 50.0);
+inline constexpr AngleRange thumb_ip_range = degrees(-20.0, 80.0);
+inline constexpr AngleRange arch_range = degrees(0.0, 27.0);
+inline constexpr AngleRange wrist_flexion_range = degrees(-70.0, 80.0);
+inline constexpr AngleRange wrist_side_range = degrees(-30.0, 20.0);
 
 // Clamps each angle to its range; NaN becomes 0. The abduction range of a finger decreases linearly to zero
 // at 90° of MCP flexion (I. A. Kapandji, The Physiology of the Joints, vol. 1, on the collateral ligaments;
 // linear by assumption).
 Angles clamp_to_limits(const Angles& angles);
 
-// Angles of a hand that closes around a handle.
-
-// `share` 0: open, the thumb opposite the fingers; 1: a fist. Values chosen within limits.hpp.
+// Angles of a hand that closes around a handle. `share` 0: open, the thumb opposite the fingers; 1: a fist.
+// Values chosen within the ranges above.
 inline Angles closed_hand_angles(double share) {
     Angles a;
     const auto bent = [&](double degrees) { return share * to_radians(degrees); };
@@ -189,7 +188,7 @@ Skeleton mirrored(const Skeleton& skeleton);
 // A finger's MCP has two axes, abduction in the palm's plane and then flexion; its other joints have one. The
 // thumb's metacarpal rolls about the length of the hand and is abducted in the resulting plane; its other
 // joints flex. The palm arch flexes the metacarpals of little and ring finger in the ratio 27 : 20
-// (El-shennawy et al., see limits.hpp).
+// (El-shennawy et al., see above).
 
 // A person's hand.
 struct Hand {

@@ -1,6 +1,5 @@
-// The 1€ filter: a low-pass whose corner frequency rises with speed, so noise is suppressed at rest and lag
-// in motion. Source: G. Casiez, N. Roussel, D. Vogel, 1€ filter: a simple speed-based low-pass filter for
-// noisy input in interactive systems, CHI 2012.
+// The trainee's hand as measured by the glove: glove frames in, filtered and clamped joint angles out. Pure;
+// allocates nothing.
 #pragma once
 
 #include "engine/base/math.hpp"
@@ -10,8 +9,11 @@
 
 namespace bolt::hand {
 
-// At constant speed v the lag is below 1/(2π (at_rest + per_speed |v|)) s: with these values 6.5 ms at 1
-// rad/s, the speed of a slow deliberate motion, and less at higher speed.
+// The 1€ filter: a low-pass whose corner frequency rises with speed, which reduces noise at rest and lag in
+// motion. Source: G. Casiez, N. Roussel, D. Vogel, 1€ filter: a simple speed-based low-pass filter for noisy
+// input in interactive systems, CHI 2012. At constant speed v the lag is below 1/(2π (at_rest + per_speed
+// |v|)) s: with these values 6.5 ms at 1 rad/s, the speed of a slow deliberate motion, and less at higher
+// speed.
 struct OneEuroOptions {
     double at_rest = 1.5;     // Hz, corner frequency at rest
     double per_speed = 15.0;  // Hz per rad/s
@@ -24,7 +26,9 @@ struct OneEuro {
 };
 
 // Smoothing factor of a first-order low-pass with this corner frequency (Hz) and time step dt (s).
-inline double share(double corner, double dt) { return 1.0 / (1.0 + 1.0 / (2.0 * pi * corner * dt)); }
+inline double smoothing_factor(double corner, double dt) {
+    return 1.0 / (1.0 + 1.0 / (2.0 * pi * corner * dt));
+}
 
 // Filters the value measured `dt` seconds (> 0) after the last one.
 inline double filtered(OneEuro& filter, const OneEuroOptions& options, double value, double dt) {
@@ -33,13 +37,11 @@ inline double filtered(OneEuro& filter, const OneEuroOptions& options, double va
         return value;
     }
     const double speed = (value - filter.value) / dt;
-    filter.speed += share(options.of_speed, dt) * (speed - filter.speed);
+    filter.speed += smoothing_factor(options.of_speed, dt) * (speed - filter.speed);
     const double corner = options.at_rest + options.per_speed * std::abs(filter.speed);
-    filter.value += share(corner, dt) * (value - filter.value);
+    filter.value += smoothing_factor(corner, dt) * (value - filter.value);
     return filter.value;
 }
-
-// Converts glove readings to the joint angles of the hand.
 
 // Angle of each sensor's joint, rad, signs as in glove_calibration.hpp. A DIJ without a sensor follows its
 // PIJ; other joints without a calibrated sensor are 0, for example the wrist after a calibration by postures.
@@ -52,9 +54,6 @@ inline constexpr double dij_of_pij = 2.0 / 3.0;
 // Abduction sensors measure the angle between neighbouring fingers. They are summed outward from the middle
 // finger, whose own abduction is not measured and is taken as 0.
 hand::Angles hand_angles(const PerSensor<double>& angles);
-
-// The trainee's hand as measured by the glove: frames in, filtered and clamped angles out. Pure; allocates
-// nothing.
 
 struct GloveWearer {
     Calibration calibration;

@@ -6,7 +6,7 @@
 
 namespace bolt::joint {
 
-TorqueLevers torque_levers(const Thread& thread, double mu_thread, double mu_bearing,
+TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double mu_bearing,
                            double bearing_mean_diameter) {
     TorqueLevers levers;
     levers.lead = thread.pitch / (2.0 * pi);
@@ -15,18 +15,18 @@ TorqueLevers torque_levers(const Thread& thread, double mu_thread, double mu_bea
     return levers;
 }
 
-double sliding_slope(const Thread& thread, double mu_thread, double share) {
+double sliding_slope(const ScrewThread& thread, double mu_thread, double share) {
     const double lead = thread.pitch / (pi * thread.d2);
     const double friction = share * mu_thread / std::cos(thread_half_angle);
     return (lead + friction) / (1.0 - lead * friction);
 }
 
-double equivalent_stress_ratio(const Thread& thread, double mu_thread, double kappa, double share) {
+double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa, double share) {
     const double shear = kappa * (thread.d2 / thread.d0()) * sliding_slope(thread, mu_thread, share);
     return std::sqrt(1.0 + 3.0 * square(shear));
 }
 
-AssemblyPreload assembly_preload(const Thread& thread, const PropertyClass& bolt, double mu_thread,
+AssemblyPreload assembly_preload(const ScrewThread& thread, const PropertyClass& bolt, double mu_thread,
                                  double mu_bearing, double bearing_mean_diameter, double utilisation) {
     AssemblyPreload preload;
     const double stress = utilisation * bolt.R_p02 / equivalent_stress_ratio(thread, mu_thread, bolt.kappa);
@@ -36,7 +36,7 @@ AssemblyPreload assembly_preload(const Thread& thread, const PropertyClass& bolt
     return preload;
 }
 
-double bolt_compliance(const Thread& thread, double E, double grip, double shank) {
+double bolt_compliance(const ScrewThread& thread, double E, double grip, double shank) {
     const double smooth = std::clamp(shank, 0.0, grip);
     const double head = 0.5 * thread.d / thread.A_N();
     const double shaft = smooth / thread.A_N();

@@ -1,4 +1,5 @@
-// A joint as its author states it, in SI: what content files become and what the laws are derived from.
+// The design of a bolted joint in SI units, as read from content files, and what follows from it: torque
+// levers, assembly preload and elastic compliance (VDI 2230). The joint laws are derived from it.
 #pragma once
 
 #include <span>
@@ -35,7 +36,7 @@ struct JointDesign {
     double bolt_thread_length = 0;  // m; 0: ISO 4014
     bool washer_under_head = false;
     bool washer_under_nut = false;
-    std::vector<Member> members;   // what is clamped, without washers
+    std::vector<Member> members;   // clamped parts, without washers
     double member_diameter = 0.0;  // m, D_A of VDI 2230 (outer diameter of the clamped part); 0: unlimited
     FrictionDesign friction;
     double roughness_Rz = 16e-6;   // m, of the faces: chooses the embedding class
@@ -56,11 +57,9 @@ struct JointDesign {
     }
 };
 
-// Torque and clamp force of a metric thread: Motosh's three parts, and VDI 2230's closed forms.
-
 // The lever arms of T = F (P/2π + μ_G r_t/cos β + μ_K r_b), m. Motosh, J. Eng. Ind. 98 (1976) 849.
 struct TorqueLevers {
-    double lead = 0.0;     // P/2π: what stretches the bolt
+    double lead = 0.0;     // P/2π, the part that stretches the bolt
     double thread = 0.0;   // μ_G (d2/2) / cos β
     double bearing = 0.0;  // μ_K r_b, r_b effective bearing radius
 
@@ -69,7 +68,7 @@ struct TorqueLevers {
     [[nodiscard]] double loosen() const { return -lead + friction(); }  // torque against the nut's motion
 };
 
-TorqueLevers torque_levers(const Thread& thread, double mu_thread, double mu_bearing,
+TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double mu_bearing,
                            double bearing_mean_diameter);
 
 // D_Km = (d_w + d_h)/2, VDI 2230: mean diameter of the bearing under the turned nut or head.
@@ -79,11 +78,11 @@ inline double bearing_mean_diameter(double d_w, double d_h) { return 0.5 * (d_w 
 // +1 tightening, −1 loosening. VDI 2230's closed forms write it as P/(π d2) + 1.155 μ_G, the first order of
 // this; the published table A1 is reproduced to its rounding by the exact tangent (within 0.9 % by the closed
 // form).
-double sliding_slope(const Thread& thread, double mu_thread, double share = 1.0);
+double sliding_slope(const ScrewThread& thread, double mu_thread, double share = 1.0);
 
 // Ratio of equivalent (von Mises) to tensile stress while the thread torque acts: √(1 + 3 [κ (d2/d0) tan(φ +
 // ρ')]²).
-double equivalent_stress_ratio(const Thread& thread, double mu_thread, double kappa, double share = 1.0);
+double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa, double share = 1.0);
 
 struct AssemblyPreload {
     double force = 0.0;   // F_M, N
@@ -92,20 +91,21 @@ struct AssemblyPreload {
 
 // VDI 2230 table A1: preload at which the equivalent stress is `utilisation` of R_p0.2, and its torque
 // M_A = F_M (d2/2 tan(φ + ρ') + D_Km/2 μ_K).
-AssemblyPreload assembly_preload(const Thread& thread, const PropertyClass& bolt, double mu_thread,
+AssemblyPreload assembly_preload(const ScrewThread& thread, const PropertyClass& bolt, double mu_thread,
                                  double mu_bearing, double bearing_mean_diameter, double utilisation = 0.9);
 
-// Elastic compliance of bolt and clamped members, VDI 2230-1 sections 5.1.1 and 5.1.2. m/N.
+// Elastic compliance of the bolt, m/N, VDI 2230-1 section 5.1.1. δ_S: head (0.5 d), shank, free thread,
+// engaged thread (0.5 d on the core) and nut (0.4 d).
+double bolt_compliance(const ScrewThread& thread, double E, double grip, double shank);
 
-// δ_S: head (0.5 d), shank, free thread, engaged thread (0.5 d on the core) and nut (0.4 d).
-double bolt_compliance(const Thread& thread, double E, double grip, double shank);
-
-// δ_P of a stack of layers under the deformation cones of head and nut (through-bolted joint), concentric,
-// with a cone that may be cut by the outer diameter D_A (0: unlimited; the cone's angle is then taken at D_A
-// = 3 d_w). Layers of different modulus are integrated exactly along the cone.
+// Elastic compliance of the clamped members, m/N, VDI 2230-1 section 5.1.2. δ_P of a stack of layers under
+// the deformation cones of head and nut (through-bolted joint), concentric, with a cone that may be cut by
+// the outer diameter D_A (0: unlimited; the cone's angle is then taken at D_A = 3 d_w). Layers of different
+// modulus are integrated exactly along the cone.
 double member_compliance(std::span<const Member> layers, double bearing_diameter, double hole, double D_A);
 
-// Both, of a design: shank length from the bolt's thread length, washers as steel layers.
+// Compliance of bolt and members of a design, m/N. The shank length follows from the bolt's thread length;
+// washers are steel layers.
 double joint_compliance(const JointDesign& design);
 
 }  // namespace bolt::joint

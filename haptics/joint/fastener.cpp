@@ -64,7 +64,7 @@ constexpr ClassRow classes[] = {
     {"8.8",    640,  800,  660,  830, 0.91, 0.12, false},
     {"10.9",   940, 1040,  940, 1040, 0.88, 0.09, false},
     {"12.9",  1100, 1220, 1100, 1220, 0.88, 0.08, false},
-    // ISO 3506-1. It has no proof stress: austenitic steel leaves the straight line early, 0.8 is our estimate.
+    // ISO 3506-1. It has no proof stress; austenitic steel deviates from the elastic line early, 0.8 is our estimate.
     {"A2-50",  210,  500,  210,  500, 0.80, 0.30, true},
     {"A2-70",  450,  700,  450,  700, 0.80, 0.20, true},
     {"A2-80",  600,  800,  600,  800, 0.80, 0.15, true},
@@ -114,10 +114,10 @@ Result<ThreadSize> parse_thread(std::string_view text) {
         std::string pitches = pitch_text(size.coarse_pitch);
         for (const double p : size.fine_pitches)
             if (p > 0.0) pitches += ", " + pitch_text(p);
-        return fail(ErrorCode::bad_content, fmt::format("\"{}\" is no thread that we know", text),
+        return fail(ErrorCode::bad_content, fmt::format("\"{}\" is not a known thread", text),
                     fmt::format("pitches of {} in mm: {}", name, pitches));
     }
-    return unknown(fmt::format("\"{}\" is no thread size that we know", text), text, thread_names(),
+    return unknown(fmt::format("\"{}\" is not a known thread size", text), text, thread_names(),
                    "one of M4 to M39, a fine pitch as in \"M16x1.5\"");
 }
 
@@ -142,8 +142,8 @@ Result<PropertyClass> property_class(std::string_view name, double d) {
         result.stainless = c.stainless;
         return result;
     }
-    return unknown(fmt::format("\"{}\" is no property class that we know", name), name,
-                   property_class_names(), fmt::format("one of {}", fmt::join(property_class_names(), ", ")));
+    return unknown(fmt::format("\"{}\" is not a known property class", name), name, property_class_names(),
+                   fmt::format("one of {}", fmt::join(property_class_names(), ", ")));
 }
 
 double thread_length(double d, double l) {

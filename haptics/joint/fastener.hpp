@@ -1,4 +1,6 @@
-// ISO metric screw thread geometry (ISO 68-1 basic profile, ISO 724 basic dimensions).
+// ISO metric threads and fasteners: thread geometry (ISO 68-1 basic profile, ISO 724 basic dimensions), the
+// sizes M4 to M39 of bolts, nuts, washers and holes, and the strength of property classes and stainless
+// grades.
 #pragma once
 
 #include <span>
@@ -12,7 +14,7 @@
 namespace bolt::joint {
 
 // All lengths in metres, symbols as the standards write them.
-struct Thread {
+struct ScrewThread {
     double d = 0.0;      // nominal (major) diameter
     double pitch = 0.0;  // P
     double d2 = 0.0;     // pitch diameter, d − 0.64952 P
@@ -28,8 +30,8 @@ struct Thread {
 inline constexpr double thread_half_angle = pi / 6.0;  // β, flank angle of the ISO profile
 
 // Needs 0 < pitch and d − 1.22687 pitch > 0.
-inline Thread metric_thread(double d, double pitch) {
-    Thread t;
+inline ScrewThread metric_thread(double d, double pitch) {
+    ScrewThread t;
     t.d = d;
     t.pitch = pitch;
     t.d2 = d - 0.64952 * pitch;
@@ -37,8 +39,6 @@ inline Thread metric_thread(double d, double pitch) {
     t.A_s = 0.25 * pi * square(0.5 * (t.d2 + t.d3));
     return t;
 }
-
-// Tables behind "M16" and "8.8": bolts, nuts, washers and holes M4–M39, property classes, stainless grades.
 
 // Metres. Bolt ISO 4014/4017, nut ISO 4032 (style 1), washer ISO 7089, hole ISO 273 medium, thread ISO 261.
 struct FastenerSize {
@@ -61,7 +61,7 @@ std::span<const FastenerSize> fastener_sizes();
 
 struct ThreadSize {
     FastenerSize size;
-    Thread thread;
+    ScrewThread thread;
 };
 
 // "M16" (coarse) or "M16x1.5" (a pitch of ISO 261 for that size). The error names the nearest valid name.

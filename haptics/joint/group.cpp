@@ -38,7 +38,7 @@ CouplingMatrix couple(const FlangePlate& plate, std::span<const Vec3> seats) {
     CouplingMatrix m;
     m.own = plate.deflection_per_force(0.0);
     m.row_begin.push_back(0);
-    // Sorted by x, so that a large field of joints costs n log n and not n².
+    // Sorted by x, so that the cost for many joints is n log n instead of n².
     std::vector<std::uint32_t> by_x(seats.size());
     std::iota(by_x.begin(), by_x.end(), 0U);
     std::sort(by_x.begin(), by_x.end(), [&](auto a, auto b) { return seats[a].x < seats[b].x; });
@@ -65,7 +65,7 @@ double neighbour_closure(const CouplingMatrix& c, std::span<const JointState> jo
     return closure;
 }
 
-void publish(JointState& joint) {
+void copy_outputs(JointState& joint) {
     joint.clamp = joint.mechanistic.clamp;
     joint.breakaway = joint.mechanistic.dwell;
 
@@ -73,18 +73,18 @@ void publish(JointState& joint) {
     joint.condition = joint.mechanistic.condition;
 }
 
-void settle(const GroupParameters& group, std::span<JointState> joints, int moved, double angle, double share,
-            double dt) {
+void update_clamps(const GroupParameters& group, std::span<JointState> joints, int moved, double angle,
+                   double share, double dt) {
     for (std::size_t i = 0; i < joints.size(); ++i) {
         MechanisticState& s = joints[i].mechanistic;
         if (!group.coupling.row_begin.empty()) s.neighbours = neighbour_closure(group.coupling, joints, i);
         const bool turned = static_cast<int>(i) == moved;
         advance(group.joints[i], s, turned ? angle : s.angle, turned ? share : s.share, dt);
-        publish(joints[i]);
+        copy_outputs(joints[i]);
     }
 }
 
-void settle_published(const GroupParameters& group, JointState& joint, double angle, double share) {
+void update_published(const GroupParameters& group, JointState& joint, double angle, double share) {
     const double degrees = to_degrees(angle);
     published_advance(group.published, joint.published, degrees);
     const Direction direction = share < 0.0 ? Direction::loosen : Direction::tighten;
@@ -117,7 +117,7 @@ GroupParameters make_published_group(const PublishedParameters& parameters) {
 
 std::vector<JointState> initial_state(const GroupParameters& group, std::size_t joints) {
     std::vector<JointState> states(joints);
-    if (group.law == Law::mechanistic) settle(group, states, -1, 0.0, 0.0, 0.0);
+    if (group.law == Law::mechanistic) update_clamps(group, states, -1, 0.0, 0.0, 0.0);
     return states;
 }
 
@@ -126,7 +126,7 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
     const double degrees = to_degrees(state.nut.angle);
     const auto on = published_read(group.published, state.published, degrees, Direction::tighten);
     const auto off = published_read(group.published, state.published, degrees, Direction::loosen);
-    // The print gives the torques of the stages different signs; what is felt is their size, against the
+    // The paper gives the torques of the stages different signs; the hand feels their magnitude, against the
     // motion.
     Resistance r;
     r.tighten = std::abs(on.torque);
@@ -143,7 +143,7 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 }
 
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
-                     const Handle& handle, double dt) {
+                     const DriveHandle& handle, double dt) {
     ClickStep click;
     int moved = -1;
     double angle = 0.0, share = 0.0;
@@ -157,7 +157,7 @@ ClickStep step_group(const GroupParameters& group, std::span<JointState> joints,
         const double inertia = coupling_inertia(std::max(handle.stiffness, 1.0), dt);
         NutStep step = step_nut(resistance(group, i, joints[i]), inertia, joints[i].nut, handle, dt);
         click = step.click;
-        if (step.nut.angle < 0.0) {  // the end of the bolt: it stops there and the hand winds up
+        if (step.nut.angle < 0.0) {  // end of the thread: the nut stops and the handle winds up
             step.nut = {};
             step.torque = wound_torque(handle, 0.0);
         }
@@ -168,9 +168,9 @@ ClickStep step_group(const GroupParameters& group, std::span<JointState> joints,
         share = step.share;
     }
     if (group.law == Law::mechanistic)
-        settle(group, joints, moved, angle, share, dt);
+        update_clamps(group, joints, moved, angle, share, dt);
     else if (moved >= 0)
-        settle_published(group, joints[static_cast<std::size_t>(moved)], angle, share);
+        update_published(group, joints[static_cast<std::size_t>(moved)], angle, share);
     return click;
 }
 
@@ -179,30 +179,30 @@ void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::s
     JointState& j = joints[joint];
     j.nut = {angle, (angle - j.nut.angle) / dt};
     if (group.law == Law::mechanistic)
-        settle(group, joints, static_cast<int>(joint), angle, share, dt);
+        update_clamps(group, joints, static_cast<int>(joint), angle, share, dt);
     else
-        settle_published(group, j, angle, share);
+        update_published(group, j, angle, share);
     const Resistance r = resistance(group, joint, j);
     j.torque = share >= 0.0 ? r.tighten : r.loosen;
 }
 
 namespace {
 
-constexpr std::size_t longest = 2'000'000;
+constexpr std::size_t max_samples = 2'000'000;
 
 double signed_torque(const GroupParameters& group, const JointState& joint, Direction direction) {
     if (group.law == Law::mechanistic) return joint.torque;
     return published_read(group.published, joint.published, to_degrees(joint.nut.angle), direction).torque;
 }
 
-bool spent(const JointState& joint) { return joint.condition != Condition::sound; }
+bool has_failed(const JointState& joint) { return joint.condition != Condition::sound; }
 
-// Turns on until the torque is there; gives up where the joint no longer can.
+// Tightens until the torque is reached or the joint fails, then rests for 10 s.
 void tighten_to(const GroupParameters& group, std::vector<JointState>& joints, double torque,
                 const CurveOptions& o) {
-    for (std::size_t i = 0; i < longest && joints[0].torque < torque && !spent(joints[0]); ++i)
+    for (std::size_t i = 0; i < max_samples && joints[0].torque < torque && !has_failed(joints[0]); ++i)
         turn_nut(group, joints, 0, joints[0].nut.angle + o.speed * o.dt, 1.0, o.dt);
-    for (int i = 0; i < 10'000; ++i) step_group(group, joints, -1, Handle{}, 0.001);
+    for (int i = 0; i < 10'000; ++i) step_group(group, joints, -1, DriveHandle{}, 0.001);
 }
 
 }  // namespace
@@ -217,13 +217,13 @@ std::vector<CurveSample> torque_angle_curve(const GroupParameters& group, const 
     const double start = joint.nut.angle;
     const double step = (on ? 1.0 : -1.0) * o.speed * o.dt;
     double yield_begin = -1.0, free_begin = -1.0;
-    for (std::size_t i = 0; i < longest; ++i) {
+    for (std::size_t i = 0; i < max_samples; ++i) {
         turn_nut(group, joints, 0, start + step * static_cast<double>(i), on ? 1.0 : -1.0, o.dt);
         const double turned = std::abs(joint.nut.angle - start);
         samples.push_back({turned, joint.stage, signed_torque(group, joint, o.direction), joint.clamp});
         if (on) {
             if (joint.stage == Stage::yield && yield_begin < 0.0) yield_begin = turned;
-            if (spent(joint) ||
+            if (has_failed(joint) ||
                 (yield_begin >= 0.0 && turned >= yield_begin + o.past_yield - 0.5 * std::abs(step)))
                 break;
         } else {

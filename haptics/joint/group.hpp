@@ -1,16 +1,16 @@
-// How the joints of a group load and unload each other: the flange as a plate on an elastic foundation.
+// A group of joints under one law: its state and step, the coupling of its joints through the flange, and
+// torque-angle curves. The flange is a plate on an elastic foundation.
 //
-// Tightening one bolt presses the flange down around it, and the bolts beside it lose stretch; a little
-// further out the plate bends up and they gain some. No trustworthy coefficients for a gear casing are
-// published, so this model is ours, from the flange's own numbers: a thin plate (Kirchhoff) of flexural
-// rigidity D = E h³/(12 (1 − ν²)) on a foundation of stiffness k per area (the parting faces). Its deflection
-// at distance r from a force F is
+// Tightening one bolt presses the flange down around it, so neighbouring bolts lose preload; further away the
+// plate bends upward and bolts gain preload. No reliable coefficients for a gear casing are published, so
+// this model is ours, derived from the flange's own dimensions: a thin plate (Kirchhoff) of flexural rigidity
+// D = E h³/(12 (1 − ν²)) on a foundation of stiffness k per area (the parting faces). Its deflection at
+// distance r from a force F is
 //
 //   w(r) = −F ℓ²/(2π D) kei(r/ℓ),   ℓ = (D/k)^¼        (Hertz 1884; Timoshenko & Woinowsky-Krieger, §57)
 //
-// kei is the Kelvin function of order 0; kei(0) = −π/4. The operator behind it is positive, so the matrix of
-// w between any points is symmetric and positive semidefinite: the coupling stores energy and never makes
-// any.
+// kei is the Kelvin function of order 0; kei(0) = −π/4. The operator is positive, so the matrix of w between
+// any points is symmetric and positive semidefinite: the coupling stores energy and never generates any.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ struct FlangePlate {
 double kelvin_kei(double x);
 
 // Symmetric compliance between joints, sparse by rows (CSR) without the diagonal: w beyond 10 ℓ is below 10⁻³
-// of w(0) and left out. The own deflection, the diagonal, is the same for all.
+// of w(0) and is omitted. The diagonal, a joint's own deflection, is the same for all.
 struct CouplingMatrix {
     double own = 0.0;                      // m/N
     std::vector<std::uint32_t> row_begin;  // size joints + 1
@@ -47,20 +47,18 @@ struct CouplingMatrix {
 
 CouplingMatrix couple(const FlangePlate& plate, std::span<const Vec3> seats);
 
-// All joints of an assembly under one law, stepped together.
-
 struct GroupParameters {
     Law law = Law::mechanistic;
     std::vector<MechanisticParameters> joints;  // mechanistic
-    PublishedParameters published;              // published: the same for all, and every joint is alone
+    PublishedParameters published;              // published: the same for all joints, which are not coupled
     CouplingMatrix coupling;                    // mechanistic; empty: not coupled
 };
 
 struct JointState {
     NutMotion nut;
-    double torque = 0.0;  // N·m that the wrench or the fingers give now, tightening positive
+    double torque = 0.0;  // N·m applied by wrench or fingers, tightening positive
     double clamp = 0.0;   // N
-    // 0…1, how much of what friction has more at rest than sliding is there: wears off as the nut turns.
+    // 0…1, active share of the additional friction at rest; decreases as the nut turns.
     double breakaway = 0.0;
     Stage stage = Stage::navigation;
     Condition condition = Condition::sound;
@@ -68,8 +66,8 @@ struct JointState {
     PublishedState published;
 };
 
-// Derives the joints (seeded scatter: one stream a joint) and couples them through the flange if there is
-// one.
+// Derives the joints (seeded scatter, one random stream per joint) and couples them through the flange, if
+// any.
 GroupParameters make_group(std::span<const JointDesign> designs, const FlangePlate* flange,
                            std::uint64_t seed);
 GroupParameters make_published_group(const PublishedParameters& parameters);
@@ -78,39 +76,38 @@ std::vector<JointState> initial_state(const GroupParameters& group, std::size_t 
 
 Resistance resistance(const GroupParameters& group, std::size_t joint, const JointState& state);
 
-// One step of dt: the nut `driven` (or none: −1) under its handle, then every joint's clamp force. The
-// group's forces minimise a strictly convex energy; each step is one sweep of exact minimisation joint by
-// joint from the last solution, so it never diverges, and what it leaves open is closed by the next steps.
-// Returned: the handle's torque wrench.
+// One step of dt: moves the nut `driven` (−1: none) under its handle, then updates every joint's clamp force.
+// The group's forces minimise a strictly convex energy. Each step performs one sweep of exact minimisation,
+// joint by joint, from the last solution, so it never diverges, and the remaining error is reduced by the
+// next steps. Returns the step of the handle's click mechanism.
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
-                     const Handle& handle, double dt);
+                     const DriveHandle& handle, double dt);
 
-// Turns one nut to an angle as a machine would, kinematically, `share` the friction's direction (+1 on, −1
-// off).
+// Turns one nut to an angle kinematically, as a machine does. `share` is the direction of friction: +1
+// tightening, −1 loosening.
 void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::size_t joint, double angle,
               double share, double dt);
-
-// A torque–angle curve of one joint alone, turned at constant speed as a test bench turns it.
 
 struct CurveSample {
     double angle = 0.0;  // rad from the start of the run
     Stage stage = Stage::navigation;
-    double torque = 0.0;  // N·m; loosening negative. Law `published`: with the signs of the print
+    double torque = 0.0;  // N·m; loosening negative. Law `published`: with the paper's signs
     double clamp = 0.0;   // N
 };
 
 struct CurveOptions {
     Direction direction = Direction::tighten;
     double speed = to_radians(30.0);  // rad/s
-    double dt = 0.001;                // s, one sample a step
-    // Tightening ends `past_yield` after the yield stage has begun, or where the joint breaks or strips.
+    double dt = 0.001;                // s, one sample per step
+    // Tightening ends `past_yield` after the yield stage has begun, or when the joint breaks or strips.
     // Loosening starts from a joint tightened to `torque`, rested for 10 s, and ends when the nut has been
     // free for a quarter turn.
     double past_yield = to_radians(90.0);
     double torque = 0.0;
 };
 
-// `group` with one joint. Never longer than 2,000,000 samples.
+// The torque-angle curve of a single joint that a test bench turns at constant speed. `group` must have one
+// joint. At most 2,000,000 samples.
 std::vector<CurveSample> torque_angle_curve(const GroupParameters& group, const CurveOptions& options);
 
 }  // namespace bolt::joint

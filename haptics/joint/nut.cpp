@@ -7,10 +7,10 @@ namespace bolt::joint {
 
 namespace {
 
-// kg·m², of a nut alone.
+// kg·m², of the nut without a wrench.
 constexpr double nut_inertia = 1e-5;
 
-// Torque on the nut as it depends on the speed after the step: at_rest − dt · stiffness · ω.
+// Torque on the nut as a function of the speed ω after the step: at_rest − dt · stiffness · ω.
 struct Drive {
     double at_rest = 0.0;
     double stiffness = 0.0;
@@ -19,8 +19,7 @@ struct Drive {
 double next_speed(const Resistance& r, double inertia, NutMotion nut, const Drive& drive, double dt) {
     const double push = inertia * nut.speed / dt + drive.at_rest;
     const double mass = inertia / dt + dt * drive.stiffness;
-    const double floor =
-        0.1 * inertia / dt;  // a resistance that falls faster than this is caught, not followed
+    const double floor = 0.1 * inertia / dt;  // bounds the effect of a resistance that falls faster
     if (push > r.tighten) return (push - r.tighten) / std::max(mass + dt * r.tighten_slope, floor);
     if (push < r.loosen) return (push - r.loosen) / std::max(mass + dt * r.loosen_slope, floor);
     return 0.0;
@@ -32,66 +31,10 @@ double share_of(const Resistance& r, double torque, double speed) {
     return friction > 0.0 ? std::clamp((torque - r.lead) / friction, -1.0, 1.0) : 0.0;
 }
 
-NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt);
-
-// A mechanism that swings against `holds` is, over one implicit step, a softer spring wound further: with
-// c (swung' − swung)/dt = T' − holds put into T' = K (hand − nut' − swung' ∓ play).
-Handle swinging(const Handle& handle, double holds, double dt) {
-    const double share = dt / handle.click.settles;
-    Handle soft = handle;
-    soft.angle += share * holds / handle.stiffness - handle.swung;
-    soft.stiffness = handle.stiffness / (1.0 + share);
-    return soft;
-}
-
-// Stood, swung on or swung back: the one that is consistent. What has swung resists the more the faster it
-// goes, so there is but one; what has not swung holds to its setting first.
-NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const Handle& handle, double dt) {
-    const Click& click = handle.click;
-    const double on = click.falls_to * click.setting, back = click.rearms_at * click.setting;
-    const auto standing_at = [&](double swung) {
-        Handle stiff = handle;
-        stiff.angle -= swung;
-        NutStep step = step_rigid(r, inertia, nut, stiff, dt);
-        step.click.swung = swung;
-        return step;
-    };
-    const NutStep stood = standing_at(handle.swung);
-    const bool armed = handle.swung <= 0.0;
-    const bool goes_on = handle.swung < click.swing && stood.torque > (armed ? click.setting : on);
-    const bool goes_back = !armed && stood.torque < back;
-    if (!goes_on && !goes_back) return stood;
-    const double holds = goes_on ? on : back;
-    NutStep step = step_rigid(r, inertia, nut, swinging(handle, holds, dt), dt);
-    const double swung = handle.swung + (step.torque - holds) * dt / (handle.stiffness * click.settles);
-    if (swung >= click.swing)
-        step = standing_at(click.swing);
-    else if (swung <= 0.0)
-        step = standing_at(0.0);
-    else
-        step.click.swung = swung;
-    step.click.clicked = armed && step.click.swung > 0.0;
-    return step;
-}
-
-}  // namespace
-
-double wound_torque(const Handle& handle, double nut_angle) {
-    if (!handle.engaged) return 0.0;
-    const double gap = handle.angle - handle.swung - nut_angle;
-    const double torque = handle.stiffness * (gap - std::clamp(gap, -handle.half_play, handle.half_play));
-    return handle.torque_limit > 0.0 ? std::clamp(torque, -handle.torque_limit, handle.torque_limit) : torque;
-}
-
-NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt) {
-    if (handle.engaged && handle.click.trips()) return step_clicking(given, inertia, nut, handle, dt);
-    return step_rigid(given, inertia, nut, handle, dt);
-}
-
-namespace {
-
-NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const Handle& handle, double dt) {
-    // A thread that would run by itself is held by the fingers that started it: the nut rests at zero torque.
+NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const DriveHandle& handle,
+                   double dt) {
+    // A nut that would run down by its own weight is held by the fingers that started it: it rests at zero
+    // torque.
     Resistance r = given;
     r.tighten = std::max(r.tighten, 0.0);
     r.loosen = std::min(r.loosen, 0.0);
@@ -103,8 +46,8 @@ NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const
     const double mass = wound == 0.0 ? std::min(inertia, nut_inertia) : inertia;
     double speed = next_speed(r, mass, nut, drive, dt);
     if (wound == 0.0 && handle.engaged && std::abs(gap - dt * speed) > handle.half_play) {
-        // It would leave the play within the step: the edge that it meets pushes in this step already.
-        // Without this the nut comes back from each edge faster than it came.
+        // The nut would leave the play within the step, so the edge that it meets acts in this step already.
+        // Otherwise the nut would return from each edge faster than it arrived.
         const double edge = std::copysign(handle.half_play, gap - dt * speed);
         wound = gap - edge;
         drive = {handle.stiffness * wound, handle.stiffness};
@@ -123,7 +66,7 @@ NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const
         drive = {};
         speed = next_speed(r, mass, nut, drive, dt);
         step.torque = 0.0;
-        // Thrown across the play within the step, it stops at the other edge.
+        // A nut that would cross the whole play within the step stops at the other edge.
         const double after = gap - dt * speed;
         if (std::abs(after) > handle.half_play && after * gap < 0.0)
             speed = (gap - std::copysign(handle.half_play, after)) / dt;
@@ -133,20 +76,76 @@ NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const
     return step;
 }
 
+// A mechanism that swings against the torque `holds` is equivalent, over one implicit step, to a softer
+// spring that is wound further. This follows from c (swung' − swung)/dt = T' − holds inserted into T' = K
+// (hand − nut' − swung' ∓ play).
+DriveHandle swinging_handle(const DriveHandle& handle, double holds, double dt) {
+    const double share = dt / handle.click.settles;
+    DriveHandle soft = handle;
+    soft.angle += share * holds / handle.stiffness - handle.swung;
+    soft.stiffness = handle.stiffness / (1.0 + share);
+    return soft;
+}
+
+// Selects the consistent one of three cases: standing, swinging on, swinging back. It is unique, because a
+// mechanism that has swung resists in proportion to its speed, and one that has not swung holds up to its
+// setting.
+NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const DriveHandle& handle,
+                      double dt) {
+    const Click& click = handle.click;
+    const double on = click.falls_to * click.setting, back = click.rearms_at * click.setting;
+    const auto standing_at = [&](double swung) {
+        DriveHandle stiff = handle;
+        stiff.angle -= swung;
+        NutStep step = step_rigid(r, inertia, nut, stiff, dt);
+        step.click.swung = swung;
+        return step;
+    };
+    const NutStep stood = standing_at(handle.swung);
+    const bool armed = handle.swung <= 0.0;
+    const bool goes_on = handle.swung < click.swing && stood.torque > (armed ? click.setting : on);
+    const bool goes_back = !armed && stood.torque < back;
+    if (!goes_on && !goes_back) return stood;
+    const double holds = goes_on ? on : back;
+    NutStep step = step_rigid(r, inertia, nut, swinging_handle(handle, holds, dt), dt);
+    const double swung = handle.swung + (step.torque - holds) * dt / (handle.stiffness * click.settles);
+    if (swung >= click.swing)
+        step = standing_at(click.swing);
+    else if (swung <= 0.0)
+        step = standing_at(0.0);
+    else
+        step.click.swung = swung;
+    step.click.clicked = armed && step.click.swung > 0.0;
+    return step;
+}
+
 }  // namespace
+
+double wound_torque(const DriveHandle& handle, double nut_angle) {
+    if (!handle.engaged) return 0.0;
+    const double gap = handle.angle - handle.swung - nut_angle;
+    const double torque = handle.stiffness * (gap - std::clamp(gap, -handle.half_play, handle.half_play));
+    return handle.torque_limit > 0.0 ? std::clamp(torque, -handle.torque_limit, handle.torque_limit) : torque;
+}
+
+NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const DriveHandle& handle,
+                 double dt) {
+    if (handle.engaged && handle.click.trips()) return step_clicking(given, inertia, nut, handle, dt);
+    return step_rigid(given, inertia, nut, handle, dt);
+}
 
 namespace {
 
 constexpr double pascals_per_vickers = 9.80665e6;
-constexpr double wedge = 2.0 * pi / 3.0;  // between two flats
+constexpr double wedge_angle = 2.0 * pi / 3.0;  // rad, between two flats
 
 struct Hardness {
-    std::string_view bolts;  // begin of their class
+    std::string_view bolts;  // beginning of the bolt class
     double small, large;     // HV, up to M16 and above
 };
 
-// The first that fits.
-constexpr Hardness table[] = {
+// The first matching row applies.
+constexpr Hardness nut_hardnesses[] = {
     {"12.", 295, 272}, {"10.", 272, 272}, {"9.", 188, 188}, {"8.", 200, 233},
     {"6.", 150, 170},  {"5.", 130, 146},  {"4.", 130, 146},
 };
@@ -154,7 +153,7 @@ constexpr Hardness table[] = {
 }  // namespace
 
 double nut_hardness(const PropertyClass& bolt_class, double d) {
-    for (const Hardness& row : table)
+    for (const Hardness& row : nut_hardnesses)
         if (bolt_class.name.starts_with(row.bolts))
             return pascals_per_vickers * (d < 16.5e-3 ? row.small : row.large);
     return 3.0 * bolt_class.R_m;
@@ -162,7 +161,7 @@ double nut_hardness(const PropertyClass& bolt_class, double d) {
 
 double corner_pressure(double hardness) {
     const double flow = hardness / 3.0;
-    return 2.0 / std::sqrt(3.0) * flow * (1.0 + wedge - 0.5 * pi);
+    return 2.0 / std::sqrt(3.0) * flow * (1.0 + wedge_angle - 0.5 * pi);
 }
 
 double corner_torque(double pressure, const CornerGrip& g) {
@@ -176,8 +175,8 @@ double rounded_half_play(double opening, double across_flats, double lost) {
     // cos ψ s/2 + sin ψ x = w/2 with x = s/√12 - lost.
     const double half = 0.5 * across_flats;
     const double x = std::max(0.0, half / std::sqrt(3.0) - lost), reach = std::hypot(half, x);
-    const double lean = std::atan2(x, half), c = 0.5 * opening / reach;
-    return c >= 1.0 ? pi / 6.0 : std::max(0.0, lean - std::acos(c));
+    const double corner_angle = std::atan2(x, half), c = 0.5 * opening / reach;
+    return c >= 1.0 ? pi / 6.0 : std::max(0.0, corner_angle - std::acos(c));
 }
 
 }  // namespace bolt::joint

@@ -7,7 +7,7 @@ namespace bolt::joint {
 
 namespace {
 
-constexpr double g = 9.8;  // m/s², as the paper has it
+constexpr double g = 9.8;  // m/s², the paper's value
 constexpr double Nmm = 1e-3;
 
 double sign_of(Direction direction) { return direction == Direction::tighten ? 1.0 : -1.0; }

@@ -2,8 +2,8 @@
 // mechanical assembly" (Int. J. Adv. Manuf. Technol., 2018), exactly as printed, with its Table 1 as
 // defaults.
 //
-// The paper's own units are kept in its parameters (mm, N, GPa, rad, N·m) because its printed figures are the
-// oracle; the functions return SI. What the paper leaves open is ours and marked so.
+// The parameters keep the paper's units (mm, N, GPa, rad, N·m), because tests compare with its printed
+// figures; the functions return SI. What the paper leaves open is ours and marked so.
 #pragma once
 
 #include "engine/base/math.hpp"
@@ -52,14 +52,14 @@ double published_linear_slope(const PublishedParameters& p);
 // Stage 4, N·m, at the nut angle in degrees: T_max − κ1 (θ − θ_max)²; constant beyond θ_max (ours).
 double published_yield_torque(const PublishedParameters& p, double theta_deg);
 
-// Where the stages begin, degrees of nut angle from the start.
+// Nut angle at which each stage begins, degrees from the start.
 struct PublishedBoundaries {
     double transition, linearity, yield;
 };
 PublishedBoundaries published_boundaries(const PublishedParameters& p);
 
-// A joint under this law. After the yield stage it unloads along the elastic line, `set_deg` further on
-// (ours).
+// State of a joint under this law. After the yield stage it unloads along the elastic line shifted by
+// `set_deg` (ours).
 struct PublishedState {
     double peak_deg = 0.0;  // furthest angle reached in the yield stage; 0 before
     double set_deg = 0.0;   // permanent shift of the elastic line
@@ -71,11 +71,11 @@ struct PublishedReading {
     double clamp = 0.0;   // N; F_c in the transition, F_b after
 };
 
-// Pure: what the law says at this angle in this direction.
+// The law's reading at this angle in this direction. Pure.
 PublishedReading published_read(const PublishedParameters& p, const PublishedState& s, double theta_deg,
                                 Direction direction);
 
-// Remembers the peak and the set after the nut has moved to theta_deg.
+// Updates peak and set after the nut has moved to theta_deg.
 void published_advance(const PublishedParameters& p, PublishedState& s, double theta_deg);
 
 }  // namespace bolt::joint

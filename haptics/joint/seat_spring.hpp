@@ -1,4 +1,5 @@
-// The Wright omega function of a real argument: the ω with ω + ln ω = x.
+// The clamp force of a joint as a function of its closure, with a smooth seat, and the Wright omega function
+// that it needs: the ω with ω + ln ω = x for real x.
 #pragma once
 
 #include <cmath>
@@ -7,18 +8,17 @@
 
 namespace bolt::joint {
 
-// A step of the fourth-order iteration of Lawrence, Corless and Jeffrey, ACM Trans. Math. Softw. 38(3)
-// (2012), algorithm 917, from `w` with the residual r = x − w − ln w. It leaves (2w² − 8w − 1) / (72 (1 +
-// w)⁶) r⁴.
+// One step of the fourth-order iteration of Lawrence, Corless and Jeffrey, ACM Trans. Math. Softw. 38(3)
+// (2012), algorithm 917, from `w` with the residual r = x − w − ln w. The residual afterwards is (2w² − 8w −
+// 1) / (72 (1 + w)⁶) r⁴.
 inline double wright_omega_step(double w, double r) {
     const double w1 = 1.0 + w;
     const double t = 2.0 * w1 * (w1 + (2.0 / 3.0) * r);
     return w * (1.0 + (r / w1) * (t - r) / (t - 2.0 * r));
 }
 
-// Relative error below 1e-15, and for negative x that times 1 + |x|, as far as x itself is known; 0 where ω
-// underflows. A starting value and two steps; one where the
-// start's residual is below 0.015, as it is from 30 up.
+// Relative error below 1e-15, for negative x times 1 + |x|; 0 where ω underflows. Two iteration steps from a
+// starting value; one step suffices for x > 30, where the initial residual is below 0.015.
 inline double wright_omega(double x) {
     if (x < -36.0) return x < -700.0 ? 0.0 : std::exp(x);  // ω = e^x (1 − e^x + …)
     double w = 0.0;
@@ -36,7 +36,7 @@ inline double wright_omega(double x) {
     return x > 30.0 ? w : wright_omega_step(w, x - w - std::log(w));
 }
 
-// The same to the same error, from a value that is thought to be near: a single step where that is enough.
+// The same with the same error, from the estimate `near` of the result: a single step if that suffices.
 inline double wright_omega(double x, double near) {
     if (!(near > 0.0)) return wright_omega(x);
     const double r = x - near - std::log(near);
@@ -45,8 +45,7 @@ inline double wright_omega(double x, double near) {
     return wright_omega_step(near, r);
 }
 
-// Clamp force over closure: an elastic joint in series with a seat whose rough, misfitting faces come to
-// bear.
+// Clamp force as a function of closure: an elastic joint in series with a seat of rough, misfitting faces.
 //
 //   x = δ F + u0 ln(F/F0)
 //
@@ -54,8 +53,8 @@ inline double wright_omega(double x, double near) {
 // real area of contact is proportional to the load and the load falls exponentially with the gap (Persson,
 // Phys. Rev. Lett. 99 (2007) 125502; u0 ≈ 0.5 h_rms), with u0 widened by the misfit of the faces. F0 is the
 // load at nominal touch, x = 0. The inverse is closed: F = (u0/δ) ω(x/u0 + ln(F0 δ/u0)) with the Wright omega
-// function. It is positive, smooth to every order and increasing from a wide gap (F → 0) to the elastic line
-// (dF/dx → 1/δ): navigation, transition and linearity are one formula, with no switch to jump at.
+// function. F is positive, infinitely differentiable and increasing from a wide gap (F → 0) to the elastic
+// line (dF/dx → 1/δ). One formula covers navigation, transition and linearity without a discontinuity.
 
 struct SeatSpring {
     double compliance = 0.0;                                     // δ, m/N
@@ -68,7 +67,7 @@ struct SeatSpring {
         double stiffness = 0.0;  // dF/dx, N/m
     };
 
-    // `near`: a force that is thought to be close, which saves work where it is; 0: none.
+    // `near`: N, an estimate of the force, which saves work; 0: none.
     [[nodiscard]] Load at(double closure, double near = 0.0) const {
         const double w = wright_omega(closure / scale + origin, near * compliance / scale);
         return {scale / compliance * w, w / (1.0 + w) / compliance};

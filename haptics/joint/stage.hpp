@@ -1,4 +1,4 @@
-// What the hand feels now, and in which condition the joint is. Plain names shared by both laws.
+// The laws of a joint, the stage that the hand feels, and the joint's condition. Both laws use these names.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace bolt::joint {
 
 enum class Law : std::uint8_t { published, mechanistic };
 
-// The four stages of the 2018 paper, read off the state.
+// The four stages of the 2018 paper, derived from the state.
 enum class Stage : std::uint8_t { navigation, transition, linearity, yield };
 inline constexpr int stage_count = 4;
 

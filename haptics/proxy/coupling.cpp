@@ -12,11 +12,12 @@ constexpr double hardest_speed = 0.5;  // m/s
 constexpr double millisecond = 1e-3;   // s
 constexpr double step_share = 0.1;     // of the greatest force, in a millisecond
 
-// Linear for small x, towards `most` for large ones; at half of it 1.5 % less than linear.
+// Smooth saturation: linear for small x, tends to the length `most` for large x; 1.5 % below linear at half
+// of it.
 Vec3 saturated(const Vec3& x, double most) {
     if (most <= 0.0) return Vec3(0.0);
     const double ratio = glm::dot(x, x) / square(most);
-    // Beyond that 1 + ratio² is ratio² to the last bit, and could overflow.
+    // Beyond this 1 + ratio² equals ratio² in double, and the square could overflow.
     if (ratio > 1e8) return x * (most / glm::length(x));
     return x / std::sqrt(std::sqrt(1.0 + square(ratio)));
 }
@@ -26,7 +27,7 @@ struct Spring {
     double damping = 0.0;
 };
 
-// Half of what passivity leaves goes to the damper: K dt / 2 + B ≤ margin b with K at its greatest, B = 0.
+// The stiffest spring with K dt / 2 ≤ margin b, and a damper with half of the damping that remains.
 Spring passive(double greatest, double physical, double dt) {
     Spring spring;
     spring.stiffness = std::min(greatest, margin * 2.0 * physical / dt);
@@ -38,13 +39,15 @@ Spring passive(double greatest, double physical, double dt) {
 
 Coupling make_coupling(const CouplingRange& range) {
     Coupling coupling;
-    // N·s/m: force a millisecond and speed. Where none is rendered nothing hits hard.
+    // N·s/m: permitted increase of the force per millisecond, divided by the speed; unlimited if no force is
+    // rendered.
     const double hardest = range.force > 0.0 ? step_share * range.force / hardest_speed
                                              : std::numeric_limits<double>::infinity();
     const Spring straight =
         passive(std::min(range.stiffness, 0.75 * hardest / millisecond), range.damping, range.dt);
     coupling.stiffness = straight.stiffness;
-    // The damper answers a collision at once: both together stay within what a millisecond may bring.
+    // The damper responds to a collision at once, so spring and damper together must stay within the limit
+    // per millisecond.
     coupling.damping = std::min(straight.damping, hardest - straight.stiffness * millisecond);
     const Spring turning = passive(range.torsion, range.torsion_damping, range.dt);
     coupling.torsion = turning.stiffness;
@@ -68,13 +71,13 @@ force::OutputCommand coupling_force(const Coupling& c, const Offset& offset, con
 }
 
 double stored_energy(const Coupling& c, const Offset& offset) {
-    // Of a spring whose stiffness nowhere exceeds K, F²/2K or more is stored. For the turn, whose torque goes
-    // with the sine, that is K sin²/2, and K (1 - cos) is more.
-    const auto held = [](const Vec3& force, double stiffness) {
+    // A spring whose stiffness nowhere exceeds K stores at least F²/2K. For rotation, where the torque
+    // follows the sine, this bound is K sin²/2, which is less than the exact K (1 − cos).
+    const auto stored = [](const Vec3& force, double stiffness) {
         return stiffness > 0.0 ? 0.5 * glm::dot(force, force) / stiffness : 0.0;
     };
-    return held(saturated(c.stiffness * offset.linear, c.force), c.stiffness) +
-           held(saturated(c.torsion * offset.angular, c.torque), c.torsion);
+    return stored(saturated(c.stiffness * offset.linear, c.force), c.stiffness) +
+           stored(saturated(c.torsion * offset.angular, c.torque), c.torsion);
 }
 
 }  // namespace bolt::proxy

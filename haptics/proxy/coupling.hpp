@@ -1,5 +1,5 @@
-// The virtual coupling: a spring and damper between the device and the tool that contacts hold back (Colgate,
-// Stanley and Brown, IROS 1995). What it renders is all that is felt of a contact.
+// The virtual coupling: a spring and damper between the device and the tool, which contacts hold back
+// (Colgate, Stanley and Brown, IROS 1995). The hand feels contacts only through it.
 #pragma once
 
 #include "engine/base/math.hpp"
@@ -12,42 +12,42 @@ struct Coupling {
     double torsion = 10.0;         // N·m/rad
     double damping = 0.0;          // N·s/m
     double torsion_damping = 0.0;  // N·m·s/rad
-    // N and N·m that are approached and never exceeded. 0: none is rendered.
+    // N and N·m at which the output saturates smoothly. 0: none is rendered.
     double force = 20.0;
     double torque = 2.0;
 };
 
-// What a device, with a hand on it, can take.
+// Capability of a device with a hand on it.
 struct CouplingRange {
     double force = 20.0;            // N
     double torque = 2.0;            // N·m; 0: renders none
-    double stiffness = 3000.0;      // N/m, the stiffest wall it may render
+    double stiffness = 3000.0;      // N/m, greatest stiffness that it may render
     double torsion = 30.0;          // N·m/rad
-    double damping = 2.0;           // N·s/m, its own and the hand's
+    double damping = 2.0;           // N·s/m, of device and hand together
     double torsion_damping = 0.02;  // N·m·s/rad
     double dt = 0.001;              // s
 };
 
-// As stiff as passivity allows, b > K dt / 2 + |B| (Colgate and Schenkel, J. Robotic Systems 14(1), 1997),
-// with a margin; no stiffer than that a collision at 0.5 m/s adds at most a tenth of the greatest force in a
-// millisecond; damped with half of what is left. Its springs weigh a tool's motions against each other also
-// where a device renders no force or torque, so they are never 0 for that.
+// As stiff as passivity permits with a margin, b > K dt / 2 + |B| (Colgate and Schenkel, J. Robotic Systems
+// 14(1), 1997), but not stiffer than a collision at 0.5 m/s permits, which may add at most a tenth of the
+// greatest force per millisecond. Half of the remaining damping is used. The stiffnesses are positive even if
+// the device renders no force or torque, because they also weight the tool's motions.
 Coupling make_coupling(const CouplingRange& range);
 
-// Tool against device.
+// Pose of the tool relative to the device.
 struct Offset {
     Vec3 linear{0.0};   // m
-    Vec3 angular{0.0};  // axis times the sine of the angle: no leap anywhere, half a turn pulls neither way
+    Vec3 angular{0.0};  // axis times the sine of the angle, which is continuous; it vanishes at half a turn
 };
 
 Offset offset_between(const Pose& device, const Pose& tool);
 
-// At the device's origin, on the device. `before`: the offset of the last tick.
+// The force and torque on the device at its origin. `before`: the offset of the last tick.
 force::OutputCommand coupling_force(const Coupling& coupling, const Offset& offset, const Offset& before,
                                     double dt);
 
-// J that the springs hold and may give back, for the passivity observer. A lower bound: exact while they are
-// linear, less by what saturation rounds off.
+// J stored in the springs, for the passivity observer. A lower bound: exact in the linear range, too small
+// where the force saturates.
 double stored_energy(const Coupling& coupling, const Offset& offset);
 
 }  // namespace bolt::proxy

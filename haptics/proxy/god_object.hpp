@@ -22,7 +22,7 @@ namespace bolt::proxy {
 using ContactFinder =
     FunctionRef<collision::ContactQueryResult(const Pose&, double band, std::span<collision::Contact>)>;
 
-inline constexpr std::size_t most_contacts = 32;  // room that the finder gets
+inline constexpr std::size_t max_contacts = 32;  // room that the finder gets
 
 // Limits of the change of the rendered force per millisecond that the god-object's own motion causes
 // (slipping, falling off an edge), beyond the change that the hand's motion would cause with the tool held.

@@ -17,12 +17,12 @@ constexpr double along_axis = 0.8;        // handle · axis above which the azim
 constexpr double leap = 0.35;             // rad in a tick, faster than any hand
 constexpr double hold_relaxation = 0.05;  // s
 
-struct Offset {
+struct NutOffset {
     double axial = 0.0;   // m, along the nut's axis
     double radial = 0.0;  // m
 };
 
-Offset offset_of(const Vec3& from_centre, const NutGeometry& nut) {
+NutOffset offset_of(const Vec3& from_centre, const NutGeometry& nut) {
     const double axial = glm::dot(from_centre, nut.axis);
     return {axial, glm::length(from_centre - axial * nut.axis)};
 }
@@ -32,12 +32,12 @@ bool tilted_away(const NutGeometry& nut, const ToolPose& tool, Grip grip) {
     return grip == Grip::wrench && std::abs(glm::dot(tool.normal, nut.axis)) < tilted_off;
 }
 
-bool pulled_away(const NutGeometry& nut, const Offset& o, Grip grip) {
+bool pulled_away(const NutGeometry& nut, const NutOffset& o, Grip grip) {
     if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) > 2.0 * finger_reach;
     return std::abs(o.axial) > 0.6 * nut.height || o.radial > 0.3 * nut.across_flats;
 }
 
-bool fits(const Setup& setup, const NutGeometry& nut, const Offset& o, const ToolPose& tool, Grip grip,
+bool fits(const Setup& setup, const NutGeometry& nut, const NutOffset& o, const ToolPose& tool, Grip grip,
           double misalignment) {
     if (tilted_away(nut, tool, grip)) return false;
     if (grip == Grip::fingers) return std::hypot(o.axial, o.radial) < finger_reach;
@@ -89,7 +89,7 @@ void update_engagement(const Setup& setup, std::span<const joint::JointState> jo
     if (e.joint >= 0) {
         const NutGeometry& nut = setup.nuts[static_cast<std::size_t>(e.joint)];
         const double nut_angle = joints[static_cast<std::size_t>(e.joint)].nut.angle;
-        const Offset o = offset_of(tool.position - nut_centre(nut, nut_angle), nut);
+        const NutOffset o = offset_of(tool.position - nut_centre(nut, nut_angle), nut);
         const double azimuth = tool_azimuth(setup, nut, tool, grip);
         const double turned = wrap(azimuth - e.azimuth, 2.0 * pi);
         if (grip == e.grip && !pulled_away(nut, o, grip) && !tilted_away(nut, tool, grip) &&
@@ -124,7 +124,7 @@ namespace {
 
 constexpr double tolerance = 1e-3;  // rad; the god-object's tolerance of micrometres at half a flat's length
 constexpr double near = 0.1;        // m from jaw to nut beyond which a nut is skipped
-constexpr double least_limit = 1e-9;  // N·m; Handle::torque_limit 0 means unlimited
+constexpr double least_limit = 1e-9;  // N·m; DriveHandle::torque_limit 0 means unlimited
 
 // Modelling assumptions: a jaw slips off a corner once it has turned by its whole backlash beyond the
 // corner's torque, but not faster than an elastic wrench swings back.
@@ -176,7 +176,7 @@ void update_jaw_grip(const Setup& setup, std::span<const joint::JointState> join
         const double azimuth = azimuth_of(setup, setup.nuts[i], tool);
         const double turned = wrap(azimuth - e.azimuth, 2.0 * pi);
         e.seat = seat_on(i);
-        if (e.grip == Grip::wrench && e.seat.around(jaw.opening) && std::abs(turned) < leap) {
+        if (e.grip == Grip::wrench && e.seat.surrounds(jaw.opening) && std::abs(turned) < leap) {
             e.hand_angle += turned;
             e.azimuth = azimuth;
             return;
@@ -190,7 +190,7 @@ void update_jaw_grip(const Setup& setup, std::span<const joint::JointState> join
         if (glm::length(tool.position - nut_centre(nut, nut_angle)) > near) continue;
         const collision::JawSeat seat = seat_on(i);
         // The bevel is the hysteresis: a hand that trembles at the edge does not engage and release in turn.
-        if (!seat.around(jaw.opening) || seat.overlap < jaw.bevel) continue;
+        if (!seat.surrounds(jaw.opening) || seat.overlap < jaw.bevel) continue;
         if (std::abs(seat.misalignment) > play_of(setup, nut, lost[i]) + tolerance) continue;
         e.joint = static_cast<int>(i);
         e.grip = Grip::wrench;
@@ -201,8 +201,8 @@ void update_jaw_grip(const Setup& setup, std::span<const joint::JointState> join
     }
 }
 
-joint::Handle jaw_handle(const Setup& setup, const NutGeometry& nut, double lost, const Engagement& e) {
-    joint::Handle handle;
+joint::DriveHandle jaw_handle(const Setup& setup, const NutGeometry& nut, double lost, const Engagement& e) {
+    joint::DriveHandle handle;
     handle.engaged = true;
     handle.angle = e.hand_angle;
     handle.half_play = play_of(setup, nut, lost);

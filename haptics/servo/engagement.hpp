@@ -1,6 +1,6 @@
-// Determines which nut the hand holds. This file covers fingers, and a wrench without contact simulation:
-// they engage if the pose fits, that is level with the nut, centred, square to the axis and aligned within
-// the play. With contact simulation jaw_grip.hpp applies.
+// Determines which nut the hand holds. Fingers, and a wrench without contact simulation, engage if their pose
+// fits: level with the nut, centred, square to the axis and aligned within the play (update_engagement). With
+// contact simulation the geometry of the jaw decides (update_jaw_grip).
 #pragma once
 
 #include <span>
@@ -72,8 +72,8 @@ void update_jaw_grip(const Setup& setup, std::span<const joint::JointState> join
                      std::span<const double> lost, const ToolPose& tool, Engagement& engagement);
 
 // The engaged wrench as the joint law's handle. `lost` in m.
-joint::Handle jaw_handle(const Setup& setup, const NutGeometry& nut, double lost,
-                         const Engagement& engagement);
+joint::DriveHandle jaw_handle(const Setup& setup, const NutGeometry& nut, double lost,
+                              const Engagement& engagement);
 
 // Call after the joint's step. A jaw that turns beyond the corners' torque removes material in proportion to
 // the work, and transmits less torque the further it turns. Returns true in the tick in which it slips off

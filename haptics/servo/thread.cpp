@@ -148,7 +148,7 @@ void request_priority(int priority, ThreadPrivileges& privileges) {
 
 }  // namespace
 
-struct Thread::Shared {
+struct ServoThread::Shared {
     ThreadOptions options;
     Tick tick;
     std::atomic<bool> stop{false}, running{true};
@@ -180,16 +180,16 @@ struct Thread::Shared {
     }
 };
 
-Thread::Thread(std::unique_ptr<Shared> shared) : shared_(std::move(shared)) {}
-Thread::Thread(Thread&&) noexcept = default;
-Thread& Thread::operator=(Thread&& other) noexcept {
+ServoThread::ServoThread(std::unique_ptr<Shared> shared) : shared_(std::move(shared)) {}
+ServoThread::ServoThread(ServoThread&&) noexcept = default;
+ServoThread& ServoThread::operator=(ServoThread&& other) noexcept {
     stop();
     shared_ = std::move(other.shared_);
     return *this;
 }
-Thread::~Thread() { stop(); }
+ServoThread::~ServoThread() { stop(); }
 
-Result<Thread> Thread::start(const ThreadOptions& options, Tick tick) {
+Result<ServoThread> ServoThread::start(const ThreadOptions& options, Tick tick) {
     if (!(options.rate >= 1.0 && options.rate <= 20'000.0))
         return fail(ErrorCode::usage, fmt::format("servo: the rate is {} per second", options.rate),
                     "1 to 20000");
@@ -209,18 +209,18 @@ Result<Thread> Thread::start(const ThreadOptions& options, Tick tick) {
         return fail(ErrorCode::failed, fmt::format("servo: the thread cannot be created: {}", error.what()));
     }
     ready.wait();
-    return Thread(std::move(shared));
+    return ServoThread(std::move(shared));
 }
 
-const ThreadPrivileges& Thread::privileges() const { return shared_->privileges; }
-bool Thread::running() const { return shared_->running.load(std::memory_order_acquire); }
+const ThreadPrivileges& ServoThread::privileges() const { return shared_->privileges; }
+bool ServoThread::running() const { return shared_->running.load(std::memory_order_acquire); }
 
-const Timing& Thread::timing() {
+const Timing& ServoThread::timing() {
     shared_->published.update();
     return shared_->published.latest();
 }
 
-void Thread::stop() {
+void ServoThread::stop() {
     if (!shared_ || !shared_->thread.joinable()) return;
     shared_->stop.store(true, std::memory_order_relaxed);
     shared_->thread.join();

@@ -1,5 +1,5 @@
-// A histogram of durations with bins that grow with the value, from nanoseconds to minutes. Fixed size, no
-// allocation. Log-linear bins as in HdrHistogram.
+// The servo thread: a loop that runs a tick at a fixed rate with real-time privileges, its timing statistics,
+// and the assessment of a host from them.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@
 
 namespace bolt::servo {
 
-// Bins of 1 ns below 32 ns, then 16 bins per octave: the relative resolution is 1/16.
+// A histogram of durations from nanoseconds to minutes, of fixed size, with log-linear bins as in
+// HdrHistogram: 1 ns below 32 ns, then 16 bins per octave, so the relative resolution is 1/16.
 struct Histogram {
     static constexpr int fine = 4;  // bits of a value below its leading bit that select the bin
     static constexpr std::uint64_t most = (1ULL << 40) - 1;  // ns, 18 minutes; longer durations count as this
@@ -88,8 +89,7 @@ inline double share_above(const Histogram& h, double seconds) {
     return static_cast<double>(above) / static_cast<double>(h.count);
 }
 
-// Timing statistics of a servo loop, and the assessment of a host from them.
-
+// Timing statistics of a servo loop.
 struct Timing {
     Histogram wake_up;  // from the deadline until the loop runs
     Histogram compute;  // duration of the tick
@@ -109,9 +109,8 @@ struct ThreadPrivileges {
 // Limits above which a hand may feel the loop's jitter or a device's own watchdog may trip. wake_up and
 // compute are shares of the period.
 struct HostRequirements {
-    double wake_up = 0.25;  // at the 99.9th percentile
-    double compute =
-        0.5;  // at the 99.9th percentile; the rest of the period is for the transfer to the device
+    double wake_up = 0.25;       // at the 99.9th percentile
+    double compute = 0.5;        // at the 99.9th percentile; the rest is for the transfer to the device
     double missed = 1e-3;        // share of all deadlines
     double stall = 0.02;         // s without a tick; the output stage must have reached zero by then
     std::uint64_t ticks = 1000;  // fewest ticks that give a 99.9th percentile
@@ -131,18 +130,17 @@ HostAssessment assess_host(const Timing& timing, double rate, const HostRequirem
 // deadlines.
 std::string describe(const Timing& timing);
 
-// A loop that calls a tick at a fixed period, on any clock. Deadlines are whole periods after the start and
-// never shift. A missed deadline is skipped: two ticks in quick succession would be felt as a jerk.
-
 struct Deadline {
     std::uint64_t number = 0;  // counts all deadlines, missed ones too
     std::uint64_t missed = 0;  // deadlines without a tick since the last tick
 };
 
-// `clock` has now() and sleep_until(deadline), in ns of a monotonic clock. `tick` takes a Deadline and
-// returns false to end the loop. `publish` gets the timing after every tick. The loop sleeps before every
-// tick, even if the deadline is near: the kernel suspends a real-time thread that never sleeps for 50 ms of
-// each second (sched_rt_runtime_us).
+// Calls a tick at a fixed period, on any clock. Deadlines are whole periods after the start and never shift.
+// A missed deadline is skipped, because two ticks in quick succession would be felt as a jerk. `clock` has
+// now() and sleep_until(deadline), in ns of a monotonic clock. `tick` takes a Deadline and returns false to
+// end the loop. `publish` gets the timing after every tick. The loop sleeps before every tick, even if the
+// deadline is near: the kernel suspends a real-time thread that never sleeps for 50 ms of each second
+// (sched_rt_runtime_us).
 template <class Clock, class Tick, class Publish>
 void run_loop(Clock& clock, std::int64_t period, Timing& timing, Tick&& tick, Publish&& publish) {
     const std::int64_t start = clock.now();
@@ -168,9 +166,6 @@ void run_loop(Clock& clock, std::int64_t period, Timing& timing, Tick&& tick, Pu
     }
 }
 
-// A thread that runs a tick at a fixed rate with the real-time privileges that the operating system grants.
-// It reports them, so that a host that cannot keep time is not used unnoticed.
-
 struct ThreadOptions {
     double rate = 1000.0;               // 1/s
     int priority = 80;                  // of SCHED_FIFO, 1 … 99; 0: none is requested
@@ -179,7 +174,9 @@ struct ThreadOptions {
     std::uint64_t publish_every = 100;  // ticks between two updates of timing()
 };
 
-class Thread {
+// A thread that runs a tick at a fixed rate with the real-time privileges that the operating system grants.
+// It reports them, so that a host that cannot keep time is not used unnoticed.
+class ServoThread {
   public:
     // Runs on the servo thread with denormals flushed. Must neither throw nor wait. Returns false to end the
     // thread.
@@ -188,11 +185,11 @@ class Thread {
     // Returns once the thread has requested its privileges and is about to wait for its first deadline. Fails
     // for a rate outside 1 … 20000 1/s, a priority outside 0 … 99, or if no thread can be created. Missing
     // privileges are no failure; see privileges().
-    static Result<Thread> start(const ThreadOptions& options, Tick tick);
+    static Result<ServoThread> start(const ThreadOptions& options, Tick tick);
 
-    Thread(Thread&&) noexcept;
-    Thread& operator=(Thread&&) noexcept;
-    ~Thread();  // stops
+    ServoThread(ServoThread&&) noexcept;
+    ServoThread& operator=(ServoThread&&) noexcept;
+    ~ServoThread();  // stops
 
     [[nodiscard]] const ThreadPrivileges& privileges() const;
     [[nodiscard]] bool running() const;
@@ -205,7 +202,7 @@ class Thread {
 
   private:
     struct Shared;
-    explicit Thread(std::unique_ptr<Shared> shared);
+    explicit ServoThread(std::unique_ptr<Shared> shared);
     std::unique_ptr<Shared> shared_;
 };
 

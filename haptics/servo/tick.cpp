@@ -22,13 +22,13 @@ void update_setting(const Setup& setup, Engagement& e, float scale) {
     e.setting = clicks && std::isfinite(scale) ? std::max(static_cast<double>(scale), 0.0) : 0.0;
 }
 
-joint::Handle handle_without_click(const Setup& setup, const State& state) {
+joint::DriveHandle handle_without_click(const Setup& setup, const State& state) {
     const Engagement& e = state.engagement;
     if (e.joint >= 0 && held_by_contact(state)) {
         const auto i = static_cast<std::size_t>(e.joint);
         return jaw_handle(setup, setup.nuts[i], state.rounded[i], e);
     }
-    joint::Handle handle;
+    joint::DriveHandle handle;
     handle.engaged = e.joint >= 0;
     handle.angle = e.hand_angle;
     if (e.grip == Grip::wrench) {
@@ -41,9 +41,9 @@ joint::Handle handle_without_click(const Setup& setup, const State& state) {
     return handle;
 }
 
-joint::Handle handle_of(const Setup& setup, const State& state) {
+joint::DriveHandle handle_of(const Setup& setup, const State& state) {
     const Engagement& e = state.engagement;
-    joint::Handle handle = handle_without_click(setup, state);
+    joint::DriveHandle handle = handle_without_click(setup, state);
     handle.click = setup.wrench.click;
     handle.click.setting = e.setting * (1.0 + setup.wrench.deviation);
     handle.swung = e.swung;

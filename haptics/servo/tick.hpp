@@ -2,7 +2,7 @@
 // bits.
 //
 //   1 device pose → wrench pose, constrained by obstacles   tool_contact.hpp
-//   2 engagement of a nut                                   engagement.hpp, jaw_grip.hpp
+//   2 engagement of a nut                                   engagement.hpp
 //   3 nut and joint: angle, stage, torque                   joint/group.hpp
 //   4 force of the nut on the hand, or the guiding force    force/guide.hpp
 //   5 output stage: watchdog, passivity, limits             force/output_stage.hpp
@@ -56,8 +56,7 @@ State initial_state(const Setup& setup);
 Output tick(const Setup& setup, State& state, const Input& input);
 Output tick(const Setup& setup, State& state, const Input& input, force::IsSegmentFree free);
 
-// The tool and nut as the guiding force takes them (haptics/force/guide.hpp).
-
+// The tool as the guiding force sees it (haptics/force/guide.hpp).
 force::GuidedTool guided_tool(const Setup& setup, const ToolPose& tool);
 
 // The nut of `joint` at its present angle. Returns a goal with id −1 if `joint` is not an index of

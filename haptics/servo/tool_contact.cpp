@@ -74,23 +74,25 @@ Pose hexagon_pose_in_jaw(const Setup& setup, const NutGeometry& nut, const Pose&
     return {place.position, place.orientation * glm::angleAxis(-beyond, Vec3(0, 0, 1))};
 }
 
-// Contacts of the jaw with all nuts, up to the size of `out`. If more exist, the result is marked as crowded.
+// Contacts of the jaw with all nuts, up to the size of `out`. If more exist, the result is marked as
+// truncated.
 collision::ContactQueryResult find_jaw_contacts(const Setup& setup, const ToolContact& contact,
                                                 const Pose& pose, double band,
                                                 std::span<collision::Contact> out) {
     const double skin_reduction = contact.parameters.skin - jaw_skin;
     collision::ContactQueryResult found{0, band, false};
-    std::array<collision::Contact, collision::most_jaw_contacts> met;
+    std::array<collision::Contact, collision::max_jaw_contacts> contacts;
     for (std::size_t i = 0; i < contact.hexagons.size(); ++i) {
         const NutGeometry& nut = setup.nuts[i];
         const bool seated = static_cast<int>(i) == contact.seated_joint;
         const Pose place =
             seated ? hexagon_pose_in_jaw(setup, nut, contact.nut_poses[i], pose) : contact.nut_poses[i];
         const std::size_t count = collision::jaw_contacts(contact.jaw, contact.hexagons[i], pose, place, band,
-                                                          collision::ObstacleId::nut(i), met);
-        if (seated) collision::remove_axial_moment(place.position, nut.axis, std::span(met).first(count));
+                                                          collision::ObstacleId::nut(i), contacts);
+        if (seated)
+            collision::remove_axial_moment(place.position, nut.axis, std::span(contacts).first(count));
         for (std::size_t k = 0; k < count; ++k) {
-            collision::Contact& c = met[k];
+            collision::Contact& c = contacts[k];
             c.distance += skin_reduction;
             if (found.count < out.size()) {
                 out[found.count++] = c;
@@ -119,8 +121,8 @@ collision::ContactQueryResult find_mesh_contacts(ToolContact& contact, const Pos
 
 // A tick often starts at the pose where the last one ended. The cache then returns the contacts of all bodies
 // that did not move; if only the held nut moved, only the contacts of the jaw are computed again.
-collision::ContactQueryResult find(const Setup& setup, ToolContact& contact, const Pose& pose, double band,
-                                   std::span<collision::Contact> out) {
+collision::ContactQueryResult find_contacts_cached(const Setup& setup, ToolContact& contact, const Pose& pose,
+                                                   double band, std::span<collision::Contact> out) {
     ContactCache& last = contact.cache;
     const bool same_query = last.band == band && equal(last.pose, pose);
     const auto kept = std::span(last.contacts).first(last.count);
@@ -153,9 +155,9 @@ collision::ContactQueryResult find(const Setup& setup, ToolContact& contact, con
 
 // A jaw that no longer holds a nut is clear when it has no contact with the hexagon at its actual pose.
 bool jaw_is_clear(const ToolContact& contact, std::size_t i) {
-    std::array<collision::Contact, collision::most_jaw_contacts> met;
+    std::array<collision::Contact, collision::max_jaw_contacts> contacts;
     return collision::jaw_contacts(contact.jaw, contact.hexagons[i], contact.god_object.tool,
-                                   contact.nut_poses[i], 0.0, {}, met) == 0;
+                                   contact.nut_poses[i], 0.0, {}, contacts) == 0;
 }
 
 // Returns the obstacle of the nearest contact if it touches, none otherwise.
@@ -188,7 +190,7 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
         if (!d.nuts[i].triangles.empty())
             obstacles.push_back(
                 {collision::ObstacleId::nut(i), &d.nuts[i], nut_pose(setup.nuts[i], 0.0), true});
-    Result<collision::World> world = collision::make_world(obstacles);
+    Result<collision::CollisionWorld> world = collision::make_world(obstacles);
     if (!world) return fail(world.error());
     contact.world = std::move(*world);
     Result<collision::ToolShape> wrench = collision::make_tool(d.wrench);
@@ -228,7 +230,7 @@ force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
         if (!held) return {};
     }
     const auto finder = [&](const Pose& pose, double band, std::span<collision::Contact> out) {
-        const collision::ContactQueryResult found = find(setup, contact, pose, band, out);
+        const collision::ContactQueryResult found = find_contacts_cached(setup, contact, pose, band, out);
         contact.touched = touched_obstacle(out.first(found.count), contact.parameters.skin);
         return found;
     };

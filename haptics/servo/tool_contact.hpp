@@ -34,11 +34,11 @@ struct ContactCache {
     double band = 0.0;  // m
     collision::ContactQueryResult nuts, meshes;
     std::size_t count = 0;
-    std::array<collision::Contact, proxy::most_contacts> contacts;
+    std::array<collision::Contact, proxy::max_contacts> contacts;
 };
 
 struct ToolContact {
-    collision::World world;
+    collision::CollisionWorld world;
     collision::ToolShape wrench;
     collision::NarrowPhaseState narrow_phase;
     proxy::GodObjectParameters parameters;
@@ -62,7 +62,7 @@ void set_coupling(const Setup& setup, ToolContact& contact);
 
 // One tick: places the nuts by their joints' angles and moves the wrench towards `hand` as far as contacts
 // allow. `held_joint` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with the jaw, so
-// that contacts leave that rotation to the joint law (jaw_grip.hpp). If `held` is false the wrench follows
+// that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false the wrench follows
 // the hand and the returned request is zero.
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& hand, bool held,

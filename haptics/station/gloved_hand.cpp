@@ -44,12 +44,14 @@ std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using SteadyClock = std::chrono::steady_clock;
 
 constexpr auto poll_period = std::chrono::milliseconds(2);  // adds at most this delay to a sample
 constexpr double longest_step = 0.02;  // s without a sample after which the hand is updated all the same
 
-double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+double seconds_since(SteadyClock::time_point then) {
+    return std::chrono::duration<double>(SteadyClock::now() - then).count();
+}
 
 }  // namespace
 
@@ -65,14 +67,14 @@ struct HandThread::Shared {
 
     void run(const std::stop_token& stop) {
         HandState state;
-        for (auto last = Clock::now(); !stop.stop_requested();) {
+        for (auto last = SteadyClock::now(); !stop.stop_requested();) {
             const hand::GloveSample& sample = driver.sample();
-            const double dt = since(last);
+            const double dt = seconds_since(last);
             if (sample.number == state.number && dt < longest_step) {
                 std::this_thread::sleep_for(poll_period);
                 continue;
             }
-            last = Clock::now();
+            last = SteadyClock::now();
             tool.update();
             update_hand(setup, state, sample, tool.latest(), dt);
             held.store(state.grip.held, std::memory_order_relaxed);

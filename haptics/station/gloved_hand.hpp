@@ -1,6 +1,6 @@
 // The gloved hand at a station: it grasps the tool by closing on it, holds it while the glove is lost, and
-// releases it by opening. Pure, no allocation. Runs at the glove's rate; hand::update_grasp is too slow for
-// the servo tick.
+// releases it by opening. A thread of its own runs it at the glove's rate, because hand::update_grasp is too
+// slow for the servo tick.
 //
 // The device that moves the tool is the only source of the hand's position: the tool moves along with the
 // open hand, and forces start when the hand has closed on it.
@@ -34,7 +34,8 @@ struct HandState {
     std::uint64_t number = 0;  // of the last glove sample
 };
 
-// One step of dt with the latest sample of the glove, which may be the one of the last step.
+// One step of dt with the latest sample of the glove, which may be the one of the last step. Pure, no
+// allocation.
 hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const hand::GloveSample& sample,
                              const ToolPoses& tool, double dt);
 
@@ -60,7 +61,6 @@ struct HandStatus {
 std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const hand::GloveReport& report);
 
 // Runs the gloved hand on its own thread between those of the glove and the servo. All calls are wait-free.
-
 class HandThread {
   public:
     // Owns the driver and reads its samples.

@@ -21,19 +21,19 @@ struct Station::Shared {
     Layout layout;
     servo::Setup setup;
     servo::State state;
-    State station;
+    StationState station;
     std::optional<device::DeviceThread> mover, wheel;
     std::optional<hand::GloveDriver> glove;
     std::optional<HandThread> hand;
     TripleBuffer<StationControls> controls;
     double controls_age = 0.0;  // s since the last controls arrived
     SpscRing<StationCommand> commands{command_queue_capacity};
-    TripleBuffer<TickRecord> latest_tick;
+    TripleBuffer<StationTick> latest_tick;
     StationLinkStats stats;  // of the servo thread
     TripleBuffer<StationLinkStats> link_stats;
-    SpscRing<TickRecord> ticks{recorded_ticks};
+    SpscRing<StationTick> ticks{recorded_ticks};
     std::atomic<std::uint64_t> lost_ticks{0};
-    std::optional<servo::Thread> thread;  // last member: destroyed first, so it stops before the data go
+    std::optional<servo::ServoThread> thread;  // last member: destroyed first, so it stops before the data go
 
     bool tick(const servo::Deadline& deadline) {
         StationInputs inputs;
@@ -60,8 +60,8 @@ struct Station::Shared {
         if (hand)
             hand->set_tool({held_tool_pose(layout, setup, station, inputs.controls),
                             station.wrench_rest.value_or(station.output.tool)});
-        const TickRecord now{deadline.number,        station.input,       station.output,
-                             station.workspace.tool, station.wrench_rest, station.dead_man_pressed};
+        const StationTick now{deadline.number,        station.input,       station.output,
+                              station.workspace.tool, station.wrench_rest, station.dead_man_pressed};
         latest_tick.write(now);
         if (works && !ticks.push(now)) lost_ticks.fetch_add(1, std::memory_order_relaxed);
         return true;
@@ -116,9 +116,9 @@ Result<Station> Station::start(StationOptions options) {
     s.station = initial_state(s.layout);
     s.controls.write(options.controls);
 
-    BOLT_TRY_ASSIGN(auto thread, servo::Thread::start(options.servo, [&s](const servo::Deadline& deadline) {
-                        return s.tick(deadline);
-                    }));
+    BOLT_TRY_ASSIGN(auto thread,
+                    servo::ServoThread::start(
+                        options.servo, [&s](const servo::Deadline& deadline) { return s.tick(deadline); }));
     s.thread = std::move(thread);
     return Station(std::move(shared));
 }
@@ -133,12 +133,12 @@ Status Station::send(const StationCommand& command) {
                 "a running servo thread");
 }
 
-const TickRecord& Station::latest_tick() {
+const StationTick& Station::latest_tick() {
     shared_->latest_tick.update();
     return shared_->latest_tick.latest();
 }
 
-bool Station::next_tick(TickRecord& tick) { return shared_->ticks.pop(tick); }
+bool Station::next_tick(StationTick& tick) { return shared_->ticks.pop(tick); }
 std::uint64_t Station::lost_ticks() const { return shared_->lost_ticks.load(std::memory_order_relaxed); }
 
 std::vector<std::string> Station::troubles() {
@@ -150,7 +150,7 @@ std::vector<std::string> Station::troubles() {
         if (report.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
             messages.push_back(report.description->name + " hangs: unplug it and plug it in again");
     }
-    const TickRecord& tick = latest_tick();
+    const StationTick& tick = latest_tick();
     // The device's own report describes its silence better.
     const force::Fault fault = tick.output.fault;
     if (tick.input.enabled && fault != force::Fault::none &&
@@ -180,7 +180,7 @@ const DisplayedHand* Station::hand() { return shared_->hand ? &shared_->hand->di
 const Layout& Station::layout() const { return shared_->layout; }
 const servo::Setup& Station::setup() const { return shared_->setup; }
 hand::GloveDriver* Station::glove() { return shared_->glove ? &*shared_->glove : nullptr; }
-servo::Thread& Station::servo() { return *shared_->thread; }
+servo::ServoThread& Station::servo() { return *shared_->thread; }
 void Station::stop() { shared_->thread->stop(); }
 
 }  // namespace bolt::station

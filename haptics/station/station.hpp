@@ -1,4 +1,5 @@
-// Statistics of the data between a device and the servo, counted by the servo's ticks.
+// A running station: the threads of the devices, of the glove and of the servo between them. Other threads
+// read its state and send controls and commands; none of these calls delays a tick.
 #pragma once
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 
 namespace bolt::station {
 
+// Statistics of the data between a device and the servo, counted by the servo's ticks.
 struct LinkStats {
     std::uint64_t samples = 0;
     double silence = 0.0, longest_silence = 0.0;       // s since the last sample, valid or not
@@ -30,9 +32,6 @@ struct StationLinkStats {
     LinkStats mover, wheel;
 };
 
-// A running station: the threads of the devices, of the glove and of the servo between them. Other threads
-// read its state and send controls and commands; none of these calls delays a tick.
-
 struct StationOptions {
     device::DeviceFactory mover, wheel;  // empty: no such device
     Buttons mover_buttons, wheel_buttons;
@@ -50,13 +49,13 @@ struct StationOptions {
 };
 
 // One tick, for recording.
-struct TickRecord {
+struct StationTick {
     std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted
     servo::Input input;
     servo::Output output;
     Pose tool;  // pose commanded by the hand, in the assembly's frame
-    std::optional<Pose>
-        wrench_rest;  // pose of the wrench while no hand holds it (StationControls::wrench_rest)
+    // Pose of the wrench while no hand holds it (StationControls::wrench_rest).
+    std::optional<Pose> wrench_rest;
     bool dead_man_pressed = false;  // by a button of a device
 };
 
@@ -75,8 +74,8 @@ class Station {
     // Queues a command for the next tick. Fails if the queue is full, which means that the servo thread does
     // not run; the command is then not queued.
     [[nodiscard]] Status send(const StationCommand& command);
-    const TickRecord& latest_tick();
-    bool next_tick(TickRecord& tick);  // all ticks in order, without those of a pause; false: no more yet
+    const StationTick& latest_tick();
+    bool next_tick(StationTick& tick);  // all ticks in order, without those of a pause; false: no more yet
     [[nodiscard]] std::uint64_t lost_ticks() const;  // not read in time and dropped
 
     // The gloved hand for display; null: none. For one calling thread.
@@ -95,7 +94,7 @@ class Station {
     [[nodiscard]] const Layout& layout() const;
     [[nodiscard]] const servo::Setup& setup() const;
     [[nodiscard]] hand::GloveDriver* glove();  // null: no glove, or a gloved hand uses it
-    [[nodiscard]] servo::Thread& servo();
+    [[nodiscard]] servo::ServoThread& servo();
     void stop();
 
   private:

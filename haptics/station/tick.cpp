@@ -96,7 +96,7 @@ bool has_current_data(const Description& d, const DeviceLink& link) {
 
 // Factor on a pushed tool's angular rate: faster with fingers, slower the more torque the wrench transmits,
 // which is the only feedback of torque that such a device gives.
-double angular_rate_factor(const servo::Setup& setup, const State& s) {
+double angular_rate_factor(const servo::Setup& setup, const StationState& s) {
     if (s.output.joint < 0) return 1.0;
     if (s.input.grip == servo::Grip::fingers) return spinning;
     const double greatest = setup.wrench.stiffness * largest_deflection;
@@ -105,8 +105,8 @@ double angular_rate_factor(const servo::Setup& setup, const State& s) {
 
 // Integrates the device's rates into the tool's pose, at most the permitted lead over the constrained
 // pose.
-void integrate_rates(const Layout& layout, const servo::Setup& setup, State& s, const device::Sample& sample,
-                     const Quat& view, double dt) {
+void integrate_rates(const Layout& layout, const servo::Setup& setup, StationState& s,
+                     const device::Sample& sample, const Quat& view, double dt) {
     const Quat turn = view * layout.workspace.turn;
     Pose& tool = s.workspace.tool;
     tool.position += turn * sample.velocity * dt;
@@ -121,7 +121,7 @@ void integrate_rates(const Layout& layout, const servo::Setup& setup, State& s, 
             glm::normalize(rotation(force::clamp_length(turned, turned_ahead)) * held_back.orientation);
 }
 
-void move(const Layout& layout, const servo::Setup& setup, State& s, const DeviceSnapshot& snapshot,
+void move(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
           const Quat& view, bool clutch, double dt) {
     if (layout.mover->sensing == Sensing::rate) {
         if (s.mover.usable && s.mover.silence < rate_timeout && !clutch)
@@ -143,7 +143,7 @@ void move(const Layout& layout, const servo::Setup& setup, State& s, const Devic
 }
 
 // Moves the tool; it follows the hand from there.
-void place_tool(const Layout& layout, State& s, const Pose& tool) {
+void place_tool(const Layout& layout, StationState& s, const Pose& tool) {
     const double share = s.workspace.share;
     s.workspace = force::place(layout.workspace, s.hand, tool);
     s.workspace.share = share;
@@ -155,9 +155,9 @@ double rotation_sense(const Description& wheel) {
     return glm::dot(wheel.axis, Vec3(0.0, 1.0, 1.0)) < 0.0 ? -1.0 : 1.0;
 }
 
-bool on_bolt(const State& s) { return s.output.joint >= 0; }
+bool on_bolt(const StationState& s) { return s.output.joint >= 0; }
 
-void turn(const Layout& layout, const servo::Setup& setup, State& s, const DeviceSnapshot& snapshot,
+void turn(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
           bool clutch) {
     if (!s.wheel.fresh) return;
     const double by = snapshot.opening == s.wheel.opening ? snapshot.sample.turn - s.wheel_angle : 0.0;
@@ -175,7 +175,8 @@ void turn(const Layout& layout, const servo::Setup& setup, State& s, const Devic
 
 // A wrench that is taken starts at its rest pose. A wrench released on a nut stays there; released elsewhere
 // it returns to StationControls::wrench_rest.
-void update_wrench_rest(const Layout& layout, State& s, servo::Grip grip, const StationControls& controls) {
+void update_wrench_rest(const Layout& layout, StationState& s, servo::Grip grip,
+                        const StationControls& controls) {
     const std::optional<Pose>& rest = controls.wrench_rest;
     if (!rest) return;
     const bool had = s.input.grip == servo::Grip::wrench, has = grip == servo::Grip::wrench;
@@ -191,7 +192,8 @@ void update_wrench_rest(const Layout& layout, State& s, servo::Grip grip, const 
 }
 
 // Updates the links. Returns the controls combined with the devices' buttons.
-StationControls merge_buttons(const Layout& layout, State& s, const StationInputs& inputs, double elapsed) {
+StationControls merge_buttons(const Layout& layout, StationState& s, const StationInputs& inputs,
+                              double elapsed) {
     StationControls controls = inputs.controls;
     controls.dead_man &= inputs.controls_age <= controls.dead_man_timeout;
     controls.stop |= std::exchange(s.stopped_in_pause, false);
@@ -222,7 +224,7 @@ servo::Grip grip_of(const StationInputs& inputs) {
 }
 
 // Queues the received commands in the state until a tick executes them.
-void receive(State& s, std::span<const StationCommand> commands) {
+void receive(StationState& s, std::span<const StationCommand> commands) {
     for (const StationCommand& command : commands) {
         if (const auto* place = std::get_if<PlaceTool>(&command)) s.tool_to_place = place->tool;
         if (std::holds_alternative<SaveCheckpoint>(command)) ++s.checkpoints_to_save;
@@ -236,7 +238,7 @@ void receive(State& s, std::span<const StationCommand> commands) {
 }
 
 // The servo's undo input of this tick. A restore stays pending until map_output() sees it done.
-std::uint8_t next_undo(State& s) {
+std::uint8_t next_undo(StationState& s) {
     if (s.checkpoints_to_save == 0) return s.checkpoint_to_restore;
     --s.checkpoints_to_save;
     return servo::save_checkpoint;
@@ -248,14 +250,14 @@ force::OutputCommand part(const force::OutputCommand& whole, double share) {
 
 }  // namespace
 
-State initial_state(const Layout& layout) {
-    State state;
+StationState initial_state(const Layout& layout) {
+    StationState state;
     state.workspace = force::place(layout.workspace, {}, layout.home);
     state.output.tool = layout.home;
     return state;
 }
 
-servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, State& s,
+servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, StationState& s,
                          const StationInputs& inputs) {
     const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
     const StationControls controls = merge_buttons(layout, s, inputs, elapsed);
@@ -293,7 +295,7 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, State&
     return input;
 }
 
-void glide(const Layout& layout, const servo::Setup& setup, State& s, const servo::State& servo,
+void glide(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
            const StationInputs& inputs, servo::Input& input) {
     if (!layout.mover || layout.mover->sensing != Sensing::rate || renders_force(*layout.mover)) return;
     Pose& tool = s.workspace.tool;
@@ -321,7 +323,7 @@ void glide(const Layout& layout, const servo::Setup& setup, State& s, const serv
     s.input = input;
 }
 
-DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, State& s,
+DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& s,
                           const servo::Output& output) {
     if (output.undone > 0) s.checkpoint_to_restore = 0;
     s.output = output;
@@ -345,14 +347,14 @@ DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, State
     return commands;
 }
 
-DeviceCommands tick(const Layout& layout, const servo::Setup& setup, State& state, servo::State& servo,
+DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
                     const StationInputs& inputs) {
     servo::Input input = read_inputs(layout, setup, state, inputs);
     glide(layout, setup, state, servo, inputs, input);
     return map_output(layout, setup, state, servo::tick(setup, servo, input));
 }
 
-Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const State& s,
+Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const StationState& s,
                     const StationControls& controls) {
     const bool bare = s.wrench_rest && layout.wrist && controls.bare_wrist;
     if (bare) {
@@ -363,7 +365,7 @@ Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const State
     return bare ? s.workspace.tool * *controls.bare_wrist * inverse(*layout.wrist) : s.workspace.tool;
 }
 
-DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, State& s,
+DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& s,
                           const StationInputs& inputs) {
     const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
     receive(s, inputs.commands);

@@ -1,5 +1,6 @@
-// The devices of a station: which one moves the tool, which one turns the wrench on its bolt, and the
-// transforms between their frames and the assembly's.
+// The tick of a station: its devices and their layout, its inputs from the application, and the step that
+// maps them to the servo's input and the servo's output to the devices' commands. Pure, of fixed dt, without
+// allocation, lock, clock or I/O.
 #pragma once
 
 #include <limits>
@@ -23,6 +24,8 @@ struct Buttons {
     std::uint32_t stop = 0, reset = 0;
 };
 
+// Which device moves the tool, which one turns the wrench on its bolt, and the transforms between their
+// frames and the assembly's.
 struct Layout {
     std::optional<device::Description> mover;  // moves the tool: Sensing::pose or rate
     Buttons mover_buttons;
@@ -49,7 +52,7 @@ force::OutputLimits limits_of(const Layout& layout);
 bool renders_force(const device::Description& description);
 bool renders_torque(const device::Description& description);
 
-// What a station receives from the application besides its devices' samples. StationControls are states: only
+// The application's inputs. StationControls are states: only
 // the latest value counts. StationCommands are events: each is executed once, in order, and none is lost.
 
 struct StationControls {
@@ -61,8 +64,8 @@ struct StationControls {
     bool clutch = false, stop = false, reset = false;
     std::int16_t guide = -1;     // joint that the guiding force leads to; −1: none
     float click_setting = 0.0F;  // N·m, of a click-type torque wrench
-    Quat view{1.0, 0.0, 0.0,
-              0.0};  // unit, from the viewer's frame to the assembly's; a puck moves the tool in the former
+    // Unit, from the viewer's frame to the assembly's; a puck moves the tool in the viewer's frame.
+    Quat view{1.0, 0.0, 0.0, 0.0};
     bool pause = false;  // no servo tick and no force; the tool stands still while the hand may move
     // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open
     // hand.
@@ -99,13 +102,6 @@ using StationCommand = std::variant<PlaceTool, SaveCheckpoint, RestoreCheckpoint
 // fills only if that thread does not run. Station::send then fails.
 inline constexpr std::size_t command_queue_capacity = 64;
 
-// One tick of a station: maps the devices' samples and the application's controls to the servo's input, and
-// the servo's output to the devices' commands. Pure, of fixed dt, without allocation, lock, clock or I/O.
-// Forces come from the servo's output stage; this code maps them and may only reduce them.
-//
-// A device that is lost or silent for too long moves nothing and renders no force. When it returns, the hand
-// may be anywhere, so the tool stays in place and follows from there, as after a clutch.
-
 struct StationInputs {
     device::DeviceSnapshot mover, wheel;
     StationControls controls;
@@ -117,15 +113,15 @@ struct StationInputs {
 
 // The state of the connection to one device.
 struct DeviceLink {
-    std::uint64_t number = 0,
-                  opening = 0;  // of the last sample; `opening` counts how often the device was opened
-    double silence = 0.0;       // s since the last sample
-    bool fresh = false;         // a sample arrived in this tick
+    // Numbers of the last sample and of the opening of the device that it belongs to.
+    std::uint64_t number = 0, opening = 0;
+    double silence = 0.0;  // s since the last sample
+    bool fresh = false;    // a sample arrived in this tick
     bool usable = false;
     double force_share = 0.0;  // 0 … 1, share of the force that the device renders
 };
 
-struct State {
+struct StationState {
     DeviceLink mover, wheel;
     force::WorkspaceState workspace;  // `tool` is the pose commanded by the hand
     Pose hand;                        // last pose of the mover, in its frame
@@ -133,8 +129,8 @@ struct State {
     Vec3 bolt_axis{0.0, 1.0, 0.0};    // unit, of the bolt that the wheel turns or turned last
     double wheel_fade = 0.0;          // 0 … 1, share of the bolt's torque that the wheel renders
     bool restarting = false;          // after a stall or a pause: no force until the output stage is at zero
-    std::optional<Pose>
-        wrench_rest;  // pose of the wrench while no hand holds it; needs StationControls::wrench_rest
+    // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest.
+    std::optional<Pose> wrench_rest;
     force::GuideState glides;
     int carrying_joint = -1;   // joint whose nut carries a pushed tool along; −1: none
     Vec3 carrying_point{0.0};  // m, centre of that nut at the last tick
@@ -152,31 +148,34 @@ struct DeviceCommands {
     force::OutputCommand mover, wheel;  // each in its device's frame
 };
 
-State initial_state(const Layout& layout);
+StationState initial_state(const Layout& layout);
 
-DeviceCommands tick(const Layout& layout, const servo::Setup& setup, State& state, servo::State& servo,
+// One tick. Forces come from the servo's output stage; this code maps them and may only reduce them. A device
+// that is lost or silent for too long moves nothing and renders no force. When it returns, the hand may be
+// anywhere, so the tool stays in place and follows from there, as after a clutch.
+DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
                     const StationInputs& inputs);
 
 // The parts of tick(), in order.
-servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, State& state,
+servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, StationState& state,
                          const StationInputs& inputs);
 // Moves a tool whose device gives rates and renders no force: along with a held nut, and towards
 // StationControls::glide. Changes `input`.
-void glide(const Layout& layout, const servo::Setup& setup, State& state, const servo::State& servo,
+void glide(const Layout& layout, const servo::Setup& setup, StationState& state, const servo::State& servo,
            const StationInputs& inputs, servo::Input& input);
-DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, State& state,
+DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const servo::Output& output);
 
 // The tool pose that a gloved hand commands, or would command if it held the tool (ToolPoses::commanded). A
 // bare hand within handle_capture_distance of the wrench snaps to its handle: without touch nobody can place
 // fingers around it to the millimetre.
-Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const State& state,
+Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const StationState& state,
                     const StationControls& controls);
 inline constexpr double handle_capture_distance = 0.10;  // m from the handle's centre line to the fingertips
 
 // Replaces tick() while StationControls::pause is set: reads the devices and returns zero commands.
 // Afterwards the force ramps up. Commands received in a pause are executed in the first tick after it.
-DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, State& state,
+DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const StationInputs& inputs);
 
 // The largest lead of a pushed tool over its constrained pose, so that it reverses without delay.

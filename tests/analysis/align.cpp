@@ -9,36 +9,35 @@ using namespace bolt;
 using namespace bolt::analysis;
 using joint::Direction;
 
-TEST_CASE("a tightening curve that was shifted is found again") {
-    const analysis::Curve ours = curve_of(tightening_torque, 0.0, 95.0, 0.05, Direction::tighten);
+TEST_CASE("Align: finds the shift of a tightening curve") {
+    const analysis::TorqueCurve ours = curve_of(tightening_torque, 0.0, 95.0, 0.05, Direction::tighten);
     for (const double shift : {-20.0, 0.0, 13.7, 42.0}) {
         for (const double step : {0.1, 1.0, 2.5}) {
-            const analysis::Curve measured =
+            const analysis::TorqueCurve measured =
                 curve_of(tightening_torque, shift, 95.0, step, Direction::tighten);
             const Result<Alignment> a = align(ours, measured);
             REQUIRE(a);
-            // Both start counting where they start, so that the measured one, starting at `shift`, is moved
-            // by it.
+            // Both curves count from their own start; the measured one starts at `shift`.
             CHECK(to_degrees(a->shift) == doctest::Approx(shift).epsilon(1e-9).scale(step / 1e-9));
             CHECK(std::abs(to_degrees(a->shift) - shift) <= step);
         }
     }
 }
 
-TEST_CASE("only the part both reach aligns: a run that stops early fits as well") {
-    const analysis::Curve ours = curve_of(tightening_torque, 0.0, 95.0, 0.05, Direction::tighten);
-    const analysis::Curve measured = curve_of(tightening_torque, 10.0, 75.0, 0.5, Direction::tighten);
+TEST_CASE("Align: uses the common torque range, so a run that stops early aligns too") {
+    const analysis::TorqueCurve ours = curve_of(tightening_torque, 0.0, 95.0, 0.05, Direction::tighten);
+    const analysis::TorqueCurve measured = curve_of(tightening_torque, 10.0, 75.0, 0.5, Direction::tighten);
     const Result<Alignment> a = align(ours, measured);
     REQUIRE(a);
     CHECK(a->torque == doctest::Approx(0.5 * measured.torque.back()));
     CHECK(std::abs(to_degrees(a->shift) - 10.0) <= 0.5);
 }
 
-TEST_CASE("strokes and re-grips do not move the point") {
+TEST_CASE("Align: strokes and re-grips do not move the common point") {
     const auto at_nut = [](double nut) { return tightening_torque(nut); };
     std::vector<double> angle, torque;
     for (double from = 5.0; from < 95.0; from += 15.0) {
-        for (int i = 0; i <= 10; ++i) {  // loading while the nut waits; it sticks a little
+        for (int i = 0; i <= 10; ++i) {  // loading while the nut sticks
             angle.push_back(to_radians(from));
             torque.push_back(1.15 * at_nut(from) * i / 10.0);
         }
@@ -49,32 +48,32 @@ TEST_CASE("strokes and re-grips do not move the point") {
         angle.push_back(angle.back());
         torque.push_back(0.0);
     }
-    const analysis::Curve measured = analysis::advance_curve(angle, torque, Direction::tighten);
-    CHECK(measured.passed_over >= 60);
-    const analysis::Curve ours = curve_of(tightening_torque, 0.0, 94.0, 0.05, Direction::tighten);
+    const analysis::TorqueCurve measured = analysis::make_torque_curve(angle, torque, Direction::tighten);
+    CHECK(measured.skipped >= 60);
+    const analysis::TorqueCurve ours = curve_of(tightening_torque, 0.0, 94.0, 0.05, Direction::tighten);
     const Result<Alignment> a = align(ours, measured);
     REQUIRE(a);
     CHECK(std::abs(to_degrees(a->shift) - 5.0) <= 0.25);
 }
 
-TEST_CASE("loosening curves meet at their breakaway") {
-    const analysis::Curve ours = curve_of(loosening_torque, 0.0, 90.0, 0.05, Direction::loosen);
-    // The rig takes up its play for 31.9° before the nut breaks loose.
+TEST_CASE("Align: loosening curves meet at their breakaway") {
+    const analysis::TorqueCurve ours = curve_of(loosening_torque, 0.0, 90.0, 0.05, Direction::loosen);
+    // The rig has 31.9° of play before the nut breaks loose.
     const auto rig = [](double degrees) {
         return degrees < 0.0 ? -5.02 * std::exp(degrees / 4.0) : loosening_torque(degrees);
     };
-    const analysis::Curve measured = curve_of(rig, -31.9, 200.0, 5.32, Direction::loosen);
+    const analysis::TorqueCurve measured = curve_of(rig, -31.9, 200.0, 5.32, Direction::loosen);
     const Result<Alignment> a = align(ours, measured);
     REQUIRE(a);
     CHECK(std::abs(to_degrees(a->shift) + 31.9) <= 5.32);
     CHECK(a->torque == *std::min_element(measured.torque.begin(), measured.torque.end()));
 }
 
-TEST_CASE("noise within a sample moves the shift within a sample") {
+TEST_CASE("Align: noise within a sample moves the shift within a sample") {
     Random random(5);
-    const analysis::Curve ours = curve_of(tightening_torque, 0.0, 95.0, 0.05, Direction::tighten);
+    const analysis::TorqueCurve ours = curve_of(tightening_torque, 0.0, 95.0, 0.05, Direction::tighten);
     for (int round = 0; round < 50; ++round) {
-        analysis::Curve measured = curve_of(tightening_torque, 20.0, 95.0, 1.0, Direction::tighten);
+        analysis::TorqueCurve measured = curve_of(tightening_torque, 20.0, 95.0, 1.0, Direction::tighten);
         for (double& torque : measured.torque) torque += 0.5 * random.normal();
         const Result<Alignment> a = align(ours, measured);
         REQUIRE(a);
@@ -82,10 +81,11 @@ TEST_CASE("noise within a sample moves the shift within a sample") {
     }
 }
 
-TEST_CASE("what cannot be aligned is refused") {
-    const analysis::Curve ours = curve_of(tightening_torque, 0.0, 95.0, 0.05, Direction::tighten);
+TEST_CASE("Align: curves without a common torque are refused") {
+    const analysis::TorqueCurve ours = curve_of(tightening_torque, 0.0, 95.0, 0.05, Direction::tighten);
     CHECK_FALSE(align(ours, {}));
     CHECK_FALSE(align({}, ours));
-    const analysis::Curve slack = curve_of([](double) { return -0.1; }, 0.0, 95.0, 0.05, Direction::tighten);
+    const analysis::TorqueCurve slack =
+        curve_of([](double) { return -0.1; }, 0.0, 95.0, 0.05, Direction::tighten);
     CHECK_FALSE(align(slack, ours));
 }

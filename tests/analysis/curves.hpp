@@ -1,4 +1,4 @@
-// Curves in closed form for the tests of the comparison.
+// Closed-form curves for the tests of the comparison.
 #pragma once
 
 #include <cmath>
@@ -9,12 +9,12 @@
 
 namespace bolt::analysis {
 
-// Smooth run-up: flat, then an elastic line of 3 N·m a degree from 60° on.
+// Flat, then an elastic line of 3 N·m per degree from 60° on, with a smooth transition.
 inline double tightening_torque(double degrees) {
     return 0.5 + 3.0 * 4.0 * std::log1p(std::exp((degrees - 60.0) / 4.0));
 }
 
-// Breaks loose at once and falls off.
+// Breaks loose at once, then the torque decreases.
 inline double loosening_torque(double degrees) { return -0.02 - 5.0 * std::exp(-degrees / 9.0); }
 
 inline joint::Stage stage_at(double torque) {
@@ -24,9 +24,9 @@ inline joint::Stage stage_at(double torque) {
     return t < 80.0 ? joint::Stage::linearity : joint::Stage::yield;
 }
 
-inline analysis::Curve curve_of(const std::function<double(double)>& torque, double from, double to,
-                                double step, joint::Direction direction) {
-    analysis::Curve curve;
+inline analysis::TorqueCurve curve_of(const std::function<double(double)>& torque, double from, double to,
+                                      double step, joint::Direction direction) {
+    analysis::TorqueCurve curve;
     curve.direction = direction;
     for (double at = from; at <= to; at += step) {
         curve.angle.push_back(to_radians(at - from));

@@ -23,7 +23,7 @@ Comparison comparison_of(int cycles, const std::string& words) {
     c.direction = Direction::tighten;
     for (int i = 0; i < cycles; ++i)
         c.measured.push_back({words, curve_of(tightening_torque, 5.0 * i, 95.0, 1.0, Direction::tighten)});
-    const analysis::Curve ours =
+    const analysis::TorqueCurve ours =
         curve_of([](double at) { return 1.05 * tightening_torque(at); }, 0.0, 95.0, 0.1, Direction::tighten);
     c.options.floor_share = 1e-3;  // navigation has 0.5 N·m of 105
     Result<JointComparison> joint = compare_joint(words, ours, c.measured, c.options);
@@ -35,7 +35,7 @@ Comparison comparison_of(int cycles, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("page, drawing and console name the source and give the errors") {
+TEST_CASE("Comparison page: page, drawing and console name the source and give the errors") {
     const Comparison c = comparison_of(3, "Rig & Co");
     const std::string page = comparison_page(c), svg = overlay_svg(c, 0), text = console_text(c);
     CHECK(markup_fault(page) == "");
@@ -52,7 +52,7 @@ TEST_CASE("page, drawing and console name the source and give the errors") {
     CHECK(has(page, "<dd>out/<wbr/>Rig &amp; Co</dd>"));
 }
 
-TEST_CASE("hostile names do no harm") {
+TEST_CASE("Comparison page: names with markup are escaped") {
     const Comparison c = comparison_of(2, "</style></svg><script>\"' x=\"");
     for (const std::string& text : {comparison_page(c), overlay_svg(c, 0)}) {
         CHECK(markup_fault(text) == "");
@@ -60,17 +60,16 @@ TEST_CASE("hostile names do no harm") {
     }
 }
 
-TEST_CASE("peaks that do not belong together are remarked upon") {
+TEST_CASE("Comparison page: a remark names peaks that do not match") {
     Comparison c = comparison_of(1, "rig");
     CHECK_FALSE(has(console_text(c), "factor"));
     for (double& torque : c.measured[0].curve.torque) torque *= 0.02;
     CHECK(has(console_text(c), "The peaks differ by a factor of up to 5"));
 }
 
-TEST_CASE("a comparison of closed forms") {
+TEST_CASE("Comparison page: closed-form curves") {
     const Comparison c = comparison_of(1, "rig");
-    // Laid upon each other where both pass the same torque, the curves differ less than the 5 % between them
-    // there.
+    // Aligned at a common torque, the curves differ by less than 5 %.
     CHECK(c.errors.stage[static_cast<std::size_t>(joint::Stage::navigation)].mape ==
           doctest::Approx(0.05).epsilon(0.1));
     CHECK(c.errors.stage[static_cast<std::size_t>(joint::Stage::linearity)].mape < 0.03);

@@ -17,7 +17,7 @@ using namespace bolt::report;
 
 namespace {
 
-// A session in which the cover's joint B2 was loosened as curves.hpp has it, and nothing else was done.
+// A session that only loosens joint B2 of the cover, with the curve of curves.hpp.
 struct Loosened {
     test::Folder folder;
     std::filesystem::path path = folder / "loosened.boltwright";
@@ -31,14 +31,14 @@ struct Loosened {
         header.assembly_text = *text;
         header.law = "mechanistic";
         header.task = "loosen";
-        Result<session::Writer> writer = session::Writer::create(path, header);
+        Result<session::SessionWriter> writer = session::SessionWriter::create(path, header);
         REQUIRE(writer);
         for (int i = 0; i < 50; ++i) put(*writer, 0.0, loosening_torque(0.0) * i / 50.0);
         for (double back = 0.0; back <= 200.0; back += 0.1) put(*writer, back, loosening_torque(back));
         REQUIRE(writer->finish({}));
     }
 
-    static void put(session::Writer& writer, double back, double torque) {
+    static void put(session::SessionWriter& writer, double back, double torque) {
         session::TickRecord tick;
         tick.joint = 1;
         tick.nut_angle = static_cast<float>(to_radians(start - back));
@@ -48,21 +48,21 @@ struct Loosened {
     }
 };
 
-Measured rig(double take_up, double factor) {
+MeasuredRecord rig(double play, double factor) {
     std::string text = "angle_deg,torque_Nm\n";
-    for (double at = -take_up; at < 150.0; at += 1.0)
-        text += std::to_string(at + take_up) + "," +
+    for (double at = -play; at < 150.0; at += 1.0)
+        text += std::to_string(at + play) + "," +
                 std::to_string(factor * (at < 0.0 ? 0.0 : loosening_torque(at))) + "\n";
-    const Result<Measured> measured = parse_measured(text, "rig.csv");
+    const Result<MeasuredRecord> measured = parse_measured(text, "rig.csv");
     REQUIRE_MESSAGE(measured, (measured ? "" : measured.error().message()));
     return *measured;
 }
 
 }  // namespace
 
-TEST_CASE("a session against a rig that measured the same") {
+TEST_CASE("Comparison: a session against a rig with the same curve") {
     const Loosened session;
-    const Result<session::Reader> reader = session::Reader::open(session.path);
+    const Result<session::SessionReader> reader = session::SessionReader::open(session.path);
     REQUIRE(reader);
     const Result<Comparison> c = analysis::compare(*reader, rig(30.0, 1.0), "");
     REQUIRE_MESSAGE(c, (c ? "" : c.error().message()));
@@ -71,7 +71,7 @@ TEST_CASE("a session against a rig that measured the same") {
     CHECK(to_degrees(c->joints[0].cycles[0].alignment.shift) == doctest::Approx(-30.0).epsilon(1e-3));
     CHECK(c->errors.all.count > 30);
     CHECK(c->errors.all.mre < 0.01);
-    CHECK(c->errors.outside == 30);  // the rig's take-up
+    CHECK(c->errors.outside == 30);  // the rig's play
     CHECK(report::markup_fault(comparison_page(*c)) == "");
 
     const Result<Comparison> weaker = analysis::compare(*reader, rig(30.0, 1.0 / 1.1), "B2");
@@ -80,11 +80,11 @@ TEST_CASE("a session against a rig that measured the same") {
     CHECK(weaker->errors.all.mape == doctest::Approx(0.1).epsilon(0.05));
 }
 
-TEST_CASE("what cannot be compared is said clearly") {
+TEST_CASE("Comparison: errors name the joint and the direction") {
     const Loosened session;
-    const Result<session::Reader> reader = session::Reader::open(session.path);
+    const Result<session::SessionReader> reader = session::SessionReader::open(session.path);
     REQUIRE(reader);
-    const Measured measured = rig(30.0, 1.0);
+    const MeasuredRecord measured = rig(30.0, 1.0);
     const Result<Comparison> unknown = analysis::compare(*reader, measured, "b2");
     REQUIRE_FALSE(unknown.has_value());
     CHECK(unknown.error().code == ErrorCode::usage);
@@ -92,7 +92,7 @@ TEST_CASE("what cannot be compared is said clearly") {
     const Result<Comparison> untouched = analysis::compare(*reader, measured, "B1");
     REQUIRE_FALSE(untouched.has_value());
     CHECK(untouched.error().what == "joint 'B1' was not loosened in this session");
-    Measured tightening = measured;
+    MeasuredRecord tightening = measured;
     tightening.direction = joint::Direction::tighten;
     const Result<Comparison> other = analysis::compare(*reader, tightening, "");
     REQUIRE_FALSE(other.has_value());

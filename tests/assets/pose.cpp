@@ -21,7 +21,7 @@ constexpr float pi = std::numbers::pi_v<float>;
 std::vector<float> turn(float angle) { return {0.0F, std::sin(angle / 2), 0.0F, std::cos(angle / 2)}; }
 
 Channel rotation(const std::vector<float>& from, const std::vector<float>& to) {
-    Channel channel{.node = 0, .path = Path::rotation, .times = {1.0F, 3.0F}, .values = from};
+    Channel channel{.node = 0, .path = TargetPath::rotation, .times = {1.0F, 3.0F}, .values = from};
     channel.values.insert(channel.values.end(), to.begin(), to.end());
     return channel;
 }
@@ -91,15 +91,17 @@ TEST_CASE("Animation: a cubic spline through keys of a cubic reproduces it") {
     SUBCASE("a key's in- and out-tangents differ") {
         // Slope 4 after the first key, slope 0 before the second: p = 4 (t³ − 2t² + t).
         const Channel one{.node = 0,
-                          .path = Path::weights,
+                          .path = TargetPath::weights,
                           .interpolation = Interpolation::cubic,
                           .times = {0.0F, 1.0F},
                           .values = {7, 0, 4, 0, 0, 9}};
         check_near(sample(one, 0.5F), {0.5F}, 1e-6);
     }
     SUBCASE("rotations are unit quaternions") {
-        Channel q{
-            .node = 0, .path = Path::rotation, .interpolation = Interpolation::cubic, .times = {0.0F, 1.0F}};
+        Channel q{.node = 0,
+                  .path = TargetPath::rotation,
+                  .interpolation = Interpolation::cubic,
+                  .times = {0.0F, 1.0F}};
         for (const float angle : {0.0F, 1.0F}) {
             const std::vector<float> value = turn(angle);
             q.values.insert(q.values.end(), 4, 0.0F);
@@ -123,7 +125,7 @@ TEST_CASE("Animation: moves its targets and leaves the rest at rest") {
     model.meshes[0].primitives[0].targets.resize(2);
     Animation wave;
     wave.channels = {rotation(turn(0.0F), turn(pi / 2.0F)),
-                     {.node = 1, .path = Path::weights, .times = {0.0F, 4.0F}, .values = {0, 1, 1, 0}}};
+                     {.node = 1, .path = TargetPath::weights, .times = {0.0F, 4.0F}, .values = {0, 1, 1, 0}}};
     CHECK(duration(wave) == 4.0F);
 
     ModelPose pose = rest_pose(model);

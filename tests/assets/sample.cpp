@@ -78,16 +78,16 @@ std::vector<Channel> channels() {
     const std::vector<float> keys = {0.0F, 0.5F};
     return {{.node = 0, .times = keys, .values = {0, 0, 0, 1, 2, 3}},
             {.node = 1,
-             .path = Path::rotation,
+             .path = TargetPath::rotation,
              .interpolation = Interpolation::step,
              .times = keys,
              .values = {0, 0, 0, 1, 0, 1, 0, 0}},
             {.node = 0,
-             .path = Path::scale,
+             .path = TargetPath::scale,
              .interpolation = Interpolation::cubic,
              .times = keys,
              .values = {0, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 2, 2, 2, 0, 0, 0}},
-            {.node = 3, .path = Path::weights, .times = keys, .values = {0.0F, 1.0F}}};
+            {.node = 3, .path = TargetPath::weights, .times = keys, .values = {0.0F, 1.0F}}};
 }
 
 }  // namespace

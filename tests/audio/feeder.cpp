@@ -15,7 +15,7 @@ namespace {
 // A simulated sound card that can be unplugged, and the samples that it played.
 struct Room {
     bool there = true, plugged = true;
-    std::size_t free = in_queue;
+    std::size_t free = max_queued_blocks;
     std::vector<float> heard;
     double volume = -1.0;
     int attempts = 0;
@@ -24,15 +24,15 @@ struct Room {
 class Card final : public Sink {
   public:
     explicit Card(Room& room) : room_(room) {
-        room_.free = in_queue;
+        room_.free = max_queued_blocks;
         room_.volume = -1.0;  // a new device has no volume yet
     }
     [[nodiscard]] std::string name() const override { return "card"; }
-    Result<std::size_t> room() override {
+    Result<std::size_t> free_blocks() override {
         if (!room_.plugged) return fail(ErrorCode::no_device, "pulled out");
         return room_.free;
     }
-    Status play(std::span<const float, block> samples) override {
+    Status play(std::span<const float, block_size> samples) override {
         if (!room_.plugged) return fail(ErrorCode::no_device, "pulled out");
         REQUIRE(room_.free > 0);
         --room_.free;
@@ -59,7 +59,7 @@ OpenSink card_in(Room& room) {
 // Samples with increasing values.
 struct Counter {
     float next = 0.0F;
-    Fill fill() {
+    FillSamples fill() {
         return [this](std::span<float> samples) {
             for (float& sample : samples) sample = next++;
         };
@@ -75,16 +75,16 @@ TEST_CASE("Feeder: fills the sink with every sample once and in order") {
     feeder.update(0.0, 0.5);
     CHECK(feeder.status().playing);
     CHECK(feeder.status().device == "card");
-    CHECK(room.heard.size() == in_queue * block);
+    CHECK(room.heard.size() == max_queued_blocks * block_size);
     CHECK(room.volume == 0.5);
     feeder.update(0.01, 0.5);
-    CHECK(room.heard.size() == in_queue * block);  // no room, no samples
+    CHECK(room.heard.size() == max_queued_blocks * block_size);  // no room, no samples
     room.free = 2;
     feeder.update(0.02, 7.0);
     CHECK(room.volume == 1.0);
-    REQUIRE(room.heard.size() == (in_queue + 2) * block);
+    REQUIRE(room.heard.size() == (max_queued_blocks + 2) * block_size);
     for (std::size_t i = 0; i < room.heard.size(); ++i) REQUIRE(room.heard[i] == static_cast<float>(i));
-    CHECK(feeder.status().blocks == in_queue + 2);
+    CHECK(feeder.status().blocks == max_queued_blocks + 2);
 }
 
 TEST_CASE(
@@ -135,8 +135,8 @@ TEST_CASE("Feeder: an unplugged device is reopened when it returns, at the curre
     CHECK(feeder.status().openings == 3);
     CHECK(room.volume == 0.3);
     // No samples were requested without a device.
-    CHECK(room.heard.size() == 3 * in_queue * block);
-    CHECK(room.heard.back() == static_cast<float>(3 * in_queue * block - 1));
+    CHECK(room.heard.size() == 3 * max_queued_blocks * block_size);
+    CHECK(room.heard.back() == static_cast<float>(3 * max_queued_blocks * block_size - 1));
 }
 
 TEST_CASE("Feeder: a device that fails right after opening is not reopened continuously") {

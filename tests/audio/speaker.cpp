@@ -61,7 +61,7 @@ Ended in_child(const char* drivers, const char* config, const Work& work) {
     return ended;
 }
 
-Fill silence() {
+FillSamples silence() {
     return [](std::span<float> samples) { std::fill(samples.begin(), samples.end(), 0.0F); };
 }
 
@@ -72,11 +72,11 @@ TEST_CASE("Speaker: the thread keeps a sink full and publishes its status") {
     struct Card final : Sink {
         explicit Card(std::atomic<bool>& there) : plugged(there) {}
         [[nodiscard]] std::string name() const override { return "card"; }
-        Result<std::size_t> room() override {
+        Result<std::size_t> free_blocks() override {
             if (!plugged) return fail(ErrorCode::no_device, "pulled out");
             return std::size_t{1};
         }
-        Status play(std::span<const float, block>) override { return {}; }
+        Status play(std::span<const float, block_size>) override { return {}; }
         Status set_volume(double wished) override {
             volume = wished;
             return {};
@@ -116,10 +116,10 @@ TEST_CASE("Speaker: plays through OpenAL block after block and reports it once")
         std::optional<std::string> news;
         if (!test::eventually([&] { return (news = speaker->status_change()).has_value(); })) return 2;
         if (news->rfind("sound: ", 0) != 0) return 3;
-        if (!test::eventually([&] { return speaker->status().blocks > 3 * in_queue; })) return 4;
+        if (!test::eventually([&] { return speaker->status().blocks > 3 * max_queued_blocks; })) return 4;
         speaker->set_volume(0.0);
         const std::uint64_t then = speaker->status().blocks;
-        if (!test::eventually([&] { return speaker->status().blocks > then + in_queue; })) return 5;
+        if (!test::eventually([&] { return speaker->status().blocks > then + max_queued_blocks; })) return 5;
         return speaker->status_change() ? 6 : 0;
     });
     CHECK(ended.status == 0);
@@ -157,7 +157,7 @@ TEST_CASE("Speaker: the output contains the samples that were filled in") {
     }
     for (int stair = 2; stair <= 40; ++stair) {
         CAPTURE(stair);
-        CHECK(lengths[static_cast<std::size_t>(stair)] >= static_cast<int>(block) - 1);
+        CHECK(lengths[static_cast<std::size_t>(stair)] >= static_cast<int>(block_size) - 1);
     }
 }
 
@@ -186,7 +186,7 @@ TEST_CASE("Speaker: stops while its device plays, and continues after a move") {
         auto second = Speaker::start(silence());  // each with its own context
         if (!first || !second) return 2;
         *first = std::move(*second);
-        return test::eventually([&] { return first->status().blocks > 2 * in_queue; }) ? 0 : 3;
+        return test::eventually([&] { return first->status().blocks > 2 * max_queued_blocks; }) ? 0 : 3;
     });
     CHECK(ended.status == 0);
 }

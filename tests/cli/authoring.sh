@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Walks content/AUTHORING.md: every sh block of it, in order, in an empty folder. $1: programs, $2: sources.
+# Runs all sh blocks of content/AUTHORING.md in order in an empty folder. $1: programs, $2: sources.
 set -euo pipefail
 . "$2/tests/support/skip.sh" authoring
 export PATH="$1:$PATH" SOURCES="$2" BOLTWRIGHT_CONTENT="$2/content"
@@ -9,21 +9,21 @@ fi
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 awk '/^```sh$/ { on = 1; next } /^```$/ { on = 0 } on' "$2/content/AUTHORING.md" > "$work/walk.sh"
-[[ $(grep -c . "$work/walk.sh") -ge 12 ]] || { echo "no walk found"; exit 1; }
+[[ $(grep -c . "$work/walk.sh") -ge 12 ]] || { echo "no sh blocks found"; exit 1; }
 mkdir "$work/empty"
 cd "$work/empty"
-bash -euxo pipefail ../walk.sh > ../said 2>&1 || { cat ../said; exit 1; }
+bash -euxo pipefail ../walk.sh > ../log 2>&1 || { cat ../log; exit 1; }
 failed=0
 expect() { grep -qE -- "$1" "$2" || { echo "FAILED: no /$1/ in $2"; cat "$2"; failed=1; }; }
 for file in bracket/bracket.glb bracket/bracket.far.glb bracket/bracket.contact.glb bracket.png curve.csv report.html; do
-    [[ -s $file ]] || { echo "FAILED: the walk left no $file"; failed=1; }
+    [[ -s $file ]] || { echo "FAILED: $file is missing"; failed=1; }
 done
-expect '^bracket/assembly.json: 2 joints, 5 passes, variant -: no mistakes' ../said
-expect 'contact model: watertight' ../said
+expect '^bracket/assembly.json: 2 joints, 5 passes, variant -: no mistakes' ../log
+expect 'contact model: watertight' ../log
 expect '"id": "J2"' lesson/summary.json
 expect '"assembly": "bracket"' lesson/summary.json
 expect '"model_far": "bracket.far.glb"' bracket/assembly.json
-# Both mistakes of the wrong copy, each at its place.
+# Both mistakes of the wrong copy are reported, each with its position.
 expect 'assembly.json:[0-9]+:[0-9]+: /joints/1/node: there is no node "joint_J22" in the model; did you mean "joint_J2"\?' mistakes.txt
 expect '/joints/0/position_mm: the joint is \[-50, 27, 9\] mm here, but its node "joint_J1" stands at \[-50, 27, 8\] mm, 1 mm away' mistakes.txt
 [[ $(wc -l < mistakes.txt) -eq 2 ]] || { echo "FAILED: not two mistakes"; cat mistakes.txt; failed=1; }
@@ -34,9 +34,9 @@ for file in bracket.glb bracket.far.glb bracket.contact.glb; do
     cmp "bracket/$file" "again/$file" || failed=1
 done
 
-# What we ship is held to the same.
+# The shipped assemblies must be valid too.
 for folder in "$SOURCES"/content/assemblies/*/; do
     bolt-author validate "$folder" > ../shipped 2>&1 || { echo "FAILED: $folder"; cat ../shipped; failed=1; }
 done
-echo "authoring walked"
+echo "all blocks of AUTHORING.md succeed"
 exit $failed

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# The programs as their users call them: options, exit codes, messages, files. $1: folder of the programs, $2: sources.
+# The command lines of the programs: options, exit codes, messages, files. $1: folder of the programs, $2: sources.
 . "$(dirname "$0")/checks.sh"
 
-# The author's tool.
+# bolt-author.
 expect 0 '"preload_kN":80\.8' "$bin/bolt-author" torque --size M16 --class 8.8 --mu 0.12 --json
 expect 0 '"preload_kN":87\.5' "$bin/bolt-author" torque --size M16 --pitch 1.5 --class 8.8 --mu 0.12 --json
 expect 0 'torque_Nm 205\.8' "$bin/bolt-author" torque --size M16 --class 8.8 --mu 0.12
@@ -25,7 +25,7 @@ expect 2 'nothing to write' "$bin/bolt-author" curve zq350 --joint B1
 expect 1 'cannot be written' "$bin/bolt-author" curve zq350 --joint B1 --csv none/there.csv
 expect 1 'cannot be written' bash -c "'$bin/bolt-author' curve zq350 --joint B1 --csv - > /dev/full"
 expect 0 '^$' "$bin/bolt-author" curve zq350 --joint F1 --svg torque-angle.svg
-check "the README's picture is what the program draws" cmp torque-angle.svg "$sources/docs/torque-angle.svg"
+check "the picture in README equals the program's output" cmp torque-angle.svg "$sources/docs/torque-angle.svg"
 
 reducer=(zq350)
 if sanitized; then
@@ -48,13 +48,13 @@ expect 3 'broken/assembly.json:[0-9]+:[0-9]+: .*M8' "$bin/bolt-author" validate 
 expect 3 'friction_thread' "$bin/boltwright" train --no-pictures broken --headless --out "$work/never"
 check "bad content leaves no folder behind" test ! -e never
 expect 0 'score' "$bin/boltwright" train --no-pictures pump-cover --no-obstacles --headless --quiet --out pump
-# A single bolt of it, tightened once: obstacles take their time, and one bolt shows what four do.
+# Only one bolt of it, tightened once, because lessons with obstacles take long.
 cp -r pump-cover one
 sed -i '/"id": "B[234]"/d; s/\(.*"id": "B1".*\),$/\1/; s/"order": .*/"order": ["B1"],/; /"percent": 50/d; /recheck/d
     s/\("percent": 100 }\),/\1/' one/assembly.json
 expect 0 '1 joints, 2 passes.*no mistakes' "$bin/bolt-author" validate one
 
-# A lesson, its files, and what can be done with them.
+# A lesson, its files, and the commands that read them.
 expect 0 'score [0-9.]+ of 100' "$bin/boltwright" train --no-pictures --headless --no-obstacles --operator novice --seed 4 --out a
 for file in session.boltwright summary.json report.html; do check "train leaves $file" test -s "a/$file"; done
 expect 0 '"operator": "novice"' cat a/summary.json
@@ -67,42 +67,42 @@ check "the same seed gives the same session, byte by byte, as CSV" bash -c "
 expect 0 'report2.html' "$bin/boltwright" report a/session.boltwright b/session.boltwright --html report2.html
 check "two sessions make one page" grep -q '<html' report2.html
 expect 0 'study.html' env BIN="$bin" SEEDS=1 TRAINEES=clumsy JOBS=1 bash "$sources/tools/study.sh" study one
-check "a study compares, and says of whom" bash -c "grep -q 'With and without guiding' study/study.html && grep -q 'are simulated' study/study.html"
+check "a study compares, and states that the trainees are simulated" bash -c "grep -q 'With and without guiding' study/study.html && grep -q 'are simulated' study/study.html"
 expect 0 '' "$bin/boltwright" export a/session.boltwright --csv ticks.csv
-check "a row a tick, and a header" bash -c '[[ $(wc -l < ticks.csv) -gt 300000 ]] && head -1 ticks.csv | grep -q wrench_torque_Nm'
+check "the CSV has a header and a row per tick" bash -c '[[ $(wc -l < ticks.csv) -gt 300000 ]] && head -1 ticks.csv | grep -q wrench_torque_Nm'
 expect 1 'full|written' bash -c "'$bin/boltwright' export a/session.boltwright --csv - > /dev/full"
 
-# Loosening, held against measured runs.
+# Loosening, compared with measured data.
 expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --no-obstacles --headless --quiet --task loosen --out loose
 
-# Obstacles are met wherever they are modelled, and the files say whether and which. Two runs are one, to the last byte.
+# Contacts are simulated if the assembly has contact models, and the files record this. Two runs are equal byte for byte.
 expect 0 'score 100' "$bin/boltwright" train --no-pictures one --headless --quiet --out solid
 expect 0 '"obstacles": true' cat solid/summary.json
 expect 0 'score 100' "$bin/boltwright" train --no-pictures one --headless --quiet --out solid2
 check "the same seed gives the same session among obstacles" bash -c "
     '$bin/boltwright' export solid/session.boltwright --csv - | sha256sum > s.sum &&
     '$bin/boltwright' export solid2/session.boltwright --csv - | sha256sum > s2.sum && cmp s.sum s2.sum"
-check "what was touched is named" bash -c "'$bin/boltwright' export solid/session.boltwright --csv - | grep -c ',B1_washer_nut,none' >/dev/null"
+check "the touched obstacle is named" bash -c "'$bin/boltwright' export solid/session.boltwright --csv - | grep -c ',B1_washer_nut,none' >/dev/null"
 expect 0 '"obstacles": false' cat a/summary.json
 expect 0 '"guide": true' cat a/summary.json
 
-# Played again: to the same bits, as a picture, as a film; what has changed since is noticed.
+# Replays: verified bit for bit, as a picture, as a film; changes since the recording are detected.
 expect 0 'all as they were recorded' "$bin/boltwright" replay solid/session.boltwright
-film=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright" replay)  # Vulkan drivers keep memory for good
+film=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright" replay)  # Vulkan drivers leak memory
 expect 0 'now.png' "${film[@]}" solid/session.boltwright --at 8 --png now.png --size 160x90 --validate
 expect 0 'both.png' "${film[@]}" solid/session.boltwright --at 8 --png both.png --size 160x90 --stereo --validate
 check "both eyes are side by side: 320 wide" bash -c '[[ $(od -An -tu1 -j16 -N4 both.png) =~ ^\ +0\ +0\ +1\ +64$ ]]'
-check "the picture is there" test -s now.png
+check "the picture exists" test -s now.png
 expect 0 'film.mp4: 3 pictures, with sound' "${film[@]}" solid/session.boltwright --from 2 --until 2.25 --rate 10 --video film.mp4 --size 64x36
-check "the film is there" test -s film.mp4
-check "what it was made of is not" bash -c '! ls film.*.mp4 film.*.wav'
+check "the film exists" test -s film.mp4
+check "its temporary files do not" bash -c '! ls film.*.mp4 film.*.wav'
 expect 0 'film.wav' "${film[@]}" solid/session.boltwright --from 4 --until 6 --rate 30 --video film.mp4 --wav film.wav --size 64x36
 lasts() { ffprobe -v error -select_streams "$1" -show_entries stream=duration -of csv=p=0 "$2"; }
 check "pictures and sound last as long as the lesson did" awk -v v="$(lasts v film.mp4)" -v a="$(lasts a film.mp4)" \
     'BEGIN { exit !(v > 1.99 && v < 2.05 && a > 1.99 && a < 2.05) }'
 expect 0 'part.wav' "$bin/boltwright" replay solid/session.boltwright --from 4 --until 6 --wav part.wav
 check "a sound is the same beside a film and alone" cmp film.wav part.wav
-check "and no silence" bash -c "ffmpeg -nostdin -i part.wav -af volumedetect -f null - 2>&1 | grep -E 'max_volume: -[0-4]?[0-9]\.'"
+check "... and it is not silent" bash -c "ffmpeg -nostdin -i part.wav -af volumedetect -f null - 2>&1 | grep -E 'max_volume: -[0-4]?[0-9]\.'"
 expect 0 'silent.mp4: 3 pictures$' "${film[@]}" solid/session.boltwright --silent --from 2 --until 2.25 --rate 10 --video silent.mp4 --size 64x36
 check "a silent film has no sound" test -z "$(lasts a silent.mp4)"
 expect 2 'wav' "$bin/boltwright" replay solid/session.boltwright --from 4
@@ -111,7 +111,7 @@ expect 1 'FFmpeg' env PATH=/nonexistent "$bin/boltwright" replay solid/session.b
 expect 3 'format 2' "$bin/boltwright" replay "$sources/tests/data/format-1.boltwright"
 expect 2 '' "$bin/boltwright" replay solid/session.boltwright --at 8
 
-# A torque wrench instead of the usual one: it is in the session, and in all that is made of that.
+# A torque wrench instead of the default tool: it is recorded in the session and in the files made from it.
 expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --tool torque_wrench --headless --quiet --out click
 expect 0 '"tool": "torque_wrench"' cat click/summary.json
 check "the report names the tool" grep -q 'torque_wrench' click/report.html
@@ -120,7 +120,7 @@ expect 3 'did you mean "torque_wrench"' "$bin/boltwright" train cover-m8 --tool 
 expect 0 'score' "$bin/boltwright" train --no-pictures cover-m8 --headless --quiet --no-obstacles --no-guide --out alone
 expect 0 '"guide": false' cat alone/summary.json
 bare="$sources/tests/data/cover.json"
-expect 0 'names no contact model' "$bin/boltwright" train --no-pictures "$bare" --headless --out bare
+expect 0 'has no contact model' "$bin/boltwright" train --no-pictures "$bare" --headless --out bare
 expect 3 'contact model' "$bin/boltwright" train --no-pictures "$bare" --headless --quiet --obstacles --out bare
 expect 2 'obstacles' "$bin/boltwright" train cover-m8 --headless --obstacles --no-obstacles --out never
 expect 0 '' "$bin/boltwright" export "$sources/tests/data/format-1.boltwright" --csv old.csv
@@ -151,17 +151,17 @@ cp -r pump-cover locking
 sed -i 's/"lubrication": "oiled"/"lubrication": "oiled", "prevailing_torque_Nm": 4/' locking/assembly.json
 expect 0 'score' "$bin/boltwright" train --no-pictures locking --no-obstacles --headless --quiet --out locked
 
-# Pictures without a display, under validation: any message of the layers is an error. Drivers leak: not ours to tell.
+# Pictures without a display, under validation: any message of the layers is an error. Leaks of drivers are ignored.
 draw=(env ASAN_OPTIONS=detect_leaks=0 "$bin/boltwright")
 expect 0 ': used' "${draw[@]}" doctor --seconds 0
-# Whether this machine keeps time is not for a test to say; that it is told, and told to be unknown, is.
+# The timing of this machine is not tested. The test requires that too few ticks are reported as such.
 expect 0 'at 4000 ticks a second this machine is NOT good enough' bash -c "$(printf '%q ' "${draw[@]}") doctor --seconds 0.05 | tee host.txt"
-check "few ticks say nothing, and are said to" grep -qE 'only [0-9]+ ticks were timed' host.txt
+check "too few ticks are reported" grep -qE 'only [0-9]+ ticks were timed' host.txt
 expect 2 '' "${draw[@]}" doctor --seconds -1
 expect 0 '^Devices: [0-9]+ by USB' "${draw[@]}" doctor --seconds 0
 expect 0 'its button is held' "$bin/boltwright" doctor --help
 
-# A station that is tried: what is wrong before it begins.
+# The trial of a station: errors before it begins.
 expect 4 'no device 256f:0000; expected one that .boltwright devices. lists' "$bin/boltwright" doctor --device 256f:0000
 expect 4 'not a serial port' "$bin/boltwright" doctor cover-m8 --glove /dev/null
 expect 4 'is the glove.s adapter plugged in' "$bin/boltwright" doctor cover-m8 --glove /dev/ttyNONE
@@ -171,13 +171,13 @@ expect 3 'there is no such folder, file or assembly' "$bin/boltwright" doctor no
 expect 2 'requires --device' "$bin/boltwright" doctor --rig rig.json
 expect 2 'requires --glove' "$bin/boltwright" doctor --trainee Ada
 
-# Devices: with nothing plugged in, with a glove that is emulated, without permission, with something that is no glove.
-expect 0 'CyberGlove may be on' "$bin/boltwright" devices
+# Devices: none connected, an emulated glove, missing permission, a port without a glove.
+expect 0 'Serial ports for a CyberGlove' "$bin/boltwright" devices
 expect 4 'there is no device 256f:0000; expected one that' "$bin/boltwright" devices --device 256f:0000
 expect 4 'is the glove.s adapter plugged in' "$bin/boltwright" devices --glove /dev/ttyNONE
 expect 4 'not a serial port' "$bin/boltwright" devices --glove /dev/null
 expect 2 '' "$bin/boltwright" devices --seconds -1
-glove() {  # an emulated one with these options, on the port ./port
+glove() {  # starts an emulated glove with these options on ./port
     "$bin/bolt-emulate" glove "$@" --link "$work/port" > /dev/null &
     emulated=$!
     for _ in $(seq 600); do [[ -L port ]] && return; sleep 0.1; done
@@ -198,7 +198,7 @@ expect 0 'seen/view-top.png' "${draw[@]}" train cover-m8 --no-obstacles --headle
 check "train draws every view" test -s seen/view-front.png
 expect 0 'score' env VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json \
     "${draw[@]}" train cover-m8 --no-obstacles --headless --quiet --out unseen
-check "without a GPU everything else is there" test -s unseen/report.html
+check "without a GPU all other files are written" test -s unseen/report.html
 expect 0 'none: .*there is no display.*DISPLAY' env -u DISPLAY -u WAYLAND_DISPLAY "${draw[@]}" doctor --seconds 0
 expect 0 'pictures/cover-front.png' "${draw[@]}" render cover-m8 --view top --view front --size 96x64 --validate \
     --png pictures/cover.png
@@ -207,13 +207,13 @@ expect 0 'both.png' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" -
     --timings times.json --validate --png both.png
 check "the times of two frames" test "$(grep -c '"ms"' times.json)" -eq 2
 expect 0 'same.png' "${draw[@]}" render cover-m8 --view top --size 96x64 --png same.png
-check "the same picture again" cmp same.png pictures/cover-top.png
+check "drawn again the picture is the same" cmp same.png pictures/cover-top.png
 expect 0 'marked.png' "${draw[@]}" render cover-m8 --view top --inset front --labels --size 96x64 --validate --png marked.png
-check "an inset and names change the picture" bash -c '! cmp -s marked.png same.png'
+check "an inset and labels change the picture" bash -c '! cmp -s marked.png same.png'
 expect 2 '"front"' "${draw[@]}" render cover-m8 --view top --inset frontt --png never.png
 expect 2 'no joints' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" --labels --png never.png
 expect 0 'best.png' "${draw[@]}" render cover-m8 --joint B3 --size 96x64 --png best.png
-check "the view that shows a nut best" cmp best.png pictures/cover-front.png
+check "--joint selects the view that shows its nut best" cmp best.png pictures/cover-front.png
 expect 2 'no joint "B9"' "${draw[@]}" render cover-m8 --joint B9 --png never.png
 expect 0 '^B3 .* front$' "$bin/bolt-author" views cover-m8
 expect 0 '^B3 +0 % .* back$' "$bin/bolt-author" views zq350
@@ -231,38 +231,38 @@ expect 2 'index from 0 to 0' "${draw[@]}" render "$posed" --animation 1 --png ne
 expect 2 'has animations' "${draw[@]}" render cover-m8 --view top --animation wave --png never.png
 expect 2 'animation' "${draw[@]}" render "$posed" --at 1 --png never.png
 expect 2 '"top"' "${draw[@]}" render cover-m8 --view topp --png never.png
-expect 2 'no size' "${draw[@]}" render cover-m8 --size 0x10 --png never.png
-expect 2 'no point' "${draw[@]}" render cover-m8 --eye 1,2 --png never.png
+expect 2 'not a size' "${draw[@]}" render cover-m8 --size 0x10 --png never.png
+expect 2 'not a point' "${draw[@]}" render cover-m8 --eye 1,2 --png never.png
 expect 2 'same point' "${draw[@]}" render cover-m8 --eye 1,2,3 --target 1,2,3 --png never.png
 expect 2 'no named views' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" --view top --png never.png
 expect 3 'nowhere.glb' "${draw[@]}" render nowhere.glb --png never.png
 expect 3 'names no model' "${draw[@]}" render plain --png never.png
 expect 4 'does not match' "${draw[@]}" render cover-m8 --gpu voodoo --png never.png
 expect 1 'null' "${draw[@]}" render cover-m8 --size 8x8 --png /dev/null/picture.png
-check "nothing was drawn where something was wrong" test ! -e never.png
+check "no picture is written after an error" test ! -e never.png
 
-# What is wrong is said, with the right exit code.
+# Errors and their exit codes.
 expect 2 '' "$bin/boltwright"
 expect 2 '' "$bin/boltwright" train --no-pictures --mode hard
 expect 2 'did you mean expert' "$bin/boltwright" train --no-pictures --headless --operator exprt --out never
 expect 4 'no headset' "$bin/boltwright" train --no-pictures --headless --hmd --out never
 expect 4 'omega7' "$bin/boltwright" train --no-pictures --headless --device omega7 --out never
 expect 4 'ttyS99' "$bin/boltwright" train --no-pictures --headless --glove /dev/ttyS99 --out never
-expect 2 'stand alone' "$bin/boltwright" train --headless --device mouse --device 256f:c62e --out never
-expect 1 'cannot be made|Not a directory' "$bin/boltwright" train --no-pictures --headless --quiet --out /dev/null/out
+expect 2 'cannot be combined' "$bin/boltwright" train --headless --device mouse --device 256f:c62e --out never
+expect 1 'cannot be created|Not a directory' "$bin/boltwright" train --no-pictures --headless --quiet --out /dev/null/out
 expect 1 'session' "$bin/boltwright" report ticks.csv --html never.html
 expect 1 'nowhere' "$bin/boltwright" report nowhere --html never.html
 
-# A glove's calibration: the vendor's file is taken over and kept by trainee; what is wrong is said where.
-expect 0 'Kept in gloves/' "$bin/boltwright" glove import "$sources/tests/fuzz/corpus/hand.cal" --trainee 'Ada L.' --sensors 22 --folder gloves
-check "it is there" test -s gloves/_41da_20_4c_2e.right.glove.json
+# The calibration of a glove: the vendor's file is imported and stored for the trainee; errors have a position.
+expect 0 'Saved to gloves/' "$bin/boltwright" glove import "$sources/tests/fuzz/corpus/hand.cal" --trainee 'Ada L.' --sensors 22 --folder gloves
+check "the calibration is stored" test -s gloves/_41da_20_4c_2e.right.glove.json
 head -8 "$sources/tests/fuzz/corpus/hand.cal" > short.cal
 expect 3 '^(boltwright: |error: )?short.cal:[0-9]+' "$bin/boltwright" glove import short.cal --trainee Ada --folder gloves
 sed 's/"gain": /"gian": /' gloves/_41da_20_4c_2e.right.glove.json > misspelt.json
 expect 3 'misspelt.json:13:7: .*did you mean "gain"' "$bin/boltwright" glove show misspelt.json --port /dev/null
 expect 4 'not a serial port' "$bin/boltwright" glove calibrate --trainee Ada --port /dev/null --folder gloves
 expect 2 'trainee is required' "$bin/boltwright" glove calibrate --port /dev/null
-# Somebody in an emulated glove does what is asked, and is measured then.
+# A simulated wearer of an emulated glove follows the prompts and is then measured.
 mkfifo asked
 "$bin/bolt-emulate" glove --asked --link "$work/worn" < asked > /dev/null &
 emulated=$!
@@ -271,11 +271,11 @@ for _ in $(seq 600); do [[ -L worn ]] && break; sleep 0.1; done
 "$bin/boltwright" glove calibrate --trainee Ada --port worn --folder gloves 2>&1 | tee calibrated | while read -r line; do
     case $line in 1/4*) echo flat ;; 2/4*) echo fist ;; 3/4*) echo spread ;; 4/4*) echo across ;; esac >&4
 done
-check "the quality of the calibration is told" grep -qE '^Quality 0\.[5-9]' calibrated
+check "the quality of the calibration is printed" grep -qE '^Quality 0\.[5-9]' calibrated
 echo fist >&4
 expect 0 'middle  90 100  67' "$bin/boltwright" glove show gloves/_41da.right.glove.json --port worn --seconds 3
-expect 2 'of another glove' "$bin/boltwright" glove show gloves/_41da_20_4c_2e.right.glove.json --port worn
-# The same hand at a station, without a display or a GPU: it closes on the wrench, its glove is pulled, and comes back.
+expect 2 'for another glove' "$bin/boltwright" glove show gloves/_41da_20_4c_2e.right.glove.json --port worn
+# The same hand at a station, without a display and a GPU: it grasps the wrench; the glove is unplugged and plugged in again.
 tried=(env -u DISPLAY VK_ICD_FILENAMES=/nonexistent.json VK_DRIVER_FILES=/nonexistent.json
     "$bin/boltwright" doctor cover-m8 --glove worn)
 expect 3 'no calibration of Bob.s right hand.*boltwright glove calibrate --trainee "Bob"' "${tried[@]}" --trainee Bob --folder gloves
@@ -284,28 +284,28 @@ echo grip >&4
 doctor=$!
 says() { for _ in $(seq 1200); do grep -q "$1" tried && return; sleep 0.1; done; return 1; }
 check "a station begins with a glove alone" says 'For 3600 s'
-check "... whose hand is closed, and takes the wrench" says 'the hand takes the wrench'
+check "... whose closed hand takes the wrench" says 'the hand takes the wrench'
 kill $emulated && wait $emulated
 exec 4>&-
-check "... says that its glove is gone, and what to do" says 'worn.*is the glove.s adapter plugged in'
-sleep 0.5  # what lasts for a moment only and is said in other words then is forgotten
+check "... an unplugged glove is reported with a remedy" says 'worn.*is the glove.s adapter plugged in'
+sleep 0.5  # a problem that another message replaces within 0.3 s is dropped
 "$bin/bolt-emulate" glove --asked --link "$work/worn" < asked > /dev/null &
 emulated=$!
 exec 4> asked
 echo grip >&4
-check "... that it is back" says 'over: .*adapter plugged in'
-check "... and that the hand is seen again" says 'over: The glove is lost'
+check "... and its return" says 'over: .*adapter plugged in'
+check "... and the return of the hand" says 'over: The glove is lost'
 kill -INT $doctor && wait $doctor
-check "... and is not good enough, because of that" test $? -eq 1
-check "what it says of the glove" grep -qE 'Glove on worn: CyberGlove, right hand, 18 sensors' tried
-check "of whose it is" grep -qE 'calibrated for Ada on 20[0-9-]+, quality 0\.' tried
-check "of the verdict" grep -qE 'not good enough, because' tried
-check "of when it was gone" grep -qE 'adapter plugged in\? \(from [0-9.]+ to [0-9.]+ s\)' tried
+check "... and the station is not good enough" test $? -eq 1
+check "the report describes the glove" grep -qE 'Glove on worn: CyberGlove, right hand, 18 sensors' tried
+check "... its calibration" grep -qE 'calibrated for Ada on 20[0-9-]+, quality 0\.' tried
+check "... the verdict" grep -qE 'not good enough, because' tried
+check "... and the time of the disconnection" grep -qE 'adapter plugged in\? \(from [0-9.]+ to [0-9.]+ s\)' tried
 kill $emulated && wait $emulated
 exec 4>&-
 expect 1 'cannot be' "$bin/boltwright" glove import "$sources/tests/fuzz/corpus/hand.cal" --trainee Ada --folder /dev/null/gloves
 
-# Killed in the middle: what was recorded opens, reports, and says that it was cut short.
+# A killed lesson: the recorded part can be reported, with a note that it was cut short.
 for delay in 0.05 0.15 0.3; do
     rm -rf killed
     "$bin/boltwright" train --no-pictures --no-obstacles --headless --quiet --operator novice --out killed >/dev/null 2>&1 &
@@ -315,8 +315,8 @@ for delay in 0.05 0.15 0.3; do
     wait $victim 2>/dev/null
     if [[ -s killed/session.boltwright && ! -e killed/summary.json ]]; then
         expect 0 'cut short' "$bin/boltwright" report killed/session.boltwright --html killed.html
-        check "the page says so too" grep -qi 'cut short' killed.html
+        check "the page states this too" grep -qi 'cut short' killed.html
     fi
 done
 
-tell_and_leave
+finish_checks

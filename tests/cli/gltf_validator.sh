@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Everything that is shipped as .glb is without an error or a warning of the Khronos glTF validator, and bolt-author
-# validate says what that program finds. $1: programs, $2: sources.
+# All shipped .glb files pass the Khronos glTF validator without errors and warnings, and bolt-author validate reports the
+# validator's findings. $1: programs, $2: sources.
 set -uo pipefail
 bin=$1
 sources=$2
@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 failed=0
 bad() { echo "FAILED: $1"; failed=1; }
 
-# Files that are wrong: a reference to a scene that is not there, a name that is misspelt (a warning), no glTF at all.
+# Invalid files: a reference to a missing scene, a misspelt name (a warning), and a file that is not glTF.
 glb() {
     python3 - "$1" "$2" <<'PY'
 import struct, sys
@@ -28,8 +28,8 @@ glb "$work/good.glb" '{"asset":{"version":"2.0"}}'
 glb "$work/error.glb" '{"asset":{"version":"2.0"},"scene":5}'
 glb "$work/warning.glb" '{"asset":{"version":"2.0"},"scens":[]}'
 echo "no glTF" > "$work/none.glb"
-node "$runner/validate.mjs" "$work"/{good,error,warning,none}.glb > "$work/said.json" || bad "the runner failed"
-python3 - "$work/said.json" <<'PY' || bad "the runner does not say what is wrong"
+node "$runner/validate.mjs" "$work"/{good,error,warning,none}.glb > "$work/messages.json" || bad "the runner failed"
+python3 - "$work/messages.json" <<'PY' || bad "the runner does not report the errors"
 import json, sys
 good, error, warning, none = json.load(open(sys.argv[1]))
 assert good['messages'] == [], good
@@ -38,11 +38,11 @@ assert [(m['severity'], m['code'], m['pointer']) for m in warning['messages']] =
 assert len(none['messages']) == 1 and none['messages'][0]['severity'] == 0, none
 PY
 
-# What is shipped.
+# The shipped files.
 mapfile -d '' shipped < <(find "$sources/content" -name '*.glb' -print0 | sort -z)
 if [[ ${#shipped[@]} -gt 0 ]]; then
-    node "$runner/validate.mjs" "${shipped[@]}" > "$work/shipped.json" || bad "the runner failed on what is shipped"
-    python3 - "$work/shipped.json" "${#shipped[@]}" <<'PY' || bad "what is shipped is not without a warning"
+    node "$runner/validate.mjs" "${shipped[@]}" > "$work/shipped.json" || bad "the runner failed on the shipped files"
+    python3 - "$work/shipped.json" "${#shipped[@]}" <<'PY' || bad "a shipped file has an error or a warning"
 import json, sys
 reports = json.load(open(sys.argv[1]))
 assert len(reports) == int(sys.argv[2])
@@ -52,7 +52,7 @@ sys.exit(1 if lines else 0)
 PY
 fi
 
-# bolt-author validate runs it, and says where it is left out.
+# bolt-author validate runs the validator, and reports if it is not installed.
 mkdir -p "$work/content/assemblies/cover" "$work/content/schema" "$work/content/tools"
 cp "$sources/content/schema/assembly.schema.json" "$work/content/schema"
 cp "$work/error.glb" "$work/content/tools/wrench.glb"
@@ -68,18 +68,18 @@ cat > "$work/content/assemblies/cover/assembly.json" <<'JSON'
 }
 JSON
 "$bin/bolt-author" validate cover > "$work/out" 2> "$work/err"
-[[ $? -eq 3 ]] || bad "an error of the validator is no bad content"
+[[ $? -eq 3 ]] || bad "an error of the validator does not give exit code 3"
 grep -q 'tools/wrench.glb: /scene: .*UNRESOLVED_REFERENCE, an error of the Khronos glTF validator' "$work/err" ||
-    { bad "the validator's error is not told"; cat "$work/err"; }
+    { bad "the validator's error is not reported"; cat "$work/err"; }
 BOLTWRIGHT_GLTF_VALIDATOR=$work "$bin/bolt-author" validate cover > "$work/out" 2> "$work/err"
-[[ $? -eq 0 ]] || { bad "without the validator its check is left out"; cat "$work/err"; }
-grep -q 'the Khronos glTF validator is not installed, so its checks are left out' "$work/out" || bad "that is not told"
+[[ $? -eq 0 ]] || { bad "without the validator, validate fails"; cat "$work/err"; }
+grep -q 'the Khronos glTF validator is not installed, so its checks are left out' "$work/out" || bad "the missing validator is not reported"
 mkdir -p "$work/broken/node_modules/gltf-validator"
 echo 'process.exit(3)' > "$work/broken/validate.mjs"
 BOLTWRIGHT_GLTF_VALIDATOR=$work/broken "$bin/bolt-author" validate cover > "$work/out" 2> "$work/err"
-[[ $? -eq 1 ]] && grep -q 'the Khronos glTF validator: it failed' "$work/err" || bad "a validator that fails is not told"
+[[ $? -eq 1 ]] && grep -q 'the Khronos glTF validator: it failed' "$work/err" || bad "a failure of the validator is not reported"
 cp "$work/good.glb" "$work/content/tools/wrench.glb"
-"$bin/bolt-author" validate cover > "$work/out" 2> "$work/err" || { bad "a good file is refused"; cat "$work/err"; }
+"$bin/bolt-author" validate cover > "$work/out" 2> "$work/err" || { bad "a valid file is rejected"; cat "$work/err"; }
 
 [[ $failed -eq 0 ]] && echo "${#shipped[@]} shipped files, no errors, no warnings"
 exit $failed

@@ -1,27 +1,27 @@
 #!/usr/bin/env bash
-# bolt-author preview as an author uses it: a window, hands at mouse and keyboard, files that change. Runs under
-# tests/with_screen.sh. $1: folder of the programs, $2: sources. What is waited for may take any time up to two minutes.
+# bolt-author preview as an author uses it: a window, mouse and keyboard input, and changing files. Runs under
+# tests/with_screen.sh. $1: folder of the programs, $2: sources. Each wait times out after two minutes.
 . "$(dirname "$0")/checks.sh"
 export ASAN_OPTIONS=detect_leaks=0
 
-# The window: it is the only one, and without a window manager it is where it wants to be.
+# Opens the only window. Without a window manager it has the requested position.
 start() {  # start what option...
-    "$bin/bolt-author" preview "$@" --validate >said 2>&1 &
+    "$bin/bolt-author" preview "$@" --validate >log 2>&1 &
     player=$!
-    eventually has_window || { echo "no window:"; cat said; exit 1; }
+    eventually has_window || { echo "no window:"; cat log; exit 1; }
 }
 has_window() { window=$(xdotool search --name 'preview|broken' 2>/dev/null | head -1) && [[ -n $window ]]; }
 title() { xdotool getwindowname "$window"; }
-shoot() {  # shoot FILE: what the screen shows of the window
+shoot() {  # shoot FILE: a screenshot of the window
     local X Y WIDTH HEIGHT SCREEN WINDOW
     eval "$(xdotool getwindowgeometry --shell "$window")"
     "$bin/test_screenshot" "$1" "$X" "$Y" "$WIDTH" "$HEIGHT" 2>/dev/null
 }
-# On edges a sample may fall to the other side of them: render computes its camera in other steps.
+# Samples at edges may differ, because render computes its camera in different steps.
 like() { "$bin/bolt-imagediff" "$1" "$2" --most-flip 0.004 >/dev/null 2>&1; }
 shows() { shoot now.png && like "$1" now.png; }
 shows_not() { shoot now.png && ! like "$1" now.png; }
-# Until two looks are the same: nothing moves any more.
+# Waits until two successive screenshots are equal.
 settle() {
     local i
     shoot before.png
@@ -40,12 +40,12 @@ ends_well() {
     wait $player
     status=$?
     player=
-    [[ $status -eq 0 ]] || { echo "exit $status"; cat said; return 1; }
+    [[ $status -eq 0 ]] || { echo "exit $status"; cat log; return 1; }
 }
-# At the level of detail that preview draws.
+# Draws with the level of detail of preview.
 render() { "$bin/boltwright" render "$@" --level-error 0.5 >/dev/null; }
 
-# Without a display: a picture, or the error that says so.
+# Without a display: a picture, or an error.
 expect 4 'DISPLAY.*--png FILE needs none' env -u DISPLAY -u WAYLAND_DISPLAY "$bin/bolt-author" preview cover-m8
 expect 0 'pictures/cover.png' env -u DISPLAY "$bin/bolt-author" preview cover-m8 --view top --size 320x200 --validate \
     --png pictures/cover.png
@@ -55,20 +55,20 @@ render cover-m8 --view front --size 320x200 --png front.png
 check "... and the comparison can fail" bash -c '! "$1" front.png pictures/cover.png --most-flip 0.004 >/dev/null 2>&1' - \
     "$bin/bolt-imagediff"
 expect 2 '"top"' "$bin/bolt-author" preview cover-m8 --view topp
-expect 2 'no size' "$bin/bolt-author" preview cover-m8 --size 320
+expect 2 'not a size' "$bin/bolt-author" preview cover-m8 --size 320
 expect 2 'not named "shaders"' "$bin/bolt-author" preview cover-m8 --shaders "$sources/engine" --png never.png
 expect 3 'nowhere.glb' "$bin/bolt-author" preview nowhere.glb
 expect 4 'does not match' "$bin/bolt-author" preview cover-m8 --gpu voodoo
-check "nothing was drawn where something was wrong" test ! -e never.png
+check "no picture is written after an error" test ! -e never.png
 
 expect 0 'sRGB' "$bin/boltwright" doctor --seconds 0
 expect 0 'images, the minimum is' "$bin/boltwright" doctor --seconds 0
 
-# Look around.
+# Navigation.
 start cover-m8 --size 320x200
-check "the window says what it shows" [ "$(title)" = 'cover-m8 - bolt-author preview' ]
+check "the title names the model" [ "$(title)" = 'cover-m8 - bolt-author preview' ]
 render cover-m8 --size 320x200 --png all.png
-check "all of it is shown first" eventually shows all.png
+check "the whole model is shown first" eventually shows all.png
 xdotool key 2
 check "2 is the second view" eventually shows top.png
 xdotool key 1
@@ -82,7 +82,7 @@ eventually shows front.png
 xdotool mousemove 160 100 mousedown 3 mousemove 220 110 mouseup 3
 check "dragging with the right button moves it" eventually shows_not front.png
 settle
-check "... which is something else" bash -c '! cmp -s after.png turned.png'
+check "... which gives another picture" bash -c '! cmp -s after.png turned.png'
 cp after.png moved.png
 xdotool key 1
 eventually shows front.png
@@ -95,79 +95,79 @@ cp after.png near.png
 xdotool click 5 click 5 click 5
 check "... and back to the same place" eventually shows moved.png
 xdotool key 1 key f
-check "F shows all of it again" eventually shows_not front.png
+check "F shows the whole model" eventually shows_not front.png
 xdotool key 2
 eventually shows top.png
 xdotool windowsize "$window" 500 260
 render cover-m8 --view top --size 500x260 --png wide.png
-check "another size: the same view in it" eventually shows wide.png
+check "a resized window shows the same view" eventually shows wide.png
 xdotool key F11
 render cover-m8 --view top --size 1280x800 --png whole.png
-check "F11 takes the screen" eventually shows whole.png
+check "F11 switches to full screen" eventually shows whole.png
 xdotool key F11
-check "... and gives it back" eventually shows wide.png
+check "... and back" eventually shows wide.png
 xdotool key l
-check "L is the far level" eventually grep -q 'read cover-m8 again' said
+check "L is the far level" eventually grep -q 'read cover-m8 again' log
 check "... which looks nearly the same" eventually shows_not wide.png
 xdotool key l
 check "... and back" eventually shows wide.png
 check "Esc closes" ends_well
 
-# Files that change under it.
+# Changing files.
 cp -r "$sources/content/assemblies/cover-m8" mine
 start mine --view top --size 320x200
-check "a folder of one's own" eventually shows top.png
+check "the folder of an assembly" eventually shows top.png
 sed -i 's/"name": "top", "eye_mm": \[0, 500, 1\]/"name": "top", "eye_mm": [200, 300, 1]/' mine/assembly.json
-check "a saved assembly.json is read" eventually grep -q 'read mine again' said
+check "a changed assembly.json is reloaded" eventually grep -q 'read mine again' log
 xdotool key 2
 render mine --view top --size 320x200 --png moved_view.png
-check "... and its view is the new one" eventually shows moved_view.png
+check "... with the changed view" eventually shows moved_view.png
 cp mine/cover-m8.glb good.glb
 cp "$sources/content/tools/wrench-13.glb" new.glb && mv new.glb mine/cover-m8.glb
 render mine --view top --size 320x200 --png wrench.png
-check "a model that is renamed over the old one is shown" eventually shows wrench.png
+check "a model that replaces the old file is shown" eventually shows wrench.png
 head -c 1000 good.glb > mine/cover-m8.glb
 says_broken() { [[ $(title) == *"broken: "*cover-m8.glb* ]]; }
-check "half a model: the title says so" eventually says_broken
-check "... the terminal too" grep -q 'mine/cover-m8.glb: ' said
-check "... and the last good picture stays" shows wrench.png
+check "a truncated model is reported in the title" eventually says_broken
+check "... and on the terminal" grep -q 'mine/cover-m8.glb: ' log
+check "... and the last valid picture remains" shows wrench.png
 cp good.glb mine/cover-m8.glb
-check "mended, it is shown" eventually shows moved_view.png
+check "the repaired model is shown" eventually shows moved_view.png
 says_well() { [[ $(title) == 'mine - bolt-author preview' ]]; }
-check "... and the title is as it was" eventually says_well
+check "... with the previous title" eventually says_well
 sed -i 's/"model": /"modle": /' mine/assembly.json
 says_where() { [[ $(title) == *"broken: mine/assembly.json:"*:*modle* ]]; }
-check "a mistake in assembly.json is told with its place" eventually says_where
-check "... and the last good picture stays" shows moved_view.png
+check "a mistake in assembly.json is reported with its position" eventually says_where
+check "... and the last valid picture remains" shows moved_view.png
 sed -i 's/"modle": /"model": /' mine/assembly.json
-check "mended" eventually says_well
+check "the repaired file is shown" eventually says_well
 check "Esc closes" ends_well
 
-# A light that changes, and shaders.
+# A changing light, and shaders.
 cp "$sources/content/environments/workshop.hdr" light.hdr
 cp -r "$sources/shaders" shaders
 start cover-m8 --view top --size 320x200 --light light.hdr --shaders shaders
 render cover-m8 --view top --size 320x200 --light "$sources/content/environments/workshop.hdr" --png lit.png
-check "lit by a file, drawn with shaders from a folder" eventually shows lit.png
+check "light and shaders from files are used" eventually shows lit.png
 echo rubbish > light.hdr
 says_light() { [[ $(title) == *"broken: light.hdr"* ]]; }
-check "a broken light is told" eventually says_light
-check "... and the old one stays" shows lit.png
+check "a broken light is reported" eventually says_light
+check "... and the old one remains" shows lit.png
 cp "$sources/content/environments/workshop.hdr" light.hdr
 says_well() { [[ $(title) == 'cover-m8 - bolt-author preview' ]]; }
-check "mended" eventually says_well
+check "the repaired file is shown" eventually says_well
 sed -i 's/^void main() {/void main() { nonsense;/' shaders/light.frag
 says_shader() { [[ $(title) == *"broken: "*light.frag* ]]; }
-check "a shader that does not compile is told" eventually says_shader
-check "... by the compiler's words" grep -q "'nonsense' : undeclared identifier" said
-check "... and the old one stays" shows lit.png
+check "a shader that does not compile is reported" eventually says_shader
+check "... with the compiler's message" grep -q "'nonsense' : undeclared identifier" log
+check "... and the old one remains" shows lit.png
 sed -i 's/^void main() { nonsense;/void main() { color_out = vec4(1, 0, 0, 1); return;/' shaders/light.frag
 is_red() {
     shoot now.png && "$bin/bolt-imagediff" red.png now.png --most-flip 0.004 >/dev/null 2>&1
 }
 "$bin/bolt-author" preview cover-m8 --view top --size 320x200 --shaders shaders --png red.png >/dev/null
-check "a changed shader is seen at once" eventually is_red
-check "... and is not what was there before" bash -c '! cmp -s red.png lit.png'
+check "a changed shader is used at once" eventually is_red
+check "... and gives another picture" bash -c '! cmp -s red.png lit.png'
 check "Esc closes" ends_well
 
-tell_and_leave
+finish_checks

@@ -1,23 +1,23 @@
 #!/usr/bin/env bash
-# Walks the recipes: every sh block of CONTRIBUTING.md, in order, in an empty folder. $1: programs, $2: sources.
+# Runs all sh blocks of CONTRIBUTING.md in order in an empty folder. $1: programs, $2: sources.
 set -euo pipefail
 export PATH="$1:$PATH" BUILD="${1%/bin}" SOURCES="$2" BOLTWRIGHT_CONTENT="$2/content"
-export ASAN_OPTIONS=detect_leaks=0  # one recipe draws, and Vulkan drivers leak
+export ASAN_OPTIONS=detect_leaks=0  # one recipe draws, and Vulkan drivers leak memory
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 awk '/^```sh$/ { on = 1; next } /^```$/ { on = 0 } on' "$2/CONTRIBUTING.md" > "$work/recipes.sh"
-[[ $(grep -c . "$work/recipes.sh") -ge 10 ]] || { echo "no recipes found"; exit 1; }
+[[ $(grep -c . "$work/recipes.sh") -ge 10 ]] || { echo "no sh blocks found"; exit 1; }
 cd "$work"
-bash -euxo pipefail recipes.sh > said 2>&1 || { cat said; exit 1; }
+bash -euxo pipefail recipes.sh > log 2>&1 || { cat log; exit 1; }
 for file in pump-cover/assembly.json after.svg loosened/report.html compare.html ticks.csv red.png; do
-    [[ -s $file ]] || { echo "the recipes left no $file"; exit 1; }
+    [[ -s $file ]] || { echo "$file is missing"; exit 1; }
 done
 grep -q '"id": "B5"' five/summary.json
-[[ -s mistakes.txt ]] || { echo "a wrong place in a language's file was not found"; exit 1; }
-cmp -s before.csv after.csv && { echo "the change of the torque changed nothing"; exit 1; }
+[[ -s mistakes.txt ]] || { echo "the mistake in a language file was not reported"; exit 1; }
+cmp -s before.csv after.csv && { echo "the changed torque did not change the curve"; exit 1; }
 
-# What README.md shows exists: every command of it is known to its program.
+# All commands in README.md exist.
 while read -r program command _; do
     "$program" "$command" --help >/dev/null || { echo "README.md: $program $command is unknown"; exit 1; }
 done < <(grep -hoE '^(boltwright|bolt-author) [a-z]+' "$2/README.md" | sort -u)
-echo "recipes walked"
+echo "all blocks of CONTRIBUTING.md succeed"

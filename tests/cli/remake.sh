@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every model and picture that a program makes is what the program makes, byte for byte. $1: programs, $2: sources.
+# All generated models and pictures in content equal the output of their generators byte for byte. $1: programs, $2: sources.
 set -euo pipefail
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -10,10 +10,10 @@ while read -r file; do
     made=$((made + 1))
     cmp "$work/$file" "$2/content/$file" || failed=1
 done < <(cd "$work" && find . -type f | sort)
-# And nothing is shipped that no program made.
+# All shipped models and pictures are generated.
 while read -r file; do
-    [[ -e $work/$file ]] || { echo "FAILED: no program makes content/$file"; failed=1; }
+    [[ -e $work/$file ]] || { echo "FAILED: content/$file has no generator"; failed=1; }
 done < <(cd "$2/content" && find . -name '*.glb' -o -name '*.step' -o -name '*.hdr')
-[[ $made -ge 28 ]] || { echo "FAILED: only $made files were made"; failed=1; }
-echo "$made files made again"
+[[ $made -ge 28 ]] || { echo "FAILED: only $made files were generated"; failed=1; }
+echo "$made files generated"
 exit $failed

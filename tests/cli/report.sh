@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# What `boltwright report` says of several trainees: report.sh BIN SOURCES [PAGE], on a screen of its own (with_screen.sh),
-# because a person's session needs a window. PAGE keeps the page, to be looked at.
+# `boltwright report` for several trainees: report.sh BIN SOURCES [PAGE]. It needs a screen (with_screen.sh), because a person's
+# session needs a window. PAGE: a copy of the page, for inspection.
 . "$(dirname "$0")/checks.sh"
 page=${3:-}
 
@@ -10,7 +10,7 @@ simulated() {  # simulated FOLDER SEED train's options...
     "$bin/boltwright" train cover-m8 --headless --quiet --no-pictures --no-obstacles --seed "$seed" --out "$folder" "$@" \
         >/dev/null || [[ $? -eq 1 ]]  # 1: the lesson was not finished
 }
-# A person begins a lesson and ends it by Ctrl+C.
+# Simulates a person who starts a lesson and ends it with Ctrl+C.
 person() {  # person FOLDER train's options...
     local folder=$1
     shift
@@ -50,18 +50,18 @@ done
 check "Anna's curve has her attempts alone" \
     grep -qF '<h3>Anna (simulated novice) <span class="of">attempts <a href="#session-1">1</a>, <a href="#session-3">3</a>' page.html
 
-# Guided and not guided: the same person, who is not simulated whatever the name.
+# Lessons of the same person with and without guiding. The trainee's name does not make the person a simulated trainee.
 expect 0 'study.html' "$bin/boltwright" report person{1,2}/session.boltwright --html study.html
 check "the person's lessons are compared" grep -q 'With and without guiding' study.html
 check "a person called expert is not simulated" bash -c "! grep -qi simulated study.html"
 simulated plain 31 --operator expert && simulated unled 31 --operator expert --no-guide
 expect 0 'study2.html' "$bin/boltwright" report plain/session.boltwright unled/session.boltwright --html study2.html
-check "an expert that is simulated is" grep -q 'trainees are simulated' study2.html
+check "a simulated expert is" grep -q 'trainees are simulated' study2.html
 
-# Sessions of older programs: neither is claimed.
+# Sessions of older programs do not record whether the trainee was simulated.
 expect 0 'old.html' "$bin/boltwright" report "$sources"/tests/data/format-[23].boltwright --html old.html
 check "an old session that does not say who held the tool" grep -q 'person or simulated: not recorded' old.html
 check "... claims no simulated trainee" bash -c "! grep -q '(simulated' old.html"
 
 [[ -z $page ]] || cp page.html "$page"
-tell_and_leave
+finish_checks

@@ -1,25 +1,25 @@
 #!/usr/bin/env bash
-# A lesson in a window outlives what happens to programs: killed, no room for its session, the display gone.
-# survives.sh BIN SOURCES, on a screen of its own (with_screen.sh); the last case starts another.
+# The session of a lesson in a window survives a killed program, a full disk and a lost display.
+# survives.sh BIN SOURCES, on a screen (with_screen.sh); the last case starts another screen.
 . "$(dirname "$0")/checks.sh"
 
-said() { grep -q "$2" "$1.log"; }
-play() { exec "$bin/boltwright" train cover-m8 --start --silent --size 320x200 --out "$1" 2>"$1.log" >"$1.said"; }
+logged() { grep -q "$2" "$1.log"; }
+play() { exec "$bin/boltwright" train cover-m8 --start --silent --size 320x200 --out "$1" 2>"$1.log" >"$1.out"; }
 ticks() { "$bin/boltwright" export "$1/session.boltwright" --csv - | tail -n +2 | wc -l; }
 whole() { [[ ! -e $1/session.boltwright-wal && ! -e $1/session.boltwright.lock && -s $1/summary.json && -s $1/report.html ]]; }
 replays() { "$bin/boltwright" replay "$1/session.boltwright" | grep -q 'all as they were recorded'; }
 reports() { "$bin/boltwright" report "$1/session.boltwright" --html "$1.html" 2>"$1.complaint" && [[ -s $1.html ]]; }
 
-# Killed: the wrench is taken so that there is something to tell, with the lesson's time beside it.
+# Killed. The wrench is taken before, because this prints the time in the lesson.
 (play killed) &
 victim=$!
 taken() {
-    said killed 'in the hand' && return
+    logged killed 'in the hand' && return
     xdotool key --window "$(xdotool search --pid $victim | tail -1)" t 2>/dev/null
-    sleep 1  # a second press would lay it down again
-    said killed 'in the hand'
+    sleep 1  # a second press would put it down again
+    logged killed 'in the hand'
 }
-check 'a lesson begins' eventually said killed step_begin
+check 'a lesson begins' eventually logged killed step_begin
 check 'T takes the wrench' eventually taken
 kill -9 $victim
 wait $victim 2>/dev/null
@@ -30,30 +30,30 @@ check 'a killed session is replayed' replays killed
 check 'a killed session is reported' reports killed
 check 'the report says that it was cut short' grep -q 'cut short' killed.complaint
 
-# Files may not grow beyond 120 KB: some seconds of it.
+# The file size limit of 120 KB allows some seconds of recording.
 (ulimit -f 120 && play full)
 status=$?
 check "no room is exit 1, not $status" [ $status = 1 ]
-check 'no room is told, and what is kept' grep -Eq 'full/session.boltwright: cannot be written: .*what was recorded up to [0-9.]+ s is kept' full.log
-up_to=$(sed -n 's/.*recorded up to \([0-9.]*\) s is kept.*/\1/p' full.log)
+check 'a full disk is reported, with the time that is kept' grep -Eq 'full/session.boltwright: cannot be written: .*the recording up to [0-9.]+ s is kept' full.log
+up_to=$(sed -n 's/.*recording up to \([0-9.]*\) s is kept.*/\1/p' full.log)
 kept=$(ticks full)
-check "what is told to be kept ($up_to s) is there ($kept ticks)" awk -v s="${up_to:-0}" -v kept="$kept" 'BEGIN { exit !(s >= 1 && kept == 1000 * s) }'
+check "the recording has $kept ticks, for the reported $up_to s" awk -v s="${up_to:-0}" -v kept="$kept" 'BEGIN { exit !(s >= 1 && kept == 1000 * s) }'
 check 'a session without room is replayed' replays full
 check 'a session without room is reported' reports full
 
-# The display ends: whoever kills with_screen.sh's own server takes it from the lesson.
+# The display is lost: its X server, started by with_screen.sh, is killed.
 BIN=$bin BOLTWRIGHT_CONTENT=$BOLTWRIGHT_CONTENT "$sources/tests/with_screen.sh" bash -c '
-    "$BIN/boltwright" train cover-m8 --start --silent --size 320x200 --out gone 2>gone.log >gone.said &
+    "$BIN/boltwright" train cover-m8 --start --silent --size 320x200 --out gone 2>gone.log >gone.out &
     lesson=$!
     for _ in $(seq 1200); do grep -q step_begin gone.log && [[ -s gone/session.boltwright-wal ]] && break; sleep 0.1; done
     kill "$(pgrep -P $PPID -x Xvfb)"
     wait $lesson
     echo $? >gone.status'
 check "no display is exit 1, not $(cat gone.status)" [ "$(cat gone.status)" = 1 ]
-check 'that the display has ended is told' said gone 'the display has ended'
-check 'and nothing else of it' [ "$(grep -ci 'xlib\|X connection' gone.log)" = 0 ]
-check 'the lesson was ended, and its session sealed, with a report' whole gone
+check 'the lost display is reported' logged gone 'the display has ended'
+check 'no message of Xlib is printed' [ "$(grep -ci 'xlib\|X connection' gone.log)" = 0 ]
+check 'the lesson was ended, its session completed, and a report written' whole gone
 check 'it is replayed' replays gone
 check 'it is reported' reports gone
 [[ ! -s gone.complaint ]] || check "nothing is missing: $(cat gone.complaint)" false
-tell_and_leave
+finish_checks

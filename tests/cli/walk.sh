@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# From start to holding the wrench, by somebody who has read nothing and does what the screen says: Enter in the menu, T for
-# the wrench. walk.sh BIN SOURCES PICTURES, on a screen of its own (with_screen.sh). What it saw is in PICTURES.
+# From the start of the program to the wrench in the hand, by following the instructions on the screen: Enter in the menu, T
+# for the wrench. walk.sh BIN SOURCES PICTURES, on a screen (with_screen.sh); writes screenshots to the folder PICTURES.
 . "$(dirname "$0")/checks.sh"
 pictures=$3
 mkdir -p "$pictures"
 rm -f "$pictures"/*
-said() { grep -q "$1" log; }
+logged() { grep -q "$1" log; }
 picture() { cp "$BOLT_SCREEN" "$pictures/$1.xwd"; }
 key() { xdotool key --window "$(xdotool search --pid $player | tail -1)" "$1"; }
 
@@ -14,10 +14,10 @@ player=$!
 shown() { [[ -n $(xdotool search --pid $player 2>/dev/null) ]]; }
 check 'a window opens' eventually shown
 began() {
-    said 'lesson begun' && return
+    logged 'lesson begun' && return
     key Return 2>/dev/null
     sleep 1
-    said 'lesson begun'
+    logged 'lesson begun'
 }
 sleep 2
 picture 1-menu
@@ -25,10 +25,10 @@ check 'Enter begins the lesson' eventually began
 sleep 2
 picture 2-lesson
 holds() {
-    said 'in the hand' && return
+    logged 'in the hand' && return
     key t 2>/dev/null
-    sleep 3  # a second press would lay it down again
-    said 'in the hand'
+    sleep 3  # a second press would put it down again
+    logged 'in the hand'
 }
 check 'T takes the wrench' eventually holds
 sleep 1
@@ -40,4 +40,4 @@ kill -INT $player
 check 'an orderly end' wait $player
 player=
 check 'it leaves a report' test -s out/report.html
-tell_and_leave
+finish_checks

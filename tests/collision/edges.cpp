@@ -21,7 +21,7 @@ ContactMesh bar(double length, double width) {
     const double diagonal = width / std::sqrt(2.0);
     const Pose turned{Vec3(0.0, -diagonal, 0.0), rotation(Vec3(pi / 4.0, 0.0, 0.0))};
     const Vec3 half = 0.5 * Vec3(length, width, width);
-    return moved(box(-half, half).mesh(), turned);
+    return transformed(box(-half, half).mesh(), turned);
 }
 
 // The other bar, across and upside down, its edge `height` above the first bar's.
@@ -38,7 +38,7 @@ TEST_CASE("edges that have passed each other further than the band are found, as
     options.samples.on_faces = 0;
     const ToolShape tool = make_tool({&mine, 1}, options).value();
     const Obstacle obstacle{ObstacleId::fixed(1), &still, {}, false};
-    const World world = make_world({&obstacle, 1}).value();
+    const CollisionWorld world = make_world({&obstacle, 1}).value();
     NarrowPhaseState state = make_narrow_phase(world, tool);
     std::array<Contact, 32> contacts;
     for (int i = 0; i < 60; ++i) {
@@ -54,7 +54,7 @@ TEST_CASE("edges that have passed each other further than the band are found, as
 TEST_CASE("beyond a thin rib its far edge is not taken for one that was passed") {
     const ContactMesh rib = box(Vec3(-0.5, -20.0, -30.0) * mm, Vec3(0.5, 0.0, 30.0) * mm).mesh();
     const Obstacle obstacle{ObstacleId::fixed(1), &rib, {}, false};
-    const World world = make_world({&obstacle, 1}).value();
+    const CollisionWorld world = make_world({&obstacle, 1}).value();
     // A leaf that stands beside the rib and reaches above it.
     const ContactMesh leaf = box(Vec3(0.7, -5.0, -2.0) * mm, Vec3(1.0, 5.0, 2.0) * mm).mesh();
     const ToolShape tool = make_tool({&leaf, 1}).value();
@@ -78,9 +78,9 @@ TEST_CASE("a piece that need not be asked again has nothing to tell") {
     Random random(51);
     int held = 0, told = 0;
     for (int i = 0; i < 40'000; ++i) {
-        const Sample& sample = tool.samples.samples[random.bits() % tool.samples.samples.size()];
-        if (sample.piece == Sample::no_piece) continue;
-        const Piece& edge = tool.samples.pieces[sample.piece];
+        const SurfaceSample& sample = tool.samples.samples[random.bits() % tool.samples.samples.size()];
+        if (sample.piece == SurfaceSample::no_piece) continue;
+        const PieceExtent& edge = tool.samples.pieces[sample.piece];
         const auto [end, other_end] = solid.ridges[random.bits() % solid.ridges.size()].ends;
         const Vec3 at = glm::mix(Vec3(end), Vec3(other_end), random.uniform()) +
                         random.uniform(0.0, 4.0) * mm * random_direction(random);

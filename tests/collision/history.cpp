@@ -24,7 +24,7 @@ bool same(const Contact& a, const Contact& b) {
 // Asks the warm one, and sometimes the one that has just forgotten everything.
 class Twins {
   public:
-    Twins(const World& world, const ToolShape& tool)
+    Twins(const CollisionWorld& world, const ToolShape& tool)
         : world_(world),
           tool_(tool),
           warm_(make_narrow_phase(world, tool)),
@@ -49,7 +49,7 @@ class Twins {
     int compared = 0, touching = 0;
 
   private:
-    const World& world_;
+    const CollisionWorld& world_;
     const ToolShape& tool_;
     NarrowPhaseState warm_, cold_;
 };
@@ -73,7 +73,7 @@ TEST_CASE("a long way among bodies that move, turn, come and go") {
     const ContactMesh mine = wrench().mesh();
     const ToolShape tool = make_tool({&mine, 1}).value();
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-        World world = make_world(obstacles).value();
+        CollisionWorld world = make_world(obstacles).value();
         Twins twins(world, tool);
         Random random(seed);
         const double phase = random.uniform(0.0, 6.0);
@@ -98,7 +98,7 @@ TEST_CASE("a long way among bodies that move, turn, come and go") {
 TEST_CASE("one pose that is come to by a hundred ways has one answer") {
     const ContactMesh still = casing().mesh();
     const Obstacle obstacle{ObstacleId::fixed(1), &still, {}, false};
-    const World world = make_world({&obstacle, 1}).value();
+    const CollisionWorld world = make_world({&obstacle, 1}).value();
     const ContactMesh mine = wrench().mesh();
     const ToolShape tool = make_tool({&mine, 1}).value();
     // Where an answer once depended on the way.

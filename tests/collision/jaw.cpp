@@ -60,7 +60,7 @@ TEST_CASE("the solids are what they are made of") {
     const Pair p;
     // Euler: corners - edges + faces.
     for (const Convex* solid : {&p.parts[0], &p.parts[1], &p.parts[2], &p.nut}) {
-        CHECK(solid->edges.size() <= most_edges);
+        CHECK(solid->edges.size() <= max_edges);
         CHECK(solid->faces.size() <= 64);
         CHECK(solid->points.size() <= 64);
         CHECK(solid->points.size() + solid->faces.size() == solid->edges.size() + 2);
@@ -70,8 +70,8 @@ TEST_CASE("the solids are what they are made of") {
     for (const Vec3& q : p.nut.points)
         if (std::hypot(q.x, q.y) > flats / std::sqrt(3.0) - 1e-9)
             highest_corner = std::max(highest_corner, q.z);
-    CHECK(highest_corner == doctest::Approx(p.prism.height - p.prism.fall()).epsilon(1e-9));
-    CHECK(p.prism.fall() == doctest::Approx((13.856e-3 - 11.25e-3) * std::tan(pi / 6)).epsilon(1e-3));
+    CHECK(highest_corner == doctest::Approx(p.prism.height - p.prism.corner_drop()).epsilon(1e-9));
+    CHECK(p.prism.corner_drop() == doctest::Approx((13.856e-3 - 11.25e-3) * std::tan(pi / 6)).epsilon(1e-3));
 }
 
 TEST_CASE("square on and in the middle there is half the clearance on both planes, and all of the bottom's") {
@@ -170,7 +170,7 @@ TEST_CASE("while they overlap it is the depth: no direction near it is shorter o
 TEST_CASE("flat on flat meets in four corners, and lets turn what its lines of action no longer pass") {
     const Pair p;
     const Pose pose = p.wrench({0, 0.1e-3, 0});
-    std::array<Contact, most_jaw_contacts> found;
+    std::array<Contact, max_jaw_contacts> found;
     const std::size_t count = jaw_contacts(p.parts, p.nut, pose, {}, 0.15e-3, ObstacleId::nut(7), found);
     REQUIRE(count == 4);  // one jaw only: the other is 0.2 mm away
     for (std::size_t i = 0; i < count; ++i) {
@@ -197,7 +197,7 @@ TEST_CASE("whatever is found is at least as far as the separation says, and lies
         const Pose pose =
             p.wrench(Vec3(random.normal() * 0.3e-3, random.normal() * 0.1e-3, random.normal() * 5e-3),
                      random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02));
-        std::array<Contact, most_jaw_contacts> found;
+        std::array<Contact, max_jaw_contacts> found;
         const std::size_t count = jaw_contacts(p.parts, p.nut, nut * pose, nut, 2e-3, {}, found);
         const double apart = p.apart(pose);
         double nearest = 1.0;
@@ -218,17 +218,17 @@ TEST_CASE("how it sits: turned, half on, pulled back, tilted, turned over") {
     CHECK(seat.toward_mouth == doctest::Approx(side).epsilon(1e-12));
     CHECK(seat.toward_throat == doctest::Approx(side).epsilon(1e-12));
     CHECK(std::abs(seat.misalignment) < 1e-12);
-    CHECK(seat.around(opening));
+    CHECK(seat.surrounds(opening));
     // Lifted so that half of its flats is on the flats of the nut.
-    const double corner_top = 0.5 * p.prism.height - p.prism.fall();
+    const double corner_top = 0.5 * p.prism.height - p.prism.corner_drop();
     seat = seat_of(p.jaw, p.prism, p.wrench({0, 0, corner_top}));
     CHECK(seat.overlap == doctest::Approx(0.5 * flat).epsilon(1e-12));
-    CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({0, 0, corner_top + p.jaw.half_flat()})).around(opening));
+    CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({0, 0, corner_top + p.jaw.half_flat()})).surrounds(opening));
     // Pulled off towards the handle until only the throat's half of the flats is left, and until nothing is.
     seat = seat_of(p.jaw, p.prism, p.wrench({p.jaw.tip - p.jaw.lead_in, 0, 0}));
     CHECK(std::abs(seat.toward_mouth) < 1e-12);
-    CHECK(seat.around(opening));
-    CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({p.jaw.tip + side, 0, 0})).around(opening));
+    CHECK(seat.surrounds(opening));
+    CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({p.jaw.tip + side, 0, 0})).surrounds(opening));
     // Tightening is clockwise seen from outside; a sixth of a turn on it sits the same.
     for (const double yaw : {0.01, 0.01 - pi / 3.0, 0.01 + pi})
         CHECK(seat_of(p.jaw, p.prism, p.wrench(Vec3(0.0), yaw)).misalignment ==
@@ -247,7 +247,7 @@ TEST_CASE("how it sits: turned, half on, pulled back, tilted, turned over") {
 
 TEST_CASE("looking for contacts of the jaw allocates nothing and gives the same bits twice") {
     const Pair p;
-    std::array<Contact, most_jaw_contacts> first, second;
+    std::array<Contact, max_jaw_contacts> first, second;
     std::size_t count = 0, again = 0;
     const Pose pose = p.wrench({0, 0.05e-3, 6e-3}, 0.005, 0.003);
     const test::Forbidden in_search = test::forbidden_in([&] {

@@ -14,7 +14,7 @@ struct Reducer {
     std::vector<ContactMesh> casing = load_parts(content() / "assemblies/zq350/zq350.contact.glb", "casing_");
     std::vector<ContactMesh> wrench = load_parts(content() / "tools/wrench-24.contact.glb");
     bolt::collision::ToolShape tool = bolt::collision::make_tool(wrench).value();
-    bolt::collision::World world;
+    bolt::collision::CollisionWorld world;
 
     Reducer() {
         REQUIRE(casing.size() == 2);

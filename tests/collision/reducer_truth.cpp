@@ -18,7 +18,7 @@ constexpr int fewer = test::sanitized ? 10 : 1;
 
 struct Truth {
     Reducer reducer;
-    Surface still = surface_of(reducer.casing), moving = surface_of(reducer.wrench);
+    ClosedSurface still = surface_of(reducer.casing), moving = surface_of(reducer.wrench);
 
     [[nodiscard]] bool crosses(const Pose& pose) const {
         return contact_oracle::cross(still.tree, moving.tree, pose);

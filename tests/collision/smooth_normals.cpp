@@ -31,13 +31,13 @@ Triangles bar(int planes) {
 }
 
 struct Pair {
-    World world;
+    CollisionWorld world;
     ToolShape tool;
     NarrowPhaseState near;
 
     Pair(const ContactMesh& obstacle, const ContactMesh& mesh) {
         const Obstacle still{ObstacleId::fixed(1), &obstacle, {}, false};
-        Result<World> made = make_world({&still, 1});
+        Result<CollisionWorld> made = make_world({&still, 1});
         REQUIRE(made);
         world = std::move(*made);
         Result<ToolShape> shape = make_tool({&mesh, 1});
@@ -55,7 +55,7 @@ struct Pair {
         for (const Contact& c : all) {
             if (c.smooth == Vec3(0.0)) continue;
             CHECK(glm::length(c.smooth) == doctest::Approx(1.0).epsilon(1e-9));
-            CHECK(glm::dot(c.smooth, c.normal) >= std::cos(most_smoothed) - 1e-9);
+            CHECK(glm::dot(c.smooth, c.normal) >= std::cos(max_smoothing_angle) - 1e-9);
         }
         return all.front();
     }

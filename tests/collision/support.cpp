@@ -148,9 +148,9 @@ Quat random_turn(Random& random) {
 }
 Vec3 random_direction(Random& random) { return random_turn(random) * Vec3(1.0, 0.0, 0.0); }
 
-Surface surface_of(const ContactMesh& mesh) { return surface_of(std::vector{mesh}); }
+ClosedSurface surface_of(const ContactMesh& mesh) { return surface_of(std::vector{mesh}); }
 
-Surface surface_of(const std::vector<ContactMesh>& meshes) {
+ClosedSurface surface_of(const std::vector<ContactMesh>& meshes) {
     std::vector<geometry::Triangle> triangles;
     for (const ContactMesh& mesh : meshes)
         for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -160,7 +160,7 @@ Surface surface_of(const std::vector<ContactMesh>& meshes) {
     return contact_oracle::make_surface(std::move(triangles));
 }
 
-Vec3 near_surface(const Surface& surface, double far, Random& random) {
+Vec3 near_surface(const ClosedSurface& surface, double far, Random& random) {
     const std::vector<geometry::Triangle>& triangles = surface.tree.triangles();
     const geometry::Triangle& t = triangles[random.bits() % triangles.size()];
     const double u = random.uniform();

@@ -40,12 +40,12 @@ std::vector<ContactMesh> load_parts(const std::filesystem::path& path, const std
 bolt::Quat random_turn(bolt::Random& random);
 Vec3 random_direction(bolt::Random& random);
 
-using bolt::contact_oracle::Surface;
+using bolt::contact_oracle::ClosedSurface;
 
 // The triangles of one or more meshes, for the oracle.
-Surface surface_of(const ContactMesh& mesh);
-Surface surface_of(const std::vector<ContactMesh>& meshes);
+ClosedSurface surface_of(const ContactMesh& mesh);
+ClosedSurface surface_of(const std::vector<ContactMesh>& meshes);
 // Of all points of a surface, one that is within `far` (m) of a random one.
-Vec3 near_surface(const Surface& surface, double far, bolt::Random& random);
+Vec3 near_surface(const ClosedSurface& surface, double far, bolt::Random& random);
 
 }  // namespace contact_test

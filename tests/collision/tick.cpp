@@ -24,7 +24,7 @@ constexpr int fewer = test::sanitized ? 10 : 1;
 
 TEST_CASE("distances to the reducer's casing are those of brute force") {
     const Reducer reducer;
-    std::vector<Surface> casing;
+    std::vector<ClosedSurface> casing;
     for (const ContactMesh& part : reducer.casing) casing.push_back(surface_of(part));
     Random random(41);
     double worst = 0.0;
@@ -107,7 +107,7 @@ TEST_CASE("finding contacts allocates nothing, locks nothing, reads no clock") {
 
 TEST_CASE("where the wrench first touches the reducer it is found, and deeper") {
     const Reducer reducer;
-    const Surface still = surface_of(reducer.casing), moving = surface_of(reducer.wrench);
+    const ClosedSurface still = surface_of(reducer.casing), moving = surface_of(reducer.wrench);
     NarrowPhaseState state = make_narrow_phase(reducer.world, reducer.tool);
     Random random(44);
     int met = 0;

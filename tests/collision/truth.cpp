@@ -39,7 +39,7 @@ std::vector<Case> cases() {
     return all;
 }
 
-World one(const ContactMesh& mesh, bool moves = false) {
+CollisionWorld one(const ContactMesh& mesh, bool moves = false) {
     const Obstacle obstacle{ObstacleId::fixed(7), &mesh, {}, moves};
     return make_world({&obstacle, 1}).value();
 }
@@ -49,8 +49,8 @@ Vec3 random_offset(Random& random) {
 }
 
 // Shifts the tool towards the obstacle until they just cross, then `deeper`.
-std::optional<Pose> push_in(const Surface& still, const Surface& tool, const Pose& start, const Vec3& way,
-                            double deeper) {
+std::optional<Pose> push_in(const ClosedSurface& still, const ClosedSurface& tool, const Pose& start,
+                            const Vec3& way, double deeper) {
     const auto at = [&](double s) { return Pose{start.position + s * way, start.orientation}; };
     const auto crosses = [&](double s) { return contact_oracle::cross(still.tree, tool.tree, at(s)); };
     double free = -1.0;
@@ -77,8 +77,8 @@ TEST_CASE("signed distances of points are those of brute force") {
     Random random(11);
     for (const Case& c : cases()) {
         CAPTURE(c.name);
-        const World world = one(c.mesh);
-        const Surface surface = surface_of(c.mesh);
+        const CollisionWorld world = one(c.mesh);
+        const ClosedSurface surface = surface_of(c.mesh);
         double worst = 0.0;
         for (int i = 0; i < 25'000 / fewer; ++i) {
             // Half of them within a millimetre of the surface.
@@ -96,13 +96,13 @@ TEST_CASE("the distance of two solids with sharp edges is that of brute force") 
     Random random(12);
     const std::vector<ContactMesh> parts{box(Vec3(-0.012, -0.002, -0.005), Vec3(0.03, 0.002, 0.005)).mesh()};
     const ToolShape tool = make_tool(parts, {}).value();
-    const Surface moving = surface_of(parts);
+    const ClosedSurface moving = surface_of(parts);
     for (const Case& c : cases()) {
         if (c.name == "ball") continue;
         CAPTURE(c.name);
-        const World world = one(c.mesh);
+        const CollisionWorld world = one(c.mesh);
         NarrowPhaseState state = make_narrow_phase(world, tool);
-        const Surface still = surface_of(c.mesh);
+        const ClosedSurface still = surface_of(c.mesh);
         double worst = 0.0;
         int near = 0;
         for (int i = 0; i < 600 / fewer; ++i) {
@@ -134,7 +134,7 @@ TEST_CASE("what is proven from before never changes the answer") {
     for (const Case& c : cases()) {
         CAPTURE(c.name);
         for (const bool moves : {false, true}) {
-            const World world = one(c.mesh, moves);
+            const CollisionWorld world = one(c.mesh, moves);
             NarrowPhaseState warm = make_narrow_phase(world, tool);
             NarrowPhaseState cold = make_narrow_phase(world, tool);
             Vec3 from = c.middle + 1.5 * c.size * random_direction(random);
@@ -175,13 +175,13 @@ TEST_CASE("what truly meets by more than 0.1 mm is not missed; points alone miss
     Random random(14);
     const std::vector<ContactMesh> parts{wrench().mesh()};
     const ToolShape tool = make_tool(parts, {}).value();
-    const Surface moving = surface_of(parts);
+    const ClosedSurface moving = surface_of(parts);
     int met = 0;
     int missed_by_points = 0;
     for (const Case& c : cases()) {
         CAPTURE(c.name);
-        const World world = one(c.mesh);
-        const Surface still = surface_of(c.mesh);
+        const CollisionWorld world = one(c.mesh);
+        const ClosedSurface still = surface_of(c.mesh);
         NarrowPhaseState state = make_narrow_phase(world, tool);
         int here = 0;
         for (int i = 0; i < (test::sanitized ? 8 : 40); ++i) {
@@ -196,7 +196,7 @@ TEST_CASE("what truly meets by more than 0.1 mm is not missed; points alone miss
             REQUIRE(found.count > 0);
             CHECK(contacts[0].distance < 0.0);
             double points = 1.0;
-            for (const Sample& s : tool.samples.samples)
+            for (const SurfaceSample& s : tool.samples.samples)
                 points = std::min(points, collision::signed_distance(world, *pose * s.at));
             missed_by_points += points > 0.0 ? 1 : 0;
         }

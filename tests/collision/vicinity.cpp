@@ -13,11 +13,12 @@ using namespace contact_test;
 
 TEST_CASE("the bounds of a octree hold everywhere, and set aside most of what is far") {
     Random random(21);
-    for (const ContactMesh& mesh : {casing().mesh(), ball(0.015).mesh(),
-                                    moved(wrench().mesh(), {Vec3(3.0, -2.0, 1.0), random_turn(random)})}) {
+    for (const ContactMesh& mesh :
+         {casing().mesh(), ball(0.015).mesh(),
+          transformed(wrench().mesh(), {Vec3(3.0, -2.0, 1.0), random_turn(random)})}) {
         const Solid solid = make_solid({&mesh, 1}).value();
         const TriangleOctree octree = make_triangle_octree(solid, 1e-3);
-        const Surface surface = surface_of(mesh);
+        const ClosedSurface surface = surface_of(mesh);
         int told = 0;
         int far = 0;
         for (int i = 0; i < 20'000; ++i) {

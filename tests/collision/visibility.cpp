@@ -20,7 +20,7 @@ constexpr double mm = 1e-3;
 struct Room {
     ContactMesh cube = box(Vec3(-10.0) * mm, Vec3(10.0) * mm).mesh();
     std::vector<ContactMesh> walls;
-    World world;
+    CollisionWorld world;
     std::vector<SurfacePoint> spots = sample_surface(cube, 4000);
     std::size_t body = 0;
 

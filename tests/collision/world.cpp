@@ -27,7 +27,7 @@ struct Places {
             poses.push_back(
                 {Vec3(-24.0 + 12.0 * i, 6.0, 0.0) * mm, rotation(Vec3(0.0, random.uniform(0.0, 1.0), 0.0))});
     }
-    [[nodiscard]] World world(bool move) const {
+    [[nodiscard]] CollisionWorld world(bool move) const {
         std::vector<Obstacle> obstacles{{ObstacleId::fixed(100), &plate, {}, false}};
         for (std::size_t i = 0; i < poses.size(); ++i)
             obstacles.push_back({ObstacleId::nut(i), &block, poses[i], move});
@@ -39,8 +39,8 @@ struct Places {
 
 TEST_CASE("bodies that move stand where still obstacles would, to what float is off by") {
     const Places places;
-    const World still = places.world(false);
-    const World moving = places.world(true);
+    const CollisionWorld still = places.world(false);
+    const CollisionWorld moving = places.world(true);
     CHECK(still.bodies.size() == 1);
     CHECK(moving.bodies.size() == 6);
     CHECK(moving.shapes.size() == 2);  // five bodies share one
@@ -69,7 +69,7 @@ TEST_CASE("bodies that move stand where still obstacles would, to what float is 
 
 TEST_CASE("a body that moves takes its contacts along; one that is off has none") {
     const Places places;
-    World world = places.world(true);
+    CollisionWorld world = places.world(true);
     const std::vector<ContactMesh> parts{box(Vec3(-1.0) * mm, Vec3(1.0) * mm).mesh()};
     const ToolShape tool = make_tool(parts).value();
     NarrowPhaseState state = make_narrow_phase(world, tool);
@@ -99,7 +99,7 @@ TEST_CASE("a body that moves takes its contacts along; one that is off has none"
 
 TEST_CASE("lines of sight end at obstacles, wherever those are now") {
     const Places places;
-    World world = places.world(true);
+    CollisionWorld world = places.world(true);
     const Vec3 left = Vec3(-100.0, 6.0, 0.0) * mm;
     const Vec3 right = Vec3(100.0, 6.0, 0.0) * mm;
     CHECK(occluded(world, left, right));
@@ -116,7 +116,7 @@ TEST_CASE("lines of sight end at obstacles, wherever those are now") {
 TEST_CASE("deep inside, the way out is the nearest surface") {
     const ContactMesh block = box(Vec3(-20.0) * mm, Vec3(20.0) * mm).mesh();
     const Obstacle obstacle{ObstacleId::fixed(1), &block, {}, false};
-    const World world = make_world({&obstacle, 1}).value();
+    const CollisionWorld world = make_world({&obstacle, 1}).value();
     CHECK(signed_distance(world, Vec3(12.0, 1.0, 3.0) * mm) == doctest::Approx(-8.0 * mm));
     const std::vector<ContactMesh> parts{box(Vec3(-1.0) * mm, Vec3(1.0) * mm).mesh()};
     const ToolShape tool = make_tool(parts).value();
@@ -135,7 +135,7 @@ TEST_CASE("parts that touch: a point in one is inside, though it is on the other
     for (const bool over_first : {false, true}) {
         const std::vector<Obstacle> obstacles{{ObstacleId::fixed(1), over_first ? &over : &under, {}, false},
                                               {ObstacleId::fixed(2), over_first ? &under : &over, {}, false}};
-        const World world = make_world(obstacles).value();
+        const CollisionWorld world = make_world(obstacles).value();
         CHECK(signed_distance(world, Vec3(0.0, -0.5, 0.0) * mm) < 0.0);
         CHECK(signed_distance(world, Vec3(0.0, 0.5, 0.0) * mm) < 0.0);
         CHECK(signed_distance(world, Vec3(7.0, 0.5, 0.0) * mm) > 0.0);

@@ -1,4 +1,4 @@
-// The assemblies that are shipped: what is in them, against the standards and against each other.
+// The shipped assemblies, checked against the standards and against each other.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -46,14 +46,14 @@ TEST_CASE("Assemblies: every shipped assembly loads in every variant, in three l
             CHECK(assembly.title.contains(language));
             CHECK(assembly.lesson.contains(language));
         }
-        for (const content::Variant& variant : assembly.variants)
+        for (const content::AssemblyVariant& variant : assembly.variants)
             CHECK(load(name.c_str(), variant.name.c_str()).variant == variant.name);
         ++count;
     }
     CHECK(count >= 2);
 }
 
-TEST_CASE("ZQ350: twelve bolts where the paper's casing has them") {
+TEST_CASE("Assemblies: the twelve bolts of zq350 are where the paper's casing has them") {
     const Assembly a = load("zq350");
     CHECK(a.variant == "carbon_steel");
     CHECK(a.law == joint::Law::mechanistic);
@@ -64,7 +64,7 @@ TEST_CASE("ZQ350: twelve bolts where the paper's casing has them") {
     CHECK(through.bolt_length == doctest::Approx(0.180));
     CHECK(through.grip_length() == doctest::Approx(0.156));
     CHECK(through.seat.x == doctest::Approx(-0.075));
-    CHECK(through.seat.y == doctest::Approx(0.078));  // the washer's top
+    CHECK(through.seat.y == doctest::Approx(0.078));  // top of the washer
     CHECK(through.seat.z == doctest::Approx(-0.125));
     CHECK(through.axis == Vec3{0.0, 1.0, 0.0});
     CHECK(through.start_gap == doctest::Approx(0.021));  // 180 − 156 − 1.5 pitches
@@ -77,22 +77,22 @@ TEST_CASE("ZQ350: twelve bolts where the paper's casing has them") {
     CHECK(a.views.size() == 5);
 }
 
-TEST_CASE("ZQ350: from the middle outward and from side to side, in three rounds") {
+TEST_CASE("Assemblies: zq350 is tightened from the middle outwards, alternating sides, in three rounds") {
     const Assembly a = load("zq350");
     REQUIRE(a.passes.size() == 5);
-    CHECK(a.passes.front().kind == content::StepKind::run_down);
+    CHECK(a.passes.front().kind == content::PassKind::run_down);
     CHECK(a.passes[1].fraction == doctest::Approx(0.3));
     CHECK(a.passes[2].fraction == doctest::Approx(0.7));
     CHECK(a.passes[3].fraction == doctest::Approx(1.0));
-    CHECK(a.passes.back().kind == content::StepKind::recheck);
+    CHECK(a.passes.back().kind == content::PassKind::recheck);
     const auto& order = a.passes[1].order;
     CHECK(ids(a, order) ==
           std::vector<std::string>{"B2", "B6", "B7", "B3", "B1", "B5", "B8", "B4", "F1", "F3", "F4", "F2"});
     for (std::size_t i = 0; i + 1 < order.size(); i += 2) {
         const Vec3 first = a.joints[order[i]].design.seat, second = a.joints[order[i + 1]].design.seat;
-        CHECK(first.z * second.z < 0.0);  // each pair stands on both sides
+        CHECK(first.z * second.z < 0.0);  // the joints of each pair are on opposite sides
     }
-    // Each next group of four is further out.
+    // Each group of four is further out than the one before.
     const auto reach = [&](std::size_t group) {
         double furthest = 0.0;
         for (std::size_t i = 4 * group; i < 4 * group + 4; ++i)
@@ -103,25 +103,24 @@ TEST_CASE("ZQ350: from the middle outward and from side to side, in three rounds
     CHECK(reach(1) < reach(2));
 }
 
-TEST_CASE("ZQ350 in carbon steel: the paper's 72 N·m is where yield begins") {
+TEST_CASE("Assemblies: the target of zq350 in carbon steel is at the onset of yield, 72 N·m") {
     for (const AssemblyJoint& j : load("zq350").joints) {
         CHECK(j.spec.strategy == content::Strategy::yield);
         CHECK(yield_90(j.design).force == doctest::Approx(30.7e3).epsilon(0.005));
         CHECK(yield_90(j.design).force == doctest::Approx(30.7e3).epsilon(0.005));
         CHECK(yield_90(j.design).torque == doctest::Approx(72.5).epsilon(0.005));
-        // The window holds the onset of yield, and the end of the law `published`.
+        // The torque window contains the onset of yield and begins below T_max of the law `published`.
         CHECK(j.spec.torque.low < joint::PublishedParameters{}.T_max_Nm);
         CHECK(j.spec.torque.high > yield_90(j.design).torque);
         CHECK(j.spec.torque.target >= 0.95 * yield_90(j.design).torque);
         CHECK(j.spec.torque.target < 1.15 * yield_90(j.design).torque);
-        // Beyond yield the torque hardly grows: it is the angle that tells too much.
+        // Beyond yield the torque hardly grows, so the angle limits overtightening.
         CHECK(j.spec.has_angle);
         CHECK(j.spec.angle.high <= pi / 2);
     }
 }
 
-TEST_CASE(
-    "ZQ350: under the published law the target lies in the last degrees before T_max, where yield is felt") {
+TEST_CASE("Assemblies: under the published law the target of zq350 lies in the last degrees before T_max") {
     const Assembly a = load("zq350");
     REQUIRE(a.published_targets);
     const joint::PublishedParameters& law = a.published;
@@ -131,7 +130,7 @@ TEST_CASE(
     CHECK(joint::published_yield_torque(law, law.theta_max_deg - 30.0) < a.published_targets->torque.low);
 }
 
-TEST_CASE("ZQ350 in stainless steel: the same torque stays elastic") {
+TEST_CASE("Assemblies: zq350 in stainless steel stays elastic at the same torque") {
     const Assembly a = load("zq350", "stainless");
     CHECK(a.variant == "stainless");
     for (const AssemblyJoint& j : a.joints) {
@@ -140,14 +139,14 @@ TEST_CASE("ZQ350 in stainless steel: the same torque stays elastic") {
         CHECK(j.design.friction.thread == 0.2);
         CHECK(j.spec.strategy == content::Strategy::torque);
         CHECK(j.spec.torque.target == 72.0);
-        CHECK(j.spec.snug_torque == 20.0);  // from under the patch
+        CHECK(j.spec.snug_torque == 20.0);  // inherited from the joint type
         CHECK(j.spec.torque.high < 0.5 * yield_90(j.design).torque);
     }
     CHECK(a.joints[0].spec.angle.low == doctest::Approx(to_radians(4.0)));
     CHECK(a.joints[11].spec.angle.low == doctest::Approx(to_radians(2.0)));
 }
 
-TEST_CASE("Assemblies: the cover is far from yield and within what hand tools hold") {
+TEST_CASE("Assemblies: the cover is far from yield and within the range of hand tools") {
     const Assembly a = load("cover-m8");
     REQUIRE(a.joints.size() == 4);
     for (const AssemblyJoint& j : a.joints) {
@@ -159,7 +158,7 @@ TEST_CASE("Assemblies: the cover is far from yield and within what hand tools ho
     CHECK(a.variant.empty());
 }
 
-TEST_CASE("Assemblies: every value of a file arrives in SI") {
+TEST_CASE("Assemblies: every value of a file is converted to SI") {
     const auto loaded = content::parse_assembly(content_test::everything(), "there/f.json", "weak");
     REQUIRE(loaded.ok());
     const Assembly& a = loaded.assembly;
@@ -225,7 +224,7 @@ TEST_CASE("Assemblies: every value of a file arrives in SI") {
     CHECK(second.spec.snug_torque == 20.0);
 }
 
-TEST_CASE("Assemblies: what a file leaves out has the stated default") {
+TEST_CASE("Assemblies: properties that a file omits have the documented defaults") {
     std::string text = content_test::shipped("cover-m8");
     for (const char* line :
          {"        \"torque_tolerance_percent\": 10,\n", "        \"snug_torque_Nm\": 5,\n",

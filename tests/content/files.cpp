@@ -1,4 +1,4 @@
-// The .glb files that an assembly names: where they are looked for, and what is said when they are not there.
+// The .glb files that an assembly names: search paths, and errors for missing or disallowed files.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -18,13 +18,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A content folder of its own, with an assembly in it and one beside it; $BOLTWRIGHT_CONTENT while it lives.
-struct World {
+// A temporary content folder with an assembly in it and one beside it; $BOLTWRIGHT_CONTENT names it during
+// its lifetime.
+struct TemporaryContent {
     test::Folder root;
     fs::path inside = root / "content" / "assemblies" / "pump", outside = root / "elsewhere";
     std::string before = content::content_folder().string();
 
-    World() {
+    TemporaryContent() {
         for (const fs::path& folder :
              {inside, outside, root / "content" / "tools", root / "content" / "schema"})
             fs::create_directories(folder);
@@ -36,9 +37,9 @@ struct World {
         touch("far.glb");
         ::setenv("BOLTWRIGHT_CONTENT", (root / "content").c_str(), 1);
     }
-    World(const World&) = delete;
-    World& operator=(const World&) = delete;
-    ~World() { ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1); }
+    TemporaryContent(const TemporaryContent&) = delete;
+    TemporaryContent& operator=(const TemporaryContent&) = delete;
+    ~TemporaryContent() { ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1); }
     void touch(const char* name) const { REQUIRE(write_file(root / name, "x")); }
 };
 
@@ -56,15 +57,16 @@ constexpr const char* cover = R"({
 }
 )";
 
-// A small assembly with these members added to the file and to its tool.
-content::Loaded with(const fs::path& folder, const std::string& members, const std::string& of_tool = {}) {
+// Loads a small assembly with `members` added to the file and `of_tool` to its tool.
+content::LoadedAssembly with(const fs::path& folder, const std::string& members,
+                             const std::string& of_tool = {}) {
     std::string text = content_test::edited(cover, "\"title\": {", members + "\"title\": {");
     text = content_test::edited(std::move(text), "\"jaw_mm\"", of_tool + "\"jaw_mm\"");
     REQUIRE(write_file(folder / "assembly.json", text));
     return content::load_assembly(folder);
 }
 
-std::string only(const content::Loaded& loaded) {
+std::string only(const content::LoadedAssembly& loaded) {
     REQUIRE(loaded.errors.size() == 1);
     const std::string message = loaded.errors[0].message();
     return message.substr(message.find("assembly.json") + std::string_view("assembly.json:").size());
@@ -72,9 +74,8 @@ std::string only(const content::Loaded& loaded) {
 
 }  // namespace
 
-TEST_CASE(
-    "Model files: the files of an assembly are found from its folder, those of a tool in content/tools") {
-    const World world;
+TEST_CASE("Model files: paths of an assembly are relative to its folder, those of a tool to content/tools") {
+    const TemporaryContent world;
     const auto loaded = with(
         world.inside, R"("model": "pump.glb", "model_far": "../shared.glb", "contact_model": "./pump.glb", )",
         R"("model": "wrench_13.glb", )");
@@ -90,8 +91,8 @@ TEST_CASE(
     CHECK(with(world.outside, R"("model": "bracket.glb", )").ok());
 }
 
-TEST_CASE("Model files: a file that is not there: where it is named, and the nearest that is") {
-    const World world;
+TEST_CASE("Model files: a missing file is reported where it is named, with the nearest existing one") {
+    const TemporaryContent world;
     CHECK(only(with(world.inside, R"("model": "bump.glb", )")) ==
           R"(2:12: /model: there is no file "bump.glb" in the assembly's folder; did you mean "pump.glb"?)");
     CHECK(
@@ -107,17 +108,17 @@ TEST_CASE("Model files: a file that is not there: where it is named, and the nea
     CHECK_FALSE(with(world.inside, R"("model": "folder.glb", )").ok());
 }
 
-TEST_CASE("Model files: nothing outside is named") {
-    const World world;
+TEST_CASE("Model files: a path outside the allowed folder is an error") {
+    const TemporaryContent world;
     CHECK(
         only(with(world.inside, R"("model": "../../../far.glb", )")) ==
-        R"(2:12: /model: "../../../far.glb" leads out of the content folder; expected a file in the content folder)");
+        R"(2:12: /model: "../../../far.glb" is outside the content folder; expected a file in the content folder)");
     CHECK(
         only(with(world.outside, R"("model": "../far.glb", )")) ==
-        R"(2:12: /model: "../far.glb" leads out of the assembly's folder; expected a file in the assembly's folder)");
+        R"(2:12: /model: "../far.glb" is outside the assembly's folder; expected a file in the assembly's folder)");
     CHECK(
         only(with(world.inside, "", R"("model": "../assemblies/shared.glb", )")) ==
-        R"(3:49: /tool/model: "../assemblies/shared.glb" leads out of content/tools; expected a file in content/tools)");
+        R"(3:49: /tool/model: "../assemblies/shared.glb" is outside content/tools; expected a file in content/tools)");
     fs::create_symlink(world.root / "far.glb", world.inside / "link.glb");
     CHECK(only(with(world.inside, R"("model": "link.glb", )")).find("leads out") != std::string::npos);
     for (const char* name : {"/etc/far.glb", "C:far.glb", "sub\\\\far.glb"}) {
@@ -128,10 +129,10 @@ TEST_CASE("Model files: nothing outside is named") {
     }
     CHECK(
         only(with(world.inside, R"("model": "pump.step", )")) ==
-        R"(2:12: /model: "pump.step" is no .glb file; expected a binary glTF file: bolt-author import-step makes one from STEP)");
+        R"(2:12: /model: "pump.step" is not a .glb file; expected a binary glTF file: bolt-author import-step makes one from STEP)");
 }
 
-TEST_CASE("Model files: a text that is read from elsewhere than its folder names its files all the same") {
+TEST_CASE("Model files: file names in a parsed text are relative to the given path") {
     const auto loaded = content::parse_assembly(content_test::everything(), "there/f.json");
     REQUIRE(loaded.ok());
     CHECK(loaded.assembly.models.model == "there/bracket.glb");
@@ -140,8 +141,8 @@ TEST_CASE("Model files: a text that is read from elsewhere than its folder names
     CHECK(loaded.assembly.wrench.model == "tools/wrench_18.glb");
 }
 
-TEST_CASE("Model files: a new assembly brings its models with it, and names none that is not there") {
-    const World world;
+TEST_CASE("Model files: a new assembly copies the models that exist and names no others") {
+    const TemporaryContent world;
     const auto made = [&](const char* name) {
         REQUIRE(content::create_assembly(world.root / "content" / "assemblies" / name, name));
         const auto loaded = content::load_assembly(name);
@@ -176,10 +177,8 @@ TEST_CASE("Model files: a new assembly brings its models with it, and names none
     CHECK(copied == count);
 }
 
-TEST_CASE(
-    "Model files: the jaw's measures are read in millimetres; a nut has to fit between its tips and its "
-    "bottom") {
-    const World world;
+TEST_CASE("Model files: jaw dimensions are in millimetres and must leave room for the nut") {
+    const TemporaryContent world;
     const auto given =
         with(world.inside, "", R"("head_thickness_mm": 7.6, "jaw_depth_mm": 8, "jaw_tip_mm": 9.5, )");
     REQUIRE(given.ok());

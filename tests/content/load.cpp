@@ -18,7 +18,7 @@ using test::Folder;
 
 namespace {
 
-// $BOLTWRIGHT_CONTENT for as long as this lives; the tests may themselves be run with one.
+// Sets $BOLTWRIGHT_CONTENT during its lifetime and restores the previous value.
 struct ContentVariable {
     explicit ContentVariable(const char* value) { set(value); }
     ContentVariable(const ContentVariable&) = delete;
@@ -37,7 +37,7 @@ struct ContentVariable {
     }();
 };
 
-// No file larger than this can be written while it lives.
+// Limits the size of written files during its lifetime.
 struct FileSizeLimit {
     explicit FileSizeLimit(rlim_t size) {
         ::getrlimit(RLIMIT_FSIZE, &before);
@@ -51,7 +51,7 @@ struct FileSizeLimit {
         (void)std::signal(SIGXFSZ, handler);
     }
     rlimit before{};
-    void (*handler)(int) = std::signal(SIGXFSZ, SIG_IGN);  // writing fails instead
+    void (*handler)(int) = std::signal(SIGXFSZ, SIG_IGN);  // lets write() fail instead of ending the program
 };
 
 Error only_error(const fs::path& where, std::string_view variant = {}) {
@@ -75,7 +75,7 @@ TEST_CASE("Load: an assembly is loaded by its name, its folder or its file") {
     }
 }
 
-TEST_CASE("Load: an assembly that is not there: the nearest, and all that are") {
+TEST_CASE("Load: an unknown assembly gives the nearest name and the list of assemblies") {
     const std::string near = only_error("zq530").message(), far = only_error("gearbox").message();
     CHECK(near.starts_with(
         "zq530: there is no such folder, file or assembly; did you mean \"zq350\"? expected one of "));
@@ -85,7 +85,7 @@ TEST_CASE("Load: an assembly that is not there: the nearest, and all that are") 
     CHECK(only_error("").what == "there is no such folder, file or assembly");
 }
 
-TEST_CASE("Load: a folder without the file, a file that cannot be read") {
+TEST_CASE("Load: a folder without assembly.json and an unreadable file are errors") {
     const Folder folder;
     CHECK(only_error(folder.path()).message() ==
           folder.path().string() + ": this folder has no assembly.json; expected a folder of an assembly");
@@ -95,7 +95,7 @@ TEST_CASE("Load: a folder without the file, a file that cannot be read") {
     CHECK(content::load_assembly(folder.path()).errors.size() == 1);
 }
 
-TEST_CASE("Load: a session is told from an assembly, however large it is") {
+TEST_CASE("Load: a session file of any size is recognised as such") {
     const Folder folder;
     std::string session("SQLite format 3", 16);
     for (const std::size_t size : {std::size_t{16}, std::size_t{5U << 20U}}) {
@@ -110,13 +110,13 @@ TEST_CASE("Load: a session is told from an assembly, however large it is") {
     CHECK(only_error(folder / "text").what == "unknown word \"SQLite\"");
 }
 
-TEST_CASE("Load: a variant that is not there") {
+TEST_CASE("Load: an unknown variant gives the nearest name or the list") {
     CHECK(only_error("zq350", "stainles").expected == "did you mean \"stainless\"?");
-    CHECK(only_error("zq350", "wood").expected == "expected one of carbon_steel, stainless");
-    CHECK(only_error("cover-m8", "wood").expected == "expected none: the file has no variants");
+    CHECK(only_error("zq350", "wood").expected == "one of carbon_steel, stainless");
+    CHECK(only_error("cover-m8", "wood").expected == "none: the file has no variants");
 }
 
-TEST_CASE("Load: BOLTWRIGHT_CONTENT says where content/ is") {
+TEST_CASE("Load: BOLTWRIGHT_CONTENT names the content folder") {
     const fs::path found = content::content_folder();
     REQUIRE_FALSE(found.empty());
     {
@@ -128,12 +128,12 @@ TEST_CASE("Load: BOLTWRIGHT_CONTENT says where content/ is") {
     CHECK(content::content_folder() == found);
 }
 
-TEST_CASE("Load: without it content/ is found from the program") {
+TEST_CASE("Load: without BOLTWRIGHT_CONTENT the content folder is found from the program") {
     const ContentVariable variable(nullptr);
     CHECK(fs::exists(content::content_folder() / "schema" / "assembly.schema.json"));
 }
 
-TEST_CASE("Load: a new assembly loads without a mistake and carries its name") {
+TEST_CASE("Load: a new assembly loads without errors and has its name") {
     const Folder folder;
     for (const char* name : {"pump", "a \"quoted\" pump", "Pumpe für Öl", "broken \xFF name"}) {
         CAPTURE(name);
@@ -145,7 +145,7 @@ TEST_CASE("Load: a new assembly loads without a mistake and carries its name") {
         if (std::string_view(name).find('\xFF') == std::string_view::npos)
             CHECK(loaded.assembly.title.at("en") == name);
         CHECK(loaded.assembly.joints.size() == 4);
-        CHECK(fs::exists(made / "assembly.schema.json"));  // what "$schema" names
+        CHECK(fs::exists(made / "assembly.schema.json"));  // the file that "$schema" names
         CHECK(loaded.assembly.text.find("\"$schema\": \"assembly.schema.json\"") != std::string::npos);
     }
 }
@@ -171,20 +171,19 @@ TEST_CASE("Load: a new assembly never overwrites anything") {
 TEST_CASE("Load: a new assembly that cannot be written leaves nothing behind") {
     const Folder folder;
     fs::create_directories(folder / "empty");
-    // The limit on the size of a file stands for a disk that is full: the small file fits, the schema does
-    // not.
+    // The size limit simulates a full disk: the small file fits, the schema does not.
     for (const rlim_t size : {rlim_t{100}, rlim_t{10'000}}) {
         CAPTURE(size);
         const FileSizeLimit limit(size);
         CHECK_FALSE(content::create_assembly(folder.path() / "new" / "below", "pump"));
         CHECK_FALSE(fs::exists(folder / "new"));
         CHECK_FALSE(content::create_assembly(folder / "empty", "pump"));
-        CHECK(fs::is_empty(folder / "empty"));  // it was there before
+        CHECK(fs::is_empty(folder / "empty"));  // an existing folder is kept
     }
     CHECK(content::create_assembly(folder.path() / "new" / "below", "pump"));
 }
 
-TEST_CASE("Load: beside the other assemblies the common schema is used") {
+TEST_CASE("Load: a new assembly in the content folder uses the common schema") {
     const Folder folder;
     fs::create_directories(folder / "schema");
     fs::create_directories(folder / "assemblies");

@@ -8,7 +8,7 @@ using namespace content_test;
 
 namespace {
 
-// One edit of a file without mistakes, and all that an author then reads: no more and no less.
+// One edit of a correct file, and the complete list of messages that it causes.
 struct Mistake {
     const char* from;
     const char* to;
@@ -18,19 +18,19 @@ struct Mistake {
 // clang-format off
 const Mistake mistakes[] = {
     {R"("size": "M8")", R"("size": "M9")",
-     {R"(22:15: /joint_types/M8x30/size: "M9" is no thread size that we know; expected one of M4 to M39, a fine pitch as in "M16x1.5")"}},
+     {R"(22:15: /joint_types/M8x30/size: "M9" is not a known thread size; expected one of M4 to M39, a fine pitch as in "M16x1.5")"}},
     {R"("size": "M8")", R"("size": "M8x1.2")",
-     {R"(22:15: /joint_types/M8x30/size: "M8x1.2" is no thread that we know; expected pitches of M8 in mm: 1.25, 1, 0.75)"}},
+     {R"(22:15: /joint_types/M8x30/size: "M8x1.2" is not a known thread; expected pitches of M8 in mm: 1.25, 1, 0.75)"}},
     {R"("size": "M8")", R"("size": 8)",
-     {R"(22:15: /joint_types/M8x30/size: the number 8 cannot stand here; expected a text in double quotes)"}},
+     {R"(22:15: /joint_types/M8x30/size: the number 8 is not allowed here; expected a text in double quotes)"}},
     {R"("size": "M8")", R"("sise": "M8")",
      {R"(22:7: /joint_types/M8x30/sise: unknown property "sise"; did you mean "size"?)"}},
     {R"("size": "M8",)", R"()",
      {R"(21:14: /joint_types/M8x30: required property "size" is missing; expected a text in double quotes: ISO metric thread: M16 (coarse) or M16x1.5 (fine).)"}},
     {R"("class": "8.8")", R"("class": "8,8")",
-     {R"(23:16: /joint_types/M8x30/class: "8,8" is no property class that we know; did you mean "8.8"?)"}},
+     {R"(23:16: /joint_types/M8x30/class: "8,8" is not a known property class; did you mean "8.8"?)"}},
     {R"("class": "8.8")", R"("class": "hard")",
-     {R"(23:16: /joint_types/M8x30/class: "hard" is no property class that we know; expected one of 4.6, 4.8, 5.6, 5.8, 6.8, 8.8, 10.9, 12.9, A2-50, A2-70, A2-80, A4-50, A4-70, A4-80)"}},
+     {R"(23:16: /joint_types/M8x30/class: "hard" is not a known property class; expected one of 4.6, 4.8, 5.6, 5.8, 6.8, 8.8, 10.9, 12.9, A2-50, A2-70, A2-80, A4-50, A4-70, A4-80)"}},
     {R"("bolt_length_mm": 30)", R"("bolt_length_mm": 25)",
      {R"(24:25: /joint_types/M8x30/bolt_length_mm: a bolt of 25 mm is too short for a grip of 19.2 mm and a nut of 6.8 mm; expected at least 27.25 mm)"}},
     {R"("bolt_length_mm": 30)", R"("bolt_length_mm": 60)",
@@ -44,7 +44,7 @@ const Mistake mistakes[] = {
     {R"("bolt_length_mm": 30)", R"("bolt_length": 30)",
      {R"(24:7: /joint_types/M8x30/bolt_length: unknown property "bolt_length"; did you mean "bolt_length_mm"?)"}},
     {R"("bolt_length_mm": 30)", R"("bolt_length_mm": "30 mm")",
-     {R"(24:25: /joint_types/M8x30/bolt_length_mm: the text "30 mm" cannot stand here; expected a number >= 3 and <= 3000 (mm))"}},
+     {R"(24:25: /joint_types/M8x30/bolt_length_mm: the text "30 mm" is not allowed here; expected a number >= 3 and <= 3000 (mm))"}},
     {R"("bolt_length_mm": 30)", R"("bolt_length_mm": 0.03)",
      {R"(24:25: /joint_types/M8x30/bolt_length_mm: 0.03 is too small; expected a number >= 3 and <= 3000 (mm))"}},
     {R"("thickness_mm": 6)", R"("thickness_mm": 0.006)",
@@ -54,13 +54,13 @@ const Mistake mistakes[] = {
     {R"("thickness_mm": 6)", R"("thickness_cm": 0.6)",
      {R"(26:11: /joint_types/M8x30/members/0/thickness_cm: unknown property "thickness_cm"; did you mean "thickness_mm"?)"}},
     {R"("material": "aluminium")", R"("material": "aluminum")",
-     {R"(26:42: /joint_types/M8x30/members/0/material: "aluminum" is no material of this file; did you mean "aluminium"?)"}},
+     {R"(26:42: /joint_types/M8x30/members/0/material: "aluminum" is not a material of this file; did you mean "aluminium"?)"}},
     {R"("material": "aluminium")", R"("material": "wood")",
-     {R"(26:42: /joint_types/M8x30/members/0/material: "wood" is no material of this file; expected one of aluminium, bronze, cast_iron, ductile_iron, stainless_steel, steel, or add it to "materials")"}},
+     {R"(26:42: /joint_types/M8x30/members/0/material: "wood" is not a material of this file; expected one of aluminium, bronze, cast_iron, ductile_iron, stainless_steel, steel, or add it to "materials")"}},
     {R"("member_diameter_mm": 30)", R"("member_diameter_mm": 10)",
      {R"(29:29: /joint_types/M8x30/member_diameter_mm: members of 10 mm diameter are smaller than the nut's bearing face; expected at least 11.6 mm)"}},
     {R"("washer_under_nut": true)", R"("washer_under_nut": "yes")",
-     {R"(31:27: /joint_types/M8x30/washer_under_nut: the text "yes" cannot stand here; expected true or false)"}},
+     {R"(31:27: /joint_types/M8x30/washer_under_nut: the text "yes" is not allowed here; expected true or false)"}},
     {R"("friction_thread": 0.12)", R"("friction_thread": 12)",
      {R"(32:26: /joint_types/M8x30/friction_thread: 12 is too large; expected a number >= 0.02 and <= 0.6)"}},
     {R"("friction_thread": 0.12)", R"("friction_thread": -0.12)",
@@ -124,7 +124,7 @@ const Mistake mistakes[] = {
     {R"("torque_tolerance_percent": 10)", R"("target_clamp_kN": 40)",
      {R"(39:28: /joint_types/M8x30/spec/target_clamp_kN: 40 kN breaks M8 of class 8.8; expected less than 29.3 kN)"}},
     {R"("snug_torque_Nm": 5)", R"("snug_torque_Nm": 19)",
-     {R"(40:27: /joint_types/M8x30/spec/snug_torque_Nm: a snug torque of 19 N·m is no less than what is judged OK; expected less than 18 N·m)"}},
+     {R"(40:27: /joint_types/M8x30/spec/snug_torque_Nm: a snug torque of 19 N·m is not below the lowest torque that is judged OK; expected less than 18 N·m)"}},
     {R"("risk_class": "C")", R"("risk_class": "D")",
      {R"(41:23: /joint_types/M8x30/spec/risk_class: "D" is not known here; expected one of A, B, C)"}},
     {R"("jaw_mm": 13.2)", R"("jaw_mm": 12.9)",
@@ -137,19 +137,19 @@ const Mistake mistakes[] = {
      {R"(18:25: /tool/handle_length_mm: 0.14 is too small; expected a number >= 30 and <= 2000 (mm))"}},
     {R"("id": "B2")", R"("id": "B1")",
      {R"(47:13: /joints/1/id: "B1" is the "id" of another joint too; expected a name of its own; it is used first in line 46)",
-      R"(51:25: /order/2: "B2" is no joint of this file; did you mean the joint in line 47, whose id is a repetition?)"}},
+      R"(51:25: /order/2: "B2" is not a joint of this file; did you mean the joint in line 47, whose id is a repetition?)"}},
     {R"("id": "B2")", R"("id": "")",
      {R"(47:13: /joints/1/id: this text is empty; expected at least one letter)"}},
     {R"("node": "joint_B2")", R"("node": "joint_B1")",
      {R"(47:44: /joints/1/node: "joint_B1" is the "node" of another joint too; expected a name of its own; it is used first in line 46)"}},
     {R"({ "id": "B2", "type": "M8x30")", R"({ "id": "B2", "type": "M8x33")",
-     {R"(47:27: /joints/1/type: "M8x33" is no joint type of this file; did you mean "M8x30"?)"}},
+     {R"(47:27: /joints/1/type: "M8x33" is not a joint type of this file; did you mean "M8x30"?)"}},
     {R"([50, 10, -40])", R"([50, 10])",
      {R"(47:71: /joints/1/position_mm: 2 values; expected 3)"}},
     {R"([50, 10, -40])", R"([50000, 10, -40])",
      {R"(47:72: /joints/1/position_mm/0: 50000 is too large; expected a number >= -10000 and <= 10000 (mm))"}},
     {R"([50, 10, -40])", R"([50, 10, "-40"])",
-     {R"(47:80: /joints/1/position_mm/2: the text "-40" cannot stand here; expected a number >= -10000 and <= 10000 (mm))"}},
+     {R"(47:80: /joints/1/position_mm/2: the text "-40" is not allowed here; expected a number >= -10000 and <= 10000 (mm))"}},
     {R"([50, 10, -40])", R"([-50, 10, -38])",
      {R"(47:71: /joints/1/position_mm: this joint is 2 mm from "B1": their nuts overlap; expected 13 mm or more)"}},
     {R"([50, 10, -40])", R"([50, 10, -40], "axis": [0, 0, 0])",
@@ -159,13 +159,13 @@ const Mistake mistakes[] = {
     {R"([50, 10, -40])", R"([50, 10, -40], "axis": [0, 2, 0])",
      {R"(47:98: /joints/1/axis/1: 2 is too large; expected a number >= -1 and <= 1)"}},
     {R"([50, 10, -40])", R"([50, 10, -40], "override": {"class": "10.8", "bolt_length_mm": 20})",
-     {R"(47:108: /joints/1/override/class: "10.8" is no property class that we know; did you mean "10.9"?)",
+     {R"(47:108: /joints/1/override/class: "10.8" is not a known property class; did you mean "10.9"?)",
       R"(47:134: /joints/1/override/bolt_length_mm: a bolt of 20 mm is too short for a grip of 19.2 mm and a nut of 6.8 mm; expected at least 27.25 mm)"}},
     {R"("order": ["B1", "B3", "B2", "B4"])", R"("order": ["B1", "B3", "b5", "B4"])",
-     {R"(51:25: /order/2: "b5" is no joint of this file; did you mean "B2"?)"}},
+     {R"(51:25: /order/2: "b5" is not a joint of this file; did you mean "B2"?)"}},
     {R"("order": ["B1", "B3", "B2", "B4"])", R"("order": ["B1", "B3", "B1", "B4"])",
      {R"(51:12: /order: "B2" is missing in this order; expected every joint once)",
-      R"(51:25: /order/2: "B1" comes twice in this order; expected every joint once; it comes first in line 51)"}},
+      R"(51:25: /order/2: "B1" appears twice in this order; expected every joint once; it appears first in line 51)"}},
     {R"("order": ["B1", "B3", "B2", "B4"])", R"("order": ["B1", "B3"])",
      {R"(51:12: /order: "B2", "B4" are missing in this order; expected every joint once)"}},
     {R"("order": ["B1", "B3", "B2", "B4"])", R"("order": [])",
@@ -187,7 +187,7 @@ const Mistake mistakes[] = {
     {R"({ "kind": "run_down" },)", R"({ "kind": "recheck" }, { "kind": "run_down" },)",
      {R"(53:15: /passes/0/kind: this pass rechecks before the nuts are run down; expected a pass of kind "run_down" first)"}},
     {R"({ "kind": "tighten", "percent": 50 },)", R"({ "kind": "tighten", "percent": 50 }, { "kind": "recheck" },)",
-     {R"(54:53: /passes/2/kind: this pass rechecks before the last pass that tightens, in line 55; expected it behind that one)"}},
+     {R"(54:53: /passes/2/kind: this pass rechecks before the last pass that tightens, in line 55; expected it after that pass)"}},
     {R"({ "kind": "tighten", "percent": 50 },
     { "kind": "tighten", "percent": 100 },)", R"()",
      {R"(52:13: /passes: no pass tightens; expected a pass of kind "tighten" with 100 percent)"}},
@@ -199,7 +199,7 @@ const Mistake mistakes[] = {
     {R"("name": "top")", R"("name": "front")",
      {R"(60:15: /views/1/name: there are two views "front"; expected a name of its own)"}},
     {R"("eye_mm": [0, 500, 1])", R"("eye_mm": [0, 10, 0])",
-     {R"(60:57: /views/1/target_mm: the view looks at its own eye; expected another point)"}},
+     {R"(60:57: /views/1/target_mm: the target of the view is its eye point; expected another point)"}},
     {R"("tool": {)", R"("law": "published", "published": {"theta_max_turns": 0.3}, "tool": {)",
      {R"(14:36: /published: the nut would be on its seat 16 degrees before it is started; expected a larger theta_max_turns or narrower stages)"}},
     {R"("tool": {)", R"("law": "published", "published": {"D1_mm": 10}, "tool": {)",
@@ -211,7 +211,7 @@ const Mistake mistakes[] = {
     {R"("tool": {)", R"("published": {"snug_torque_Nm": 20}, "tool": {)",
      {R"(14:17: /published/snug_torque_Nm: "snug_torque_Nm" without "target_torque_Nm"; expected the target too, or neither)"}},
     {R"("tool": {)", R"("published": {"target_torque_Nm": 72, "snug_torque_Nm": 70}, "tool": {)",
-     {R"(14:59: /published/snug_torque_Nm: a snug torque of 70 N·m is no less than what is judged OK; expected less than 64.8 N·m)"}},
+     {R"(14:59: /published/snug_torque_Nm: a snug torque of 70 N·m is not below the lowest torque that is judged OK; expected less than 64.8 N·m)"}},
     {R"("tool": {)", R"("published": {"target_torque_Nm": 72, "min_torque_Nm": 70}, "tool": {)",
      {R"(14:41: /published/min_torque_Nm: "min_torque_Nm" without "max_torque_Nm"; expected both or neither)"}},
     {R"("tool": {)", R"("published": {"target_torque": 72}, "tool": {)",
@@ -222,10 +222,10 @@ const Mistake mistakes[] = {
      {R"(14:13: /flange: required property "interface_stiffness_GPa_per_m" is missing; expected a number > 0 and <= 100000: GPa per metre of approach: machined faces 1000 and more, with sealant or a gasket less.)",
       R"(14:59: /flange/poisson: 0.5 is too large; expected a number >= 0 and <= 0.49)"}},
     {R"("tool": {)", R"("default_variant": "steel", "tool": {)",
-     {R"(14:22: /default_variant: "steel" is no variant of this file; expected none: the file has no variants)"}},
+     {R"(14:22: /default_variant: "steel" is not a variant of this file; expected none: the file has no variants)"}},
     {R"("tool": {)", R"("variants": {"hot": {"joint_types": {"M8x40": {}}}}, "default_variant": "hut", "tool": {)",
-     {R"(14:40: /variants/hot/joint_types/M8x40: "M8x40" is no joint type of this file; did you mean "M8x30"?)",
-      R"(14:75: /default_variant: "hut" is no variant of this file; did you mean "hot"?)"}},
+     {R"(14:40: /variants/hot/joint_types/M8x40: "M8x40" is not a joint type of this file; did you mean "M8x30"?)",
+      R"(14:75: /default_variant: "hut" is not a variant of this file; did you mean "hot"?)"}},
     {R"("tool": {)", R"("variants": {"hot": {"every_joint_type": {"class": "4.6"}}}, "tool": {)",
      {R"(38:29: /joint_types/M8x30/spec/target_torque_Nm: 20 N·m is too much for M8 of class 4.6 with friction 0.12 and 0.12: it yields near 10.2 N·m; expected at most 10.2 N·m with its tolerance)"}},
     {R"("tool": {)", R"("tool": {}, "tool": {)",
@@ -234,7 +234,7 @@ const Mistake mistakes[] = {
       R"(14:11: /tool: required property "kind" is missing; expected one of open_end_wrench, click_torque_wrench: Kind of wrench.)",
       R"(14:15: /tool: "tool" is given twice; expected one value; the first is in line 14)"}},
     {R"("tool": {)", R"("law": 1, "title": [], "tool": {)",
-     {R"(14:10: /law: the number 1 cannot stand here; expected one of mechanistic, published)",
+     {R"(14:10: /law: the number 1 is not allowed here; expected one of mechanistic, published)",
       R"(14:13: /title: "title" is given twice; expected one value; the first is in line 3)"}},
     {R"("en": "Cover with four M8 bolts",)", R"()",
      {R"(3:12: /title: required property "en" is missing; expected a text in double quotes: English text, shown where a language is missing.)"}},
@@ -253,11 +253,11 @@ const Mistake mistakes[] = {
     {R"({ "id": "B2", "type": "M8x30")", R"({ "id": "B2", "Type": "M8x30")",
      {R"(47:19: /joints/1/Type: unknown property "Type"; did you mean "type"?)"}},
     {R"("order": ["B1", "B3", "B2", "B4"])", R"("order": ["B1", "B3", "B2", "B4", "B5"])",
-     {R"(51:37: /order/4: "B5" is no joint of this file; expected every joint once, and nothing else)"}},
+     {R"(51:37: /order/4: "B5" is not a joint of this file; expected every joint once, and nothing else)"}},
     {R"("order": ["B1", "B3", "B2", "B4"])", R"("order": ["B1", "B3", "b2", "B4"])",
-     {R"(51:25: /order/2: "b2" is no joint of this file; did you mean "B2"?)"}},
+     {R"(51:25: /order/2: "b2" is not a joint of this file; did you mean "B2"?)"}},
     {R"("joints": [)", R"("joints": 4, "joint": [)",
-     {R"(45:13: /joints: the number 4 cannot stand here; expected a list of 1 to 500 values)",
+     {R"(45:13: /joints: the number 4 is not allowed here; expected a list of 1 to 500 values)",
       R"(45:16: /joint: unknown property "joint"; did you mean "joints"?)"}},
     {R"("spec": {)", R"("specs": {)",
      {R"(36:7: /joint_types/M8x30/specs: unknown property "specs"; did you mean "spec"?)"}},
@@ -268,13 +268,13 @@ const Mistake mistakes[] = {
       R"(20:27: /joint_types/x~0~1y: required property "friction_thread" is missing; expected a number >= 0.02 and <= 0.6: Running coefficient µ_G (VDI 2230 class B, oiled: 0.08 to 0.16).)",
       R"(20:27: /joint_types/x~0~1y: required property "members" is missing; expected a list of 1 to 20 values: The clamped parts from head to nut, without washers.)",
       R"(20:27: /joint_types/x~0~1y: required property "size" is missing; expected a text in double quotes: ISO metric thread: M16 (coarse) or M16x1.5 (fine).)",
-      R"(20:36: /joint_types/x~0~1y/spec: the number 3 cannot stand here; expected an object {...})"}},
+      R"(20:36: /joint_types/x~0~1y/spec: the number 3 is not allowed here; expected an object {...})"}},
 };
 // clang-format on
 
 }  // namespace
 
-TEST_CASE("Errors: every mistake is told where it stands and what was expected") {
+TEST_CASE("Errors: every mistake is reported at its position with an expectation") {
     const std::string good = cover();
     for (const Mistake& c : mistakes) {
         CAPTURE(std::string(c.from));
@@ -286,7 +286,7 @@ TEST_CASE("Errors: every mistake is told where it stands and what was expected")
     }
 }
 
-TEST_CASE("Errors: all mistakes of a file are told in one run, in the order of the file") {
+TEST_CASE("Errors: all mistakes of a file are reported in one run, in the order of the file") {
     std::string text = cover();
     const auto edit = [&](const char* from, const char* to) { text = edited(std::move(text), from, to); };
     edit("\"jaw_mm\": 13.2", "\"jaw_mm\": 17");
@@ -304,20 +304,21 @@ TEST_CASE("Errors: all mistakes of a file are told in one run, in the order of t
     edit("\"name\": \"top\"", "\"name\": \"front\"");
     const std::vector<std::string> expected = {
         "16:15: /tool/jaw_mm: a jaw of 17 mm does not fit M8, 13 mm across flats; expected 13 to 13.6 mm",
-        "23:16: /joint_types/M8x30/class: \"8.9\" is no property class that we know; did you mean \"8.8\"?",
+        "23:16: /joint_types/M8x30/class: \"8.9\" is not a known property class; did you mean \"8.8\"?",
         "24:25: /joint_types/M8x30/bolt_length_mm: a bolt of 20 mm is too short for a grip of 19.2 mm and a "
         "nut of 6.8 mm; expected at least 27.25 mm",
-        "26:42: /joint_types/M8x30/members/0/material: \"aluminum\" is no material of this file; did you "
+        "26:42: /joint_types/M8x30/members/0/material: \"aluminum\" is not a material of this file; did you "
         "mean "
         "\"aluminium\"?",
         "29:29: /joint_types/M8x30/member_diameter_mm: members of 10 mm diameter are smaller than the nut's "
         "bearing face; expected at least 11.6 mm",
-        "32:26: /joint_types/M8x30/friction_thread: true cannot stand here; expected a number >= 0.02 and <= "
+        "32:26: /joint_types/M8x30/friction_thread: true is not allowed here; expected a number >= 0.02 and "
+        "<= "
         "0.6",
         "37:21: /joint_types/M8x30/spec/strategy: \"torqe\" is not known here; did you mean \"torque\"?",
         "40:27: /joint_types/M8x30/spec/snug_torque_Nm: a snug torque of 19 N·m is no less than what is "
         "judged OK; expected less than 18 N·m",
-        "47:27: /joints/1/type: \"M8x31\" is no joint type of this file; did you mean \"M8x30\"?",
+        "47:27: /joints/1/type: \"M8x31\" is not a joint type of this file; did you mean \"M8x30\"?",
         "47:44: /joints/1/node: \"joint_B1\" is the \"node\" of another joint too; expected a name of its "
         "own; it is "
         "used first in line 46",
@@ -329,7 +330,7 @@ TEST_CASE("Errors: all mistakes of a file are told in one run, in the order of t
     CHECK(messages(text) == expected);
 }
 
-TEST_CASE("Errors: a repeated id hides nothing that an order has wrong") {
+TEST_CASE("Errors: a duplicate id hides no mistake of an order") {
     const std::string good = edited(cover(), "\"id\": \"B2\"", "\"id\": \"B1\"");
     const std::string twice =
         "47:13: /joints/1/id: \"B1\" is the \"id\" of another joint too; expected a name of its own; it is "
@@ -345,48 +346,49 @@ TEST_CASE("Errors: a repeated id hides nothing that an order has wrong") {
     using Messages = std::vector<std::string>;
     CHECK(given("[\"B1\", \"B3\", \"B1\", \"B4\"]").empty());
     CHECK(given("[\"B1\", \"B3\", \"B4\"]").empty());
-    CHECK(given("[\"B1\", \"Q99\", \"B2\", \"B4\"]") ==
-          Messages{
-              "51:19: /order/1: \"Q99\" is no joint of this file; did you mean the joint in line 47, whose "
-              "id is a repetition? If not, expected \"B3\"",
-              "51:26: /order/2: \"B2\" is no joint of this file; did you mean the joint in line 47, whose "
-              "id is a repetition? If not, did you mean \"B3\"?"});
+    CHECK(
+        given("[\"B1\", \"Q99\", \"B2\", \"B4\"]") ==
+        Messages{
+            "51:19: /order/1: \"Q99\" is not a joint of this file; did you mean the joint in line 47, whose "
+            "id is a repetition? If not, expected \"B3\"",
+            "51:26: /order/2: \"B2\" is not a joint of this file; did you mean the joint in line 47, whose "
+            "id is a repetition? If not, did you mean \"B3\"?"});
     CHECK(given("[\"B1\", \"B1\", \"B3\"]") ==
           Messages{"51:12: /order: \"B4\" is missing in this order; expected every joint once"});
-    CHECK(given("[\"B1\", \"B3\", \"B4\", \"B4\"]") ==
-          Messages{
-              "51:31: /order/3: \"B4\" comes twice in this order; expected every joint once; it comes first "
-              "in line 51"});
+    CHECK(
+        given("[\"B1\", \"B3\", \"B4\", \"B4\"]") ==
+        Messages{
+            "51:31: /order/3: \"B4\" appears twice in this order; expected every joint once; it comes first "
+            "in line 51"});
 }
 
-TEST_CASE("Errors: a joint without a usable id stands for one unknown name of an order, not for two") {
+TEST_CASE("Errors: a joint without a usable id explains one unknown name of an order, not two") {
     const std::string good = edited(cover(), "\"id\": \"B2\"", "\"id\": 2");
     CHECK(messages(good).size() == 1);
     const auto all = messages(edited(good, "\"B1\", \"B3\",", "\"B1\", \"Q99\","));
     REQUIRE(all.size() == 3);
-    CHECK(all[1] == "51:19: /order/1: \"Q99\" is no joint of this file; expected \"B3\"");
+    CHECK(all[1] == "51:19: /order/1: \"Q99\" is not a joint of this file; expected \"B3\"");
 }
 
-TEST_CASE("Errors: what was refused keeps only those checks from being made that need it") {
+TEST_CASE("Errors: a rejected value skips only the checks that need it") {
     const auto with = [](const char* from, const char* to) {
         const std::string text = edited(cover(), from, to);
         return messages(edited(edited(text, "\"bolt_length_mm\": 30", "\"bolt_length_mm\": 20"),
                                "\"snug_torque_Nm\": 5", "\"snug_torque_Nm\": 19"));
     };
-    // Its own mistake, the short bolt and the snug torque.
+    // Three errors: the edit, the short bolt and the snug torque.
     CHECK(with("\"class\": \"8.8\"", "\"class\": \"88\"").size() == 3);
     CHECK(with("\"class\": \"8.8\"", "\"clas\": \"8.8\"").size() == 3);
     CHECK(with("\"class\": \"8.8\"", "\"class\": 8.8").size() == 3);
     CHECK(with("\"risk_class\": \"C\"", "\"risk_class\": \"D\"").size() == 3);
     CHECK(with("\"lubrication\": \"oiled\"", "\"lubrication\": \"wet\"").size() == 3);
-    // Without the size no bolt is short; without the target no torque is wrong.
+    // The bolt length cannot be checked without the size, nor the torques without the target.
     CHECK(with("\"size\": \"M8\"", "\"size\": \"M9\"").size() == 2);
     CHECK(with("\"target_torque_Nm\": 20", "\"target_torqe_Nm\": 20").size() == 2);
     CHECK(with("\"spec\": {", "\"specs\": {").size() == 2);
 }
 
-TEST_CASE(
-    "Errors: a thread that is written another way is told as it should be, and never as another diameter") {
+TEST_CASE("Errors: a thread in another notation gives the correct spelling, never another diameter") {
     const auto expected = [](const std::string& size) {
         const auto loaded =
             bolt::content::parse_assembly(edited(cover(), "\"M8\",", "\"" + size + "\","), "f");
@@ -413,7 +415,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Errors: a mistake that only a variant makes is told, and once however many variants share it") {
+TEST_CASE("Errors: a mistake of a variant is reported once, however many variants share it") {
     std::string text = shipped("zq350");
     text = edited(std::move(text), "\"class\": \"A2-70\"", "\"class\": \"A2-71\"");
     REQUIRE(messages(text).size() == 1);
@@ -424,7 +426,7 @@ TEST_CASE("Errors: a mistake that only a variant makes is told, and once however
     CHECK(messages(text).size() == 1);
 }
 
-TEST_CASE("Errors: a file with hundreds of mistakes is cut short") {
+TEST_CASE("Errors: the list of errors is limited to 200") {
     std::string joints;
     for (int i = 0; i < 400; ++i) joints += "{\"id\": 1},\n";
     const auto all = messages(edited(cover(), "\"joints\": [", "\"joints\": [" + joints));

@@ -1,5 +1,5 @@
-// Whatever a slip of the hand makes of a file, the loader ends, and either takes it or says where it is
-// wrong.
+// Randomly edited files: the loader always ends, and either accepts the file or reports errors with valid
+// positions.
 #include <doctest/doctest.h>
 
 #include "engine/base/random.hpp"
@@ -27,7 +27,7 @@ std::string mutated(std::string text, std::uint64_t seed) {
             case 2:
                 text.erase(at, 1 + below(random, 3));
                 break;
-            case 3: {  // a line lost or moved
+            case 3: {  // delete or move a line
                 const std::size_t begin = text.rfind('\n', at), end = text.find('\n', at);
                 if (begin == std::string::npos || end == std::string::npos) break;
                 const std::string line = text.substr(begin, end - begin);
@@ -35,7 +35,7 @@ std::string mutated(std::string text, std::uint64_t seed) {
                 if (random.chance(0.5)) text.insert(below(random, text.size()), line);
                 break;
             }
-            default: {  // a piece written twice
+            default: {  // duplicate a piece
                 const std::string piece = text.substr(at, below(random, 200));
                 text.insert(below(random, text.size()), piece);
             }

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-// Visits every object of a document together with its place and the schema for it.
+// Visits every object of a document with its path and its schema.
 void each_object(const json& value, std::vector<std::string>& place,
                  const std::function<void(const std::vector<std::string>&, const json& schema)>& visit) {
     if (!value.is_structured()) return;
@@ -41,7 +41,7 @@ std::vector<bolt::Error> errors_of(const json& document) {
     return parse_assembly(document.dump(1), "f").errors;
 }
 
-// Slips of the keyboard: a letter lost, doubled, or two of them changed over.
+// Typing errors: a letter omitted, doubled, or two letters exchanged.
 std::vector<std::string> misspellings(const std::string& name) {
     std::vector<std::string> result;
     const std::size_t middle = name.size() / 2;
@@ -67,7 +67,7 @@ void each_property_schema(const json& node,
 
 }  // namespace
 
-TEST_CASE("Schema: the schema in the program is the schema in content/") {
+TEST_CASE("Schema: the built-in schema equals the file in content/") {
     const auto file = bolt::read_file(content_folder() / "schema" / "assembly.schema.json", 1U << 20U,
                                       bolt::ErrorCode::failed);
     REQUIRE(file);
@@ -75,7 +75,7 @@ TEST_CASE("Schema: the schema in the program is the schema in content/") {
     CHECK(schema_json()["$schema"] == "http://json-schema.org/draft-07/schema#");
 }
 
-TEST_CASE("Schema: the schema helps an editor: every property is titled and described, every object closed") {
+TEST_CASE("Schema: every property has a title and a description, and every object is closed") {
     each_property_schema(schema_json(), [](const std::string& name, const json& property) {
         CAPTURE(name);
         const json* at = &property;
@@ -92,7 +92,7 @@ TEST_CASE("Schema: the schema helps an editor: every property is titled and desc
     }
 }
 
-TEST_CASE("Schema: every number in the schema has bounds, and its unit in its name") {
+TEST_CASE("Schema: every number has bounds") {
     each_property_schema(schema_json(), [](const std::string& name, const json& property) {
         CAPTURE(name);
         if (property.value("type", "") != "number") return;
@@ -101,13 +101,11 @@ TEST_CASE("Schema: every number in the schema has bounds, and its unit in its na
     });
 }
 
-TEST_CASE(
-    "Schema: the file that uses everything has no mistake, and the loader reads every name of the schema, no "
-    "other") {
+TEST_CASE("Schema: a file with every property loads, and the loader reads exactly the names of the schema") {
     std::vector<bolt::Error> errors;
     const auto document = JsonDocument::parse(everything(), "f", errors);
     REQUIRE(document);
-    Reader reader(*document);
+    JsonReader reader(*document);
     for (const char* variant : {"", "weak"}) read_assembly(reader, variant);
     for (const bolt::Error& error : reader.take_errors()) FAIL_CHECK(error.message());
 
@@ -116,12 +114,12 @@ TEST_CASE(
                          [&](const std::string& name, const json&) { in_schema.insert(name); });
     std::set<std::string> read(reader.names_read().begin(), reader.names_read().end());
     for (const char* own : {"plain", "weak", "M12x1.25", "clicker"})
-        read.erase(own);  // names that this file has chosen
+        read.erase(own);  // names defined by this file
     for (const std::string& name : in_schema) CHECK_MESSAGE(read.contains(name), name);
     for (const std::string& name : read) CHECK_MESSAGE(in_schema.contains(name), name);
 }
 
-TEST_CASE("Schema: the file that uses everything leaves no property of the schema out") {
+TEST_CASE("Schema: the file with every property leaves none out") {
     const json document = json::parse(everything());
     std::vector<std::string> place;
     std::set<std::string> used, known;
@@ -133,7 +131,7 @@ TEST_CASE("Schema: the file that uses everything leaves no property of the schem
     CHECK(used == known);
 }
 
-TEST_CASE("Schema: every required property, left out, gives exactly one error, which names it") {
+TEST_CASE("Schema: each missing required property gives exactly one error that names it") {
     const json document = json::parse(everything());
     std::vector<std::string> place;
     int count = 0;
@@ -155,7 +153,7 @@ TEST_CASE("Schema: every required property, left out, gives exactly one error, w
     CHECK(count > 30);
 }
 
-TEST_CASE("Schema: every property, misspelt, gives exactly one error, which has the right name") {
+TEST_CASE("Schema: each misspelt property gives exactly one error with the correct name") {
     const json document = json::parse(everything());
     std::vector<std::string> place;
     int count = 0;
@@ -181,7 +179,7 @@ TEST_CASE("Schema: every property, misspelt, gives exactly one error, which has 
     CHECK(count > 250);
 }
 
-TEST_CASE("Schema: every value of a wrong type gives exactly one error at its place") {
+TEST_CASE("Schema: each value of a wrong type gives exactly one error at its position") {
     const json document = json::parse(everything());
     std::vector<std::string> place;
     each_object(document, place, [&](const std::vector<std::string>& at, const json& schema) {

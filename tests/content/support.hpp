@@ -1,4 +1,4 @@
-// What the content tests share: texts to break, and messages as an author reads them.
+// Shared by the content tests: correct files to edit, and the messages as an author reads them.
 #pragma once
 
 #include <string>
@@ -12,14 +12,14 @@ namespace content_test {
 // assembly.json of an assembly under content/assemblies.
 std::string shipped(std::string_view name);
 
-// A small file without mistakes whose lines and columns stay as they are, whatever is shipped:
-// tests/data/cover.json.
+// tests/data/cover.json: a small correct file whose lines and columns do not depend on the shipped
+// assemblies.
 std::string cover();
 
-// A small file without mistakes that uses every property of the schema.
+// A small correct file that uses every property of the schema.
 std::string_view everything();
 
-// `text` with the first `from` replaced; fails the test if there is none.
+// Returns `text` with the first `from` replaced; fails the test if there is none.
 std::string edited(std::string text, std::string_view from, std::string_view to);
 
 // The messages of parse_assembly without the file name: "line:column: pointer: what; expected".

@@ -8,15 +8,15 @@ using namespace content_test;
 
 namespace {
 
-// One edit of a file without mistakes, and all that an author then reads: no more and no less.
-struct Slip {
+// One edit of a correct file, and the complete list of messages that it causes.
+struct SyntaxEdit {
     const char* from;
     const char* to;
     std::vector<std::string> messages;
 };
 
 // clang-format off
-const Slip slips[] = {
+const SyntaxEdit edits[] = {
     {R"(,
   "views")", R"(
   "views")",
@@ -48,36 +48,36 @@ const Slip slips[] = {
     {R"("tool")", R"(tool)",
      {R"(14:3: "tool" without quotes; expected a name in double quotes)"}},
     {R"("tool":)", R"("tool")",
-     {R"(14:10: '{' cannot stand here; expected ':' and a value)"}},
+     {R"(14:10: '{' is not allowed here; expected ':' and a value)"}},
     {R"("tool":)", R"("tool" =)",
-     {R"(14:10: '=' cannot stand here; expected ':' and a value)"}},
+     {R"(14:10: '=' is not allowed here; expected ':' and a value)"}},
     {R"(Fasten the)", "Fasten\nthe",
-     {R"(9:18: the text begun at 9:11 is not closed on its line; expected a '"' at its end)"}},
+     {R"(9:18: the text that begins at 9:11 is not closed on its line; expected a '"' at its end)"}},
     {R"(Fasten the)", "Fasten\tthe",
      {R"(9:18: control character 0x09 in a text; expected \u0009)"}},
     {R"(Fasten the)", R"(Fasten \the \d)",
-     {R"(9:24: a backslash that escapes nothing; expected \\ for a backslash, or one of \" \/ \b \f \n \r \t \uXXXX)"}},
+     {R"(9:24: an invalid escape sequence; expected \\ for a backslash, or one of \" \/ \b \f \n \r \t \uXXXX)"}},
     {R"(Fasten the)", R"(Fasten \ud800 the)",
      {R"(9:19: half of a surrogate pair; expected both halves, or the character itself)"}},
     {R"(Fasten the)", "Fasten \xFF the",
      {R"(9:19: byte 0xFF is not UTF-8; expected UTF-8)"}},
     {R"([0, 500, 1])", R"([0, 500, 1)",
-     {R"(60:55: ':' cannot stand here, and the '[' opened at 60:32 is not closed; expected ',' or ']')"}},
+     {R"(60:55: ':' is not allowed here, and the '[' opened at 60:32 is not closed; expected ',' or ']')"}},
     {R"([0, 500, 1])", R"([0, 500 1])",
      {R"(60:40: something is missing before "1"; expected ',' or ']')"}},
     {R"([0, 500, 1])", R"([0, 500, 1})",
-     {R"(60:42: '}' cannot stand here, and the '[' opened at 60:32 is not closed; expected ',' or ']')"}},
+     {R"(60:42: '}' is not allowed here, and the '[' opened at 60:32 is not closed; expected ',' or ']')"}},
     {R"({ "kind": "recheck" })", R"({ "kind": "recheck")",
-     {R"(57:3: ']' cannot stand here, and the '{' opened at 56:5 is not closed; expected ',' or '}')"}},
+     {R"(57:3: ']' is not allowed here, and the '{' opened at 56:5 is not closed; expected ',' or '}')"}},
     {R"([50, 10, -40] },)", R"([50, 10, -40],)",
-     {R"(48:5: '{' cannot stand here, and the '{' opened at 47:5 is not closed; expected a name in double quotes)"}},
+     {R"(48:5: '{' is not allowed here, and the '{' opened at 47:5 is not closed; expected a name in double quotes)"}},
     {R"("risk_class": "C"
       })", R"("risk_class": "C")",
      {R"(61:2: the file ends too early, and the '{' opened at 1:1 is not closed; expected ',' or '}'; by the indentation it is the '{' opened at 36:15 that lacks its '}')"}},
     {R"("id": "B2", "type")", R"("id": "B2, "type")",
-     {R"(47:19: something is missing before "type"; expected ',' or '}', or a '"' that closes the text begun at 47:13)"}},
+     {R"(47:19: something is missing before "type"; expected ',' or '}', or a '"' that closes the text that begins at 47:13)"}},
     {R"("zh": "四个 M8 螺栓的盖板")", R"("zh": "四个 M8 螺栓的盖板)",
-     {R"(6:23: the text begun at 6:11 is not closed on its line; expected a '"' at its end)"}},
+     {R"(6:23: the text that begins at 6:11 is not closed on its line; expected a '"' at its end)"}},
     {R"([0, 500, 1])", R"([0, 500, ])",
      {R"(60:39: nothing follows this comma but ']'; expected no comma here, or another value)"}},
 };
@@ -85,9 +85,9 @@ const Slip slips[] = {
 
 }  // namespace
 
-TEST_CASE("JSON syntax: a syntax error is told in plain words where it stands") {
+TEST_CASE("JSON syntax: a syntax error is reported in plain words at its position") {
     const std::string good = cover();
-    for (const Slip& c : slips) {
+    for (const SyntaxEdit& c : edits) {
         CAPTURE(c.from);
         CAPTURE(c.to);
         const std::vector<std::string> given = messages(edited(good, c.from, c.to));
@@ -105,7 +105,7 @@ std::string only_message(std::string_view text) {
 
 }  // namespace
 
-TEST_CASE("JSON syntax: what is no JSON at all gives one error with a line") {
+TEST_CASE("JSON syntax: a text that is not JSON gives one error with a line") {
     CHECK(only_message("") == "1:1: the file is empty; expected '{'");
     CHECK(only_message(" \n\t\n") == "1:1: the file is empty; expected '{'");
     CHECK(only_message("hello") ==
@@ -115,15 +115,16 @@ TEST_CASE("JSON syntax: what is no JSON at all gives one error with a line") {
           "quotes or '}'");
     CHECK(only_message("{\"a\": [1,\n") ==
           "1:10: the file ends too early, and the '[' opened at 1:7 is not closed; expected a value");
-    CHECK(only_message("{} {}") == "1:4: '{' cannot stand here; expected the end of the file");
-    CHECK(only_message("<xml/>") == "1:1: '<' cannot stand here; expected '{'");
+    CHECK(only_message("{} {}") == "1:4: '{' is not allowed here; expected the end of the file");
+    CHECK(only_message("<xml/>") == "1:1: '<' is not allowed here; expected '{'");
     CHECK(only_message("[1.5.2]") ==
           "1:2: \"1.5.2\" is not a number as JSON writes it; expected as in 1.5, -2 or 3e-6: "
           "digits on both sides of the point, no leading zero or plus, no unit");
     CHECK(only_message("[5mm]") ==
           "1:2: \"5mm\" is not a number as JSON writes it; expected as in 1.5, -2 or 3e-6: "
           "digits on both sides of the point, no leading zero or plus, no unit");
-    CHECK(only_message("\"abc") == "1:5: the text begun at 1:1 is not closed; expected a '\"' at its end");
+    CHECK(only_message("\"abc") ==
+          "1:5: the text that begins at 1:1 is not closed; expected a '\"' at its end");
     CHECK(only_message(std::string_view("{}\0", 3)) == "1:3: byte 0x00; expected text");
     CHECK(only_message(std::string_view("\xFF\xFE{\0}\0", 6)) == "1:1: the file is UTF-16; expected UTF-8");
     CHECK(only_message("{\"\xE4\": 1}") == "1:3: byte 0xE4 is not UTF-8; expected UTF-8");
@@ -134,40 +135,40 @@ TEST_CASE("JSON syntax: what is no JSON at all gives one error with a line") {
           "1:2: a name of more than 128 bytes; expected a shorter name");
 }
 
-TEST_CASE("JSON syntax: what is JSON but no object is refused as a whole") {
-    CHECK(only_message("[]") == "1:1: a list [...] cannot stand here; expected an object {...}");
-    CHECK(only_message("null") == "1:1: null cannot stand here; expected an object {...}");
-    CHECK(only_message("  3") == "1:3: the number 3 cannot stand here; expected an object {...}");
+TEST_CASE("JSON syntax: JSON that is not an object is refused") {
+    CHECK(only_message("[]") == "1:1: a list [...] is not allowed here; expected an object {...}");
+    CHECK(only_message("null") == "1:1: null is not allowed here; expected an object {...}");
+    CHECK(only_message("  3") == "1:3: the number 3 is not allowed here; expected an object {...}");
 }
 
-TEST_CASE("JSON syntax: a byte order mark is no mistake and does not move the columns") {
+TEST_CASE("JSON syntax: a byte order mark is allowed and does not shift the columns") {
     CHECK(messages("\xEF\xBB\xBF" + cover()).empty());
-    CHECK(only_message("\xEF\xBB\xBF[]") == "1:1: a list [...] cannot stand here; expected an object {...}");
+    CHECK(only_message("\xEF\xBB\xBF[]") ==
+          "1:1: a list [...] is not allowed here; expected an object {...}");
     CHECK(only_message("\xEF\xBB\xBF") == "1:1: the file is empty; expected '{'");
 }
 
-TEST_CASE("JSON syntax: columns count characters, as an editor does, and a tab is one") {
+TEST_CASE("JSON syntax: columns count characters, and a tab is one") {
     CHECK(only_message("{\"zh\":\t\"四个 µ\", 1}") ==
           "1:16: \"1\" without quotes; expected a name in double quotes");
     CHECK(only_message("\xEF\xBB\xBF{\"\xF0\x9F\x94\xA9\": 1,\n\"é\", 1}") ==
-          "2:4: ',' cannot stand here; expected ':' and a value");
+          "2:4: ',' is not allowed here; expected ':' and a value");
     CHECK(only_message("[\"äö\", \"\xFF\"]") == "1:9: byte 0xFF is not UTF-8; expected UTF-8");
 }
 
 TEST_CASE(
-    "JSON syntax: the bracket that is blamed is the innermost that is open, unless the indentation tells "
-    "better") {
+    "JSON syntax: an unclosed bracket is the innermost open one, unless the indentation shows another") {
     CHECK(only_message("{\"a\": {\n\"b\": [1],\n\"c\": 2\n}")
               .starts_with("4:2: the file ends too early, and the '{' opened at 1:1 is not closed; expected "
                            "',' or '}'"));
     CHECK(only_message("{\n  \"a\": [\n    {\n      \"b\": 1\n  ],\n  \"c\": 2\n}\n") ==
-          "5:3: ']' cannot stand here, and the '{' opened at 3:5 is not closed; expected ',' or '}'");
+          "5:3: ']' is not allowed here, and the '{' opened at 3:5 is not closed; expected ',' or '}'");
     CHECK(only_message("{\"a\": \"x\\\\\\\"\"b}") ==
           "1:14: something is missing before \"b\"; expected ',' or '}', or a '\"' that closes the text "
           "begun at 1:7");
 }
 
-TEST_CASE("JSON syntax: Windows line ends are lines too") {
+TEST_CASE("JSON syntax: Windows line ends count as lines") {
     std::string text = edited(cover(), "\"M8x30\"", "\"M8x30 \"");
     for (std::size_t i = 0; (i = text.find('\n', i)) != std::string::npos; i += 2) text.insert(i, "\r");
     const auto loaded = bolt::content::parse_assembly(text, "f");
@@ -175,7 +176,7 @@ TEST_CASE("JSON syntax: Windows line ends are lines too") {
     CHECK(loaded.errors.back().line == 49);
 }
 
-TEST_CASE("JSON syntax: files that would cost too much are refused at once") {
+TEST_CASE("JSON syntax: files beyond the limits are refused at once") {
     CHECK(only_message(std::string((4U << 20U) + 1, ' ')) == "1:1: the file is larger than 4 MiB");
     CHECK(only_message(std::string(100'000, '[')) == "1:65: nested more than 64 levels deep");
     std::string many = "[0";
@@ -188,7 +189,7 @@ TEST_CASE("JSON syntax: files that would cost too much are refused at once") {
     CHECK(all[0] == "1:8: /a: \"a\" is given twice; expected one value; the first is in line 1");
 }
 
-TEST_CASE("JSON syntax: a repeated name inside a repeated name") {
+TEST_CASE("JSON syntax: a duplicate name inside a duplicate name is reported once") {
     const std::vector<std::string> all =
         messages("{\"a\": 1,\n\"a\": {\"b\": 1, \"b\": {\"c\": 2}, \"d\": 3}}");
     REQUIRE(all.size() > 2);

@@ -1,5 +1,4 @@
-// An assembly's tools: a usual one and others to choose from.
-
+// The default tool of an assembly and the further tools to choose from.
 #include <doctest/doctest.h>
 
 #include "support.hpp"
@@ -9,7 +8,7 @@ using namespace content_test;
 
 namespace {
 
-// The small file with a tool more.
+// The small file with `more` as "more_tools".
 std::string with(const std::string& more) {
     return edited(cover(), "\"joint_types\"", "\"more_tools\": {" + more + "}, \"joint_types\"");
 }
@@ -19,8 +18,8 @@ constexpr const char* clicker =
 
 }  // namespace
 
-TEST_CASE("Tools: a torque wrench beside the usual wrench: it is there, and used when it is chosen") {
-    content::Loaded loaded = content::parse_assembly(with(clicker), "f");
+TEST_CASE("Tools: a second tool is used when it is chosen") {
+    content::LoadedAssembly loaded = content::parse_assembly(with(clicker), "f");
     for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
     content::Assembly& a = loaded.assembly;
     REQUIRE(a.tools.size() == 2);
@@ -36,8 +35,8 @@ TEST_CASE("Tools: a torque wrench beside the usual wrench: it is there, and used
     CHECK(a.wrench.click_swing == 0.0);
 }
 
-TEST_CASE("Tools: a tool that there is not is named, with the nearest that there is") {
-    content::Loaded loaded = content::parse_assembly(with(clicker), "f");
+TEST_CASE("Tools: an unknown tool gives the nearest name") {
+    content::LoadedAssembly loaded = content::parse_assembly(with(clicker), "f");
     REQUIRE(loaded.ok());
     const Status chosen = content::choose_tool(loaded.assembly, "cliker");
     REQUIRE_FALSE(chosen);
@@ -46,7 +45,7 @@ TEST_CASE("Tools: a tool that there is not is named, with the nearest that there
     CHECK(loaded.assembly.tool == "wrench");
 }
 
-TEST_CASE("Tools: mistakes of a tool are told, each with its place") {
+TEST_CASE("Tools: mistakes of a tool are reported at their position") {
     const auto one = [](const std::string& text) {
         const std::vector<std::string> all = messages(text);
         REQUIRE(all.size() == 1);
@@ -67,11 +66,10 @@ TEST_CASE("Tools: mistakes of a tool are told, each with its place") {
           "/more_tools/wrench: \"wrench\" is what \"tool\" is called; expected another name");
 }
 
-TEST_CASE(
-    "Tools: every assembly that is shipped has a torque wrench, and a name for each tool in each language") {
+TEST_CASE("Tools: every shipped assembly has a torque wrench, and a name for each tool in each language") {
     for (const char* name : {"zq350", "dn200-pn16", "cover-m8"}) {
         CAPTURE(name);
-        content::Loaded loaded = content::load_assembly(name);
+        content::LoadedAssembly loaded = content::load_assembly(name);
         REQUIRE(loaded.ok());
         for (const content::Tool& tool : loaded.assembly.tools) CHECK(tool.title.size() == 3);
         REQUIRE(content::choose_tool(loaded.assembly, "torque_wrench"));

@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <span>
 
-#include "tests/dead_ends/desk.hpp"
+#include "tests/dead_ends/lesson_run.hpp"
 #include "tests/dead_ends/life.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/sanitized.hpp"
@@ -18,32 +18,33 @@
 
 namespace dead_ends {
 
-Life live(const Person& who, const content::Assembly& assembly, Met& met) {
+Life run_life(const LifePlan& plan, const content::Assembly& assembly, Coverage& coverage) {
     const bolt::test::Folder folder;
     const auto file = folder / "life.boltwright";
     Life life;
     {
-        auto begun = session::Course::begin(assembly, who.course, file);
+        auto begun = session::LessonSession::begin(assembly, plan.options, file);
         REQUIRE(begun);
-        session::Course& course = **begun;
-        Watch watch(course, met);
-        Desk desk(course, watch);
-        if (who.overdoes) {
-            desk.sets = who.sets;
-            (who.at_mouse ? overdo_at_mouse : overdo_at_device)(desk, who.seed, who.span);
-            desk.sets = 1.0;
+        session::LessonSession& session = **begun;
+        InvariantChecker checker(session, coverage);
+        LessonRun run(session, checker);
+        if (plan.overtightens) {
+            run.setting_scale = plan.setting_scale;
+            (plan.at_mouse ? overtighten_at_mouse : overtighten_at_device)(run, plan.seed, plan.span);
+            run.setting_scale = 1.0;
         } else {
-            (who.at_mouse ? meddle_at_mouse : meddle_at_device)(desk, who.seed, who.span, who.rough);
+            (plan.at_mouse ? act_randomly_at_mouse : act_randomly_at_device)(run, plan.seed, plan.span,
+                                                                             plan.rough);
         }
 
-        life.random_time = course.time();
-        life.done_by_random = desk.over();
-        life.restarts = who.at_mouse ? finish_at_mouse(desk) : finish_at_device(desk, who.seed);
-        life.rescue_time = course.time() - life.random_time;
-        for (const double lost : course.state().rounded) met.rounded += lost > 0.0 ? 1 : 0;
-        for (const auto& joint : course.state().joints)
-            met.damaged += joint.condition != joint::Condition::sound ? 1 : 0;
-        life.troubles = watch.troubles();
+        life.random_time = session.time();
+        life.done_by_random = run.over();
+        life.restarts = plan.at_mouse ? finish_at_mouse(run) : finish_at_device(run, plan.seed);
+        life.rescue_time = session.time() - life.random_time;
+        for (const double lost : session.state().rounded) coverage.rounded += lost > 0.0 ? 1 : 0;
+        for (const auto& joint : session.state().joints)
+            coverage.damaged += joint.condition != joint::Condition::sound ? 1 : 0;
+        life.problems = checker.problems();
     }
     for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(file.string() + end);
     return life;
@@ -51,47 +52,48 @@ Life live(const Person& who, const content::Assembly& assembly, Met& met) {
 
 namespace {
 
-std::uint64_t asked(const char* variable, std::uint64_t usual) {
+std::uint64_t environment(const char* variable, std::uint64_t otherwise) {
     const char* text = std::getenv(variable);  // NOLINT(concurrency-mt-unsafe): nothing sets it
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : usual;
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-std::string table(const Met& met) {
-    std::string text = "situation: reached, left, said\n";
+std::string table(const Coverage& coverage) {
+    std::string text = "situation: reached, left, hinted\n";
     for (std::size_t i = 0; i < lesson::situation_count; ++i)
-        text += "  " + std::to_string(i) + ": " + std::to_string(met.reached[i]) + ", " +
-                std::to_string(met.left[i]) + ", " + std::to_string(met.said[i]) + "\n";
-    for (const auto& [event, count] : met.events) text += "  " + event + ": " + std::to_string(count) + "\n";
+        text += "  " + std::to_string(i) + ": " + std::to_string(coverage.reached[i]) + ", " +
+                std::to_string(coverage.left[i]) + ", " + std::to_string(coverage.hinted[i]) + "\n";
+    for (const auto& [event, count] : coverage.events)
+        text += "  " + event + ": " + std::to_string(count) + "\n";
     for (std::size_t i = 0; i < force::fault_kinds; ++i)
-        text += "  fault " + std::to_string(i) + ": " + std::to_string(met.faults[i]) + "\n";
-    return text + "  undone " + std::to_string(met.undone) + ", damaged joints " +
-           std::to_string(met.damaged) + ", rounded nuts " + std::to_string(met.rounded);
+        text += "  fault " + std::to_string(i) + ": " + std::to_string(coverage.faults[i]) + "\n";
+    return text + "  undone " + std::to_string(coverage.undone) + ", damaged joints " +
+           std::to_string(coverage.damaged) + ", rounded nuts " + std::to_string(coverage.rounded);
 }
 
-// Situations that no simulated life meets, each with the reason. A listed situation that is met fails the
-// test, too.
+// Situations that no simulated life meets, each with its reason. The test also fails if a listed situation is
+// met.
 struct Exception {
     lesson::Situation situation;
     const char* reason;
 };
 constexpr Exception exceptions[] = {
     {lesson::Situation::run_down_by_wrench, "no shipped assembly has nuts that fingers cannot turn"},
-    {lesson::Situation::twist_back, "the desk does not limit how far fingers twist"},
+    {lesson::Situation::twist_back, "the lesson run does not limit how far fingers twist"},
     {lesson::Situation::leave_stripped, "in every shipped assembly the bolt breaks before the threads shear"},
 };
 
-// Lives that meet what the first ones do not: a bolt tightened into yield, a nut turned on while loosening, a
-// broken bolt.
+// Lives with situations that the first ones do not meet: a bolt tightened into yield, a nut tightened while
+// loosening, a broken bolt.
 constexpr std::array<std::uint64_t, 3> rare_lives{203, 473, 1757};
 
-// Says what is wrong with each situation that was met although listed, or not met although not listed.
-std::vector<std::string> coverage_errors(const Met& met, std::span<const Exception> listed) {
+// Returns an error for each situation that is met and listed, or neither.
+std::vector<std::string> coverage_errors(const Coverage& coverage, std::span<const Exception> listed) {
     std::vector<std::string> errors;
     for (std::size_t i = 0; i < lesson::situation_count; ++i) {
         const auto exception = std::find_if(listed.begin(), listed.end(), [i](const Exception& e) {
             return static_cast<std::size_t>(e.situation) == i;
         });
-        const bool was_met = met.reached[i] > 0 || met.said[i] > 0;
+        const bool was_met = coverage.reached[i] > 0 || coverage.hinted[i] > 0;
         const std::string place = "situation " + std::to_string(i) + ": ";
         if (was_met && exception != listed.end())
             errors.push_back(place + "is met; expected not, because " + exception->reason);
@@ -101,58 +103,59 @@ std::vector<std::string> coverage_errors(const Met& met, std::span<const Excepti
     return errors;
 }
 
-// Reports the progress of a run that takes an hour.
-void tell(const Person& who, const Life& life, std::uint64_t number) {
+// Logs the progress of a run that takes an hour.
+void log_progress(const LifePlan& plan, const Life& life, std::uint64_t number) {
     if (number % 50 == 0) (void)std::fprintf(stderr, "%llu lives\n", static_cast<unsigned long long>(number));
-    if (life.troubles.empty() && life.restarts == 0) return;
-    (void)std::fprintf(stderr, "%s: %d restarts; %s\n", describe(who).c_str(), life.restarts,
-                       life.troubles.empty() ? "finished" : life.troubles.front().c_str());
+    if (life.problems.empty() && life.restarts == 0) return;
+    (void)std::fprintf(stderr, "%s: %d restarts; %s\n", describe(plan).c_str(), life.restarts,
+                       life.problems.empty() ? "finished" : life.problems.front().c_str());
 }
 
 }  // namespace
 
 TEST_CASE("Dead ends: a competent trainee can finish a lesson, whatever was done to it") {
-    const std::uint64_t first = asked("BOLT_FIRST_TRAINEE", 1);
-    const std::uint64_t usual = test::sanitized ? 4 : 60, lives = asked("BOLT_TRAINEES", usual);
-    Met met;
+    const std::uint64_t first = environment("BOLT_FIRST_TRAINEE", 1);
+    const std::uint64_t default_lives = test::sanitized ? 4 : 60,
+                        lives = environment("BOLT_TRAINEES", default_lives);
+    Coverage coverage;
     int restarts = 0, by_random = 0, dead = 0;
     double random_time = 0.0, rescue_time = 0.0;
     for (std::uint64_t seed = first; seed < first + lives; ++seed) {
-        const Person who = person(seed);
-        const Life life = live(who, assembly_of(who), met);
+        const LifePlan plan = make_life_plan(seed);
+        const Life life = run_life(plan, assembly_of(plan), coverage);
         restarts += life.restarts;
         by_random += life.done_by_random ? 1 : 0;
         random_time += life.random_time;
         rescue_time += life.rescue_time;
-        dead += life.troubles.empty() ? 0 : 1;
-        for (const std::string& trouble : life.troubles) {
-            const std::string of = describe(who) + ": " + trouble;
-            FAIL_CHECK(of);
+        dead += life.problems.empty() ? 0 : 1;
+        for (const std::string& problem : life.problems) {
+            const std::string message = describe(plan) + ": " + problem;
+            FAIL_CHECK(message);
         }
-        if (lives > usual) tell(who, life, seed - first + 1);
+        if (lives > default_lives) log_progress(plan, life, seed - first + 1);
     }
-    MESSAGE(lives << " lives, " << dead << " with trouble, " << random_time << " s of anything, "
+    MESSAGE(lives << " lives, " << dead << " with problems, " << random_time << " s of random actions, "
                   << rescue_time << " s to finish, " << restarts << " restarts, " << by_random
                   << " finished by chance\n"
-                  << table(met));
+                  << table(coverage));
     if (test::sanitized) return test::skip_rest("too few lives under a sanitizer to meet every situation");
-    if (first != 1 || lives < usual)
-        return test::skip_rest("other lives than the usual ones meet other situations");
+    if (first != 1 || lives < default_lives)
+        return test::skip_rest("lives other than the default ones meet other situations");
     for (const std::uint64_t seed : rare_lives) {
-        const Person who = person(seed);
-        const Life life = live(who, assembly_of(who), met);
-        CAPTURE(describe(who));
-        CHECK(life.troubles.empty());
+        const LifePlan plan = make_life_plan(seed);
+        const Life life = run_life(plan, assembly_of(plan), coverage);
+        CAPTURE(describe(plan));
+        CHECK(life.problems.empty());
     }
-    CHECK(coverage_errors(met, exceptions) == std::vector<std::string>{});
+    CHECK(coverage_errors(coverage, exceptions) == std::vector<std::string>{});
 }
 
 TEST_CASE("Dead ends: an unmet situation without a reason is an error, and so is a stale reason") {
-    Met all;
-    all.said.fill(1);
+    Coverage all;
+    all.hinted.fill(1);
     CHECK(coverage_errors(all, {}).empty());
-    Met some = all;
-    some.said[5] = 0;
+    Coverage some = all;
+    some.hinted[5] = 0;
     CHECK(coverage_errors(some, {}) ==
           std::vector<std::string>{
               "situation 5: is not met; expected a life that meets it, or a reason in the list"});
@@ -162,14 +165,14 @@ TEST_CASE("Dead ends: an unmet situation without a reason is an error, and so is
           std::vector<std::string>{"situation 5: is met; expected not, because of a test"});
 }
 
-TEST_CASE("Dead ends: a wrench that is caught on its way to a nut comes off and takes another way") {
+TEST_CASE("Dead ends: a wrench stopped by an obstacle on its way to a nut takes another path") {
     if (test::sanitized) return test::skip_rest("a life at the flange takes minutes under a sanitizer");
-    // On the flange's lowest nut the hand tried the same way over and over.
-    const Person who = person(200);
-    REQUIRE(who.assembly == "dn200-pn16");
-    Met met;
-    const Life life = live(who, assembly_of(who), met);
-    CHECK(life.troubles.empty());
+    // A hand once repeated the same approach to the flange's lowest nut without end.
+    const LifePlan plan = make_life_plan(200);
+    REQUIRE(plan.assembly == "dn200-pn16");
+    Coverage coverage;
+    const Life life = run_life(plan, assembly_of(plan), coverage);
+    CHECK(life.problems.empty());
     CHECK(life.restarts == 0);
 }
 

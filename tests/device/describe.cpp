@@ -21,7 +21,8 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
     Description arm = test::arm();
     arm.remarks = {"its cable is worn"};
     CHECK(all(arm) ==
-          "says where the hand is, in six degrees of freedom, within 40 x 40 x 40 cm, 1000 times a second; 2 "
+          "senses the pose of the hand in six degrees of freedom, within 40 x 40 x 40 cm, 1000 times a "
+          "second; 2 "
           "buttons\n"
           "renders force along 3 axes, 20 N at most, as stiff as 2 N/mm; torque about 3 axes, 2 N·m at most\n"
           "its cable is worn\n");
@@ -33,14 +34,13 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
     wheel.limits.torque = 12.5;
     wheel.buttons = 1;
     CHECK(all(wheel) ==
-          "says how far it is turned about its one axis, 1000 times a second while it moves; 1 button\n"
+          "senses the angle of its one axis, 1000 times a second while it moves; 1 button\n"
           "renders torque about 1 axis, 12.5 N·m at most\n");
     Description puck;
     puck.sensing = Sensing::rate;
     puck.rate = 125;
-    CHECK(
-        all(puck) ==
-        "says how fast the hand wants to go, in six degrees of freedom, 125 times a second while it moves; 0 "
-        "buttons\n"
-        "renders no force\n");
+    CHECK(all(puck) ==
+          "senses a commanded velocity in six degrees of freedom, 125 times a second while it moves; 0 "
+          "buttons\n"
+          "renders no force\n");
 }

@@ -8,11 +8,11 @@
 
 namespace bolt::test {
 
-using emulate::Items;
+using emulate::DescriptorBuilder;
 
 // Three reports: pushes, turns, buttons; the older pucks.
 inline std::vector<std::uint8_t> puck_in_three() {
-    Items d;
+    DescriptorBuilder d;
     d.page(1).usage(8).begin(1);
     d.begin(0).id(1).range(-350, 350).usage(0x30).usage(0x31).usage(0x32).fields(3, 16).input(6).end();
     d.begin(0).id(2).usage(0x33).usage(0x34).usage(0x35).fields(3, 16).input(6).end();
@@ -23,7 +23,7 @@ inline std::vector<std::uint8_t> puck_in_three() {
 
 // All six axes in one report; the newer ones.
 inline std::vector<std::uint8_t> puck_in_one() {
-    Items d;
+    DescriptorBuilder d;
     d.page(1).usage(8).begin(1);
     d.begin(0).id(1).range(-350, 350).usages(0x30, 0x35).fields(6, 16).input(2).end();
     d.begin(0).id(3).page(9).usages(1, 15).range(0, 1).fields(15, 1).input(2).fields(1, 1).input(3).end();
@@ -32,7 +32,7 @@ inline std::vector<std::uint8_t> puck_in_one() {
 
 // A mouse without report ids.
 inline std::vector<std::uint8_t> mouse() {
-    Items d;
+    DescriptorBuilder d;
     d.page(1).usage(2).begin(1).usage(1).begin(0);
     d.page(9).usages(1, 3).range(0, 1).fields(3, 1).input(2).fields(1, 5).input(1);
     d.page(1).usage(0x30).usage(0x31).range(-127, 127).fields(2, 8).input(6);

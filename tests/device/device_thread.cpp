@@ -37,7 +37,7 @@ struct Bench {
     }
 };
 
-class OnBench final : public Device {
+class OnBench final : public DeviceDriver {
   public:
     explicit OnBench(std::shared_ptr<Bench> bench) : bench_(std::move(bench)) { ++bench_->open; }
     OnBench(const OnBench&) = delete;
@@ -80,7 +80,7 @@ class OnBench final : public Device {
 };
 
 DeviceFactory opens(const std::shared_ptr<Bench>& bench) {
-    return [bench]() -> Result<std::unique_ptr<Device>> {
+    return [bench]() -> Result<std::unique_ptr<DeviceDriver>> {
         if (!bench->plugged) return fail(ErrorCode::no_device, "there is no arm", "a connected arm");
         return std::make_unique<OnBench>(bench);
     };

@@ -39,9 +39,9 @@ inline void check_description(const device::Description& d) {
 template <class Speaks>
 void check_driver_contract(const device::DeviceFactory& open, const Speaks& speaks) {
     for (int plugged = 0; plugged < 2; ++plugged) {  // it can be closed and opened again
-        Result<std::unique_ptr<device::Device>> opened = open();
+        Result<std::unique_ptr<device::DeviceDriver>> opened = open();
         REQUIRE(opened);
-        device::Device& device = **opened;
+        device::DeviceDriver& device = **opened;
         const device::Description description = device.describe();
         check_description(description);
         CHECK(device.describe().id == description.id);
@@ -66,14 +66,14 @@ void check_driver_contract(const device::DeviceFactory& open, const Speaks& spea
 // `pull` takes the device away: that is an error, soon, and opening it says what to do.
 template <class Pull>
 void check_unplugged(const device::DeviceFactory& open, const Pull& pull) {
-    Result<std::unique_ptr<device::Device>> opened = open();
+    Result<std::unique_ptr<device::DeviceDriver>> opened = open();
     REQUIRE(opened);
     pull();
     bool gone = false;
     for (int i = 0; i < 1000 && !gone; ++i) gone = !(*opened)->read(0.005) || !(*opened)->write({});
     CHECK(gone);
     opened->reset();  // comes back, though nothing can be told to it
-    const Result<std::unique_ptr<device::Device>> again = open();
+    const Result<std::unique_ptr<device::DeviceDriver>> again = open();
     REQUIRE_FALSE(again);
     CHECK(again.error().code == ErrorCode::no_device);
     CHECK_FALSE(again.error().expected.empty());

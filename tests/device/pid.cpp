@@ -33,22 +33,22 @@ TEST_CASE("Pid: messages for an OpenFFBoard match its firmware byte for byte") {
     CHECK(layout->gain.bytes == Bytes{13, 255});
     CHECK(layout->create.kind == ReportKind::feature);
     CHECK(layout->create.bytes == Bytes{17, 1, 0, 0});
-    CHECK(layout->loaded.bytes.size() == 5);
+    CHECK(layout->block_load.bytes.size() == 5);
     select_block(*layout, 3);
     CHECK(layout->start.bytes == Bytes{10, 3, 1, 1});
     CHECK(layout->stop.bytes == Bytes{10, 3, 3, 0});
     CHECK(layout->free.bytes == Bytes{11, 3});
     // Constant force, for a second, at once, all of it, no button, direction of 90 degrees.
     const unsigned direction = 35900 / 4;
-    CHECK(layout->set.bytes == Bytes{1, 3, 1, 0xe8, 0x03, 0, 0, 0, 0, 0, 0, 255, 0, 0x01 | 0x04,
-                                     static_cast<std::uint8_t>(direction),
-                                     static_cast<std::uint8_t>(direction >> 8U), 0, 0});
+    CHECK(layout->set_effect.bytes == Bytes{1, 3, 1, 0xe8, 0x03, 0, 0, 0, 0, 0, 0, 255, 0, 0x01 | 0x04,
+                                            static_cast<std::uint8_t>(direction),
+                                            static_cast<std::uint8_t>(direction >> 8U), 0, 0});
     set_magnitude(*layout, 1.0);
-    CHECK(layout->force.bytes == Bytes{5, 3, 0xff, 0x7f});
+    CHECK(layout->set_force.bytes == Bytes{5, 3, 0xff, 0x7f});
     set_magnitude(*layout, -2.0);
-    CHECK(layout->force.bytes == Bytes{5, 3, 0x01, 0x80});
+    CHECK(layout->set_force.bytes == Bytes{5, 3, 0x01, 0x80});
     set_magnitude(*layout, 0.0);
-    CHECK(layout->force.bytes == Bytes{5, 3, 0, 0});
+    CHECK(layout->set_force.bytes == Bytes{5, 3, 0, 0});
 
     CHECK(*parse_block_load(*layout, Bytes{18, 7, 1, 0, 0}) == 7);
     CHECK(!parse_block_load(*layout, Bytes{18, 7, 2, 0, 0}));   // full
@@ -65,14 +65,14 @@ TEST_CASE("Pid: a wheel with missing reports and other numbering works") {
     CHECK(layout->stop_all.bytes == Bytes{0x1c, 2});
     CHECK(layout->enable.bytes == Bytes{0x1c, 3});
     CHECK(layout->create.bytes.empty());
-    CHECK(layout->loaded.bytes.empty());
+    CHECK(layout->block_load.bytes.empty());
     CHECK(layout->free.bytes.empty());
     select_block(*layout, 1);
-    CHECK(layout->set.bytes == Bytes{0x11, 1, 2, 0xe8, 0x03, 100, 0x05, 63, 0});
+    CHECK(layout->set_effect.bytes == Bytes{0x11, 1, 2, 0xe8, 0x03, 100, 0x05, 63, 0});
     CHECK(layout->start.bytes == Bytes{0x1a, 1, 2});
     CHECK(layout->stop.bytes == Bytes{0x1a, 1, 1});
     set_magnitude(*layout, 0.5);
-    CHECK(layout->force.bytes == Bytes{0x15, 0x88, 0x13});
+    CHECK(layout->set_force.bytes == Bytes{0x15, 0x88, 0x13});
 }
 
 TEST_CASE("Pid: a device without a usable constant force is rejected with the reason") {
@@ -82,11 +82,11 @@ TEST_CASE("Pid: a device without a usable constant force is rejected with the re
         return layout.error().message();
     };
     CHECK(why(mouse()).find("no constant-force effect") != std::string::npos);
-    Items one_way;
+    DescriptorBuilder one_way;
     one_way.page(1).usage(4).begin(1).page(15).usage(0x73).begin(2).id(5);
     one_way.usage(0x70).range(0, 255).fields(1, 8).output(2).end();
     CHECK(why(one_way.end().out).find("one sign only") != std::string::npos);
-    Items no_start;
+    DescriptorBuilder no_start;
     no_start.page(1).usage(4).begin(1).page(15).usage(0x73).begin(2).id(5);
     no_start.usage(0x70).range(-127, 127).fields(1, 8).output(2).end();
     CHECK(why(no_start.end().out).find("start and stop effects") != std::string::npos);
@@ -114,7 +114,7 @@ TEST_CASE("BoardRequest: OpenFFBoard queries and replies encode and decode") {
         other[spoiled] ^= 0x0fU;
         CHECK(!board::reply_value(board::Command::position, *board::decode_message(other)));
     }
-    const board::Message m{board::Type::write, 0xa02, 3, 0x12345678, -5, 0x123456789abcdef0};
+    const board::Message m{board::MessageType::write, 0xa02, 3, 0x12345678, -5, 0x123456789abcdef0};
     CHECK(board::decode_message(board::encode_message(m)) == m);
     reply.pop_back();
     CHECK(!board::decode_message(reply));
@@ -133,5 +133,5 @@ TEST_CASE("HidDevices: kind_of recognises pucks, boards and wheels among all HID
     const auto gone = factory_for("0000:0000:nothing")();
     REQUIRE(!gone);
     CHECK(gone.error().lost);
-    CHECK(gone.error().message().find("plugged in") != std::string::npos);
+    CHECK(gone.error().message().find("a connected device") != std::string::npos);
 }

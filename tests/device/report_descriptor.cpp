@@ -27,13 +27,13 @@ TEST_CASE("ReportDescriptor: a mouse has buttons, padding and two axes at their 
     CHECK(!d.numbered);
     CHECK(d.fields.size() == 5);
     CHECK(report_size(d, ReportKind::input, 0) == 3);
-    const Field* y = find_field(d, ReportKind::input, {1, 0x31});
+    const ReportField* y = find_field(d, ReportKind::input, {1, 0x31});
     REQUIRE(y);
     CHECK(y->bit == 16);
     CHECK(y->relative);
     CHECK(value_of(*y, Bytes{0, 0, 0xfb}) == -5);
     CHECK(!value_of(*y, Bytes{0, 0}));
-    const Field* third = find_field(d, ReportKind::input, {9, 3});
+    const ReportField* third = find_field(d, ReportKind::input, {9, 3});
     REQUIRE(third);
     CHECK(value_of(*third, Bytes{4, 0, 0}) == 1);
     CHECK(find_field(d, ReportKind::input, {1, 0x31}, Usage{1, 2}) == y);
@@ -82,7 +82,7 @@ TEST_CASE("ReportDescriptor: pucks that report in three reports and in one decod
 TEST_CASE("ReportDescriptor: values of any offset and width round-trip and change no other bit") {
     Random random(4);
     for (int trial = 0; trial < 5000; ++trial) {
-        Field f;
+        ReportField f;
         f.bits = static_cast<std::uint8_t>(1 + random.bits() % 32);
         f.bit = static_cast<std::uint32_t>(random.bits() % 64);
         const bool has_sign = f.bits > 1 && random.bits() % 2 == 0;
@@ -105,11 +105,11 @@ TEST_CASE("ReportDescriptor: values of any offset and width round-trip and chang
 }
 
 TEST_CASE("ReportDescriptor: a maximum of 255 in one byte is unsigned, and a null state has no value") {
-    Items d;
+    DescriptorBuilder d;
     d.page(1).usage(5).begin(1).usage(0x30).item(0x14, 0, 1).item(0x24, 0xff, 1).fields(1, 8).input(0x42);
     const ReportDescriptor made = parsed(d.end().out);
     CHECK(made.fields.front().high == 255);
-    Items hat;
+    DescriptorBuilder hat;
     hat.page(1).usage(5).begin(1).usage(0x39).range(0, 7).fields(1, 4).input(0x42).fields(1, 4).input(3);
     const ReportDescriptor with_hat = parsed(hat.end().out);
     CHECK(value_of(with_hat.fields.front(), Bytes{7}) == 7);
@@ -117,7 +117,7 @@ TEST_CASE("ReportDescriptor: a maximum of 255 in one byte is unsigned, and a nul
 }
 
 TEST_CASE("ReportDescriptor: fields wider than a value keep their offset, and array usages are found") {
-    Items d;
+    DescriptorBuilder d;
     d.page(0xff00).usage(0).begin(1).id(0xa1).usage(1).range(0, 4).fields(1, 8).output(2);
     d.usage(5).fields(1, 64).output(2).usage(6).fields(1, 16).output(2).end();
     d.page(0xf).usage(0x96).begin(2).id(12).usage(0x98).usage(0x97).usage(0x9a);
@@ -125,7 +125,7 @@ TEST_CASE("ReportDescriptor: fields wider than a value keep their offset, and ar
     d.usage(0x77).begin(2).usage(0x79).usage(0x7b).range(0, 1).fields(2, 1).output(2).fields(6, 1).output(3);
     const ReportDescriptor made = parsed(d.end().out);
     CHECK(find_field(made, ReportKind::output, {0xff00, 5}) == nullptr);
-    const Field* behind = find_field(made, ReportKind::output, {0xff00, 6});
+    const ReportField* behind = find_field(made, ReportKind::output, {0xff00, 6});
     REQUIRE(behind);
     CHECK(behind->bit == 72);
     CHECK(report_size(made, ReportKind::output, 0xa1) == 11);
@@ -155,9 +155,10 @@ TEST_CASE("ReportDescriptor: errors name the problem and the byte") {
     Bytes open = mouse();
     open.pop_back();
     CHECK(message(open).find("not ended") != std::string::npos);
-    CHECK(message(Items().page(1).usage(0x30).range(5, 1).fields(1, 8).input(2).out).find("from 5 to 1") !=
-          std::string::npos);
-    CHECK(message(Items().page(1).usage(0x30).range(0, 1).item(0x94, 1).item(0x74, 300).input(2).out)
+    CHECK(message(DescriptorBuilder().page(1).usage(0x30).range(5, 1).fields(1, 8).input(2).out)
+              .find("from 5 to 1") != std::string::npos);
+    CHECK(message(
+              DescriptorBuilder().page(1).usage(0x30).range(0, 1).item(0x94, 1).item(0x74, 300).input(2).out)
               .find("300 bits") != std::string::npos);
     const Bytes whole = puck_in_three();
     for (std::size_t cut = 0; cut < whole.size(); ++cut)

@@ -14,14 +14,14 @@ SimulatedDeviceOptions still(std::optional<HandImpedance> hand = std::nullopt) {
     return {test::arm(), [](double) { return Sample{}; }, hand, {}};
 }
 
-std::unique_ptr<Device> opened(const DeviceFactory& open) {
+std::unique_ptr<DeviceDriver> opened(const DeviceFactory& open) {
     auto device = open();
     REQUIRE(device);
     return std::move(*device);
 }
 
 // What it says in a time, at a read a millisecond.
-std::vector<Sample> heard(Device& device, const VirtualTime& time, double until) {
+std::vector<Sample> heard(DeviceDriver& device, const VirtualTime& time, double until) {
     std::vector<Sample> samples;
     while (time.now < until) {
         const auto read = device.read(1e-3);

@@ -13,7 +13,7 @@ using namespace bolt::device;
 namespace {
 
 struct Bench {
-    explicit Bench(const emulate::PuckOptions& design = {}) : puck(design) {
+    explicit Bench(const emulate::EmulatedPuckOptions& design = {}) : puck(design) {
         plug.device = &puck;
         const auto descriptor = parse_report_descriptor(puck.design().descriptor);
         REQUIRE(descriptor);
@@ -36,17 +36,17 @@ struct Bench {
         return *last;
     }
 
-    emulate::Puck puck;
+    emulate::EmulatedPuck puck;
     emulate::EmulatedLink plug;
     PuckResponse feel;
-    std::unique_ptr<Device> device;
+    std::unique_ptr<DeviceDriver> device;
 };
 
 }  // namespace
 
 TEST_CASE("SpaceMouse: deflection becomes velocity in the device frame, for every report layout") {
     for (const bool in_one : {true, false}) {
-        Bench b({.in_one = in_one});
+        Bench b({.single_report = in_one});
         CHECK(b.device->describe().sensing == Sensing::rate);
         CHECK(b.device->describe().limits.force == 0.0);
         CHECK(b.device->describe().buttons == 2);
@@ -106,7 +106,7 @@ TEST_CASE(
     CHECK(b.after(0.05).velocity.x == 0.0);
     for (int i = 0; i < 100; ++i) CHECK(b.read(0.01));
 
-    b.plug.pulled = true;
+    b.plug.unplugged = true;
     const auto gone = b.device->read(0.01);
     REQUIRE(!gone);
     CHECK(gone.error().lost);
@@ -114,7 +114,7 @@ TEST_CASE(
 
 TEST_CASE("SpaceMouse: a late reader gets the latest state") {
     Bench b;
-    struct Backlog : emulate::Puck {
+    struct Backlog : emulate::EmulatedPuck {
         std::vector<emulate::Bytes> advance(double) override { return std::exchange(waiting, {}); }
         std::vector<emulate::Bytes> waiting;
     } late;
@@ -131,7 +131,7 @@ TEST_CASE("SpaceMouse: a late reader gets the latest state") {
 }
 
 TEST_CASE("SpaceMouse: truncated, foreign or corrupt reports never exceed the top speed") {
-    Bench b({.faults = {.cut = 0.2, .strange = 0.2, .changed = 0.3, .seed = 3}});
+    Bench b({.faults = {.truncated = 0.2, .unknown_id = 0.2, .changed = 0.3, .seed = 3}});
     Random random(5);
     int moved = 0;
     for (int i = 0; i < 4000; ++i) {

@@ -50,7 +50,7 @@ struct Kept {
 
 // Takes a sample a period by a clock of its own, and keeps the newest until it is read; a write takes 0.3 ms,
 // as hidraw's do.
-class Periodic final : public Device {
+class Periodic final : public DeviceDriver {
   public:
     Periodic(double period, Timer timer) : period_(period), timer_(std::move(timer)) {
         description_ = test::arm();
@@ -89,7 +89,7 @@ TEST_CASE("DeviceSupervisor: a sample is returned within one device period, what
     for (const double period : {1e-3, 2e-3, 8e-3}) {
         VirtualTime time;
         DeviceSupervisor supervisor(
-            [&]() -> Result<std::unique_ptr<Device>> {
+            [&]() -> Result<std::unique_ptr<DeviceDriver>> {
                 return std::make_unique<Periodic>(period, virtual_timer(time));
             },
             virtual_timer(time));
@@ -113,7 +113,7 @@ TEST_CASE("DeviceSupervisor: attempts to open back off exponentially, and the re
     VirtualTime time;
     std::vector<double> tries;
     DeviceSupervisor supervisor(
-        [&]() -> Result<std::unique_ptr<Device>> {
+        [&]() -> Result<std::unique_ptr<DeviceDriver>> {
             tries.push_back(time.now);
             return fail(ErrorCode::no_device, "no arm", "a connected arm");
         },
@@ -264,7 +264,7 @@ TEST_CASE("DeviceSupervisor: invalid samples are counted and dropped; many in a 
     kept.thing.inject({InjectedFault::not_a_number, 0.3, 0.7});
     kept.until(0.6);
     CHECK(kept.supervisor.report().state == DeviceState::silent);
-    CHECK(kept.supervisor.report().trouble.find("nothing of sense") != std::string::npos);
+    CHECK(kept.supervisor.report().trouble.find("no valid samples") != std::string::npos);
     kept.until(0.8);
     CHECK(kept.supervisor.report().state == DeviceState::usable);
     CHECK(kept.supervisor.report().trouble.empty());

@@ -28,7 +28,7 @@ struct Written {
     int closed = 0;
 };
 
-class Obedient final : public device::Device {
+class Obedient final : public device::DeviceDriver {
   public:
     Obedient(std::shared_ptr<Written> state, device::Timer timer)
         : state_(std::move(state)), timer_(std::move(timer)) {}
@@ -67,7 +67,8 @@ class Obedient final : public device::Device {
 };
 
 inline device::DeviceFactory opens(std::shared_ptr<Written> state, device::Timer timer) {
-    return [state = std::move(state), timer = std::move(timer)]() -> Result<std::unique_ptr<device::Device>> {
+    return [state = std::move(state),
+            timer = std::move(timer)]() -> Result<std::unique_ptr<device::DeviceDriver>> {
         return std::make_unique<Obedient>(state, timer);
     };
 }

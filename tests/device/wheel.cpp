@@ -15,7 +15,7 @@ using namespace bolt::test;
 namespace {
 
 struct Bench {
-    explicit Bench(const emulate::WheelOptions& design, const WheelConfig& rig_ = {})
+    explicit Bench(const emulate::EmulatedWheelOptions& design, const WheelConfig& rig_ = {})
         : rig(rig_), wheel(design) {
         plug.device = &wheel;
         if (!design.board) rig.range = to_radians(design.degrees);
@@ -23,7 +23,7 @@ struct Bench {
         opened = open();
         if (opened) device = std::move(*opened);
     }
-    Result<std::unique_ptr<Device>> open() {
+    Result<std::unique_ptr<DeviceDriver>> open() {
         const auto descriptor = parse_report_descriptor(wheel.design().descriptor);
         REQUIRE_MESSAGE(descriptor, (descriptor ? "" : descriptor.error().message()));
         const auto make = wheel.design().vendor == 0x1209 ? make_open_ffboard : make_wheel;
@@ -43,15 +43,15 @@ struct Bench {
     }
 
     WheelConfig rig;
-    emulate::Wheel wheel;
+    emulate::EmulatedWheel wheel;
     emulate::EmulatedLink plug;
-    Result<std::unique_ptr<Device>> opened = fail(ErrorCode::failed, "not opened");
-    std::unique_ptr<Device> device;
+    Result<std::unique_ptr<DeviceDriver>> opened = fail(ErrorCode::failed, "not opened");
+    std::unique_ptr<DeviceDriver> device;
     Sample last;
     int samples = 0;
 };
 
-emulate::WheelOptions design_of(bool board) { return {.board = board, .power = board ? 0.5 : 1.0}; }
+emulate::EmulatedWheelOptions design_of(bool board) { return {.board = board, .power = board ? 0.5 : 1.0}; }
 
 }  // namespace
 
@@ -129,11 +129,11 @@ TEST_CASE("Wheel: a spring rendered through the driver holds the wheel still") {
 TEST_CASE("Wheel: the described stiffness is stable on a wheel with little damping") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        emulate::WheelOptions design = design_of(board);
+        emulate::EmulatedWheelOptions design = design_of(board);
         design.damping = 0.1;
         Bench b(design, {.max_torque = 5.0});
         REQUIRE(b.opened);
-        b.plug.write_takes = 0.001;  // so long it is on the bus
+        b.plug.write_duration = 0.001;  // so long it is on the bus
         const double stiffness = b.device->describe().limits.torsion;
         b.run(1.0, [] { return 1.0; });  // somewhere else than where the spring rests
         const auto spring = [&] { return -stiffness * b.last.turn; };
@@ -189,7 +189,7 @@ TEST_CASE("Wheel: silence counts as rest for a while, then as a loss") {
 TEST_CASE("Wheel: a force that the device drops is refreshed; closing releases it") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        emulate::WheelOptions design = design_of(board);
+        emulate::EmulatedWheelOptions design = design_of(board);
         design.effect_life = 0.6;
         Bench b(design);
         REQUIRE(b.opened);
@@ -207,9 +207,9 @@ TEST_CASE("Wheel: a force that the device drops is refreshed; closing releases i
 TEST_CASE("Wheel: the device's own centring spring is stopped") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        emulate::WheelOptions design = design_of(board);
+        emulate::EmulatedWheelOptions design = design_of(board);
         design.own_spring = 3.0;
-        emulate::Wheel alone(design);
+        emulate::EmulatedWheel alone(design);
         alone.hand = 1.0;
         alone.hand_stiffness = 10.0;
         for (double t = 0.0; t < 3.0; t += 0.001) alone.advance(t);
@@ -240,7 +240,7 @@ TEST_CASE("Wheel: a force outlives a killed program by one second at most, and r
 
 TEST_CASE("Wheel: a missing or mute device is a clear error, and an unplugged one is lost") {
     {
-        emulate::Wheel dead;
+        emulate::EmulatedWheel dead;
         dead.stalled = true;
         emulate::EmulatedLink plug{.device = &dead};
         const auto descriptor = parse_report_descriptor(dead.design().descriptor);
@@ -248,11 +248,11 @@ TEST_CASE("Wheel: a missing or mute device is a clear error, and an unplugged on
         const auto made = make_open_ffboard(std::make_unique<emulate::EmulatedTransport>(plug), *descriptor,
                                             "Board", "1:2", {}, [&] { return plug.time; });
         REQUIRE(!made);
-        CHECK(made.error().message().find("does not say how far") != std::string::npos);
+        CHECK(made.error().message().find("does not report") != std::string::npos);
         CHECK(plug.time < 1.0);
     }
     Bench b({});
-    b.plug.pulled = true;
+    b.plug.unplugged = true;
     const auto sample = b.device->read(0.01);
     REQUIRE(!sample);
     CHECK(sample.error().lost);
@@ -260,7 +260,7 @@ TEST_CASE("Wheel: a missing or mute device is a clear error, and an unplugged on
 }
 
 TEST_CASE("Wheel: corrupt reports never move the angle beyond the stops, and reading continues") {
-    Bench b({.faults = {.cut = 0.1, .strange = 0.1, .changed = 0.1, .seed = 9}});
+    Bench b({.faults = {.truncated = 0.1, .unknown_id = 0.1, .changed = 0.1, .seed = 9}});
     REQUIRE(b.opened);
     for (int i = 0; i < 2000; ++i) {
         b.run(0.004, [] { return 0.5; });
@@ -270,7 +270,7 @@ TEST_CASE("Wheel: corrupt reports never move the angle beyond the stops, and rea
     CHECK(b.samples > 1000);
 
     // An answer that is lost on the way is asked for again.
-    Bench counts({.faults = {.cut = 0.1, .strange = 0.1, .seed = 9}}, {.counts_per_turn = 4000.0});
+    Bench counts({.faults = {.truncated = 0.1, .unknown_id = 0.1, .seed = 9}}, {.counts_per_turn = 4000.0});
     REQUIRE(counts.opened);
     counts.run(8.0, [] { return 0.0; });
     CHECK(counts.samples > 1000);
@@ -284,13 +284,13 @@ TEST_CASE("Wheel: wheels keep the driver contract, also without power") {
             REQUIRE(b.opened);
             b.device.reset();
             CHECK(b.plug.time < 1.0);
-            const DeviceFactory open = [&]() -> Result<std::unique_ptr<Device>> {
-                if (b.plug.pulled) return fail(ErrorCode::no_device, "gone", "a wheel that is plugged in");
+            const DeviceFactory open = [&]() -> Result<std::unique_ptr<DeviceDriver>> {
+                if (b.plug.unplugged) return fail(ErrorCode::no_device, "gone", "a wheel that is plugged in");
                 return b.open();
             };
             b.wheel.hand_stiffness = 10.0;
             check_driver_contract(open, [&] { b.wheel.hand += 0.01; });
-            check_unplugged(open, [&] { b.plug.pulled = true; });
+            check_unplugged(open, [&] { b.plug.unplugged = true; });
         }
 }
 

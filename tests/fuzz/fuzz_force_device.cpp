@@ -65,10 +65,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const ReportDescriptor& descriptor = own ? *own : data[0] % 2 == 0 ? board : other;
 
     double time = 0.0;
-    const Clock clock = [&] { return time; };
+    const SecondsClock clock = [&] { return time; };
     const WheelConfig rig{.counts_per_turn = data[0] % 8 >= 4 ? 4000.0 : 0.0};
     auto line = std::make_unique<DeviceThread>(left, time);
-    Result<std::unique_ptr<Device>> device =
+    Result<std::unique_ptr<DeviceDriver>> device =
         data[0] % 3 == 0   ? make_space_mouse(std::move(line), descriptor, "puck", "1", {}, clock)
         : data[0] % 3 == 1 ? make_wheel(std::move(line), descriptor, "wheel", "1", rig, clock)
                            : make_open_ffboard(std::move(line), descriptor, "board", "1", rig, clock);

@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     std::vector<std::uint8_t> report(size % 71);
     for (std::size_t i = 0; i < report.size(); ++i) report[i] = data[i % size];
-    for (const Field& field : descriptor->fields) {
+    for (const ReportField& field : descriptor->fields) {
         if ((field.bit + field.bits + 7) / 8 > report_size(*descriptor, field.kind, field.report))
             std::abort();
         const auto value = value_of(field, report);

@@ -1,4 +1,4 @@
-// Budgets, names at every level, contact models that are closed; and files that are none.
+// Budgets, node names at every level, closed contact models and invalid files.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -15,9 +15,9 @@ using namespace geometry_test;
 
 namespace {
 
-// So many triangles, of as few vertices, far away.
+// Adds `count` triangles with few vertices, far from the joints.
 void add_triangles(Machine& machine, const std::string& name, std::size_t count) {
-    Shape shape;
+    PrismMesh shape;
     shape.points = {{900, 900, 900}, {901, 900, 900}, {900, 901, 900}};
     for (std::size_t i = 0; i < count; ++i) shape.indices.insert(shape.indices.end(), {0, 1, 2});
     machine.add(name, shape);
@@ -27,7 +27,7 @@ std::size_t count(const Machine& machine) { return geometry::flatten(machine.mod
 
 }  // namespace
 
-TEST_CASE("the far level has the same names and fewer triangles") {
+TEST_CASE("Geometry: the far level must have the node names of the near level") {
     CHECK(all(check(Machine(), {}, std::make_unique<Machine>().get()).errors) == "");
     Machine far;
     far.model.nodes[static_cast<std::size_t>(far.node("cover"))].name = "covr";
@@ -38,10 +38,10 @@ TEST_CASE("the far level has the same names and fewer triangles") {
     add_triangles(more, "ghost", 1);
     CHECK(
         all(check(Machine(), {}, &more).errors) ==
-        R"(4:40: /model_far: the far level has a node "ghost", which the model has not; expected the same names at both levels)");
+        R"(4:40: /model_far: the far level has a node "ghost", which the model lacks; expected the same names at both levels)");
 }
 
-TEST_CASE("triangles are counted with their instances, up to the budget of each level") {
+TEST_CASE("Geometry: the triangle budget of each level counts instances") {
     Machine machine({{0, 0, 0}, {0, 0, 300}});
     const std::size_t base = count(machine);
     add_triangles(machine, "load", 60'000 - base);
@@ -58,9 +58,9 @@ TEST_CASE("triangles are counted with their instances, up to the budget of each 
     CHECK(all(check(over).errors) == "");
 }
 
-TEST_CASE("a file of more than 8 MB") {
+TEST_CASE("Geometry: a file of more than 8 MB is an error") {
     Machine machine;
-    Shape shape;
+    PrismMesh shape;
     for (int i = 0; i < 700'000; ++i) shape.points.push_back({900.0 + i * 1e-3, 900.0, 900.0 + (i % 7)});
     shape.indices = {0, 1, 2};
     machine.add("cloud", shape);
@@ -70,7 +70,7 @@ TEST_CASE("a file of more than 8 MB") {
     CHECK(errors[0].ends_with(" MB; expected at most 8 MB"));
 }
 
-TEST_CASE("a contact model is closed, part by part, and has the model's names") {
+TEST_CASE("Geometry: each part of the contact model is closed and has a name of the model") {
     Machine closed;
     CHECK(all(check(Machine(), {}, nullptr, &closed.model).errors) == "");
     Machine open;
@@ -84,23 +84,23 @@ TEST_CASE("a contact model is closed, part by part, and has the model's names") 
     Machine other;
     other.model.nodes[static_cast<std::size_t>(other.node("base"))].name = "bse";
     CHECK(all(check(Machine(), {}, nullptr, &other.model).errors) ==
-          R"(4:44: /contact_model: "bse" is no node of the model; did you mean "base"?)");
+          R"(4:44: /contact_model: "bse" is not a node of the model; did you mean "base"?)");
 }
 
-TEST_CASE("open edges are counted") {
-    Shape shape;
+TEST_CASE("Geometry: open edges are counted") {
+    PrismMesh shape;
     shape.box({0, 0, 0}, {1, 2, 3});
     auto triangles = triangles_of(shape);
     CHECK(geometry::open_edges(triangles).count == 0);
     std::swap(triangles[4].b,
-              triangles[4].c);  // wound the wrong way: each of its edges runs twice the same way
+              triangles[4].c);  // flips the winding: each of its edges runs twice in one direction
     CHECK(geometry::open_edges(triangles).count == 6);
     triangles.erase(triangles.begin() + 4);
     CHECK(geometry::open_edges(triangles).count == 3);
     CHECK(geometry::open_edges({}).count == 0);
 }
 
-TEST_CASE("a file that is no glTF is said at the place that names it") {
+TEST_CASE("Geometry: an invalid glTF file is reported at the property that names it") {
     const test::Folder root;
     REQUIRE(write_file(root / "bad.glb", "nothing of the kind"));
     std::string text = R"({"title": {"en": "x"},

@@ -1,4 +1,4 @@
-// A model with its instances in their places: transforms, names, every topology.
+// Flattening of a model: transforms, names and every topology.
 #include "tools/author/geometry/scene.hpp"
 
 #include <doctest/doctest.h>
@@ -22,27 +22,27 @@ assets::Model one_mesh(assets::Topology topology, std::vector<std::uint32_t> ind
     return model;
 }
 
-// Faces that look along +Z, twice their area.
-double seen(const geometry::Scene& scene) {
+// Sum of the normals along +Z: twice the area of the faces towards +Z, minus that of the faces away from it.
+double signed_double_area(const geometry::FlattenedModel& scene) {
     double sum = 0.0;
-    for (const geometry::Part& part : scene.parts)
+    for (const geometry::ModelPart& part : scene.parts)
         for (const geometry::Triangle& t : part.triangles) sum += geometry::normal_of(t).z;
     return sum;
 }
 
 }  // namespace
 
-TEST_CASE("triangles of every topology, wound as glTF winds them") {
+TEST_CASE("Geometry: triangles of every topology keep the winding of glTF") {
     using assets::Topology;
-    CHECK(seen(geometry::flatten(one_mesh(Topology::triangles, {0, 1, 2, 1, 3, 2, 4}))) == 2.0);
-    CHECK(seen(geometry::flatten(one_mesh(Topology::triangle_strip, {0, 1, 2, 3}))) == 2.0);
-    CHECK(seen(geometry::flatten(one_mesh(Topology::triangle_strip, {}))) == 3.0);
-    CHECK(seen(geometry::flatten(one_mesh(Topology::triangle_fan, {0, 1, 3, 2}))) == 2.0);
+    CHECK(signed_double_area(geometry::flatten(one_mesh(Topology::triangles, {0, 1, 2, 1, 3, 2, 4}))) == 2.0);
+    CHECK(signed_double_area(geometry::flatten(one_mesh(Topology::triangle_strip, {0, 1, 2, 3}))) == 2.0);
+    CHECK(signed_double_area(geometry::flatten(one_mesh(Topology::triangle_strip, {}))) == 3.0);
+    CHECK(signed_double_area(geometry::flatten(one_mesh(Topology::triangle_fan, {0, 1, 3, 2}))) == 2.0);
     CHECK(geometry::flatten(one_mesh(Topology::lines, {0, 1, 1, 2})).triangle_count() == 0);
     CHECK(geometry::flatten(one_mesh(Topology::triangles, {0, 1, 9})).triangle_count() == 0);
 }
 
-TEST_CASE("instances stand where their parents put them, and have the nearest name above them") {
+TEST_CASE("Geometry: instances get the pose of their parents and the name of the nearest named ancestor") {
     assets::Model model = one_mesh(assets::Topology::triangles, {0, 1, 2});
     model.nodes.resize(4);
     model.nodes[1].name = "arm";
@@ -53,10 +53,10 @@ TEST_CASE("instances stand where their parents put them, and have the nearest na
     model.nodes[2].name = "hand";
     model.nodes[2].mesh = 0;
     model.nodes[2].translation = {1, 0, 0};
-    model.nodes[2].children = {1};  // a loop is walked once
+    model.nodes[2].children = {1};  // a loop is visited once
     model.nodes[3].name = "not in the scene";
     model.roots = {1};
-    const geometry::Scene scene = geometry::flatten(model);
+    const geometry::FlattenedModel scene = geometry::flatten(model);
     REQUIRE(scene.parts.size() == 2);
     CHECK(scene.parts[0].name == "arm");
     CHECK(scene.parts[1].name == "hand");

@@ -47,20 +47,20 @@ std::string text_for(const std::vector<Vec3>& positions) {
     return text + "  ]\n}\n";
 }
 
-Shape prism(const std::vector<glm::dvec2>& outline, double low, double high) {
-    Shape shape;
+PrismMesh prism(const std::vector<glm::dvec2>& outline, double low, double high) {
+    PrismMesh shape;
     shape.between(std::vector<glm::dvec2>(outline.size(), glm::dvec2(0.0)), outline, low, high);
     return shape;
 }
 
-Shape ring(const std::vector<glm::dvec2>& inner, const std::vector<glm::dvec2>& outer, double low,
-           double high) {
-    Shape shape;
+PrismMesh ring(const std::vector<glm::dvec2>& inner, const std::vector<glm::dvec2>& outer, double low,
+               double high) {
+    PrismMesh shape;
     shape.between(inner, outer, low, high);
     return shape;
 }
 
-void append(Shape& shape, const Shape& other) {
+void append(PrismMesh& shape, const PrismMesh& other) {
     const auto base = static_cast<std::uint32_t>(shape.points.size());
     shape.points.insert(shape.points.end(), other.points.begin(), other.points.end());
     for (const std::uint32_t i : other.indices) shape.indices.push_back(base + i);
@@ -75,25 +75,25 @@ int add_node(assets::Model& model, const std::string& name, int mesh, const Vec3
     return static_cast<int>(model.nodes.size()) - 1;
 }
 
-int add_mesh(assets::Model& model, const Shape& shape) {
+int add_mesh(assets::Model& model, const PrismMesh& shape) {
     model.meshes.push_back(mesh_of(shape));
     return static_cast<int>(model.meshes.size()) - 1;
 }
 
-// A content folder of the test's own, for as long as it lives.
-struct World {
+// A temporary content folder; $BOLTWRIGHT_CONTENT names it during its lifetime.
+struct TemporaryContent {
     test::Folder root;
     std::string before = content::content_folder().string();
     fs::path folder = root / "assemblies" / "machine";
 
-    World() {
+    TemporaryContent() {
         for (const fs::path& made : {root / "schema", root / "tools", folder}) fs::create_directories(made);
         REQUIRE(write_file(root / "schema" / "assembly.schema.json", "{}"));
         ::setenv("BOLTWRIGHT_CONTENT", root.path().c_str(), 1);
     }
-    World(const World&) = delete;
-    World& operator=(const World&) = delete;
-    ~World() { ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1); }
+    TemporaryContent(const TemporaryContent&) = delete;
+    TemporaryContent& operator=(const TemporaryContent&) = delete;
+    ~TemporaryContent() { ::setenv("BOLTWRIGHT_CONTENT", before.c_str(), 1); }
 };
 
 std::vector<std::string> without_file(const std::vector<Error>& errors) {
@@ -109,14 +109,14 @@ std::vector<std::string> without_file(const std::vector<Error>& errors) {
 
 }  // namespace
 
-void Shape::quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+void PrismMesh::quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const auto base = static_cast<std::uint32_t>(points.size());
     points.insert(points.end(), {a, b, c, d});
     indices.insert(indices.end(), {base, base + 1, base + 2, base, base + 2, base + 3});
 }
 
-void Shape::between(const std::vector<glm::dvec2>& inner, const std::vector<glm::dvec2>& outer, double low,
-                    double high, bool closed) {
+void PrismMesh::between(const std::vector<glm::dvec2>& inner, const std::vector<glm::dvec2>& outer,
+                        double low, double high, bool closed) {
     const auto at = [](const glm::dvec2& p, double y) { return Vec3{p.x, y, p.y}; };
     const std::size_t n = inner.size(), last = closed ? n : n - 1;
     for (std::size_t i = 0; i < last; ++i) {
@@ -131,7 +131,7 @@ void Shape::between(const std::vector<glm::dvec2>& inner, const std::vector<glm:
     quad(at(inner[last], low), at(outer[last], low), at(outer[last], high), at(inner[last], high));
 }
 
-void Shape::box(const Vec3& low, const Vec3& high) {
+void PrismMesh::box(const Vec3& low, const Vec3& high) {
     between({{low.x, low.z}, {high.x, low.z}}, {{low.x, high.z}, {high.x, high.z}}, low.y, high.y, false);
 }
 
@@ -164,7 +164,7 @@ std::vector<glm::dvec2> square(double side, int points, Vec3 middle) {
     return outline;
 }
 
-Shape sector(double inner, double outer, double from_deg, double to_deg, double low, double high) {
+PrismMesh sector(double inner, double outer, double from_deg, double to_deg, double low, double high) {
     const int steps = std::max(1, static_cast<int>(std::ceil((to_deg - from_deg) / 5.0)));
     std::vector<glm::dvec2> near, far;
     for (int i = 0; i <= steps; ++i) {
@@ -173,12 +173,12 @@ Shape sector(double inner, double outer, double from_deg, double to_deg, double 
         near.emplace_back(inner * std::cos(angle), inner * std::sin(angle));
         far.emplace_back(outer * std::cos(angle), outer * std::sin(angle));
     }
-    Shape shape;
+    PrismMesh shape;
     shape.between(near, far, low, high, false);
     return shape;
 }
 
-assets::Mesh mesh_of(const Shape& shape) {
+assets::Mesh mesh_of(const PrismMesh& shape) {
     assets::Primitive primitive;
     for (const Vec3& p : shape.points) primitive.positions.emplace_back(p * mm);
     primitive.indices = shape.indices;
@@ -187,7 +187,7 @@ assets::Mesh mesh_of(const Shape& shape) {
     return mesh;
 }
 
-std::vector<geometry::Triangle> triangles_of(const Shape& shape) {
+std::vector<geometry::Triangle> triangles_of(const PrismMesh& shape) {
     std::vector<geometry::Triangle> triangles;
     for (std::size_t i = 0; i + 2 < shape.indices.size(); i += 3)
         triangles.push_back({shape.points[shape.indices[i]] * mm, shape.points[shape.indices[i + 1]] * mm,
@@ -196,7 +196,7 @@ std::vector<geometry::Triangle> triangles_of(const Shape& shape) {
 }
 
 Machine::Machine(std::vector<Vec3> positions, const NutAndBolt& sizes) {
-    Shape cover, base, bolt = prism(circle(sizes.bolt_diameter / 2.0), 0.0, sizes.bolt_length);
+    PrismMesh cover, base, bolt = prism(circle(sizes.bolt_diameter / 2.0), 0.0, sizes.bolt_length);
     append(bolt, prism(hexagon(13.0), -5.3, 0.0));
     const int bolt_mesh = add_mesh(model, bolt);
     const int washer = add_mesh(model, ring(circle(4.2), circle(8.0), 0.0, 1.6));
@@ -231,7 +231,7 @@ int Machine::node(const std::string& name) {
     return -1;
 }
 
-void Machine::add(const std::string& name, const Shape& shape) {
+void Machine::add(const std::string& name, const PrismMesh& shape) {
     const int mesh = add_mesh(model, shape);
     model.roots.push_back(add_node(model, name, mesh, Vec3{0.0}));
 }
@@ -246,9 +246,9 @@ void replace(std::string& text, std::string_view from, std::string_view to) {
     text.replace(at, from.size(), to);
 }
 
-Said check(const Machine& machine, const Edit& edit, const Machine* far, const assets::Model* contact,
-           const assets::Model* tool) {
-    const World world;
+CheckOutput check(const Machine& machine, const Edit& edit, const Machine* far, const assets::Model* contact,
+                  const assets::Model* tool) {
+    const TemporaryContent world;
     std::vector<Vec3> positions;
     for (const assets::Node& node : machine.model.nodes)
         if (node.name.starts_with("joint_")) positions.push_back(Vec3(node.translation) / mm);

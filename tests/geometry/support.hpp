@@ -1,5 +1,5 @@
-// Small machines made of prisms, with a file that describes them: right in every number, to be spoiled by a
-// test.
+// Small machines made of prisms, with a matching assembly file. They are correct; each test introduces one
+// mistake.
 #pragma once
 
 #include <filesystem>
@@ -19,14 +19,14 @@ using bolt::Vec3;
 
 inline constexpr double mm = 1e-3;
 
-// A surface that grows by prisms; millimetres.
-struct Shape {
+// Builds a triangle mesh from prisms; millimetres.
+struct PrismMesh {
     std::vector<Vec3> points;
     std::vector<std::uint32_t> indices;
 
     void quad(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
-    // Between two outlines (x, z) of as many points, counterclockwise seen from above; closed: they go all
-    // round.
+    // Adds the prism between two outlines (x, z) with equal point counts, counterclockwise seen from above.
+    // `closed`: the outlines are closed loops.
     void between(const std::vector<glm::dvec2>& inner, const std::vector<glm::dvec2>& outer, double low,
                  double high, bool closed = true);
     void box(const Vec3& low, const Vec3& high);
@@ -36,10 +36,11 @@ std::vector<glm::dvec2> circle(double radius, int points = 48, Vec3 middle = Vec
 std::vector<glm::dvec2> hexagon(double across_flats, int points = 48);
 std::vector<glm::dvec2> square(double side, int points = 48, Vec3 middle = Vec3{0.0});
 
-// The sector of a ring from one angle to another, degrees, counted as the handle of a wrench counts them.
-Shape sector(double inner, double outer, double from_deg, double to_deg, double low, double high);
+// The sector of a ring between two angles (degrees, as handle angles of a wrench).
+PrismMesh sector(double inner, double outer, double from_deg, double to_deg, double low, double high);
 
-struct NutAndBolt {  // of M8; what a test spoils
+// Dimensions of an M8 joint, mm; tests change them.
+struct NutAndBolt {
     double nut_flats = 13.0, nut_low = 1.6, washer_low = 0.0, hole = 9.0, bolt_diameter = 8.0,
            bolt_length = 30.0;
     double hole_shift = 0.0 /* along X and Z */, nut_shift = 0.0, plate_low = 0.0, grip = 16.0, side = 40.0;
@@ -51,23 +52,24 @@ struct Machine {
 
     bolt::assets::Model model;
 
-    int node(const std::string& name);  // its index; fails the test if there is none
-    void add(const std::string& name, const Shape& shape);
+    int node(const std::string& name);  // returns its index; fails the test if there is none
+    void add(const std::string& name, const PrismMesh& shape);
 };
 
-// What bolt-author would say: writes machine and file into a folder of their own, loads and checks them.
-// `edit` changes the text of assembly.json before it is written.
-struct Said {
+// Output of bolt-author validate.
+struct CheckOutput {
     std::vector<std::string> errors, notes;  // "line:column: pointer: what; expected"
 };
-std::string all(const std::vector<std::string>& messages);  // a line each
+std::string all(const std::vector<std::string>& messages);  // one line each
 using Edit = std::function<void(std::string&)>;
-Said check(const Machine& machine, const Edit& edit = {}, const Machine* far = nullptr,
-           const bolt::assets::Model* contact = nullptr, const bolt::assets::Model* tool = nullptr);
+// Writes the machine and its file into a temporary folder, loads and checks them. `edit` changes the text of
+// assembly.json before it is written.
+CheckOutput check(const Machine& machine, const Edit& edit = {}, const Machine* far = nullptr,
+                  const bolt::assets::Model* contact = nullptr, const bolt::assets::Model* tool = nullptr);
 
 void replace(std::string& text, std::string_view from, std::string_view to);
 
-std::vector<bolt::geometry::Triangle> triangles_of(const Shape& shape);  // metres
-bolt::assets::Mesh mesh_of(const Shape& shape);                          // metres
+std::vector<bolt::geometry::Triangle> triangles_of(const PrismMesh& shape);  // metres
+bolt::assets::Mesh mesh_of(const PrismMesh& shape);                          // metres
 
 }  // namespace geometry_test

@@ -1,5 +1,5 @@
-// Room for the wrench. The oracle is closed: a bar of half width w between two walls in planes through the
-// nut's axis, which begin at the radius r, swings freely through their angle less twice asin(w/r).
+// Room for the wrench. Closed form: a bar of half width w between two walls in planes through the axis of the
+// nut, which begin at the radius r, can swing through the angle between the walls minus 2 asin(w/r).
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -16,12 +16,12 @@ namespace {
 
 constexpr double jaw = 13.2, inner = 40.0, outer = 200.0;  // mm
 
-// Half the angle that the walls leave open for a swing of so many degrees.
+// Half the angle between the walls that leaves a swing of `swing_deg`.
 double half_opening(double swing_deg) {
     return 0.5 * swing_deg + to_degrees(std::asin(0.5 * geometry::handle_width_ratio * jaw / inner));
 }
 
-// Two walls around a nut that leave a swing of so many degrees about -Z.
+// Two walls around a nut that leave a swing of `swing_deg`, centred at -Z.
 Machine walled(double swing_deg, double low, double high) {
     Machine machine;
     const double half = half_opening(swing_deg);
@@ -37,20 +37,21 @@ const content::WrenchDesign design{
 
 }  // namespace
 
-TEST_CASE("29 degrees of swing are too few, with 31 the wrench has to be turned over, 61 are enough") {
-    // The walls end at 10 mm, under the height where the nut starts.
-    const Said few = check(walled(29.0, 0.0, 10.0));
+TEST_CASE(
+    "Geometry: 29 degrees of swing are an error, 31 give a note to turn the wrench over, 61 are enough") {
+    // The walls end at 10 mm, below the start height of the nut.
+    const CheckOutput few = check(walled(29.0, 0.0, 10.0));
     CHECK(
         all(few.errors) ==
         at_joint(
             R"(the wrench has 29.0 degrees of free swing on the nut: between "wall_right" and "wall_left"; expected 30 degrees or more both ways up, or 60 one way up)"));
-    const Said flip = check(walled(31.0, 0.0, 10.0));
+    const CheckOutput flip = check(walled(31.0, 0.0, 10.0));
     CHECK(all(flip.errors) == "");
     CHECK(
         all(flip.notes) ==
         at_joint(
             R"(the wrench has 31.0 degrees of free swing on the nut, between "wall_right" and "wall_left": it has to be turned over after every stroke)"));
-    const Said enough = check(walled(61.0, 0.0, 10.0));
+    const CheckOutput enough = check(walled(61.0, 0.0, 10.0));
     CHECK(all(enough.errors) == "");
     CHECK(all(enough.notes) == "");
     CHECK(all(check(walled(59.0, 0.0, 10.0)).notes).find("59.0 degrees") != std::string::npos);
@@ -58,28 +59,29 @@ TEST_CASE("29 degrees of swing are too few, with 31 the wrench has to be turned 
     CHECK(all(check(walled(30.1, 0.0, 10.0)).errors) == "");
 }
 
-TEST_CASE("the swing is that of the closed form, to a hundredth of a degree") {
-    const geometry::Wrench wrench = geometry::plain_wrench(design);
+TEST_CASE("Geometry: the free swing agrees with the closed form within 0.025 degrees") {
+    const geometry::WrenchShape wrench = geometry::envelope_wrench(design);
     for (const double swing : {5.0, 17.3, 29.0, 31.0, 100.0, 200.0}) {
         const double half = half_opening(swing);
         const geometry::Bvh walls(triangles_of(sector(inner, outer, half, 360.0 - half, 0.0, 10.0)));
         for (const bool over : {false, true}) {
-            const auto found = geometry::free_swing(walls, geometry::posed(wrench, over), 0.005);
+            const auto found = geometry::find_free_swing(walls, geometry::place_on_nut(wrench, over), 0.005);
             CAPTURE(swing);
             REQUIRE(found.arcs.size() == 1);
             CHECK(std::abs(to_degrees(found.arcs[0].width()) - swing) < 0.025);
         }
     }
-    // Above and below the walls nothing is in the way.
+    // The wrench is free above the walls and blocked between them.
     const geometry::Bvh walls(triangles_of(sector(inner, outer, 0.0, 350.0, 0.0, 10.0)));
-    CHECK(geometry::free_swing(walls, geometry::posed(wrench, false), 0.0135).widest()->width() == 2.0 * pi);
-    CHECK(geometry::free_swing(walls, geometry::posed(wrench, false), 0.005).arcs.empty());
+    CHECK(geometry::find_free_swing(walls, geometry::place_on_nut(wrench, false), 0.0135).widest()->width() ==
+          2.0 * pi);
+    CHECK(geometry::find_free_swing(walls, geometry::place_on_nut(wrench, false), 0.005).arcs.empty());
 }
 
 TEST_CASE(
-    "grips that are apart add up modulo 60 degrees, but none counts that is under 30, or too narrow to "
-    "enter") {
-    // Openings by the angle in their middle and the swing that they leave.
+    "Geometry: separate grips add up modulo 60 degrees if one has 30 degrees; gaps too narrow to enter do "
+    "not count") {
+    // Openings: angle of the middle and swing, degrees.
     const auto opened = [](const std::vector<std::pair<double, double>>& openings) {
         Machine machine;
         double from = openings.front().first + half_opening(openings.front().second);
@@ -97,19 +99,19 @@ TEST_CASE(
     CHECK(all(check(thirty).notes) == "");  // 0, 20 and 40 degrees: no need to turn the wrench over
     CHECK(all(check(opened({{0.0, 29.7}, {80.0, 29.7}, {160.0, 29.7}})).errors).find("has 29.7 degrees") !=
           std::string::npos);
-    // 58 degrees, and the missing two at the other end of a gap of 4 or of 6.
+    // 58 degrees of swing; a second gap of 4 or 6 degrees supplies the missing two.
     CHECK(all(check(opened({{29.0, 58.0}, {119.0, 4.0}})).notes).find("turned over") != std::string::npos);
     CHECK(all(check(opened({{29.0, 58.0}, {119.0, 6.0}})).notes) == "");
 }
 
-TEST_CASE("room is needed where the nut starts, too") {
+TEST_CASE("Geometry: the swing is also checked at the start height of the nut") {
     CHECK(
         all(check(walled(29.0, 10.5, 20.0)).errors) ==
         at_joint(
             R"(the wrench has 29.0 degrees of free swing on the nut where it starts, 8.92 mm above its seat: between "wall_right" and "wall_left"; expected 30 degrees or more both ways up, or 60 one way up)"));
 }
 
-TEST_CASE("a nut that no wrench fits") {
+TEST_CASE("Geometry: a nut that no wrench fits is an error") {
     Machine machine;
     machine.add("pipe", sector(12.0, 30.0, 0.0, 360.0, 0.0, 10.0));
     CHECK(
@@ -118,24 +120,24 @@ TEST_CASE("a nut that no wrench fits") {
             R"(the wrench has 0.0 degrees of free swing on the nut: "pipe" is in its way; expected 30 degrees or more both ways up, or 60 one way up)"));
 }
 
-TEST_CASE("the head of the wrench needs room as well: a neighbouring nut that is too near") {
-    // The head has a radius of 13.86 mm; at 20 mm the neighbour's nut begins at 12.5 to 13.5 mm.
+TEST_CASE("Geometry: a neighbouring nut too close to the head of the wrench is an error") {
+    // The head has a radius of 13.86 mm; a neighbouring nut at 20 mm begins at 12.5 to 13.5 mm.
     NutAndBolt narrow;
     narrow.side = 18.0;
     CHECK(all(check(Machine({{0, 0, 0}, {60, 0, 0}})).errors) == "");
     CHECK(all(check(Machine({{0, 0, 0}, {22, 0, 0}}, narrow)).errors) == "");
-    // At 20 mm the wrench only fits with the neighbour in its mouth, whichever way up.
+    // At 20 mm the wrench fits either way up only with the neighbour in its mouth.
     CHECK(
         all(check(Machine({{0, 0, 0}, {20, 0, 0}}, narrow)).errors)
             .starts_with(at_joint(
-                R"(the wrench has 39.5 degrees of free swing on the nut: "B2_nut" is on both sides; expected 60 degrees: the wrench gains nothing here by being turned over)")));
+                R"(the wrench has 39.5 degrees of free swing on the nut: "B2_nut" is on both sides; expected 60 degrees: turning the wrench over gains nothing here)")));
     const Machine ring({{0, 0, 0}, {20, 0, 0}, {-10, 0, 17}, {-10, 0, -17}}, narrow);
     const std::string tight = all(check(ring).errors);
     CHECK(tight.find("16:5: /joints/0: the wrench has") != std::string::npos);
     CHECK(tight.find(R"("B2_)") != std::string::npos);
 }
 
-TEST_CASE("a wrench that fits but cannot get there") {
+TEST_CASE("Geometry: a wrench that fits but has no free path onto the nut is an error") {
     const auto boxed = [](double from, double to, bool roof) {
         Machine machine;
         machine.add("fence", sector(170.0, 180.0, from, to, 0.0, 60.0));
@@ -147,23 +149,23 @@ TEST_CASE("a wrench that fits but cannot get there") {
     CHECK(
         boxed(0.0, 360.0, true) ==
         at_joint(
-            R"(the wrench cannot be brought onto the nut, neither along the bolt nor from the side: "fence" is in its way; expected a free way for it)"));
+            R"(the wrench cannot be brought onto the nut, neither along the bolt nor from the side: "fence" is in its way; expected a free path)"));
 }
 
-TEST_CASE("a corner at the end of the world does not keep the checks from ending") {
+TEST_CASE("Geometry: a corner at 1e30 mm does not keep the checks from ending") {
     Machine machine;
-    Shape needle;
+    PrismMesh needle;
     needle.quad({30, 0, 30}, {31, 0, 30}, {31, 1e30, 31}, {30, 1e30, 31});
     machine.add("needle", needle);
     CHECK(all(check(machine).errors) == "");
 }
 
-TEST_CASE("an author's wrench is measured: its jaw, its place, its units") {
+TEST_CASE("Geometry: the jaw, the origin and the unit of a wrench model are measured") {
     const auto model_of = [](double opening, double shift, double scale, bool lies) {
         const content::WrenchDesign other{
             .jaw = opening * mm, .head_angle = to_radians(15.0), .handle_length = 140.0 * mm, .model = {}};
-        Shape shape;
-        for (const geometry::Triangle& t : geometry::plain_wrench(other).triangles) {
+        PrismMesh shape;
+        for (const geometry::Triangle& t : geometry::envelope_wrench(other).triangles) {
             const auto base = static_cast<std::uint32_t>(shape.points.size());
             shape.indices.insert(shape.indices.end(), {base, base + 1, base + 2});
             for (const Vec3& p : {t.a, t.b, t.c}) {
@@ -178,40 +180,41 @@ TEST_CASE("an author's wrench is measured: its jaw, its place, its units") {
         model.roots = {0};
         return model;
     };
-    const auto said = [&](const assets::Model& tool) {
+    const auto errors_with = [&](const assets::Model& tool) {
         return all(check(Machine(), {}, nullptr, nullptr, &tool).errors);
     };
-    CHECK(said(model_of(13.2, 0.0, 1.0, false)) == "");
-    CHECK(said(model_of(13.2, 0.0, 1.0, true)) == "");
-    CHECK(said(model_of(13.2, 0.0, -1.0, true)).find("the wrench has no jaw about its origin") !=
+    CHECK(errors_with(model_of(13.2, 0.0, 1.0, false)) == "");
+    CHECK(errors_with(model_of(13.2, 0.0, 1.0, true)) == "");
+    CHECK(errors_with(model_of(13.2, 0.0, -1.0, true)).find("the wrench has no jaw about its origin") !=
           std::string::npos);
     CHECK(
-        said(model_of(13.0, 0.0, 1.0, false)) ==
+        errors_with(model_of(13.0, 0.0, 1.0, false)) ==
         R"(5:49: /tool/model: the jaw of the wrench measures 13.00 mm in its model, and jaw_mm is 13.2; expected both within 0.05 mm)");
-    CHECK(said(model_of(13.2, 0.2, 1.0, false)).find("mm beside the origin of the wrench's model") !=
+    CHECK(errors_with(model_of(13.2, 0.2, 1.0, false)).find("mm beside the origin of the wrench's model") !=
           std::string::npos);
-    CHECK(said(model_of(13.2, 0.0, 1000.0, false)).find("expected metres: it looks like millimetres") !=
-          std::string::npos);
-    // The same wrench as a model swings as far as the envelope.
+    CHECK(
+        errors_with(model_of(13.2, 0.0, 1000.0, false)).find("expected metres: it looks like millimetres") !=
+        std::string::npos);
+    // The envelope exported as a model has the same swing.
     const assets::Model same = model_of(13.2, 0.0, 1.0, true);
     CHECK(all(check(walled(29.0, 0.0, 10.0), {}, nullptr, nullptr, &same).errors).find("29.0 degrees") !=
           std::string::npos);
     CHECK(all(check(walled(31.0, 0.0, 10.0), {}, nullptr, nullptr, &same).errors) == "");
 }
 
-TEST_CASE("a straight head gains nothing by turning the wrench over") {
+TEST_CASE("Geometry: a straight head gains nothing from turning the wrench over") {
     const auto straight = [](std::string& text) {
         replace(text, "\"jaw_mm\"", "\"head_angle_deg\": 0, \"jaw_mm\"");
     };
     CHECK(
         all(check(walled(45.0, 0.0, 10.0), straight).errors)
             .ends_with(
-                R"(between "wall_right" and "wall_left"; expected 60 degrees: the wrench gains nothing here by being turned over)"));
+                R"(between "wall_right" and "wall_left"; expected 60 degrees: turning the wrench over gains nothing here)"));
     CHECK(all(check(walled(45.0, 0.0, 10.0)).errors) == "");
     CHECK(all(check(walled(61.0, 0.0, 10.0), straight).errors) == "");
 }
 
-TEST_CASE("every tool of the file needs room, and is called by its name") {
+TEST_CASE("Geometry: each tool of the file is checked and reported by its name") {
     const auto one_more = [](std::string& text) {
         replace(text, "\"tool\"",
                 R"("more_tools": { "bar": { "title": { "en": "Bar" }, "kind": "open_end_wrench", )"
@@ -223,16 +226,16 @@ TEST_CASE("every tool of the file needs room, and is called by its name") {
     CHECK(all(check(walled(61.0, 0.0, 10.0), one_more).errors) == "");
 }
 
-TEST_CASE("intervals cover a period, or leave a gap") {
-    CHECK(geometry::cover({{0.0, 1.0}}, 1.0));
-    CHECK(geometry::cover({{5.3, 5.8}, {7.7, 8.4}}, 1.0));
-    CHECK_FALSE(geometry::cover({{5.3, 5.8}, {7.9, 8.2}}, 1.0));
-    CHECK_FALSE(geometry::cover({{-0.4, 0.4}}, 1.0));
-    CHECK(geometry::cover({{-0.4, 0.4}, {0.35, 0.65}}, 1.0));
-    CHECK_FALSE(geometry::cover({}, 1.0));
+TEST_CASE("Geometry: intervals cover a period or leave a gap") {
+    CHECK(geometry::covers_period({{0.0, 1.0}}, 1.0));
+    CHECK(geometry::covers_period({{5.3, 5.8}, {7.7, 8.4}}, 1.0));
+    CHECK_FALSE(geometry::covers_period({{5.3, 5.8}, {7.9, 8.2}}, 1.0));
+    CHECK_FALSE(geometry::covers_period({{-0.4, 0.4}}, 1.0));
+    CHECK(geometry::covers_period({{-0.4, 0.4}, {0.35, 0.65}}, 1.0));
+    CHECK_FALSE(geometry::covers_period({}, 1.0));
 }
 
-TEST_CASE("crossings of triangles: found in trees as one by one, turned and shifted") {
+TEST_CASE("Geometry: the tree finds the same crossings as all pairs of triangles") {
     Random random(5);
     const auto cloud = [&](int count, double size) {
         std::vector<geometry::Triangle> triangles;
@@ -254,7 +257,8 @@ TEST_CASE("crossings of triangles: found in trees as one by one, turned and shif
                                                        Vec3{random.uniform(-1.0, 1.0), 0.1, 0.2});
         bool any = false;
         for (const auto& m : moving)
-            for (const auto& s : still) any = any || geometry::cross({pose(m.a), pose(m.b), pose(m.c), 0}, s);
+            for (const auto& s : still)
+                any = any || geometry::triangles_cross({pose(m.a), pose(m.b), pose(m.c), 0}, s);
         const geometry::Bvh still_tree(still), moving_tree(moving);
         const auto found = geometry::first_crossing(still_tree, moving_tree, pose);
         REQUIRE(found.has_value() == any);
@@ -265,12 +269,13 @@ TEST_CASE("crossings of triangles: found in trees as one by one, turned and shif
     CHECK(crossings > 20);
     CHECK(crossings < 180);
     const geometry::Triangle flat{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, 0};
-    CHECK(geometry::cross(flat, {{0.2, -1, 0.2}, {0.2, 1, 0.2}, {0.3, 1, 0.2}, 0}));
-    CHECK_FALSE(geometry::cross(flat, {{0.2, 0, 0.2}, {0.2, 1, 0.2}, {0.3, 1, 0.2}, 0}));  // touches
-    CHECK_FALSE(geometry::cross(flat, flat));
+    CHECK(geometry::triangles_cross(flat, {{0.2, -1, 0.2}, {0.2, 1, 0.2}, {0.3, 1, 0.2}, 0}));
+    CHECK_FALSE(
+        geometry::triangles_cross(flat, {{0.2, 0, 0.2}, {0.2, 1, 0.2}, {0.3, 1, 0.2}, 0}));  // touches
+    CHECK_FALSE(geometry::triangles_cross(flat, flat));
 }
 
-TEST_CASE("rays through a tree meet what they meet one by one") {
+TEST_CASE("Geometry: the tree finds the same ray hits as all triangles") {
     Random random(6);
     std::vector<geometry::Triangle> triangles;
     for (std::uint32_t i = 0; i < 300; ++i) {

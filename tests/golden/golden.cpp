@@ -17,14 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-imagediff::Picture without_alpha(const render::Picture& picture) {
-    imagediff::Picture rgb{static_cast<int>(picture.width), static_cast<int>(picture.height), {}};
+imagediff::RgbImage without_alpha(const render::Picture& picture) {
+    imagediff::RgbImage rgb{static_cast<int>(picture.width), static_cast<int>(picture.height), {}};
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
         rgb.rgb.insert(rgb.rgb.end(), &picture.rgba[i], &picture.rgba[i] + 3);
     return rgb;
 }
 
-Status write_png(const fs::path& path, const imagediff::Picture& picture) {
+Status write_png(const fs::path& path, const imagediff::RgbImage& picture) {
     const Result<std::string> png = assets::encode_png(picture.width, picture.height, 3, picture.rgb);
     if (!png) return fail(png.error());
     std::error_code ignored;  // write_file reports the reason
@@ -32,8 +32,8 @@ Status write_png(const fs::path& path, const imagediff::Picture& picture) {
     return write_file(path, *png);
 }
 
-imagediff::Picture stretched_difference(const imagediff::Picture& a, const imagediff::Picture& b) {
-    imagediff::Picture difference{a.width, a.height, {}};
+imagediff::RgbImage stretched_difference(const imagediff::RgbImage& a, const imagediff::RgbImage& b) {
+    imagediff::RgbImage difference{a.width, a.height, {}};
     int largest = 1;
     for (std::size_t i = 0; i < a.rgb.size(); ++i)
         largest = std::max(largest, std::abs(int{a.rgb[i]} - int{b.rgb[i]}));
@@ -44,7 +44,7 @@ imagediff::Picture stretched_difference(const imagediff::Picture& a, const image
 }
 
 // Returns the fraction of pixels with a channel that differs by more than `channel`.
-double share_off(const imagediff::Picture& a, const imagediff::Picture& b, int channel) {
+double share_off(const imagediff::RgbImage& a, const imagediff::RgbImage& b, int channel) {
     std::size_t off = 0;
     for (std::size_t i = 0; i < a.rgb.size(); i += 3) {
         int largest = 0;
@@ -60,14 +60,14 @@ std::string first_line(const fs::path& path) {
     return text ? text->substr(0, text->find('\n')) : "";
 }
 
-Verdict renew(const Gallery& gallery, const std::string& name, const imagediff::Picture& picture) {
+Verdict renew(const Gallery& gallery, const std::string& name, const imagediff::RgbImage& picture) {
     Status kept = write_png(gallery.references / (name + ".png"), picture);
     if (kept) kept = write_file(gallery.references / "driver.txt", gallery.driver + "\n");
     return {kept.has_value(), kept ? "" : kept.error().message()};
 }
 
 Verdict failed(const Gallery& gallery, const std::string& name, const std::string& why,
-               const imagediff::Picture& picture, const imagediff::Picture* reference) {
+               const imagediff::RgbImage& picture, const imagediff::RgbImage* reference) {
     Status kept = write_png(gallery.failures / (name + ".actual.png"), picture);
     if (kept && reference != nullptr)
         kept = write_png(gallery.failures / (name + ".difference.png"),
@@ -111,10 +111,10 @@ Gallery gallery(const gpu::Device& device) {
 
 Verdict hold(const Gallery& gallery, const std::string& name, const render::Picture& picture,
              const Tolerance& tolerance) {
-    const imagediff::Picture actual = without_alpha(picture);
+    const imagediff::RgbImage actual = without_alpha(picture);
     if (gallery.update) return renew(gallery, name, actual);
     const fs::path file = gallery.references / (name + ".png");
-    const Result<imagediff::Picture> reference = imagediff::read_png(file);
+    const Result<imagediff::RgbImage> reference = imagediff::read_png(file);
     if (!reference)
         return failed(gallery, name, "no reference: " + reference.error().message(), actual, nullptr);
     const Result<imagediff::Difference> difference = imagediff::compare(*reference, actual);

@@ -66,7 +66,7 @@ TEST_CASE("FreeList: ranges never overlap, are aligned, and merge into one in th
             if (random.chance(0.55)) {
                 const std::uint64_t bytes = 1 + random.bits() % 20'000;
                 const std::uint64_t alignment = std::uint64_t{1} << (random.bits() % 13);
-                const auto offset = list.take(bytes, alignment);
+                const auto offset = list.allocate(bytes, alignment);
                 if (!offset) continue;
                 REQUIRE(*offset % alignment == 0);
                 REQUIRE(*offset + bytes <= size);
@@ -76,26 +76,26 @@ TEST_CASE("FreeList: ranges never overlap, are aligned, and merge into one in th
                 used += bytes;
             } else if (!taken.empty()) {
                 const std::size_t i = random.bits() % taken.size();
-                list.give_back(taken[i].offset, taken[i].size);
+                list.free(taken[i].offset, taken[i].size);
                 used -= taken[i].size;
                 taken.erase(taken.begin() + static_cast<std::ptrdiff_t>(i));
             }
             REQUIRE(list.free_bytes() == size - used);
         }
-        for (const Range& range : taken) list.give_back(range.offset, range.size);
-        REQUIRE(list.untouched());
+        for (const Range& range : taken) list.free(range.offset, range.size);
+        REQUIRE(list.all_free());
     }
 }
 
 TEST_CASE("FreeList: best fit takes the smallest range that is large enough") {
     FreeList list(1000);
-    const auto a = list.take(300, 1), b = list.take(100, 1), c = list.take(50, 1);
+    const auto a = list.allocate(300, 1), b = list.allocate(100, 1), c = list.allocate(50, 1);
     REQUIRE((a && b && c));
-    list.give_back(*a, 300);
-    list.give_back(*b, 100);
-    CHECK(list.take(550, 1) == 450U);  // the end, not [0, 400)
-    CHECK(list.take(400, 1) == 0U);    // freed neighbours are merged
-    CHECK_FALSE(list.take(1, 1).has_value());
+    list.free(*a, 300);
+    list.free(*b, 100);
+    CHECK(list.allocate(550, 1) == 450U);  // the end, not [0, 400)
+    CHECK(list.allocate(400, 1) == 0U);    // freed neighbours are merged
+    CHECK_FALSE(list.allocate(1, 1).has_value());
 }
 
 TEST_CASE(

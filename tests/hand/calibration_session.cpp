@@ -12,7 +12,7 @@ using namespace bolt::hand;
 
 namespace {
 
-// Somebody in a glove, who does what is asked after a while.
+// A person in a glove who takes the requested posture after a reaction time.
 struct Trainee {
     CalibrationSession session;
     Random random{4};
@@ -29,7 +29,7 @@ struct Trainee {
             raw[i] = 60.0 + posture_angle(posture, static_cast<Sensor>(i)).value_or(0.2) / 0.013;
         return raw;
     }
-    // Until the posture that is asked is another one, or for so many seconds.
+    // Advances until another posture is requested, at most `most` seconds.
     void follow(double most) {
         const Posture asked = session.requested;
         const double from = now;
@@ -68,7 +68,7 @@ TEST_CASE("CalibrationSession: four postures are requested and sampled, and the 
     CHECK(line->gain == doctest::Approx(0.013).epsilon(0.02));
     for (const PostureSamples& held : trainee.session.taken) {
         CHECK(held.samples.size() > 150);
-        for (const auto& sample : held.samples)  // none of those on the way
+        for (const auto& sample : held.samples)  // none during the motion between postures
             CHECK(std::abs(sample[index(Sensor::middle_pij)] -
                            Trainee::counts(held.posture)[index(Sensor::middle_pij)]) < 10.0);
     }
@@ -123,7 +123,7 @@ TEST_CASE("CalibrationSession: a glove whose sensors hardly move fails or gets a
     Trainee trainee;
     trainee.at = trainee.to = Trainee::counts(Posture::flat);
     trainee.follow(10.0);
-    // Everything stays as it was but for one sensor, which lets the session go on.
+    // Only one sensor moves, which is enough for the session to continue.
     for (int i = 0; i < 3; ++i) {
         trainee.reaction = 1000.0;
         trainee.to[index(Sensor::wrist_yaw)] += i % 2 == 0 ? 40.0 : -40.0;

@@ -18,17 +18,17 @@ using namespace grasp_test;
 
 namespace {
 
-// Ball spacing and tolerance, closing.hpp.
+// m, the penetration that ball_spacing and stop_tolerance permit (finger_closure.hpp).
 constexpr double stated = 0.65 * mm;
 
-// Whether the digit is in the tool already.
+// Returns true if the digit penetrates the tool.
 bool in_it(const TestTool& held, const hand::Hand& hand, const Pose& wrist, std::size_t d,
            const hand::Angles& a) {
     return deepest(held, hand, wrist, d, a) > 0.0;
 }
 
 std::array<double, 3> bends(const hand::Angles& a, std::size_t digit) {
-    if (digit == 0) return {-a.thumb.abduction, a.thumb.mcp, a.thumb.ip};  // closing is growing
+    if (digit == 0) return {-a.thumb.abduction, a.thumb.mcp, a.thumb.ip};  // closing increases all values
     const hand::FingerAngles& f = a.fingers[digit - 1];
     return {f.mcp, f.pip, f.dip};
 }
@@ -57,7 +57,7 @@ hand::Angles random_bend(Random& random) {
     return hand::clamp_to_limits(a);
 }
 
-// Somewhere that fingers can reach it.
+// A random wrist pose from which the fingers reach the tool.
 Pose random_wrist(Random& random) {
     const Pose tool{
         Vec3(random.uniform(-30.0, 30.0), random.uniform(-60.0, -20.0), random.uniform(-150.0, -60.0)) * mm,
@@ -94,13 +94,13 @@ TEST_CASE(
             const hand::Angles open = opened(measured);
             const bool already = in_it(held, hand, wrist, d, open);
             if (already) ++overlapping;
-            // Where a digit is in the tool already, points between its balls get a little deeper.
+            // If the digit penetrates from the start, points between its balls get slightly deeper.
             CHECK(deeper(held, hand, wrist, d, closure.angles, open) < (already ? 2.0 * mm : stated));
             if (closure.digits[d].touches) ++touching;
             if (deeper(held, hand, wrist, d, measured, opened(measured)) > 3.0 * mm) ++deep;
         }
     });
-    // What was measured would have been in it: the check has something to see.
+    // Verifies that the measured angles alone would penetrate the tool.
     CHECK(overlapping < touching);
     CHECK(touching > (test::sanitized ? 20 : 200));
     CHECK(deep > (test::sanitized ? 15 : 150));
@@ -147,7 +147,7 @@ TEST_CASE("FingerClosure: a harder squeeze draws the same stop and never a more 
         }
     });
     CHECK(held_back > (test::sanitized ? 20 : 200));
-    // A part that passes within a tenth of a millimetre of an edge may stop there or go on.
+    // A part that passes an edge within 0.1 mm may stop there or continue.
     CHECK(grazing <= held_back / 50);
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("FingerClosure: fingers wrap around a bar, and the joints beyond the c
     for (const hand::Side side : {hand::Side::right, hand::Side::left}) {
         const hand::Hand hand = hand::make_hand(side);
         Pose wrist = across_the_palm();
-        if (side == hand::Side::left) {  // mirrored in the bar's own plane of symmetry
+        if (side == hand::Side::left) {  // mirrored in the bar's plane of symmetry
             const Quat& q = wrist.orientation;
             wrist = {wrist.position * Vec3(-1.0, 1.0, 1.0), Quat(q.w, q.x, -q.y, -q.z)};
         }
@@ -200,7 +200,7 @@ TEST_CASE("FingerClosure: fingers wrap around a bar, and the joints beyond the c
             CHECK(stop.share[0] < 0.8);
             CHECK(stop.share[0] <= stop.share[1]);
             CHECK(stop.share[1] <= stop.share[2]);
-            CHECK(stop.nearest.normal.y < 0.2);  // from below or beside, where the palm is not
+            CHECK(stop.nearest.normal.y < 0.2);  // from below or from the side opposite to the palm
         }
         CHECK(closure.digits[0].touches);
     }

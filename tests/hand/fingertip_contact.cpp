@@ -16,7 +16,7 @@ namespace {
 constexpr double mm = 1e-3;
 constexpr double away = 200.0;
 
-// A flat bar as a wrench's handle is: 150 mm long, 20 mm high, 8 mm thick.
+// A flat bar like a wrench's handle: 150 mm long, 20 mm high, 8 mm thick.
 ToolShape bar() {
     const std::vector<ContactMesh> parts{
         box(Vec3(0.0, -10.0, -4.0) * mm, Vec3(150.0, 10.0, 4.0) * mm).mesh()};
@@ -50,11 +50,12 @@ TEST_CASE("FingertipGrasp: pads that do not press from opposite sides do not hol
     CHECK_FALSE(fingertip_grasp(tool, tips({80.0, 0.0, 12.0}, {90.0, 0.0, 12.0})).held);  // the same face
     CHECK_FALSE(
         fingertip_grasp(tool, tips({80.0, 0.0, 12.0}, {80.0, 18.0, 0.0})).held);  // a face and an edge
-    CHECK_FALSE(fingertip_grasp(tool, tips({80.0, 0.0, 12.0}, {80.0, 0.0, -15.0})).held);  // not there yet
+    CHECK_FALSE(fingertip_grasp(tool, tips({80.0, 0.0, 12.0}, {80.0, 0.0, -15.0}))
+                    .held);  // one tip does not touch yet
     CHECK_FALSE(
-        fingertip_grasp(tool, tips({80.0, 0.0, 12.0}, {100.0, 0.0, -12.0})).held);  // it would turn away
+        fingertip_grasp(tool, tips({80.0, 0.0, 12.0}, {100.0, 0.0, -12.0})).held);  // the bar would turn away
     CHECK_FALSE(fingertip_grasp(tool, tips({80.0, 0.0, 300.0}, {80.0, 0.0, -300.0})).held);
-    CHECK(fingertip_grasp(tool, tips({80.0, 18.0, 0.0}, {80.0, -18.0, 0.0})).held);  // by its edges
+    CHECK(fingertip_grasp(tool, tips({80.0, 18.0, 0.0}, {80.0, -18.0, 0.0})).held);  // on its edges
 }
 
 TEST_CASE("FingertipGrasp: the thumb must oppose") {
@@ -69,7 +70,7 @@ TEST_CASE("FingertipGrasp: the thumb must oppose") {
 TEST_CASE("FingertipGrasp: a pad inside the handle reports its depth") {
     const FingertipGrasp g = fingertip_grasp(bar(), tips({80.0, 0.0, 11.0}, {80.0, 0.0, -2.0}));
     CHECK(g.tips[0].distance == doctest::Approx(-1.0 * mm).epsilon(1e-5));
-    CHECK(g.tips[1].distance == doctest::Approx(-10.0 * mm).epsilon(1e-5));  // its middle is inside
+    CHECK(g.tips[1].distance == doctest::Approx(-10.0 * mm).epsilon(1e-5));  // the centre is inside
     CHECK(g.tips[1].normal.z == doctest::Approx(-1.0));
     CHECK(g.held);
 }

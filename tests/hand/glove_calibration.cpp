@@ -12,7 +12,7 @@ using namespace bolt::hand;
 
 namespace {
 
-// A glove on a hand: what each sensor gives at an angle.
+// A glove on a hand, with the response of each sensor to its angle.
 struct Worn {
     PerSensor<LinearFit> lines;
     std::size_t sensors = 22;
@@ -58,13 +58,14 @@ TEST_CASE("GloveCalibration: four postures recover each sensor's fit within the 
         REQUIRE(c);
         CHECK(c->remarks.empty());
         for (const Sensor s : sensors_of(worn.sensors)) {
-            if (s == Sensor::wrist_pitch || s == Sensor::wrist_yaw) continue;  // no pose tells of the wrist
+            if (s == Sensor::wrist_pitch || s == Sensor::wrist_yaw)
+                continue;  // no posture determines the wrist's sensors
             CAPTURE(std::string(name_of(s)));
             const auto& line = c->calibration.fits[index(s)];
             REQUIRE(line);
             for (const double at : {0.0, 0.5, 1.2}) {
                 const double raw = at / worn.lines[index(s)].gain + worn.lines[index(s)].offset;
-                // Half a count at each of two poses that are a span apart.
+                // Rounding errors of half a count at both ends of the span.
                 const double span = c->quality[index(s)].span;
                 CHECK(std::abs(angle(*line, raw) - at) <
                       std::abs(line->gain) * (1.0 + 2.0 * std::abs(at / line->gain) / span));
@@ -87,7 +88,7 @@ TEST_CASE("GloveCalibration: the score falls with noise and with a small span, a
     CHECK(shaking->remarks.back().find("hold still") != std::string::npos);
 
     worn.noise = 0.0;
-    worn.lines[index(Sensor::ring_pij)].gain = 2.0;  // a sensor that is not bent with its finger
+    worn.lines[index(Sensor::ring_pij)].gain = 2.0;  // a sensor that does not bend with its finger
     const Result<CalibrationResult> loose = calibrate(worn.all(1));
     REQUIRE(loose);
     CHECK(loose->score == 0.0);
@@ -118,6 +119,6 @@ TEST_CASE("GloveCalibration: missing postures are an error") {
     CHECK(calibrate(flat).error().message().find("\"fist\" is missing") != std::string::npos);
     std::vector<PostureSamples> empty{worn.hold(Posture::flat, 1), {Posture::fist, {}}};
     CHECK(calibrate(empty).error().message().find("no samples of the fist") != std::string::npos);
-    empty[1].samples.resize(5);  // all zero: no sensor gave anything
+    empty[1].samples.resize(5);  // all zero: no sensor values
     CHECK(!calibrate(empty));
 }

@@ -1,5 +1,5 @@
-// The driver on a real line, a pseudo-terminal with the emulated glove at its other end. Waits are for things
-// to happen, however long that takes; how soon they do is tested in virtual time (session.cpp).
+// The driver on a pseudo-terminal with the emulated glove at its other end. The tests wait for events without
+// time limits of their own; glove_session.cpp tests delays in virtual time.
 #include "haptics/hand/glove_driver.hpp"
 
 #include <doctest/doctest.h>

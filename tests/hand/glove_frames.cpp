@@ -83,7 +83,7 @@ TEST_CASE("GloveFrames: any split of the bytes gives the same frames") {
 }
 
 TEST_CASE("GloveFrames: the reader resynchronises after garbage, and never merges two frames") {
-    // Values that are the letter itself are the worst to find one's place among.
+    // Values equal to the frame's first letter are the hardest case for resynchronisation.
     const Bytes letters = [] {
         Bytes bytes{'S'};
         bytes.insert(bytes.end(), 18, 'S');
@@ -103,10 +103,10 @@ TEST_CASE(
     "GloveFrames: on a line that drops, changes and inserts bytes, frames are correct except for changed "
     "values") {
     for (const double rate : {0.001, 0.01, 0.05}) {
-        emulate::GloveOptions design;
+        emulate::EmulatedGloveOptions design;
         design.streaming = true;
         design.faults = {rate, 0.0, rate};
-        emulate::Glove glove(design);
+        emulate::EmulatedGlove glove(design);
         GloveFrameReader reader;
         std::uint64_t wrong = 0, frames = 0;
         for (int i = 0; i < 20000; ++i) {
@@ -123,7 +123,7 @@ TEST_CASE(
             });
         }
         CAPTURE(rate);
-        // A frame that loses a byte and gets another has its length; nothing on the line tells.
+        // A frame that loses one byte and gains another has the right length, which is undetectable.
         const double expected = static_cast<double>(glove.sent());
         CHECK(static_cast<double>(frames) > expected * std::pow(1.0 - 2.0 * rate, 21.0) * 0.97);
         CHECK(static_cast<double>(wrong) < 1.5 * expected * std::pow(20.0 * rate, 2.0) + 3.0);

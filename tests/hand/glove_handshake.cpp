@@ -9,8 +9,8 @@ using namespace bolt::hand;
 
 namespace {
 
-// The two talk over a line that carries what one says to the other in the next 2 ms. The time it took, s.
-double talk(GloveHandshake& handshake, emulate::Glove& glove, double most = 10.0) {
+// Runs the handshake with an emulated glove over a line with a delay of 2 ms. Returns the time it took, s.
+double talk(GloveHandshake& handshake, emulate::EmulatedGlove& glove, double most = 10.0) {
     std::vector<std::uint8_t> to_glove, from_glove;
     double now = 0.0;
     for (; now < most && !handshake.done() && !handshake.failed(); now += 2e-3) {
@@ -28,7 +28,7 @@ TEST_CASE("GloveHandshake: reads the identity and configures the stream") {
     for (const std::size_t sensors : {18U, 22U})
         for (const Side hand : {Side::left, Side::right})
             for (const bool busy : {false, true}) {
-                emulate::Glove glove(
+                emulate::EmulatedGlove glove(
                     {.sensors = sensors, .hand = hand, .status = busy, .time = busy, .streaming = busy});
                 GloveHandshake handshake;
                 const double took = talk(handshake, glove);
@@ -50,7 +50,7 @@ TEST_CASE("GloveHandshake: reads the identity and configures the stream") {
 }
 
 TEST_CASE("GloveHandshake: sets the requested rate; a glove without that command keeps its own") {
-    emulate::Glove quick({}), old({.old_firmware = true});
+    emulate::EmulatedGlove quick({}), old({.old_firmware = true});
     GloveHandshake fast({.rate = 120.0}), with_old({.rate = 120.0});
     talk(fast, quick);
     talk(with_old, old);
@@ -62,7 +62,7 @@ TEST_CASE("GloveHandshake: sets the requested rate; a glove without that command
 }
 
 TEST_CASE("GloveHandshake: a glove disconnected from its interface unit is reported") {
-    emulate::Glove glove({.plugged = false});
+    emulate::EmulatedGlove glove({.plugged = false});
     GloveHandshake handshake;
     talk(handshake, glove);
     REQUIRE(handshake.done());
@@ -72,7 +72,8 @@ TEST_CASE("GloveHandshake: a glove disconnected from its interface unit is repor
 TEST_CASE("GloveHandshake: on a bad line it succeeds or fails, never hangs, and accepts no wrong identity") {
     int done = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-        emulate::Glove glove({.sensors = 22, .streaming = true, .faults = {0.02, 0.0, 0.02}, .seed = seed});
+        emulate::EmulatedGlove glove(
+            {.sensors = 22, .streaming = true, .faults = {0.02, 0.0, 0.02}, .seed = seed});
         GloveHandshake handshake;
         CHECK(talk(handshake, glove, 30.0) < 29.0);
         if (!handshake.done()) continue;
@@ -84,7 +85,7 @@ TEST_CASE("GloveHandshake: on a bad line it succeeds or fails, never hangs, and 
 
 TEST_CASE("GloveHandshake: a device that is not a glove is rejected") {
     SUBCASE("nothing answers") {
-        emulate::Glove dead({});
+        emulate::EmulatedGlove dead({});
         dead.stalled = true;
         GloveHandshake handshake;
         CHECK(talk(handshake, dead) < 2.0);
@@ -102,7 +103,7 @@ TEST_CASE("GloveHandshake: a device that is not a glove is rejected") {
         CHECK(handshake.failed()->message().find("quiet") != std::string::npos);
     }
     SUBCASE("a glove of a number of sensors that there is not") {
-        emulate::Glove odd({.sensors = 5});
+        emulate::EmulatedGlove odd({.sensors = 5});
         GloveHandshake handshake;
         talk(handshake, odd);
         REQUIRE(handshake.failed());

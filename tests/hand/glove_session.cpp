@@ -9,15 +9,15 @@ using namespace bolt::hand;
 
 namespace {
 
-// Conversation and glove over a line, in virtual time.
+// A session with an emulated glove over a line, in virtual time.
 struct Talk {
-    explicit Talk(const emulate::GloveOptions& design) : glove(design) {}
+    explicit Talk(const emulate::EmulatedGloveOptions& design) : glove(design) {}
 
-    emulate::Glove glove;
+    emulate::EmulatedGlove glove;
     GloveSession session;
     double now = 0.0;
     int frames = 0;
-    bool cut = false;  // the line carries nothing
+    bool cut = false;  // the line carries no bytes
 
     void update(double seconds) {
         for (const double end = now + seconds; now < end; now += 1e-3) {
@@ -30,7 +30,7 @@ struct Talk {
             }
         }
     }
-    // Until it is so; the time that it took.
+    // Advances until the session has the state. Returns the time it took, s.
     double until(GloveState state, double most = 20.0) {
         const double from = now;
         while (session.state() != state && now - from < most) update(1e-3);
@@ -50,7 +50,7 @@ TEST_CASE("GloveSession: a stalled glove is reported within 0.25 s and read agai
     CHECK(talk.frames >= 78);
     talk.glove.stalled = true;
     CHECK(talk.until(GloveState::silent) < 0.27);
-    CHECK(talk.session.trouble().find("gives nothing") != std::string::npos);
+    CHECK(talk.session.trouble().find("stopped sending") != std::string::npos);
     talk.update(7.0);
     CHECK(talk.session.state() != GloveState::streaming);
     talk.glove.stalled = false;

@@ -15,13 +15,13 @@ namespace {
 constexpr double mm = 1e-3;
 
 Angles random_angles(Random& random) {
-    const auto in = [&](const Span& span) { return random.uniform(span.low, span.high); };
+    const auto in = [&](const AngleRange& span) { return random.uniform(span.low, span.high); };
     Angles a;
-    a.thumb = {in(thumb_roll_span), in(thumb_abduction_span), in(thumb_mcp_span), in(thumb_ip_span)};
-    for (FingerAngles& f : a.fingers) f = {in(mcp_span), in(pip_span), in(dip_span), in(side_span)};
-    a.arch = in(arch_span);
-    a.wrist_flexion = in(wrist_flexion_span);
-    a.wrist_side = in(wrist_side_span);
+    a.thumb = {in(thumb_roll_range), in(thumb_abduction_range), in(thumb_mcp_range), in(thumb_ip_range)};
+    for (FingerAngles& f : a.fingers) f = {in(mcp_range), in(pip_range), in(dip_range), in(side_range)};
+    a.arch = in(arch_range);
+    a.wrist_flexion = in(wrist_flexion_range);
+    a.wrist_side = in(wrist_side_range);
     return a;
 }
 
@@ -61,7 +61,7 @@ TEST_CASE("Kinematics: zero angles give a flat hand") {
 }
 
 TEST_CASE("Kinematics: a finger is a planar chain whose flexions add up") {
-    // Closed form in the plane of the middle finger: each bone drops by the sum of the angles so far.
+    // Closed form in the plane of the middle finger: each bone is inclined by the sum of the angles so far.
     const Hand hand = make_hand(Side::right);
     Random random(3);
     for (int trial = 0; trial < 200; ++trial) {
@@ -103,11 +103,11 @@ TEST_CASE(
         for (std::size_t i = 0; i < joint_count; ++i) {
             CHECK(glm::length(l.position[i] - r.position[i] * Vec3(-1, 1, 1)) < 1e-12);
             CHECK(glm::length(r.rotation[i]) == doctest::Approx(1.0).epsilon(1e-12));
-            // Of a mirrored frame forward and up are mirrored, and right is turned over.
+            // In the mirrored frame forward and up are mirrored, and right is also reversed.
             CHECK(glm::length(l.rotation[i] * Vec3(0, 1, 0) -
                               (r.rotation[i] * Vec3(0, 1, 0)) * Vec3(-1, 1, 1)) < 1e-9);
         }
-        // Elsewhere: all moves with the wrist.
+        // At another wrist pose all points move with the wrist.
         const Pose wrist_pose{{1.0, 2.0, 3.0}, rotation({0.3, -1.0, 0.5})};
         const Skeleton moved = joints(right, a, wrist_pose);
         for (std::size_t i = 0; i < joint_count; ++i)
@@ -148,7 +148,7 @@ TEST_CASE("Kinematics: every angle has the documented sign") {
     CHECK(tip_of(a, thumb_tip).y < abducted.y - 10.0 * mm);
     a.thumb.roll = 1.2;
     const Vec3 rolled = tip_of(a, thumb_tip);
-    a.thumb.mcp = 0.8;  // rolled across, it bends over the palm to the little finger
+    a.thumb.mcp = 0.8;  // rolled across, it bends over the palm towards the little finger
     CHECK(tip_of(a, thumb_tip).x > rolled.x + 10.0 * mm);
     a = {};
     a.arch = 0.4;
@@ -181,8 +181,8 @@ TEST_CASE(
 }
 
 TEST_CASE("Kinematics: the thumb can oppose every finger pad to pad") {
-    // As a hand does that is not hurt (A. Kapandji's score of opposition, Ann. Chir. Main 5(1), 1986). The
-    // angles are searched for: anywhere at random, then ever nearer to the best.
+    // A healthy hand can do this (A. Kapandji's score of opposition, Ann. Chir. Main 5(1), 1986). Random
+    // search for the angles, in a range that shrinks around the best ones.
     const Hand hand = make_hand(Side::right);
     for (std::size_t finger = 1; finger < digit_count; ++finger) {
         Random random(finger);
@@ -210,7 +210,7 @@ TEST_CASE("Kinematics: the thumb can oppose every finger pad to pad") {
             const Vec3 thumb = s.rotation[thumb_distal] * Vec3(0, -1, 0);
             const Vec3 other = s.rotation[digits[finger].first + 3] * Vec3(0, -1, 0);
             const double apart = glm::length(pad(hand, s, 0) - pad(hand, s, finger)) - 2.0 * pad_radius;
-            // Pads touch, and look at each other.
+            // The pads touch and face each other.
             const double badness = std::abs(apart) + 20.0 * mm * std::max(0.0, 0.5 + glm::dot(thumb, other));
             if (badness >= least) continue;
             least = badness;
@@ -236,8 +236,8 @@ TEST_CASE("HandLimits: feasible angles stay, others are clamped, and NaN becomes
         a.thumb.ip = -2.0;
         a.arch = std::numeric_limits<double>::quiet_NaN();
         const Angles bound = clamp_to_limits(a);
-        CHECK(bound.fingers[2].pip == pip_span.high);
-        CHECK(bound.thumb.ip == thumb_ip_span.low);
+        CHECK(bound.fingers[2].pip == pip_range.high);
+        CHECK(bound.thumb.ip == thumb_ip_range.low);
         CHECK(bound.arch == 0.0);
     }
     Angles spread;

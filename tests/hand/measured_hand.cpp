@@ -13,10 +13,10 @@ using namespace bolt::hand;
 
 namespace {
 
-constexpr double count = to_radians(0.75);  // rad a count, of a sensor that spans 120° in 160 counts
+constexpr double count = to_radians(0.75);  // rad per count of a sensor that spans 120° in 160 counts
 constexpr double dt = 1.0 / 80.0;
 
-// How much later (s) the filtered value reaches `level` than the value itself, which only rises.
+// Delay, s, with which the filtered value reaches `level` after the value itself, which only rises.
 double lateness(const std::function<double(double)>& value, double level) {
     OneEuro filter;
     const auto reached = [&](const std::function<double(double)>& f) {
@@ -44,8 +44,8 @@ double deviation(const std::vector<double>& values) {
 TEST_CASE("OneEuro: the lag at constant speed matches the closed form, below 10 ms from 1 rad/s on") {
     for (const double speed : {1.0, 2.0, 5.0, 10.0}) {
         const OneEuroOptions options;
-        // A low-pass lags by its time constant T; the speed that opens it is told from its own last value,
-        // which is T behind, so it is taken for v (1 + T/dt): a quadratic for T.
+        // A low-pass lags by its time constant T. The filter estimates the speed from its own last value,
+        // which lags by T, so the estimate is v (1 + T/dt). This gives a quadratic equation for T.
         const double a = options.per_speed * speed / dt, b = options.at_rest + options.per_speed * speed;
         const double expected = (std::sqrt(b * b + 4.0 * a / (2.0 * pi)) - b) / (2.0 * a);
         CHECK(expected < 7e-3);
@@ -111,7 +111,7 @@ TEST_CASE(
     CHECK(hand.fingers[3].side == doctest::Approx(0.2));
     CHECK(hand.fingers[2].pip == doctest::Approx(0.9));
     CHECK(hand.thumb.roll == doctest::Approx(0.1));
-    frame.raw[index(Sensor::ring_dij)] = 150;  // one of 22 measures it
+    frame.raw[index(Sensor::ring_dij)] = 150;  // a glove with 22 sensors measures it
     CHECK(sensor_angles(calibration, frame)[index(Sensor::ring_dij)] == doctest::Approx(0.5));
 }
 
@@ -132,9 +132,9 @@ TEST_CASE("MeasuredHand: follows its frames, restarts after a gap, and stays wit
     CHECK(hand.angles.fingers[1].mcp > 0.0);
     CHECK(hand.angles.fingers[1].mcp < 0.4);
     all(150);
-    update(hand, wearer, frame, 2.0);  // after a second of nothing the last value says nothing
+    update(hand, wearer, frame, 2.0);  // after a gap of a second the last value is obsolete
     CHECK(hand.angles.fingers[1].mcp == doctest::Approx(1.0));
-    update(hand, wearer, frame, 2.0);  // twice at the same time: no division by nothing
+    update(hand, wearer, frame, 2.0);  // twice at the same time: no division by zero
     CHECK(std::isfinite(hand.angles.fingers[1].mcp));
     all(255);
     CHECK(test::forbidden_in([&] { update(hand, wearer, frame, 9.0); }).all() == 0);

@@ -23,7 +23,7 @@ hand::Angles opened(const hand::Angles& angles) {
     hand::Angles out = angles;
     for (hand::FingerAngles& f : out.fingers)
         f = {std::min(f.mcp, 0.0), std::min(f.pip, 0.0), std::min(f.dip, 0.0), f.side};
-    out.thumb.abduction = std::max(out.thumb.abduction, hand::thumb_abduction_span.high);
+    out.thumb.abduction = std::max(out.thumb.abduction, hand::thumb_abduction_range.high);
     out.thumb.mcp = std::min(out.thumb.mcp, 0.0);
     out.thumb.ip = std::min(out.thumb.ip, 0.0);
     return out;

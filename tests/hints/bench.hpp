@@ -1,4 +1,4 @@
-// A lesson fed by hand (tests/lesson/script.hpp) and what hints see of it.
+// A scripted lesson (tests/lesson/script.hpp) with hints.
 #pragma once
 
 #include "game/lesson/hints.hpp"
@@ -9,7 +9,7 @@ namespace bolt::test {
 
 using namespace bolt::lesson;
 
-// What may be said soon after something else: who has got so far has done what was asked before.
+// Situations whose hint may soon replace another one, because its request is fulfilled.
 inline bool at_work(Situation s) {
     for (const Situation work :
          {Situation::run_down, Situation::run_down_by_wrench, Situation::pull, Situation::pull_to_yield,
@@ -25,13 +25,13 @@ struct Bench : Script {
     std::vector<double> rounded{0.0, 0.0};
     bool wrench = false;
     double room = std::numeric_limits<double>::infinity();
-    Hints hints;
+    HintState hints;
     HapticWorld world{2};
 
     explicit Bench(Mode mode = Mode::guided, content::Strategy strategy = content::Strategy::torque,
                    Task task = Task::tighten)
         : Script(mode, strategy) {
-        assembly.passes.push_back({content::StepKind::recheck, 1.0, {0, 1}});
+        assembly.passes.push_back({content::PassKind::recheck, 1.0, {0, 1}});
         lesson = begin(assembly, mode, task);
         for (const double x : {0.0, 0.2}) {
             servo::NutGeometry nut;
@@ -47,7 +47,7 @@ struct Bench : Script {
 
     void far_away() { output.tool.position = Vec3(0.1, 0.3, 0.4); }
     void near(std::size_t joint) { output.tool.position = setup.nuts[joint].seat + Vec3(0.0, 0.03, 0.0); }
-    // Turns a nut for some ticks, to `torque`.
+    // Turns a nut for 100 ticks, up to `torque` in N·m.
     void turn(int joint, double torque, double speed = 1.0) {
         for (int i = 1; i <= 100; ++i) tick(joint, servo::Grip::wrench, torque * i / 100.0, speed);
     }
@@ -56,18 +56,18 @@ struct Bench : Script {
         for (const int joint : {0, 1}) pull(joint, 35.0);
         wrench = true;
     }
-    // By strategy yield; the last step of each joint is done by what it gives.
+    // To the re-check pass.
     void to_the_check() {
         to_the_full_pass();
         for (const int joint : {0, 1}) pull(joint, 70.0);
     }
 
-    [[nodiscard]] Scene scene() {
+    [[nodiscard]] WorkState work_state() {
         return {lesson, setup, world.write(state.joints, rounded, output, wrench, room)};
     }
-    [[nodiscard]] Situation now() { return situation(scene()); }
-    const std::optional<Hint>& frame(double dt = 0.05, bool asked = false) {
-        return update(hints, scene(), dt, asked);
+    [[nodiscard]] Situation now() { return situation(work_state()); }
+    const std::optional<Hint>& frame(double dt = 0.05, bool requested = false) {
+        return update(hints, work_state(), dt, requested);
     }
     const std::optional<Hint>& wait(double seconds) {
         for (double t = 0.0; t < seconds - 1e-9; t += 0.05) frame();

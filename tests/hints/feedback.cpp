@@ -6,24 +6,23 @@
 
 using namespace bolt;
 using namespace bolt::lesson;
-using namespace bolt::lesson;
 
 namespace {
 
 words::Words words_in(std::string_view language) {
-    words::Loaded loaded = words::load_words(words::words_folder(), language);
+    words::LoadedWords loaded = words::load_words(words::words_folder(), language);
     REQUIRE(loaded.ok());
     return std::move(loaded.words);
 }
 
-// Four joints that are done as they should be.
+// Four joints with correct results.
 struct Outcome {
     content::Assembly assembly;
     Lesson lesson;
     servo::State state;
 
     explicit Outcome(Task task = Task::tighten) {
-        content::Pass pass{content::StepKind::tighten, 1.0, {}};
+        content::Pass pass{content::PassKind::tighten, 1.0, {}};
         for (std::size_t i = 0; i < 4; ++i) {
             content::AssemblyJoint joint;
             joint.design.id = "B" + std::to_string(i + 1);
@@ -47,13 +46,13 @@ struct Outcome {
     [[nodiscard]] Review review() const { return lesson::review(assembly, judge(lesson, state, 1e-3)); }
     [[nodiscard]] std::vector<std::string> reasons() const {
         const words::Words en = words_in("en");
-        std::vector<std::string> said;
-        for (const Remark& remark : review().reasons) said.push_back(say(en, remark));
-        return said;
+        std::vector<std::string> texts;
+        for (const Remark& remark : review().reasons) texts.push_back(remark_text(en, remark));
+        return texts;
     }
     [[nodiscard]] std::vector<std::string_view> advice() const {
         std::vector<std::string_view> keys;
-        for (const words::Key key : review().advice) keys.push_back(key.row().name);
+        for (const words::TextKey key : review().advice) keys.push_back(key.row().name);
         return keys;
     }
 };
@@ -63,12 +62,12 @@ using Said = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("Feedback: nothing wrong: no reasons, and something to try next") {
+TEST_CASE("Feedback: a perfect result has no reasons and one advice") {
     CHECK(Outcome().reasons().empty());
     CHECK(Outcome().advice() == Keys{"advice.nothing"});
 }
 
-TEST_CASE("Feedback: each loss has its reason with numbers and its advice") {
+TEST_CASE("Feedback: each deduction has a reason with numbers and an advice") {
     struct Case {
         const char* reason;
         const char* advice;
@@ -97,16 +96,16 @@ TEST_CASE("Feedback: each loss has its reason with numbers and its advice") {
              r.lesson.joints[1].result.rehits = 1;
          }},
         {"2 times a nut was turned the wrong way.", "advice.wrong_way",
-         [](Outcome& r) { r.lesson.joints[1].wrong_ways = 2; }},
+         [](Outcome& r) { r.lesson.joints[1].wrong_way_count = 2; }},
         {"Once there was too much torque on a nut; that was made good.", "advice.torque_high",
-         [](Outcome& r) { r.lesson.joints[1].times_overdone = 1; }},
+         [](Outcome& r) { r.lesson.joints[1].over_torque_count = 1; }},
         {"B1 has had 81.2 N·m; 80 N·m are the most.", "advice.torque_high",
          [](Outcome& r) {
              r.done(0, 81.2, 30.0);
-             r.lesson.joints[0].times_overdone = 1;
+             r.lesson.joints[0].over_torque_count = 1;
          }},
         {"2 times the wrench slipped off a nut.", "mistake.slipped.do",
-         [](Outcome& r) { r.lesson.joints[1].slips = 2; }},
+         [](Outcome& r) { r.lesson.joints[1].slip_count = 2; }},
         {"The lesson was left at step 4 of 4.", "advice.unfinished",
          [](Outcome& r) { r.lesson.current = 3; }},
     };
@@ -118,14 +117,14 @@ TEST_CASE("Feedback: each loss has its reason with numbers and its advice") {
         CHECK(r.advice() == Keys{c.advice});
         for (const char* language : {"de", "zh"})
             for (const Remark& remark : r.review().reasons)
-                CHECK(say(words_in(language), remark).find('{') == std::string::npos);
+                CHECK(remark_text(words_in(language), remark).find('{') == std::string::npos);
     }
     Outcome loose(Task::loosen);
     loose.lesson.joints[1].result.torque = 0.0;
     CHECK(loose.reasons() == Said{"B2 was not loosened."});
 }
 
-TEST_CASE("Feedback: advice begins with what cost most, and is never more than three") {
+TEST_CASE("Feedback: advice begins with the costliest mistake and has at most three entries") {
     Outcome r;
     r.lesson.joints[0].result.order_errors = 1;
     r.lesson.joints[0].result.rehits = 5;
@@ -139,37 +138,39 @@ TEST_CASE("Feedback: advice begins with what cost most, and is never more than t
     CHECK(points == doctest::Approx(judge(r.lesson, r.state, 1e-3).score - 100.0));
 }
 
-TEST_CASE("Feedback: of a session that was read again the reasons stay as they were written") {
+TEST_CASE("Feedback: reasons from a session file keep their stored text") {
     Outcome r;
     r.done(0, 50.0, 30.0);
     LessonResult result = judge(r.lesson, r.state, 1e-3);
     for (ScoreReason& reason : result.reasons) reason = {reason.points, reason.text};
     const Review review = lesson::review(r.assembly, result);
     REQUIRE(review.reasons.size() == 1);
-    CHECK(say(words_in("zh"), review.reasons[0]) == result.reasons[0].text);
+    CHECK(remark_text(words_in("zh"), review.reasons[0]) == result.reasons[0].text);
     CHECK(review.reasons[0].points == -25.0);
     CHECK(review.advice.empty());
 }
 
-TEST_CASE("Feedback: every enumeration has a name in every language, and no two of one are the same") {
+TEST_CASE("Feedback: enumeration values have distinct names in every language") {
     for (const char* language : {"en", "de", "zh"}) {
         const words::Words words = words_in(language);
-        const auto differ = [&](std::initializer_list<words::Key> keys) {
-            for (const words::Key& a : keys)
-                for (const words::Key& b : keys)
+        const auto differ = [&](std::initializer_list<words::TextKey> keys) {
+            for (const words::TextKey& a : keys)
+                for (const words::TextKey& b : keys)
                     if (&a != &b) CHECK(words[a] != words[b]);
         };
-        differ({term(Mode::guided), term(Mode::practice), term(Mode::assessment)});
-        differ({term(Task::tighten), term(Task::loosen)});
-        differ({term(StepKind::run_down), term(StepKind::tighten), term(StepKind::recheck),
-                term(StepKind::loosen)});
-        differ({term(Verdict::none), term(Verdict::low), term(Verdict::ok), term(Verdict::high)});
-        differ({term(joint::Stage::navigation), term(joint::Stage::transition), term(joint::Stage::linearity),
-                term(joint::Stage::yield)});
-        differ({term(joint::Condition::sound), term(joint::Condition::stripped),
-                term(joint::Condition::broken)});
+        differ({text_key(Mode::guided), text_key(Mode::practice), text_key(Mode::assessment)});
+        differ({text_key(Task::tighten), text_key(Task::loosen)});
+        differ({text_key(StepKind::run_down), text_key(StepKind::tighten), text_key(StepKind::recheck),
+                text_key(StepKind::loosen)});
+        differ({text_key(Verdict::none), text_key(Verdict::low), text_key(Verdict::ok),
+                text_key(Verdict::high)});
+        differ({text_key(joint::Stage::navigation), text_key(joint::Stage::transition),
+                text_key(joint::Stage::linearity), text_key(joint::Stage::yield)});
+        differ({text_key(joint::Condition::sound), text_key(joint::Condition::stripped),
+                text_key(joint::Condition::broken)});
         for (std::size_t a = 0; a < force::fault_kinds; ++a)
             for (std::size_t b = 0; b < a; ++b)
-                CHECK(words[term(static_cast<force::Fault>(a))] != words[term(static_cast<force::Fault>(b))]);
+                CHECK(words[text_key(static_cast<force::Fault>(a))] !=
+                      words[text_key(static_cast<force::Fault>(b))]);
     }
 }

@@ -1,8 +1,8 @@
 // import_fuzz BOLT_AUTHOR STEP [SEEDS [FIRST_SEED]]: damages a STEP file in SEEDS different ways (default 60)
-// and runs `bolt-author import-step` on each. The program must end by itself with exit code 0 or 3; an error
-// must name the file and what was expected; nothing but a complete output folder may be left. Files that
-// break this are kept in import_fuzz_failures below the working folder. FIRST_SEED and SEEDS 1 repeat one of
-// them.
+// and runs `bolt-author import-step` on each. The program must end by itself with exit code 0 or 3, an error
+// must name the file and an expectation, and only a complete output folder may be left. Damaged files that
+// violate this are kept in import_fuzz_failures below the working folder; SEEDS 1 with FIRST_SEED repeats one
+// of them.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -41,7 +41,8 @@ std::size_t below(Random& random, std::size_t count) {
     return static_cast<std::size_t>(random.bits() % count);
 }
 
-// Returns every token that starts with `first` and goes on with characters that `inside` accepts.
+// Returns every token of at least `shortest` characters that starts with a character that `first` accepts and
+// continues with characters that `inside` accepts.
 template <class Inside>
 std::vector<Token> find_tokens(const std::string& text, std::size_t from, const Inside& first,
                                const Inside& inside, std::size_t shortest) {
@@ -137,7 +138,7 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// Returns what the program did wrong with this file; empty if nothing.
+// Runs the program on the file. Returns a description of its failure; empty if it behaved correctly.
 std::string check(const std::string& program, const fs::path& folder, Tally& tally) {
     const fs::path file = folder / "damaged.step", out = folder / "out";
     const auto begin = std::chrono::steady_clock::now();
@@ -217,7 +218,7 @@ int main(int argc, char** argv) {
         "failures\n",
         seeds, tally.imported.load(), tally.refused.load(), tally.crashed.load(), tally.out_of_time.load(),
         tally.out_of_memory.load(), tally.failed.load());
-    // Both ends have to occur, or the damage is too weak or too strong to test anything.
+    // Both results must occur; otherwise the damage is too weak or too strong.
     const bool varied = seeds < 20 || (tally.imported > 0 && tally.imported < static_cast<int>(seeds));
     if (!varied) fmt::print("expected some damaged files to be imported and some to be refused\n");
     return tally.failed == 0 && varied ? 0 : 1;

@@ -1,4 +1,4 @@
-// Shapes: volumes against closed form, closed meshes, normals, units, holes in shells.
+// Meshes of shapes: volumes against the closed form, closed surfaces, normals, units and open shells.
 #include <doctest/doctest.h>
 
 #include <BRepAlgoAPI_Cut.hxx>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double mm3 = 1e-9;
 
-// 40 × 60 × 20 with a hole of 10 along z.
+// A box of 40 × 60 × 20 mm with a hole of 10 mm along z.
 TopoDS_Shape box_with_hole() {
     return BRepAlgoAPI_Cut(
                BRepPrimAPI_MakeBox(40.0, 60.0, 20.0).Shape(),
@@ -31,7 +31,7 @@ TopoDS_Shape box_with_hole() {
         .Shape();
 }
 
-// The contact mesh of a file with this one part.
+// Imports a file with this one part. Returns its contact mesh; `part` receives its report.
 assets::Mesh contact_of(const TopoDS_Shape& shape, step_import::PartReport& part, const char* unit = "MM",
                         double deflection = 0.1) {
     const Folder folder;
@@ -51,8 +51,8 @@ assets::Mesh contact_of(const TopoDS_Shape& shape, step_import::PartReport& part
     return model.meshes[0];
 }
 
-// Sides that no other triangle has the other way round, counted from the file itself.
-std::size_t open_sides(const assets::Mesh& mesh) {
+// Number of triangle edges without a partner in the opposite direction, counted in the written file.
+std::size_t count_open_edges(const assets::Mesh& mesh) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance;
     const auto& indices = mesh.primitives[0].indices;
     for (std::size_t i = 0; i < indices.size(); i += 3)
@@ -67,11 +67,11 @@ std::size_t open_sides(const assets::Mesh& mesh) {
 
 }  // namespace
 
-TEST_CASE("closed contact meshes have the volume of the shape, within the deflection") {
+TEST_CASE("Import: closed contact meshes have the volume of the shape within the deflection") {
     struct Case {
         const char* name;
         TopoDS_Shape shape;
-        double volume, area;  // mm³; mm² of curved surface, along which the chord may stand off
+        double volume, area;  // mm³; mm² of curved surface, where the chords deviate
     };
     const Case cases[] = {
         {"box", BRepPrimAPI_MakeBox(40.0, 60.0, 20.0).Shape(), 48000.0, 0.0},
@@ -89,15 +89,15 @@ TEST_CASE("closed contact meshes have the volume of the shape, within the deflec
             step_import::PartReport part;
             const assets::Mesh mesh = contact_of(one.shape, part, "MM", deflection);
             CHECK(part.open_edges == 0);
-            CHECK(open_sides(mesh) == 0);
-            // Positive: the triangles look outward after the change of frame.
+            CHECK(count_open_edges(mesh) == 0);
+            // A positive volume means that the triangles face outwards after the change of frame.
             CHECK(std::abs(volume(mesh) / mm3 - one.volume) <= one.area * deflection + 1e-6 * one.volume);
             CHECK(part.deviation_mm <= deflection);
             if (one.area > 0.0) CHECK(part.deviation_mm > 0.0);
         }
 }
 
-TEST_CASE("a finer deflection gives a smaller deviation and more triangles") {
+TEST_CASE("Import: a finer deflection gives a smaller deviation and more triangles") {
     step_import::PartReport coarse, fine;
     (void)contact_of(BRepPrimAPI_MakeTorus(300.0, 80.0).Shape(), coarse, "MM", 2.0);
     (void)contact_of(BRepPrimAPI_MakeTorus(300.0, 80.0).Shape(), fine, "MM", 0.05);
@@ -105,7 +105,7 @@ TEST_CASE("a finer deflection gives a smaller deviation and more triangles") {
     CHECK(fine.triangles > 2 * coarse.triangles);
 }
 
-TEST_CASE("the unit of the file is kept: an inch file and a metre file give the same size") {
+TEST_CASE("Import: files in millimetres, inches and metres give the same size") {
     const double expected = 48000.0 - 500.0 * pi;
     for (const char* unit : {"MM", "INCH", "M"}) {
         CAPTURE(unit);
@@ -115,7 +115,7 @@ TEST_CASE("the unit of the file is kept: an inch file and a metre file give the 
     }
 }
 
-TEST_CASE("Z up becomes Y up in the vertices: the box stands on y = 0 and goes back along −z") {
+TEST_CASE("Import: Z up becomes Y up in the vertices") {
     step_import::PartReport part;
     const assets::Mesh mesh = contact_of(BRepPrimAPI_MakeBox(40.0, 60.0, 20.0).Shape(), part);
     glm::vec3 low(1e9F), high(-1e9F);
@@ -127,8 +127,8 @@ TEST_CASE("Z up becomes Y up in the vertices: the box stands on y = 0 and goes b
     CHECK(glm::length(high - glm::vec3(0.04F, 0.02F, 0.0F)) < 1e-7F);
 }
 
-TEST_CASE("an open shell is found open, edge by edge, and is told where") {
-    // A box without its lid: the four edges of the lid, each one chord.
+TEST_CASE("Import: the open edges of a shell are counted and located in the CAD frame") {
+    // A box without its lid has four open edges, one chord each.
     BRep_Builder builder;
     TopoDS_Shell shell;
     builder.MakeShell(shell);
@@ -139,17 +139,17 @@ TEST_CASE("an open shell is found open, edge by edge, and is told where") {
     step_import::PartReport part;
     const assets::Mesh mesh = contact_of(shell, part);
     CHECK(part.open_edges == 4);
-    CHECK(open_sides(mesh) == 4);
+    CHECK(count_open_edges(mesh) == 4);
     REQUIRE(part.open_at_mm.size() == 4);
     double sum = 0.0;
     for (const Vec3& at : part.open_at_mm) {
-        CHECK(at.z == doctest::Approx(20.0));  // the CAD frame, not ours
+        CHECK(at.z == doctest::Approx(20.0));  // in the CAD frame
         sum += at.x + at.y;
     }
     CHECK(sum == doctest::Approx(20.0 + 40.0 + 20.0 + 0.0 + 0.0 + 30.0 + 60.0 + 30.0));
 }
 
-TEST_CASE("normals: hard at edges, smooth where faces are tangent, those of the surface") {
+TEST_CASE("Import: normals are those of the surface, split at edges and shared between tangent faces") {
     const Folder folder;
     StepMaker maker;
     maker.part("box", BRepPrimAPI_MakeBox(10.0, 10.0, 10.0).Shape());
@@ -159,17 +159,17 @@ TEST_CASE("normals: hard at edges, smooth where faces are tangent, those of the 
     const assets::Model model = load(folder / "out" / "two.glb");
     REQUIRE(model.meshes.size() == 2);
     const assets::Primitive& box = model.meshes[0].primitives[0];
-    CHECK(box.positions.size() == 24);  // three at every corner
+    CHECK(box.positions.size() == 24);  // three at each corner
     CHECK(box.indices.size() == 36);
     const assets::Primitive& ball = model.meshes[1].primitives[0];
     const glm::vec3 centre(0.1F, 0.0F, 0.0F);
     for (std::size_t i = 0; i < ball.positions.size(); ++i)
         CHECK(glm::length(ball.normals[i] - glm::normalize(ball.positions[i] - centre)) < 1e-3F);
-    // Closed, of one smooth piece: Euler's V − E + F = 2 with E = 3F/2. Seam and poles are welded.
+    // A closed smooth mesh satisfies Euler's V − E + F = 2 with E = 3F/2, so seam and poles are merged.
     CHECK(ball.positions.size() == 2 + ball.indices.size() / 6);
 }
 
-TEST_CASE("a box rounded all over is one smooth surface") {
+TEST_CASE("Import: a box with rounded edges is one smooth surface") {
     const TopoDS_Shape box = BRepPrimAPI_MakeBox(40.0, 40.0, 40.0).Shape();
     BRepFilletAPI_MakeFillet round(box);
     for (TopExp_Explorer at(box, TopAbs_EDGE); at.More(); at.Next())

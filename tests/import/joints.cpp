@@ -1,4 +1,4 @@
-// Joints from geometry alone: size, length, grip, seat, axis, washers, members; and the draft that comes of
+// Joints found by geometry alone (size, length, grip, seat, axis, washers, members), and the draft made from
 // them.
 #include <doctest/doctest.h>
 
@@ -23,8 +23,8 @@ TopoDS_Shape plate(double x, double y, double thickness, double hole) {
     return BRepAlgoAPI_Cut(box, BRepPrimAPI_MakeCylinder(0.5 * hole, thickness).Shape()).Shape();
 }
 
-// Two plates of 20 and 28 mm from z = 0 upward, M16x80 with washers through both, the nut on top; all of it
-// placed by `where`. Seat under the nut's washer at z = 48.
+// Two plates of 20 and 28 mm from z = 0 upwards and an M16x80 bolt with washers and a nut on top, placed by
+// `where`. The seat under the washer of the nut is at z = 48.
 struct Stack {
     TDF_Label bolt, nut, washer, lower, upper;
     explicit Stack(StepMaker& maker) {
@@ -57,7 +57,7 @@ Vec3 vec(const json& list) { return {list[0].get<double>(), list[1].get<double>(
 
 }  // namespace
 
-TEST_CASE("an M16 bolt with nut, washers and two plates is found exactly") {
+TEST_CASE("Import: an M16 bolt with nut, washers and two plates is found exactly") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("plates");
@@ -106,7 +106,7 @@ TEST_CASE("an M16 bolt with nut, washers and two plates is found exactly") {
         CHECK(glm::length(vec(joint["position_mm"]) - expected.seat_mm) < 1e-3);
         const Vec3 axis = joint.contains("axis") ? vec(joint["axis"]) : Vec3{0.0, 1.0, 0.0};
         CHECK(glm::length(axis - expected.axis) < 1e-9);
-        // The node it names is there, at the seat and along the axis, with its four fasteners under it.
+        // The named node is at the seat and along the axis, with its four fasteners under it.
         const int node = node_named(model, joint["node"]);
         REQUIRE(node >= 0);
         const glm::dmat4 at = world(model, node);
@@ -115,13 +115,13 @@ TEST_CASE("an M16 bolt with nut, washers and two plates is found exactly") {
         CHECK(model.nodes[static_cast<std::size_t>(node)].children.size() == 4);
         for (const char* part : {"bolt", "washer_head", "washer_nut", "nut"})
             CHECK(node_named(model, std::string(expected.id) + "_" + part) >= 0);
-        // Where the CAD had the nut, it still is.
+        // The nut keeps its position.
         const glm::dmat4 nut = world(model, node_named(model, std::string(expected.id) + "_nut"));
         CHECK(glm::length(Vec3(nut[3]) * 1e3 - (expected.seat_mm + 3.0 * expected.axis)) < 1e-3);
     }
 }
 
-TEST_CASE("a group joint_ID of the author's own gives the id, and stays") {
+TEST_CASE("Import: a group joint_ID in the file gives the id and keeps its pose") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("cover");
@@ -149,7 +149,7 @@ TEST_CASE("a group joint_ID of the author's own gives the id, and stays") {
     CHECK(node_named(model, "F1_washer_nut") >= 0);
 }
 
-TEST_CASE("a group whose origin is beside the hole is said to be") {
+TEST_CASE("Import: a group whose origin is off the hole gives a remark") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("cover");
@@ -166,7 +166,7 @@ TEST_CASE("a group whose origin is beside the hole is said to be") {
     CHECK(draft(folder / "out" / "assembly.json")["joints"][0]["position_mm"] == json({0, 48, 0}));
 }
 
-TEST_CASE("no joint where there is none: other axis, no hexagon, no nut, wrong width") {
+TEST_CASE("Import: bolts and nuts that form no joint give a remark each") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("parts");
@@ -186,8 +186,8 @@ TEST_CASE("no joint where there is none: other axis, no hexagon, no nut, wrong w
     CHECK(imported.report.joints == 0);
     CHECK_FALSE(std::filesystem::exists(folder / "out" / "assembly.json"));
     CHECK(node_named(load(folder / "out" / "parts.glb"), "lonely_bolt") >= 0);
-    // After the remark on the missing colour each fastener has its reason (the odd nut is named with its
-    // bolt), and the last remark names the next step.
+    // The first remark is about the missing colour, then each fastener has one with its reason (the odd nut
+    // is named in that of its bolt), and the last remark names the next step.
     const std::vector<std::string>& all = imported.report.remarks;
     REQUIRE(!all.empty());
     CHECK(all.front().starts_with("material "));
@@ -209,7 +209,7 @@ TEST_CASE("no joint where there is none: other axis, no hexagon, no nut, wrong w
     }
 }
 
-TEST_CASE("every size from M4 to M39 is told by its bolt, fine threads by the nut's hole") {
+TEST_CASE("Import: the bolt gives the size from M4 to M39, and the hole of the nut gives a fine thread") {
     struct Case {
         const char* size;
         double d, flats, head, nut, hole, length;
@@ -242,7 +242,7 @@ TEST_CASE("every size from M4 to M39 is told by its bolt, fine threads by the nu
     }
 }
 
-TEST_CASE("a draft never takes the place of the author's own file") {
+TEST_CASE("Import: a draft never replaces the author's own file") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("plates");
@@ -252,7 +252,7 @@ TEST_CASE("a draft never takes the place of the author's own file") {
     maker.write(folder / "plates.step");
     REQUIRE(import(folder / "plates.step", folder / "out").ok());
     const std::string first = bytes(folder / "out" / "assembly.json");
-    REQUIRE(import(folder / "plates.step", folder / "out").ok());  // the same again: nothing new to say
+    REQUIRE(import(folder / "plates.step", folder / "out").ok());  // an identical draft is not written again
     CHECK_FALSE(std::filesystem::exists(folder / "out" / "assembly.draft.json"));
     std::filesystem::resize_file(folder / "out" / "assembly.json", 3);
     REQUIRE(import(folder / "plates.step", folder / "out").ok());
@@ -260,11 +260,11 @@ TEST_CASE("a draft never takes the place of the author's own file") {
     CHECK(bytes(folder / "out" / "assembly.draft.json") == first);
 }
 
-TEST_CASE("flanges with raised faces and a gasket inside the bolts: all of it is clamped") {
+TEST_CASE("Import: raised faces and the gasket of a flange count as clamped members") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("flanges");
-    // 18 mm at the bolts, a raised face of 3 mm in the middle, a gasket of 2 mm between the two.
+    // Flanges of 18 mm at the bolts with a raised face of 3 mm in the middle; a gasket of 2 mm between them.
     const TopoDS_Shape plain = BRepPrimAPI_MakeCylinder(100.0, 18.0).Shape();
     const TopoDS_Shape face =
         BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0.0, 0.0, 18.0), gp::DZ()), 50.0, 3.0).Shape();
@@ -297,7 +297,7 @@ TEST_CASE("flanges with raised faces and a gasket inside the bolts: all of it is
     CHECK(members[0] == json({{"thickness_mm", 21}, {"material", "steel"}}));
     CHECK(members[1] == json({{"thickness_mm", 2}, {"material", "gasket"}}));
     CHECK(members[2] == json({{"thickness_mm", 21}, {"material", "steel"}}));
-    // Four on a circle: the second is opposite the first.
+    // Of four joints on a circle, the second is opposite to the first.
     const json& order = file["order"];
     const auto place = [&](const json& id) {
         for (const json& joint : file["joints"])

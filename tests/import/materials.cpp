@@ -1,4 +1,4 @@
-// The table of materials: the shipped one, an author's own over it, its mistakes, and what is guessed.
+// The table of materials: the shipped one, overrides by the author, errors, and guessed materials.
 #include <doctest/doctest.h>
 
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -26,12 +26,12 @@ MaterialTable shipped() {
     return table;
 }
 
-std::string picked(const MaterialTable& table, const Appearance& appearance) {
+std::string picked_material(const MaterialTable& table, const FaceAppearance& appearance) {
     MaterialPicker picker(table);
     return picker.materials()[static_cast<std::size_t>(picker.pick(appearance))].name;
 }
 
-std::vector<Error> mistakes(const std::string& text) {
+std::vector<Error> errors_of(const std::string& text) {
     MaterialTable table;
     std::vector<Error> errors;
     read_materials(text, "materials.json", table, errors);
@@ -40,7 +40,7 @@ std::vector<Error> mistakes(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE("every colour of the CAD palette means its material") {
+TEST_CASE("Import: every colour of the CAD palette selects its material") {
     const MaterialTable table = shipped();
     const std::pair<const char*, const char*> palette[] = {
         {"painted_cast_iron", "#2F5D62"},
@@ -64,56 +64,57 @@ TEST_CASE("every colour of the CAD palette means its material") {
         const char* const name = entry.first;
         const char* const colour = entry.second;
         CAPTURE(name);
-        CHECK(picked(table, {parse_hex(colour), "", "", "anything"}) == name);
-        // A float or a rounding of the CAD program's does not make another colour of it.
+        CHECK(picked_material(table, {parse_hex(colour), "", "", "anything"}) == name);
+        // A rounding error of the CAD program does not change the colour.
         Colour off = *parse_hex(colour);
         off.r = std::min(1.0, off.r + 0.0015);
-        CHECK(picked(table, {off, "", "", ""}) == name);
+        CHECK(picked_material(table, {off, "", "", ""}) == name);
     }
     CHECK(table.materials.size() == std::size(palette));
     for (const TableMaterial& material : table.materials) {
         CAPTURE(material.name);
-        // A metal or none: nothing in between but what is itself a mixture.
+        // Only mixtures are neither metal nor dielectric.
         const bool mixed = material.name == "black_oxide" || material.name == "oil_film";
-        CHECK((mixed || material.look.metallic == 0.0F || material.look.metallic == 1.0F));
-        CHECK(material.look.roughness >= 0.04F);
+        CHECK((mixed || material.pbr.metallic == 0.0F || material.pbr.metallic == 1.0F));
+        CHECK(material.pbr.roughness >= 0.04F);
     }
 }
 
 TEST_CASE(
-    "names: the CAD's material before the face before the part; the longest pattern; paint keeps its "
-    "colour") {
+    "Import: the CAD material comes before face and part names, the longest pattern wins, and paint keeps "
+    "its colour") {
     const MaterialTable table = shipped();
-    CHECK(picked(table, {{}, "", "", "casing_upper"}) == "painted_cast_iron");
-    CHECK(picked(table, {{}, "", "", "O-Ring 40x3"}) == "rubber");
-    CHECK(picked(table, {{}, "A2-70", "", "bolt_M16"}) == "stainless_steel");
-    CHECK(picked(table, {{}, "", "brass insert", "bolt_M16"}) == "brass");
-    CHECK(picked(table, {{}, "", "", "stainless steel bolt"}) == "stainless_steel");
-    CHECK(picked(table, {parse_hex("#8899AA"), "", "", "casing_upper"}) == "painted_cast_iron_8899AA");
-    CHECK(picked(table, {parse_hex("#8899AA"), "", "", "bolt_M16"}) == "zinc_plated");
+    CHECK(picked_material(table, {{}, "", "", "casing_upper"}) == "painted_cast_iron");
+    CHECK(picked_material(table, {{}, "", "", "O-Ring 40x3"}) == "rubber");
+    CHECK(picked_material(table, {{}, "A2-70", "", "bolt_M16"}) == "stainless_steel");
+    CHECK(picked_material(table, {{}, "", "brass insert", "bolt_M16"}) == "brass");
+    CHECK(picked_material(table, {{}, "", "", "stainless steel bolt"}) == "stainless_steel");
+    CHECK(picked_material(table, {parse_hex("#8899AA"), "", "", "casing_upper"}) ==
+          "painted_cast_iron_8899AA");
+    CHECK(picked_material(table, {parse_hex("#8899AA"), "", "", "bolt_M16"}) == "zinc_plated");
 }
 
-TEST_CASE("an unknown colour becomes a plausible surface of that colour") {
+TEST_CASE("Import: an unknown colour gives a plausible material of that colour") {
     const MaterialTable table = shipped();
     MaterialPicker picker(table);
-    const auto look = [&](const char* colour, double alpha = 1.0) {
+    const auto guessed = [&](const char* colour, double alpha = 1.0) {
         Colour parsed = *parse_hex(colour);
         parsed.alpha = alpha;
         return picker.materials()[static_cast<std::size_t>(picker.pick({parsed, "", "", "x"}))];
     };
-    CHECK(look("#808284").metallic == 1.0F);
-    CHECK(look("#101012").metallic == 0.0F);
-    CHECK(look("#3366CC").metallic == 0.0F);
-    CHECK(look("#3366CC").clearcoat > 0.0F);
-    CHECK(look("#FFFFFF").metallic == 0.0F);
-    CHECK(look("#3366CC", 0.5).alpha_mode == assets::AlphaMode::blend);
-    // glTF is linear: IEC 61966-2-1, 0x33 = 0.2 -> 0.0331.
-    CHECK(look("#3366CC").base_color.r == doctest::Approx(0.0331).epsilon(0.002));
-    CHECK(picker.guesses().size() == 5);  // one name each, told to the author
-    CHECK(picked(table, {}) == "no_colour");
+    CHECK(guessed("#808284").metallic == 1.0F);
+    CHECK(guessed("#101012").metallic == 0.0F);
+    CHECK(guessed("#3366CC").metallic == 0.0F);
+    CHECK(guessed("#3366CC").clearcoat > 0.0F);
+    CHECK(guessed("#FFFFFF").metallic == 0.0F);
+    CHECK(guessed("#3366CC", 0.5).alpha_mode == assets::AlphaMode::blend);
+    // glTF colours are linear; IEC 61966-2-1: 0x33 = 0.2 → 0.0331.
+    CHECK(guessed("#3366CC").base_color.r == doctest::Approx(0.0331).epsilon(0.002));
+    CHECK(picker.guesses().size() == 5);  // one name each
+    CHECK(picked_material(table, {}) == "no_colour");
 }
 
-TEST_CASE("an author's materials.json in the folder stands over the shipped one") {
+TEST_CASE("Import: materials.json in the output folder overrides the shipped one") {
     const Folder folder;
     StepMaker maker;
     maker.part("thing", BRepPrimAPI_MakeBox(1.0, 2.0, 3.0).Shape(), "#2F5D62");
@@ -134,21 +135,21 @@ TEST_CASE("an author's materials.json in the folder stands over the shipped one"
     CHECK(imported.errors[0].code == ErrorCode::bad_content);
 }
 
-TEST_CASE("mistakes in a table of materials are found, each at its place") {
-    CHECK(mistakes(R"({ "materials": {} })").empty());
-    CHECK(mistakes(R"({ "material": {} })").size() == 1);
-    CHECK(mistakes("[]").size() == 1);
-    CHECK(mistakes("{").size() == 1);
-    CHECK(mistakes(R"({ "materials": { "a": 3 } })").size() == 1);
-    CHECK(mistakes(R"({ "materials": { "a": { "base_color": "red" } } })").size() == 1);
-    CHECK(mistakes(R"({ "materials": { "a": { "colors": ["#12345"] } } })").size() == 1);
-    CHECK(mistakes(R"({ "materials": { "a": { "metallic": 2, "roughness": "low", "tint": 1 } } })").size() ==
+TEST_CASE("Import: errors in materials.json are found") {
+    CHECK(errors_of(R"({ "materials": {} })").empty());
+    CHECK(errors_of(R"({ "material": {} })").size() == 1);
+    CHECK(errors_of("[]").size() == 1);
+    CHECK(errors_of("{").size() == 1);
+    CHECK(errors_of(R"({ "materials": { "a": 3 } })").size() == 1);
+    CHECK(errors_of(R"({ "materials": { "a": { "base_color": "red" } } })").size() == 1);
+    CHECK(errors_of(R"({ "materials": { "a": { "colors": ["#12345"] } } })").size() == 1);
+    CHECK(errors_of(R"({ "materials": { "a": { "metallic": 2, "roughness": "low", "tint": 1 } } })").size() ==
           3);
-    CHECK(mistakes(R"({ "materials": { "a": { "colors": ["#123456"] }, "b": { "colors": ["#123456"] } } })")
+    CHECK(errors_of(R"({ "materials": { "a": { "colors": ["#123456"] }, "b": { "colors": ["#123456"] } } })")
               .size() == 1);
 }
 
-TEST_CASE("the schema of materials has every key that is read, and no other") {
+TEST_CASE("Import: the schema of materials has exactly the keys that are read") {
     const json schema = json::parse(bytes(content::content_folder() / "schema" / "materials.schema.json"));
     MaterialTable table;
     std::vector<Error> errors;
@@ -163,31 +164,31 @@ TEST_CASE("the schema of materials has every key that is read, and no other") {
     CHECK(schema["definitions"]["material"]["additionalProperties"] == false);
 }
 
-TEST_CASE("patterns and names") {
+TEST_CASE("Import: name patterns, generic names, cleaning and uniqueness") {
     CHECK(matches("*bolt*", "hex_BOLT_M16"));
     CHECK(matches("a*b*c", "aXbbYc"));
     CHECK(matches("*", ""));
     CHECK_FALSE(matches("*bolt", "bolts"));
     CHECK_FALSE(matches("", "x"));
-    CHECK(telling("casing"));
-    CHECK(telling("Solid oak"));
+    CHECK(is_meaningful_name("casing"));
+    CHECK(is_meaningful_name("Solid oak"));
     for (const char* dull :
          {"", "NAUO12", "=>[0:1:1:2]", "SOLID", "Part 3", "17", "Open CASCADE STEP translator 7.6 1"}) {
         CAPTURE(dull);
-        CHECK_FALSE(telling(dull));
+        CHECK_FALSE(is_meaningful_name(dull));
     }
     CHECK(clean_name("  a\tb\n ") == "ab");
     CHECK(clean_name("\xFF\xC3\xA4") == "\xEF\xBF\xBD\xC3\xA4");
-    CHECK(clean_name("\xED\xA0\x80").find('\xED') == std::string::npos);  // a surrogate is no character
+    CHECK(clean_name("\xED\xA0\x80").find('\xED') == std::string::npos);  // a surrogate is not a character
     UniqueNames names;
-    CHECK(names.take("a") == "a");
-    CHECK(names.take("a_2") == "a_2");
-    CHECK(names.take("a") == "a_3");
-    CHECK(names.take("") == "part");
+    CHECK(names.claim("a") == "a");
+    CHECK(names.claim("a_2") == "a_2");
+    CHECK(names.claim("a") == "a_3");
+    CHECK(names.claim("") == "part");
 }
 
 TEST_CASE(
-    "the lay of turned steel: tangents along the axis on the shaft, outward on its ends; paint has none") {
+    "Import: tangents of turned steel run along the shaft and outwards on its ends, and paint has none") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("root");

@@ -151,8 +151,8 @@ TopoDS_Shape ring(double outer, double inner, double height) {
         .Shape();
 }
 
-step_import::Imported import(const fs::path& step, const fs::path& folder,
-                             step_import::ImportOptions options) {
+step_import::ImportResult import(const fs::path& step, const fs::path& folder,
+                                 step_import::ImportOptions options) {
     options.step = step;
     options.folder = folder;
     auto imported = step_import::import_step(options, [](double, const std::string&) {});

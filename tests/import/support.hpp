@@ -1,4 +1,4 @@
-// STEP files made on the spot, so that every number a test expects is known in closed form.
+// Creates STEP files whose expected values are known in closed form, and reads the imported models.
 #pragma once
 
 #include <TDF_Label.hxx>
@@ -26,7 +26,7 @@ class StepMaker {
     StepMaker();
     TDF_Label part(const std::string& name, const TopoDS_Shape& shape, const std::string& colour = {});
     TDF_Label assembly(const std::string& name);
-    // OpenCASCADE's writer drops the name of what is not moved: a place of its own keeps it.
+    // The writer of OpenCASCADE drops the name of a component without a translation.
     TDF_Label place(const TDF_Label& parent, const TDF_Label& what, const std::string& name,
                     const gp_Trsf& where = {});
     void paint(const TDF_Label& label, const std::string& colour);
@@ -42,20 +42,20 @@ class StepMaker {
 
 gp_Trsf moved(double x, double y, double z);
 
-// A face of the shape whose outward normal is (x, y, z).
+// Returns the plane face with the outward normal (x, y, z); fails the test if there is none.
 TopoDS_Shape face_towards(const TopoDS_Shape& shape, double x, double y, double z);
 
-// Fasteners without threads, along +Z. Head below z = 0, shank from 0 to length; nut and washer from 0
-// upward.
+// Fasteners without threads, along +Z, mm. The head is below z = 0, the shank extends from 0 to `length`; nut
+// and washer extend from 0 upwards.
 TopoDS_Shape hexagon_bolt(double d, double flats, double head, double length);
 TopoDS_Shape hexagon_nut(double flats, double height, double hole);
 TopoDS_Shape ring(double outer, double inner, double height);
 
-step_import::Imported import(const std::filesystem::path& step, const std::filesystem::path& folder,
-                             step_import::ImportOptions options = {});
+step_import::ImportResult import(const std::filesystem::path& step, const std::filesystem::path& folder,
+                                 step_import::ImportOptions options = {});
 
 assets::Model load(const std::filesystem::path& glb);
-int node_named(const assets::Model& model, const std::string& name);  // −1: there is none
+int node_named(const assets::Model& model, const std::string& name);  // index; −1 if there is none
 glm::dmat4 world(const assets::Model& model, int node);
 double volume(const assets::Mesh& mesh);  // m³, of a closed mesh
 std::string bytes(const std::filesystem::path& file);

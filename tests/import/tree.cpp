@@ -1,4 +1,4 @@
-// What survives of an assembly: names, instances, placements, colours.
+// The tree of an assembly after the import: names, instances, placements and colours.
 #include <doctest/doctest.h>
 
 #include <BRepPrimAPI_MakeBox.hxx>
@@ -25,7 +25,7 @@ std::string material_of(const assets::Model& model, const std::string& node) {
 
 }  // namespace
 
-TEST_CASE("a part used twelve times is one mesh and twelve nodes, each where it was put") {
+TEST_CASE("Import: a part used twelve times gives one mesh and twelve nodes at their places") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("rack");
@@ -58,7 +58,7 @@ TEST_CASE("a part used twelve times is one mesh and twelve nodes, each where it 
     }
 }
 
-TEST_CASE("turned sub-assemblies: every corner is where the CAD has it, and local +Z is local +Y") {
+TEST_CASE("Import: rotated sub-assemblies keep every corner, and local +Z becomes local +Y") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("root");
@@ -79,19 +79,19 @@ TEST_CASE("turned sub-assemblies: every corner is where the CAD has it, and loca
     REQUIRE(node >= 0);
     const glm::dmat4 matrix = world(model, node);
     for (const gp_Pnt& corner : {gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0), gp_Pnt(0, 20, 0), gp_Pnt(10, 20, 30)}) {
-        const gp_Pnt there = corner.Transformed(outer * inner);
-        const glm::dvec4 ours =
+        const gp_Pnt expected = corner.Transformed(outer * inner);
+        const glm::dvec4 actual =
             matrix * glm::dvec4(corner.X() * 1e-3, corner.Z() * 1e-3, -corner.Y() * 1e-3, 1.0);
-        CHECK(ours.x * 1e3 == doctest::Approx(there.X()).epsilon(1e-5));
-        CHECK(ours.y * 1e3 == doctest::Approx(there.Z()).epsilon(1e-5));
-        CHECK(ours.z * 1e3 == doctest::Approx(-there.Y()).epsilon(1e-5));
+        CHECK(actual.x * 1e3 == doctest::Approx(expected.X()).epsilon(1e-5));
+        CHECK(actual.y * 1e3 == doctest::Approx(expected.Z()).epsilon(1e-5));
+        CHECK(actual.z * 1e3 == doctest::Approx(-expected.Y()).epsilon(1e-5));
     }
     const gp_Dir up = gp_Dir(0.0, 0.0, 1.0).Transformed(outer);
     const glm::dvec4 y = world(model, node_named(model, "arm_1")) * glm::dvec4(0.0, 1.0, 0.0, 0.0);
     CHECK(std::abs(y.x - up.X()) + std::abs(y.y - up.Z()) + std::abs(y.z + up.Y()) < 1e-6);
 }
 
-TEST_CASE("names of several languages survive; a name used twice gets a number, the same every time") {
+TEST_CASE("Import: names in several languages survive, and a duplicate name gets a reproducible number") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("Gehäuse 减速器");
@@ -99,7 +99,8 @@ TEST_CASE("names of several languages survive; a name used twice gets a number, 
     const TDF_Label b = maker.part("Boden", BRepPrimAPI_MakeBox(2.0, 2.0, 3.0).Shape());
     maker.place(root, a, "Flansch Ø20", moved(1.0, 0.0, 0.0));
     maker.place(root, b, "Flansch Ø20", moved(9.0, 0.0, 0.0));
-    maker.place(root, b, "NAUO7", moved(19.0, 0.0, 0.0));  // an exporter's number: the part's name is better
+    maker.place(root, b, "NAUO7",
+                moved(19.0, 0.0, 0.0));  // a name made up by an exporter is replaced by that of the part
     maker.write(folder / "names.step");
     const auto imported = import(folder / "names.step", folder / "out");
     REQUIRE(imported.ok());
@@ -113,8 +114,7 @@ TEST_CASE("names of several languages survive; a name used twice gets a number, 
     for (const assets::Node& node : model.nodes) CHECK(unique.insert(node.name).second);
 }
 
-TEST_CASE(
-    "colours of shape, face, use and assembly become materials; a face is meant more exactly than a use") {
+TEST_CASE("Import: colours of shape, face, use and assembly select materials; a face overrides its use") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("root");
@@ -143,7 +143,7 @@ TEST_CASE(
     };
     CHECK(mesh("brass_1") == mesh("brass_2"));
     CHECK(mesh("brass_1") != mesh("black_1"));
-    // The casing: five painted faces in one primitive, the machined one in another.
+    // The casing has five painted faces in one primitive and the machined face in another.
     const auto& casing = model.meshes[static_cast<std::size_t>(mesh("casing_a"))].primitives;
     REQUIRE(casing.size() == 2);
     for (const assets::Primitive& primitive : casing) {
@@ -152,12 +152,12 @@ TEST_CASE(
         CHECK(primitive.indices.size() == (name == "painted_cast_iron" ? 30U : 6U));
         if (name != "painted_cast_iron") CHECK(name == "machined_cast_iron");
     }
-    // One closed contact mesh a part all the same.
+    // Each part still has one closed contact mesh.
     CHECK(load(folder / "out" / "colours.contact.glb").meshes.size() == 3);
     for (const step_import::PartReport& part : imported.report.parts) CHECK(part.open_edges == 0);
 }
 
-TEST_CASE("a colour given to one use two levels up reaches that use alone") {
+TEST_CASE("Import: a colour of an ancestor does not override the colour of a part") {
     const Folder folder;
     StepMaker maker;
     const TDF_Label root = maker.assembly("root");
@@ -170,7 +170,7 @@ TEST_CASE("a colour given to one use two levels up reaches that use alone") {
     maker.write(folder / "levels.step");
     REQUIRE(import(folder / "levels.step", folder / "out").ok());
     const assets::Model model = load(folder / "out" / "levels.glb");
-    // The part has a colour of its own, which is nearer to it than the group's.
+    // The colour of the part takes priority over that of the group.
     CHECK(material_of(model, "left") == "machined_steel");
     CHECK(material_of(model, "left_2") == "machined_steel");
     CHECK(model.nodes.size() == 7);

@@ -26,7 +26,7 @@ Resistance constant(double torque) {
 struct Bench {
     double dt = 1e-3;
     Resistance held_by = constant(fixed);
-    Handle handle;
+    DriveHandle handle;
     NutMotion nut;
     NutStep last;
     double hand = 0.0, work = 0.0;  // rad, and J that the hand put in
@@ -201,7 +201,7 @@ TEST_CASE("Torque wrench: it never generates energy with random hands and nuts a
 TEST_CASE("Torque wrench: under every law a joint is tightened to the click, the same to the bit each time") {
     const auto run = [](const GroupParameters& group, double dt, double trips) {
         std::vector<JointState> joints = initial_state(group, 1);
-        Handle handle;
+        DriveHandle handle;
         handle.engaged = true;
         handle.stiffness = stiffness;
         handle.half_play = play;

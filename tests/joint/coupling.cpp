@@ -10,8 +10,8 @@ using namespace bolt::joint;
 
 namespace {
 
-Handle spring(double angle, double half_play, double stiffness = 2000.0) {
-    Handle handle;
+DriveHandle spring(double angle, double half_play, double stiffness = 2000.0) {
+    DriveHandle handle;
     handle.engaged = true;
     handle.angle = angle;
     handle.half_play = half_play;
@@ -27,7 +27,7 @@ Resistance constant(double tighten, double loosen, double lead = 0.0) {
     return r;
 }
 
-double stored(const Handle& handle, double nut) {
+double stored(const DriveHandle& handle, double nut) {
     const double gap = handle.angle - nut;
     return 0.5 * handle.stiffness * square(std::max(0.0, std::abs(gap) - handle.half_play));
 }
@@ -87,7 +87,7 @@ TEST_CASE(
             const Resistance r = constant(drag, -drag);
             const double frequency = random.uniform(0.5, 8.0), reach = random.uniform(0.02, 0.6);
             NutMotion nut;
-            Handle handle = spring(0.0, to_radians(2.5));
+            DriveHandle handle = spring(0.0, to_radians(2.5));
             double given = 0.0;
             const double start = stored(handle, nut.angle);
             for (double t = dt; t < 3.0; t += dt) {
@@ -114,7 +114,7 @@ TEST_CASE("Hand and nut: a jaw at rest does not hold back a fast nut") {
 
 TEST_CASE("Hand and nut: fingers slow a faster nut with their limit torque in both directions") {
     for (const double sign : {1.0, -1.0}) {
-        Handle fingers = spring(0.0, 0.0, 5.0);
+        DriveHandle fingers = spring(0.0, 0.0, 5.0);
         fingers.torque_limit = 0.03;
         // 1e-5 kg m2 at 20 rad/s over 1 ms is 0.2 N m, less 0.02 of drag and 0.03 of the fingers: 15 rad/s.
         const NutStep step = step_nut(constant(0.02, -0.02), 1e-5, {0.0, 20.0 * sign}, fingers, 1e-3);

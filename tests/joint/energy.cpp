@@ -97,7 +97,7 @@ TEST_CASE("Energy: equal runs have equal bits") {
             const GroupParameters group = test::single(test::random_joint(random));
             std::vector<JointState> joints = initial_state(group, 1);
             for (int i = 0; i < 2000; ++i) {
-                Handle handle;
+                DriveHandle handle;
                 handle.engaged = true;
                 handle.angle = 2e-3 * i + 0.1 * std::sin(0.05 * i);
                 handle.stiffness = 500.0;
@@ -122,7 +122,7 @@ TEST_CASE("Energy: jumps of many turns and reversals every step give finite resu
         const GroupParameters group = test::single(test::random_joint(random));
         std::vector<JointState> joints = initial_state(group, 1);
         for (int i = 0; i < 400; ++i) {
-            Handle handle;
+            DriveHandle handle;
             handle.engaged = random.chance(0.9);
             handle.angle = random.uniform(-1.0, 1.0) * std::pow(10.0, random.uniform(-3.0, 3.0));
             handle.stiffness = std::pow(10.0, random.uniform(0.0, 5.0));

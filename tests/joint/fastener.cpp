@@ -9,7 +9,7 @@ using namespace bolt;
 using namespace bolt::joint;
 
 TEST_CASE("Fasteners: M16x2 is the thread of ISO 724 and ISO 898-1") {
-    const Thread t = metric_thread(16e-3, 2e-3);
+    const ScrewThread t = metric_thread(16e-3, 2e-3);
     CHECK(t.d2 * 1e3 == doctest::Approx(14.701).epsilon(1e-4));
     CHECK(t.d3 * 1e3 == doctest::Approx(13.546).epsilon(1e-4));
     CHECK(t.A_s * 1e6 == doctest::Approx(156.67).epsilon(1e-4));

@@ -105,7 +105,7 @@ TEST_CASE("Flange: the sweep converges to the solution of the coupled equations"
     for (int round = 0; round < 3; ++round)
         for (std::size_t i = 0; i < 6; ++i)
             while (joints[i].clamp < 15e3) turn_nut(group, joints, i, joints[i].nut.angle + 1e-3, 1.0, 1e-3);
-    for (int k = 0; k < 50; ++k) step_group(group, joints, -1, Handle{}, 1e-3);
+    for (int k = 0; k < 50; ++k) step_group(group, joints, -1, DriveHandle{}, 1e-3);
     for (std::size_t i = 0; i < 6; ++i) {
         const MechanisticParameters& p = group.joints[i];
         const MechanisticState& s = joints[i].mechanistic;

@@ -9,8 +9,8 @@ using namespace bolt::joint;
 
 namespace {
 
-Handle spring(double angle, double half_play = 0.0) {
-    Handle handle;
+DriveHandle spring(double angle, double half_play = 0.0) {
+    DriveHandle handle;
     handle.engaged = true;
     handle.angle = angle;
     handle.stiffness = 2000.0;
@@ -30,7 +30,7 @@ struct Tight {
     Tight() {
         while (joints[0].clamp < 40e3) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
         joints[0].nut.speed = 0.0;
-        for (int i = 0; i < 3000; ++i) step_group(group, joints, -1, Handle{}, 1e-3);
+        for (int i = 0; i < 3000; ++i) step_group(group, joints, -1, DriveHandle{}, 1e-3);
     }
 };
 
@@ -81,7 +81,7 @@ TEST_CASE("Nut: turned slowly it follows the hand at exactly the running torque"
 TEST_CASE("Nut: after release it stays: tension does not unscrew it") {
     Tight tight;
     const double stands_at = tight.joints[0].nut.angle;
-    for (int i = 0; i < 10'000; ++i) step_group(tight.group, tight.joints, 0, Handle{}, 1e-3);
+    for (int i = 0; i < 10'000; ++i) step_group(tight.group, tight.joints, 0, DriveHandle{}, 1e-3);
     CHECK(tight.joints[0].nut.angle == stands_at);
     CHECK(tight.joints[0].torque == 0.0);
 }
@@ -103,7 +103,7 @@ TEST_CASE("Nut: there is no torque within the backlash, and it rises continuousl
 
 TEST_CASE("Nut: fingers slip at their limit torque") {
     Tight tight;
-    Handle fingers = spring(tight.joints[0].nut.angle + 1.0);
+    DriveHandle fingers = spring(tight.joints[0].nut.angle + 1.0);
     fingers.stiffness = 5.0;
     fingers.torque_limit = 0.8;
     step_group(tight.group, tight.joints, 0, fingers, 1e-3);

@@ -8,23 +8,23 @@
 
 namespace bolt::test {
 
-bool becomes(const std::function<bool()>& so, double seconds) {
-    for (const double until = device::steady_seconds() + seconds; !so();) {
-        if (device::steady_seconds() > until) return false;
+bool holds_within(const std::function<bool()>& condition, double seconds) {
+    for (const double deadline = device::steady_seconds() + seconds; !condition();) {
+        if (device::steady_seconds() > deadline) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return true;
 }
 
-emulate::Uhid plugged(std::unique_ptr<emulate::HidDevice> device) {
+emulate::Uhid attach(std::unique_ptr<emulate::HidDevice> device) {
     auto plug = emulate::Uhid::plug_in(std::move(device));
     REQUIRE_MESSAGE(plug, (plug ? "" : plug.error().message()));
     return std::move(*plug);
 }
 
-device::ListedDevice listed(const std::string& id) {
+device::ListedDevice wait_for_device(const std::string& id) {
     device::ListedDevice found;
-    const auto is_there = [&] {
+    const auto appears = [&] {
         for (const device::ListedDevice& l : device::list_devices())
             if (l.id == id) {
                 found = l;
@@ -32,11 +32,11 @@ device::ListedDevice listed(const std::string& id) {
             }
         return false;
     };
-    REQUIRE_MESSAGE(becomes(is_there), id << " does not appear");
+    REQUIRE_MESSAGE(holds_within(appears), id << " does not appear");
     return found;
 }
 
-bool holds_for_nobody(const std::function<bool()>& check) {
+bool holds_unprivileged(const std::function<bool()>& check) {
     const pid_t child = fork();
     if (child == 0) {
         if (setgid(65534) != 0 || setuid(65534) != 0) _exit(2);

@@ -13,21 +13,22 @@
 
 namespace bolt::test {
 
-// Polls until the condition holds; times out after this many seconds.
-bool becomes(const std::function<bool()>& so, double seconds = 5.0);
+// Polls the condition. Returns true when it holds, false after `seconds`.
+bool holds_within(const std::function<bool()>& condition, double seconds = 5.0);
 
-emulate::Uhid plugged(std::unique_ptr<emulate::HidDevice> device);
+// Plugs an emulated device into the kernel.
+emulate::Uhid attach(std::unique_ptr<emulate::HidDevice> device);
 
-// The device of that id, when the kernel has made its node.
-device::ListedDevice listed(const std::string& id);
+// Waits until the kernel has created the node of the device with this id.
+device::ListedDevice wait_for_device(const std::string& id);
 
 // Runs the check as an unprivileged user; returns its result.
-bool holds_for_nobody(const std::function<bool()>& check);
+bool holds_unprivileged(const std::function<bool()>& check);
 
-// Calls `look` with the emulated device, as its type.
-template <class Device, class Look>
-void with(const emulate::Uhid& plug, const Look& look) {
-    plug.with([&](emulate::HidDevice& device) { look(dynamic_cast<Device&>(device)); });
+// Calls `action` with the emulated device as its own type.
+template <class Device, class Action>
+void with(const emulate::Uhid& plug, const Action& action) {
+    plug.with([&](emulate::HidDevice& device) { action(dynamic_cast<Device&>(device)); });
 }
 
 }  // namespace bolt::test

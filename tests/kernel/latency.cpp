@@ -19,10 +19,10 @@ constexpr std::size_t reports = 1000;
 
 struct Times {
     std::array<std::atomic<double>, reports> sent{};
-    std::array<std::atomic<double>, reports> heard{};
+    std::array<std::atomic<double>, reports> received{};
 };
 
-// Numbers its reports, one every millisecond: no device is faster.
+// A device that sends a numbered report every millisecond, the rate of the fastest supported devices.
 class Metronome : public emulate::HidDevice {
   public:
     explicit Metronome(Times& times) : times_(times) {
@@ -41,7 +41,7 @@ class Metronome : public emulate::HidDevice {
     }
     void output(std::span<const std::uint8_t> report) override {
         const std::size_t n = report[1] | static_cast<std::size_t>(report[2]) << 8U;
-        if (n < reports) times_.heard[n] = steady_seconds();
+        if (n < reports) times_.received[n] = steady_seconds();
     }
     void set_feature(std::span<const std::uint8_t>) override {}
     emulate::Bytes get_feature(std::uint8_t) override { return {}; }
@@ -53,47 +53,47 @@ class Metronome : public emulate::HidDevice {
     double next_ = 0.0;
 };
 
-void tell(const std::string& what, std::vector<double>& took) {
-    std::sort(took.begin(), took.end());
+void print_latency(const std::string& what, std::vector<double>& latencies) {
+    std::sort(latencies.begin(), latencies.end());
     const auto at = [&](double share) {
-        return took[static_cast<std::size_t>(share * static_cast<double>(took.size() - 1))] * 1e3;
+        return latencies[static_cast<std::size_t>(share * static_cast<double>(latencies.size() - 1))] * 1e3;
     };
     MESSAGE(what << ": p50 " << at(0.5) << " ms, p99 " << at(0.99) << " ms, worst " << at(1.0) << " ms of "
-                 << took.size());
+                 << latencies.size());
 }
 
 }  // namespace
 
 TEST_CASE("Kernel: reports and commands pass within one device period") {
     Times times;
-    const auto plug = plugged(std::make_unique<Metronome>(times));
-    const ListedDevice l = listed("1209:ffb0");
-    auto line = open_hid(l.path);
-    REQUIRE(line);
-    std::vector<double> reads, writes, orders;
+    const auto plug = attach(std::make_unique<Metronome>(times));
+    const ListedDevice l = wait_for_device("1209:ffb0");
+    auto transport = open_hid(l.path);
+    REQUIRE(transport);
+    std::vector<double> reads, writes, round_trips;
     std::size_t last = 0;
     while (last + 1 < reports) {
-        const auto report = (*line)->read(0.5);
+        const auto report = (*transport)->read(0.5);
         REQUIRE(report);
         REQUIRE(!report->empty());
         const double now = steady_seconds();
         last = (*report)[1] | static_cast<std::size_t>((*report)[2]) << 8U;
         reads.push_back(now - times.sent[last]);
-        emulate::Bytes order(4);
-        order[0] = 5;
-        order[1] = (*report)[1];
-        order[2] = (*report)[2];
-        REQUIRE((*line)->write(order));
+        emulate::Bytes command(4);
+        command[0] = 5;
+        command[1] = (*report)[1];
+        command[2] = (*report)[2];
+        REQUIRE((*transport)->write(command));
         writes.push_back(steady_seconds() - now);
     }
     CHECK(reads.size() > reports / 2);
-    CHECK(becomes([&] { return times.heard[last] > 0.0; }));
+    CHECK(holds_within([&] { return times.received[last] > 0.0; }));
     for (std::size_t i = 0; i < reports; ++i)
-        if (times.heard[i] > 0.0) orders.push_back(times.heard[i] - times.sent[i]);
-    tell("from the device to the reader", reads);
-    tell("a write", writes);
-    tell("from the device to the reader and back", orders);
+        if (times.received[i] > 0.0) round_trips.push_back(times.received[i] - times.sent[i]);
+    print_latency("from the device to the reader", reads);
+    print_latency("a write", writes);
+    print_latency("from the device to the reader and back", round_trips);
     CHECK(reads[reads.size() / 2] < 0.001);
     CHECK(reads[reads.size() * 99 / 100] < 0.001);
-    CHECK(orders.size() > reports / 2);
+    CHECK(round_trips.size() > reports / 2);
 }

@@ -12,9 +12,10 @@ using namespace bolt::test;
 
 namespace {
 
-class Plain : public emulate::HidDevice {
+class InertDevice : public emulate::HidDevice {
   public:
-    explicit Plain(emulate::Bytes descriptor, std::uint16_t vendor = 0x1234, std::uint16_t product = 1) {
+    explicit InertDevice(emulate::Bytes descriptor, std::uint16_t vendor = 0x1234,
+                         std::uint16_t product = 1) {
         design_ = {vendor, product, "Some device", "", std::move(descriptor)};
     }
     [[nodiscard]] const emulate::HidDescription& design() const override { return design_; }
@@ -30,9 +31,10 @@ class Plain : public emulate::HidDevice {
 }  // namespace
 
 TEST_CASE("Kernel: missing permission names the udev rule, and with permission the device works") {
-    const auto puck = plugged(std::make_unique<emulate::Puck>());
-    const auto wheel = plugged(std::make_unique<emulate::Wheel>(emulate::WheelOptions{.board = false}));
-    const ListedDevice a = listed("256f:c62e"), b = listed("1234:5678");
+    const auto puck = attach(std::make_unique<emulate::EmulatedPuck>());
+    const auto wheel =
+        attach(std::make_unique<emulate::EmulatedWheel>(emulate::EmulatedWheelOptions{.board = false}));
+    const ListedDevice a = wait_for_device("256f:c62e"), b = wait_for_device("1234:5678");
     const auto message = [](const std::string& id) {
         for (const ListedDevice& l : list_devices())
             if (l.id == id) return l.trouble ? l.trouble->message() : std::string("usable");
@@ -41,31 +43,31 @@ TEST_CASE("Kernel: missing permission names the udev rule, and with permission t
     REQUIRE(chmod(a.path.c_str(), 0600) == 0);
     REQUIRE(chmod(b.path.c_str(), 0600) == 0);
     CHECK(message(a.id) == "usable");  // to root
-    CHECK(holds_for_nobody([&] {
+    CHECK(holds_unprivileged([&] {
         return message(a.id).find("Permission denied") != std::string::npos &&
                message(a.id).find("60-boltwright.rules") != std::string::npos &&
                message(b.id).find("KERNELS==\"*:1234:5678.*\"") != std::string::npos;
     }));
-    CHECK(holds_for_nobody([&] {
+    CHECK(holds_unprivileged([&] {
         const auto device = factory_for(a.id)();
         return !device && !device.error().lost &&
                device.error().message().find("60-boltwright.rules") != std::string::npos;
     }));
     REQUIRE(chmod(a.path.c_str(), 0666) == 0);
-    CHECK(holds_for_nobody([&] { return message(a.id) == "usable" && factory_for(a.id)().has_value(); }));
-    CHECK(!holds_for_nobody([&] { return message(b.id) == "usable"; }));
+    CHECK(holds_unprivileged([&] { return message(a.id) == "usable" && factory_for(a.id)().has_value(); }));
+    CHECK(!holds_unprivileged([&] { return message(b.id) == "usable"; }));
 }
 
 TEST_CASE("Kernel: a keyboard in the same receiver does not change the puck's id") {
-    emulate::Items keys;
+    emulate::DescriptorBuilder keys;
     keys.page(1).usage(6).begin(1).page(7).usages(0xe0, 0xe7).range(0, 1).fields(8, 1).input(2).end();
-    const auto keyboard = plugged(std::make_unique<Plain>(keys.out, 0x256f, 0xc62e));
-    REQUIRE(becomes([] { return list_devices(true).size() == 1; }));
+    const auto keyboard = attach(std::make_unique<InertDevice>(keys.out, 0x256f, 0xc62e));
+    REQUIRE(holds_within([] { return list_devices(true).size() == 1; }));
     CHECK(list_devices().empty());
     CHECK(list_devices(true).front().kind == HidKind::other);
     CHECK(!factory_for("256f:c62e")());
-    const auto puck = plugged(std::make_unique<emulate::Puck>());
-    CHECK(listed("256f:c62e").kind == HidKind::puck);
+    const auto puck = attach(std::make_unique<emulate::EmulatedPuck>());
+    CHECK(wait_for_device("256f:c62e").kind == HidKind::puck);
     const auto all = list_devices(true);
     REQUIRE(all.size() == 2);
     CHECK(all[0].kind == HidKind::puck);
@@ -74,17 +76,17 @@ TEST_CASE("Kernel: a keyboard in the same receiver does not change the puck's id
 }
 
 TEST_CASE("Kernel: an unusable descriptor of a known device is reported") {
-    const auto wide = [] {  // more fields than we read
-        emulate::Items d;
+    const auto wide = [] {  // more fields than are supported
+        emulate::DescriptorBuilder d;
         d.page(0xff00).usage(1).begin(1).usage(1).range(0, 1).item(0x94, 4104, 2).item(0x74, 1, 1).input(2);
         return d.end().out;
     };
-    const auto unknown = plugged(std::make_unique<Plain>(wide()));
-    REQUIRE(becomes([] { return list_devices(true).size() == 1; }));
+    const auto unknown = attach(std::make_unique<InertDevice>(wide()));
+    REQUIRE(holds_within([] { return list_devices(true).size() == 1; }));
     CHECK(list_devices(true).front().trouble);
     CHECK(list_devices().empty());
-    const auto known = plugged(std::make_unique<Plain>(wide(), 0x256f, 0xc699));
-    const ListedDevice l = listed("256f:c699");
+    const auto known = attach(std::make_unique<InertDevice>(wide(), 0x256f, 0xc699));
+    const ListedDevice l = wait_for_device("256f:c699");
     CHECK(l.kind == HidKind::puck);
     REQUIRE(l.trouble);
     CHECK(l.trouble->message().find("4104 fields") != std::string::npos);
@@ -96,16 +98,16 @@ TEST_CASE("Kernel: malformed descriptors are rejected by the kernel or reported"
     for (int i = 0; i < 20; ++i) {
         emulate::Bytes garbage(40 + random.bits() % 200);
         for (auto& byte : garbage) byte = static_cast<std::uint8_t>(random.bits());
-        const auto plug = plugged(std::make_unique<Plain>(garbage));
-        static_cast<void>(becomes([] { return !list_devices(true).empty(); }, 0.02));
+        const auto plug = attach(std::make_unique<InertDevice>(garbage));
+        static_cast<void>(holds_within([] { return !list_devices(true).empty(); }, 0.02));
         for (const ListedDevice& l : list_devices(true)) CHECK((l.kind == HidKind::other || l.trouble));
     }
-    emulate::Items one_way;
+    emulate::DescriptorBuilder one_way;
     one_way.page(1).usage(4).begin(1).id(1).usage(0x30).range(-127, 127).fields(1, 8).input(2);
     one_way.page(15).usage(0x73).begin(2).id(5).usage(0x70).range(0, 127).fields(1, 8).output(2).end();
-    const auto plug = plugged(std::make_unique<Plain>(one_way.end().out));
-    const ListedDevice l = listed("1234:0001");
+    const auto plug = attach(std::make_unique<InertDevice>(one_way.end().out));
+    const ListedDevice l = wait_for_device("1234:0001");
     REQUIRE(l.trouble);
-    CHECK(l.trouble->message().find("one way only") != std::string::npos);
+    CHECK(l.trouble->message().find("one sign only") != std::string::npos);
     CHECK(!factory_for(l.id)());
 }

@@ -1,3 +1,4 @@
+// The SpaceMouse driver on a real kernel.
 #include "tools/emulate/puck.hpp"
 
 #include "tests/kernel/guest.hpp"
@@ -8,8 +9,8 @@ using namespace bolt::test;
 
 namespace {
 
-// The last sample within this time.
-Sample after(Device& device, double seconds) {
+// The last sample within `seconds`.
+Sample last_sample(DeviceDriver& device, double seconds) {
     std::optional<Sample> last;
     for (const double until = steady_seconds() + seconds; steady_seconds() < until;) {
         const auto sample = device.read(0.01);
@@ -28,8 +29,9 @@ TEST_CASE("Kernel: without devices the list is empty") {
 }
 
 TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
-    const auto plug = plugged(std::make_unique<emulate::Puck>(emulate::PuckOptions{.serial = "S1"}));
-    const ListedDevice l = listed("256f:c62e:S1");
+    const auto plug =
+        attach(std::make_unique<emulate::EmulatedPuck>(emulate::EmulatedPuckOptions{.serial = "S1"}));
+    const ListedDevice l = wait_for_device("256f:c62e:S1");
     CHECK(l.kind == HidKind::puck);
     CHECK(l.name == "Emulated SpaceMouse");
     CHECK(l.path.starts_with("/dev/hidraw"));
@@ -37,28 +39,29 @@ TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
     auto device = factory_for(l.id)();
     REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
     CHECK((*device)->describe().sensing == Sensing::rate);
-    with<emulate::Puck>(plug, [](emulate::Puck& p) { p.share = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}; });
-    const Sample pushed = after(**device, 0.1);
+    with<emulate::EmulatedPuck>(plug,
+                                [](emulate::EmulatedPuck& p) { p.share = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}; });
+    const Sample pushed = last_sample(**device, 0.1);
     CHECK(pushed.velocity.x == doctest::Approx(PuckResponse{}.speed));
     CHECK(pushed.angular_velocity.y == doctest::Approx(PuckResponse{}.turn_speed));
-    with<emulate::Puck>(plug, [](emulate::Puck& p) {
+    with<emulate::EmulatedPuck>(plug, [](emulate::EmulatedPuck& p) {
         p.share = {};
         p.buttons = 1;
     });
-    const Sample rests = after(**device, 0.1);
+    const Sample rests = last_sample(**device, 0.1);
     CHECK(rests.velocity == Vec3(0.0));
     CHECK(rests.buttons == 1U);
 }
 
 TEST_CASE("Kernel: unplugging while reading is a loss at once; after a replug it opens within 2 s") {
-    auto plug = std::make_unique<emulate::Uhid>(plugged(std::make_unique<emulate::Puck>()));
-    const std::string id = listed("256f:c62e").id;
+    auto plug = std::make_unique<emulate::Uhid>(attach(std::make_unique<emulate::EmulatedPuck>()));
+    const std::string id = wait_for_device("256f:c62e").id;
     const DeviceFactory open = factory_for(id);
     for (int round = 0; round < 5; ++round) {
         auto device = open();
         REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
-        with<emulate::Puck>(*plug, [](emulate::Puck& p) { p.share[0] = 0.5; });
-        CHECK(after(**device, 0.05).velocity.x > 0.0);
+        with<emulate::EmulatedPuck>(*plug, [](emulate::EmulatedPuck& p) { p.share[0] = 0.5; });
+        CHECK(last_sample(**device, 0.05).velocity.x > 0.0);
 
         plug.reset();
         const double unplugged = steady_seconds();
@@ -67,7 +70,7 @@ TEST_CASE("Kernel: unplugging while reading is a loss at once; after a replug it
             if (!sample) CHECK(sample.error().lost);
             return !sample;
         };
-        CHECK(becomes(lost));
+        CHECK(holds_within(lost));
         const double took = steady_seconds() - unplugged;
         CHECK(took < 0.02);
         device = fail(ErrorCode::failed, "closed");
@@ -75,34 +78,34 @@ TEST_CASE("Kernel: unplugging while reading is a loss at once; after a replug it
         REQUIRE(!gone);
         CHECK(gone.error().lost);
 
-        plug = std::make_unique<emulate::Uhid>(plugged(std::make_unique<emulate::Puck>()));
+        plug = std::make_unique<emulate::Uhid>(attach(std::make_unique<emulate::EmulatedPuck>()));
         const double again = steady_seconds();
-        CHECK(becomes([&] { return open().has_value(); }));
+        CHECK(holds_within([&] { return open().has_value(); }));
         const double usable = steady_seconds() - again;
         CHECK(usable < 2.0);
-        MESSAGE("told to be lost after " << took * 1e3 << " ms, usable " << usable * 1e3
-                                         << " ms after plugging in");
+        MESSAGE("loss reported after " << took * 1e3 << " ms, usable " << usable * 1e3
+                                       << " ms after plugging in");
     }
 }
 
 TEST_CASE("Kernel: two identical pucks have different ids") {
-    const auto one = plugged(std::make_unique<emulate::Puck>());
-    listed("256f:c62e");
-    const auto two = plugged(std::make_unique<emulate::Puck>());
-    listed("256f:c62e#2");
+    const auto one = attach(std::make_unique<emulate::EmulatedPuck>());
+    wait_for_device("256f:c62e");
+    const auto two = attach(std::make_unique<emulate::EmulatedPuck>());
+    wait_for_device("256f:c62e#2");
     auto first = factory_for("256f:c62e")(), second = factory_for("256f:c62e#2")();
     REQUIRE(first);
     REQUIRE(second);
-    with<emulate::Puck>(one, [](emulate::Puck& p) { p.share[0] = 1.0; });
-    CHECK(after(**first, 0.05).velocity.x > 0.0);
-    CHECK(after(**second, 0.05).velocity.x == 0.0);
+    with<emulate::EmulatedPuck>(one, [](emulate::EmulatedPuck& p) { p.share[0] = 1.0; });
+    CHECK(last_sample(**first, 0.05).velocity.x > 0.0);
+    CHECK(last_sample(**second, 0.05).velocity.x == 0.0);
 }
 
 TEST_CASE("Kernel: corrupt reports do not stop a puck") {
-    const auto plug = plugged(std::make_unique<emulate::Puck>(
-        emulate::PuckOptions{.faults = {.cut = 0.3, .strange = 0.2, .changed = 0.0, .seed = 2}}));
-    auto device = factory_for(listed("256f:c62e").id)();
+    const auto plug = attach(std::make_unique<emulate::EmulatedPuck>(emulate::EmulatedPuckOptions{
+        .faults = {.truncated = 0.3, .unknown_id = 0.2, .changed = 0.0, .seed = 2}}));
+    auto device = factory_for(wait_for_device("256f:c62e").id)();
     REQUIRE(device);
-    with<emulate::Puck>(plug, [](emulate::Puck& p) { p.share[0] = 1.0; });
-    CHECK(after(**device, 0.5).velocity.x == doctest::Approx(PuckResponse{}.speed));
+    with<emulate::EmulatedPuck>(plug, [](emulate::EmulatedPuck& p) { p.share[0] = 1.0; });
+    CHECK(last_sample(**device, 0.5).velocity.x == doctest::Approx(PuckResponse{}.speed));
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Boots Debian's stock kernel in a software machine with nothing in it but a program of tests, which plugs emulated devices
-# into that kernel and drives them. $1: the program, $2: what tools/fetch-kernel.sh fetched, $3: content, the rest: programs
-# that it runs.
+# Boots Debian's stock kernel in a virtual machine that contains only a test program. The program plugs emulated devices into
+# that kernel and operates them. $1: the program, $2: the folder of tools/fetch-kernel.sh, $3: content, the rest: programs that
+# the tests run.
 set -euo pipefail
 program=$1 kernel=$2 content=$3
 shift 3
@@ -23,7 +23,7 @@ cp -r "$content/assemblies/cover-m8" "$root/content/assemblies"
 cp "$content"/tools/wrench-13* "$root/content/tools"
 cp -r "$content/schema" "$root/content"
 find "$root/content" -name '*.step' -delete
-# Their libraries, each where it is looked for.
+# The shared libraries of the programs, at their paths.
 while read -r library; do
     mkdir -p "$root$(dirname "$library")"
     cp -L "$library" "$root$library"
@@ -42,8 +42,8 @@ END
 chmod +x "$root/init"
 (cd "$root" && find . | cpio -o -H newc --quiet | gzip -1) > "$work/initrd.gz"
 
-# Its clock counts instructions and does not wait while nothing is done: what the guest measures is its own doing, however
-# busy this machine is. A guest that hangs is ended, and has failed.
+# The guest's clock counts instructions and does not wait in idle times, so its measurements do not depend on the load of this
+# machine. A guest that hangs is terminated and the test fails.
 status=0
 timeout 110 qemu-system-x86_64 -M pc -m 768 -nographic -no-reboot -nic none -icount shift=1,sleep=off \
     -kernel "$kernel/vmlinuz" -initrd "$work/initrd.gz" -append "console=ttyS0 loglevel=1 panic=-1" \

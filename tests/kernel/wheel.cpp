@@ -1,3 +1,4 @@
+// The drivers of wheels and boards on a real kernel.
 #include "tools/emulate/wheel.hpp"
 
 #include <sys/wait.h>
@@ -13,17 +14,18 @@ using namespace bolt::test;
 
 namespace {
 
-struct Bench {
-    explicit Bench(const emulate::WheelOptions& design)
-        : plug(plugged(std::make_unique<emulate::Wheel>(design))),
-          found(listed(design.board ? "1209:ffb0" : "1234:5678")) {
-        WheelConfig rig;
-        rig.full_torque = design.full_torque;
-        rig.range = to_radians(design.degrees);
-        auto opened = factory_for(found.id, rig)();
+struct WheelFixture {
+    explicit WheelFixture(const emulate::EmulatedWheelOptions& design)
+        : plug(attach(std::make_unique<emulate::EmulatedWheel>(design))),
+          found(wait_for_device(design.board ? "1209:ffb0" : "1234:5678")) {
+        WheelConfig config;
+        config.full_torque = design.full_torque;
+        config.range = to_radians(design.degrees);
+        auto opened = factory_for(found.id, config)();
         REQUIRE_MESSAGE(opened, (opened ? "" : opened.error().message()));
         device = std::move(*opened);
     }
+    // Reads samples and writes `torque()`, N·m, for `seconds`.
     template <class F>
     void run(double seconds, const F& torque) {
         for (const double until = steady_seconds() + seconds; steady_seconds() < until;) {
@@ -34,16 +36,16 @@ struct Bench {
             REQUIRE_MESSAGE(written, (written ? "" : written.error().message()));
         }
     }
-    // The motor's torque after a short time.
+    // The torque of the emulated motor, N·m.
     double motor() const {
         double torque = 0.0;
-        with<emulate::Wheel>(plug, [&](emulate::Wheel& w) { torque = w.torque(); });
+        with<emulate::EmulatedWheel>(plug, [&](emulate::EmulatedWheel& w) { torque = w.torque(); });
         return torque;
     }
 
     emulate::Uhid plug;
     ListedDevice found;
-    std::unique_ptr<Device> device;
+    std::unique_ptr<DeviceDriver> device;
     Sample last;
 };
 
@@ -52,10 +54,10 @@ struct Bench {
 TEST_CASE("Kernel: a wheel is found and renders the written torque") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        Bench b({.board = board});
+        WheelFixture b({.board = board});
         CHECK(b.found.kind == (board ? HidKind::board : HidKind::wheel));
         CHECK(b.device->describe().limits.torque == doctest::Approx(2.0));
-        with<emulate::Wheel>(b.plug, [](emulate::Wheel& w) { w.hand_stiffness = 10.0; });
+        with<emulate::EmulatedWheel>(b.plug, [](emulate::EmulatedWheel& w) { w.hand_stiffness = 10.0; });
         for (const double torque : {1.0, -1.5}) {
             b.run(2.0, [&] { return torque; });
             CHECK(b.motor() == doctest::Approx(torque).epsilon(0.01));
@@ -63,13 +65,13 @@ TEST_CASE("Kernel: a wheel is found and renders the written torque") {
         }
         b.device.reset();
         const auto is_quiet = [&] { return b.motor() == 0.0; };
-        CHECK(becomes(is_quiet, 0.1));
+        CHECK(holds_within(is_quiet, 0.1));
     }
 }
 
 TEST_CASE("Kernel: a spring rendered through hidraw rests at static equilibrium") {
-    Bench b({});
-    with<emulate::Wheel>(b.plug, [](emulate::Wheel& w) {
+    WheelFixture b({});
+    with<emulate::EmulatedWheel>(b.plug, [](emulate::EmulatedWheel& w) {
         w.hand_stiffness = 5.0;
         w.hand = 0.4;
     });
@@ -80,26 +82,27 @@ TEST_CASE("Kernel: a spring rendered through hidraw rests at static equilibrium"
 TEST_CASE(
     "Kernel: a wheel unplugged under torque is lost, closes without hanging, and has no torque after the "
     "replug") {
-    auto b = std::make_unique<Bench>(emulate::WheelOptions{});
+    auto b = std::make_unique<WheelFixture>(emulate::EmulatedWheelOptions{});
     b->run(0.1, [] { return 1.5; });
     CHECK(b->motor() == doctest::Approx(1.5).epsilon(0.01));
-    b->plug = plugged(std::make_unique<emulate::Wheel>(emulate::WheelOptions{.serial = "again"}));
+    b->plug =
+        attach(std::make_unique<emulate::EmulatedWheel>(emulate::EmulatedWheelOptions{.serial = "again"}));
     const auto lost = [&] {
         return !b->device->write({.torque = {0.0, 0.0, -1.0}}) || !b->device->read(0.002);
     };
-    CHECK(becomes(lost, 0.1));
+    CHECK(holds_within(lost, 0.1));
     b->device.reset();
-    auto again = factory_for(listed("1209:ffb0:again").id)();
+    auto again = factory_for(wait_for_device("1209:ffb0:again").id)();
     REQUIRE_MESSAGE(again, (again ? "" : again.error().message()));
     CHECK(b->motor() == 0.0);
     REQUIRE((*again)->write({.torque = {0.0, 0.0, -1.0}}));
-    CHECK(becomes([&] { return b->motor() > 0.0; }, 0.1));
+    CHECK(holds_within([&] { return b->motor() > 0.0; }, 0.1));
 }
 
 TEST_CASE("Kernel: the force outlives a killed program by one second at most") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
-        Bench b({.board = board});
+        WheelFixture b({.board = board});
         b.device.reset();
         const pid_t child = fork();
         if (child == 0) {
@@ -107,22 +110,22 @@ TEST_CASE("Kernel: the force outlives a killed program by one second at most") {
             while (device) static_cast<void>((*device)->write({.torque = {0.0, 0.0, -1.0}}));
             _exit(1);
         }
-        CHECK(becomes([&] { return b.motor() > 0.1; }));
+        CHECK(holds_within([&] { return b.motor() > 0.1; }));
         kill(child, SIGKILL);
         waitpid(child, nullptr, 0);
         CHECK(b.motor() > 0.1);
-        CHECK(becomes([&] { return b.motor() == 0.0; }, 1.01));
+        CHECK(holds_within([&] { return b.motor() == 0.0; }, 1.01));
     }
 }
 
 TEST_CASE("Kernel: a mute board times out") {
-    auto dead = std::make_unique<emulate::Wheel>();
+    auto dead = std::make_unique<emulate::EmulatedWheel>();
     dead->stalled = true;
-    const auto plug = plugged(std::move(dead));
-    const std::string id = listed("1209:ffb0").id;
+    const auto plug = attach(std::move(dead));
+    const std::string id = wait_for_device("1209:ffb0").id;
     const double begun = steady_seconds();
     const auto device = factory_for(id)();
     REQUIRE(!device);
-    CHECK(device.error().message().find("does not say how far") != std::string::npos);
+    CHECK(device.error().message().find("does not report") != std::string::npos);
     CHECK(steady_seconds() - begun < 2.0);
 }

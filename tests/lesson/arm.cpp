@@ -1,5 +1,4 @@
-// Simulated hands: what they do under a force, held against the closed form, and that they know of it by
-// nothing else.
+// The simulated arm under forces, against closed forms.
 #include "game/trainees/human_model.hpp"
 
 #include <doctest/doctest.h>
@@ -15,12 +14,13 @@ using namespace bolt::trainees;
 namespace {
 
 constexpr double dt = 1e-3;
-const Pose meant{{0.1, -0.2, 0.3}, rotation(Vec3(0.3, -0.2, 0.9))};
+const Pose intended{{0.1, -0.2, 0.3}, rotation(Vec3(0.3, -0.2, 0.9))};
 
-Pose held_for(const Impedance& i, Arm& arm, const force::OutputCommand& felt, double seconds,
+Pose held_for(const Impedance& i, ArmDeflection& arm, const force::OutputCommand& felt, double seconds,
               bool grips = false) {
-    Pose pose = meant;
-    for (int k = 0; k < static_cast<int>(seconds / dt); ++k) pose = follow(i, arm, meant, felt, grips, dt);
+    Pose pose = intended;
+    for (int k = 0; k < static_cast<int>(seconds / dt); ++k)
+        pose = step_arm(i, arm, intended, felt, grips, dt);
     return pose;
 }
 
@@ -30,35 +30,35 @@ double angle_between(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-TEST_CASE("Arm: a steady force moves a hand by F/k, a torque turns it by T/k, and it comes back") {
+TEST_CASE("Arm: a steady force deflects it by F/k and a torque by T/k, and it returns") {
     const Impedance i;
-    Arm arm;
+    ArmDeflection arm;
     const Vec3 force(0.6, -1.2, 0.3), torque(0.02, 0.05, -0.01);
     const Pose pushed = held_for(i, arm, {force, torque}, 2.0);
-    CHECK(glm::length(pushed.position - meant.position - force / i.stiffness) < 1e-6);
-    CHECK(angle_between(pushed, meant) ==
+    CHECK(glm::length(pushed.position - intended.position - force / i.stiffness) < 1e-6);
+    CHECK(angle_between(pushed, intended) ==
           doctest::Approx(glm::length(torque) / i.angular_stiffness).epsilon(1e-4));
     const Pose back = held_for(i, arm, {}, 2.0);
-    CHECK(glm::length(back.position - meant.position) < 1e-9);
-    CHECK(angle_between(back, meant) < 1e-9);
+    CHECK(glm::length(back.position - intended.position) < 1e-9);
+    CHECK(angle_between(back, intended) < 1e-9);
 }
 
-TEST_CASE("Arm: without a force a hand is where it means to be, at once and exactly") {
-    Arm arm;
+TEST_CASE("Arm: without a force its pose is exactly the intended one") {
+    ArmDeflection arm;
     const Pose pose = held_for({}, arm, {}, 0.5);
-    CHECK(pose.position == meant.position);
-    CHECK(angle_between(pose, meant) < 1e-12);
+    CHECK(pose.position == intended.position);
+    CHECK(angle_between(pose, intended) < 1e-12);
 }
 
-TEST_CASE("Arm: a free hand falls as its mass does at first, and swings as a damped spring does") {
+TEST_CASE("Arm: a free hand first accelerates as its mass, then oscillates as a damped spring") {
     Impedance i;
     i.damping = 2.0 * 0.2 * std::sqrt(i.mass * i.stiffness);  // a fifth of critical
-    Arm arm;
+    ArmDeflection arm;
     const double force = 1.0, omega = std::sqrt(i.stiffness / i.mass), zeta = 0.2;
     double first = 0.0, most = 0.0;
     for (int k = 0; k < 400; ++k) {
-        const Pose pose = follow(i, arm, meant, {Vec3(force, 0, 0), Vec3(0.0)}, false, dt);
-        const double x = pose.position.x - meant.position.x;
+        const Pose pose = step_arm(i, arm, intended, {Vec3(force, 0, 0), Vec3(0.0)}, false, dt);
+        const double x = pose.position.x - intended.position.x;
         if (k == 9) first = x;
         most = std::max(most, x);
     }
@@ -70,35 +70,36 @@ TEST_CASE("Arm: a free hand falls as its mass does at first, and swings as a dam
     CHECK(omega * dt < 0.05);
 }
 
-TEST_CASE("Arm: a hand that reaches is not stronger than it is told to be") {
+TEST_CASE("Arm: the force of a reaching hand is limited") {
     Impedance i;
-    Arm arm;
-    // Ten newtons against a spring that gives six: it is carried off as four newtons carry a damped mass.
+    ArmDeflection arm;
+    // 10 N against a spring limited to 6 N: the hand moves as a damped mass under 4 N.
     held_for(i, arm, {Vec3(10.0, 0, 0), Vec3(0.0)}, 2.0);
     CHECK(arm.velocity.x == doctest::Approx((10.0 - i.force) / i.damping).epsilon(1e-3));
 }
 
 TEST_CASE(
-    "Arm: what has hold of a nut gives way to nothing; what it was away fades; taking up moves nothing") {
+    "Arm: a hand that holds a nut does not deflect, an earlier deflection decays, and gripping causes no "
+    "jump") {
     const Impedance i;
-    Arm arm;
+    ArmDeflection arm;
     const Pose pushed = held_for(i, arm, {Vec3(2.0, 0, 0), Vec3(0, 0.1, 0)}, 1.0);
-    const Pose held = follow(i, arm, meant, {Vec3(20.0, 0, 0), Vec3(0, 2.0, 0)}, true, dt);
+    const Pose held = step_arm(i, arm, intended, {Vec3(20.0, 0, 0), Vec3(0, 2.0, 0)}, true, dt);
     CHECK(glm::length(held.position - pushed.position) < 1e-4);
-    CHECK(glm::length(held_for(i, arm, {Vec3(20.0, 0, 0), Vec3(0.0)}, 2.0, true).position - meant.position) <
-          1e-9);
-    Arm other;
-    take_up(other, pushed, meant);
-    const Pose same = follow(i, other, meant, {}, false, 1e-9);
+    CHECK(glm::length(held_for(i, arm, {Vec3(20.0, 0, 0), Vec3(0.0)}, 2.0, true).position -
+                      intended.position) < 1e-9);
+    ArmDeflection other;
+    reset_arm(other, pushed, intended);
+    const Pose same = step_arm(i, other, intended, {}, false, 1e-9);
     CHECK(glm::length(same.position - pushed.position) < 1e-9);
     CHECK(angle_between(same, pushed) < 1e-9);
 }
 
 namespace {
 
-// Hash of all that a hand does in the first half minute, led or not, on a device that gives so much force.
-std::uint64_t hand_of(double force, bool guides) {
-    const content::Loaded loaded = content::load_assembly("cover-m8");
+// Hash of a hand's motion in the first 30 s, guided or not, on a device with this maximum force in N.
+std::uint64_t motion_hash(double force, bool guides) {
+    const content::LoadedAssembly loaded = content::load_assembly("cover-m8");
     REQUIRE(loaded.ok());
     force::OutputLimits device;
     device.force = force;
@@ -107,7 +108,7 @@ std::uint64_t hand_of(double force, bool guides) {
     servo::State state = servo::initial_state(setup);
     lesson::Lesson lesson = lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
     lesson.guides = guides;
-    Operator hand(find_profile("clumsy").value(), 5, setup);
+    SimulatedTrainee hand(find_profile("clumsy").value(), 5, setup);
     std::uint64_t hash = 14695981039346656037ULL;
     while (lesson.due() != nullptr && state.tick < 30'000) {
         const servo::Input input = hand.act(setup, state, lesson);
@@ -123,8 +124,7 @@ std::uint64_t hand_of(double force, bool guides) {
 }  // namespace
 
 TEST_CASE(
-    "Arm: a hand knows that it is led by the force alone: on a dead device guiding changes no bit of what it "
-    "does") {
-    CHECK(hand_of(0.0, true) == hand_of(0.0, false));
-    CHECK(hand_of(20.0, true) != hand_of(20.0, false));
+    "Arm: guidance acts through the force alone: on a device without force it changes no bit of the motion") {
+    CHECK(motion_hash(0.0, true) == motion_hash(0.0, false));
+    CHECK(motion_hash(20.0, true) != motion_hash(20.0, false));
 }

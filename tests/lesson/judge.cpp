@@ -1,4 +1,4 @@
-// Every verdict and every deduction, on lessons whose tracks are set by hand.
+// Every verdict and every deduction, for lessons with tracks set by the test.
 
 #include <doctest/doctest.h>
 
@@ -28,7 +28,7 @@ struct Bench {
             assembly.joints.push_back(joint);
             pass.order.push_back(i);
         }
-        pass.kind = content::StepKind::tighten;
+        pass.kind = content::PassKind::tighten;
         assembly.passes = {pass};
         lesson = begin(assembly, mode, task);
         state.joints.resize(joints);
@@ -81,8 +81,7 @@ TEST_CASE("Judge: without an angle window no angle is judged") {
     CHECK(bench.joint().overall == Verdict::ok);
 }
 
-TEST_CASE(
-    "Judge: a joint that is off its seat again, broken or stripped is not OK, whatever its torque was") {
+TEST_CASE("Judge: a joint off its seat, broken or stripped is not OK, whatever its torque was") {
     Bench bench;
     bench.state.joints[0].stage = joint::Stage::navigation;
     CHECK(bench.joint().overall == Verdict::low);
@@ -94,14 +93,14 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Judge: what the nut was turned with later counts too") {
+TEST_CASE("Judge: later torques that turn the nut count too") {
     Bench bench;
     bench.lesson.joints[0].turned_torque = 95.0;
     CHECK(bench.joint().torque == 95.0);
     CHECK(bench.joint().torque_verdict == Verdict::high);
 }
 
-TEST_CASE("Judge: the score: every deduction has its reason, and nothing goes below zero") {
+TEST_CASE("Judge: every deduction has a reason, and the score is at least 0") {
     CHECK(Bench().result().score == 100.0);
     CHECK(Bench().result().reasons.empty());
     CHECK(Bench().result().finished);

@@ -1,4 +1,4 @@
-// The lesson's state machine, fed with ticks written by hand.
+// The lesson's state machine with scripted ticks.
 
 #include <doctest/doctest.h>
 
@@ -12,10 +12,10 @@ using test::Script;
 
 namespace {
 
-// What is left of a long way's breakaway, relative.
+// Remaining breakaway after a long turn, relative.
 constexpr double less_breakaway = 0.005;
 
-// A tick of what turns with so much, and takes more as long as it has not broken away.
+// One tick of a nut that turns with `torque`, and needs more until it has broken away.
 void break_away(Script& s, std::size_t joint, double running) {
     const double ratio = s.lesson.assembly->joints[joint].design.friction.static_ratio;
     s.tick(static_cast<int>(joint), servo::Grip::wrench,
@@ -24,7 +24,7 @@ void break_away(Script& s, std::size_t joint, double running) {
 
 }  // namespace
 
-TEST_CASE("Lesson: a nut that is not on its seat yet is not run down") {
+TEST_CASE("Lesson: a nut off its seat is not run down") {
     Script s;
     s.idle();
     s.tick(0, servo::Grip::fingers, 0.1, 1.0);
@@ -35,8 +35,7 @@ TEST_CASE("Lesson: a nut that is not on its seat yet is not run down") {
 }
 
 TEST_CASE(
-    "Lesson: tightening below the window's low edge leaves the step due; reaching it ends the step at "
-    "letting go") {
+    "Lesson: a tightening step stays due below the window's low edge and ends with the release above it") {
     Script s;
     s.seat_both();
     REQUIRE(s.lesson.current == 2);
@@ -46,7 +45,7 @@ TEST_CASE(
     CHECK(s.lesson.current == 3);
 }
 
-TEST_CASE("Lesson: a step ends when the hand lets go, not before") {
+TEST_CASE("Lesson: a step ends when the hand releases the nut, not before") {
     Script s;
     s.seat_both();
     for (int i = 0; i <= 100; ++i) s.tick(0, servo::Grip::wrench, 0.4 * i, 1.0);
@@ -55,7 +54,7 @@ TEST_CASE("Lesson: a step ends when the hand lets go, not before") {
     CHECK(s.lesson.current == 3);
 }
 
-TEST_CASE("Lesson: by strategy yield a full step waits for yield, and gives up past the window") {
+TEST_CASE("Lesson: with strategy yield a full step needs yield or a torque above the window") {
     Script s(Mode::guided, content::Strategy::yield);
     s.seat_both();
     s.pull(0, 35.0);
@@ -73,7 +72,7 @@ TEST_CASE("Lesson: by strategy yield a full step waits for yield, and gives up p
 }
 
 TEST_CASE(
-    "Lesson: work out of turn is an order error once a visit, work on what is done a re-hit; a touch is "
+    "Lesson: work out of turn is an order error once a visit, work on a done joint a re-hit, a touch "
     "neither") {
     Script s;
     s.seat_both();
@@ -85,10 +84,10 @@ TEST_CASE(
     s.pull(0, 35.0);
     s.pull(0, 36.0);
     CHECK(s.lesson.joints[0].result.rehits == 1);
-    CHECK(s.count("mistake") == 2);
+    CHECK(s.count(EventKind::mistake) == 2);
 }
 
-TEST_CASE("Lesson: fingers that spin a nut out of turn grip it again and again, and are out of turn once") {
+TEST_CASE("Lesson: spinning a nut out of turn with several grips is one mistake") {
     Script s;
     s.idle();
     const auto grips = [&s](int times) {
@@ -104,13 +103,13 @@ TEST_CASE("Lesson: fingers that spin a nut out of turn grip it again and again, 
     CHECK(s.lesson.joints[1].result.order_errors == 2);
 }
 
-TEST_CASE("Lesson: fingers that feel once more whether a nut is down make no mistake, a wrench there does") {
+TEST_CASE("Lesson: checking a seated nut with the fingers is no mistake, with the wrench it is") {
     Script s;
     s.seat(0);
     REQUIRE(s.lesson.current == 1);
     s.tick(0, servo::Grip::fingers, 0.6);
     s.idle();
-    CHECK(s.count("mistake") == 0);
+    CHECK(s.count(EventKind::mistake) == 0);
     CHECK(s.lesson.joints[0].result.rehits == 0);
     s.pull(0, 5.0);
     CHECK(s.lesson.joints[0].result.rehits == 1);
@@ -118,15 +117,13 @@ TEST_CASE("Lesson: fingers that feel once more whether a nut is down make no mis
 }
 
 TEST_CASE(
-    "Lesson: nor do they at the last nut, whose step began the next pass, until a nut out of turn comes off "
-    "its "
-    "seat") {
+    "Lesson: checking the last nut after the next pass began is no mistake; taking a nut off its seat is") {
     Script s;
     s.seat_both();
     REQUIRE(s.lesson.due()->joint == 0);
     s.tick(1, servo::Grip::fingers, 0.6);
     s.idle();
-    CHECK(s.count("mistake") == 0);
+    CHECK(s.count(EventKind::mistake) == 0);
     s.state.joints[1].stage = joint::Stage::navigation;
     s.idle(1000);
     s.tick(1, servo::Grip::fingers, 0.1, 1.0);
@@ -134,13 +131,12 @@ TEST_CASE(
     CHECK(s.lesson.joints[1].result.order_errors == 1);
 }
 
-TEST_CASE(
-    "Lesson: a nut turned back from its seat was turned the wrong way: once a visit, and not by its play") {
-    const auto told = [](const Script& s, Cause cause) {
+TEST_CASE("Lesson: turning a nut back from its seat is reported once a visit, and play is not") {
+    const auto reported = [](const Script& s, MistakeKind kind) {
         return std::count_if(s.lesson.events.begin(), s.lesson.events.end(),
-                             [&](const Event& event) { return event.cause == cause; });
+                             [&](const LessonEvent& event) { return event.mistake == kind; });
     };
-    // A visit of so many degrees on, then back.
+    // A visit that turns the nut on by some degrees, then back.
     const auto visit = [](Script& s, double on, double back, servo::Grip grip = servo::Grip::wrench) {
         for (int i = 0; i < 100; ++i) s.tick(0, grip, 5.0, to_radians(10.0 * on));
         for (int i = 0; i < 100; ++i) s.tick(0, grip, -5.0, to_radians(-10.0 * back));
@@ -149,37 +145,37 @@ TEST_CASE(
     Script s;
     s.seat_both();
     visit(s, 20.0, 4.0);
-    CHECK(told(s, Cause::loosened) == 0);
+    CHECK(reported(s, MistakeKind::loosened) == 0);
     visit(s, 0.0, 20.0);
-    CHECK(told(s, Cause::loosened) == 1);
+    CHECK(reported(s, MistakeKind::loosened) == 1);
     visit(s, 20.0, 30.0);
-    CHECK(told(s, Cause::loosened) == 2);
-    s.state.joints[0].stage = joint::Stage::navigation;  // off its seat, and still turned
+    CHECK(reported(s, MistakeKind::loosened) == 2);
+    s.state.joints[0].stage = joint::Stage::navigation;  // off its seat, and still turning
     visit(s, 0.0, 40.0);
-    CHECK(told(s, Cause::loosened) == 2);
-    CHECK(s.lesson.joints[0].wrong_ways == 2);
+    CHECK(reported(s, MistakeKind::loosened) == 2);
+    CHECK(s.lesson.joints[0].wrong_way_count == 2);
 
-    SUBCASE("unless it had been pulled too far") {
+    SUBCASE("not after excess torque") {
         Script slackened;
         slackened.seat_both();
         slackened.pull(0, 90.0);
         visit(slackened, 0.0, 20.0);
-        CHECK(told(slackened, Cause::over_torque) == 1);
-        CHECK(told(slackened, Cause::loosened) == 0);
+        CHECK(reported(slackened, MistakeKind::over_torque) == 1);
+        CHECK(reported(slackened, MistakeKind::loosened) == 0);
     }
-    SUBCASE("in a lesson that loosens it is the other way") {
+    SUBCASE("in a loosening lesson the directions are swapped") {
         Script off;
         off.state.joints[0].stage = joint::Stage::linearity;
         off.lesson = begin(off.assembly, Mode::guided, Task::loosen);
         visit(off, -30.0, 0.0);
-        CHECK(told(off, Cause::tightened) == 0);
+        CHECK(reported(off, MistakeKind::tightened) == 0);
         visit(off, 20.0, 0.0);
-        CHECK(told(off, Cause::tightened) == 1);
-        CHECK(told(off, Cause::loosened) == 0);
+        CHECK(reported(off, MistakeKind::tightened) == 1);
+        CHECK(reported(off, MistakeKind::loosened) == 0);
     }
 }
 
-TEST_CASE("Lesson: pulled too far out of its step: the torque is not forgotten") {
+TEST_CASE("Lesson: excess torque outside the joint's step counts in its result") {
     Script s;
     s.seat_both();
     s.pull(0, 95.0);
@@ -192,7 +188,7 @@ TEST_CASE("Lesson: pulled too far out of its step: the torque is not forgotten")
     CHECK(judge_joint(s.lesson, 1, s.state).overall == Verdict::ok);
 }
 
-TEST_CASE("Lesson: a nut that is taken off its seat begins anew: torque, snug and yield") {
+TEST_CASE("Lesson: a nut that leaves its seat resets torque, snug and yield") {
     Script s;
     s.seat_both();
     s.pull(0, 95.0);
@@ -208,15 +204,15 @@ TEST_CASE("Lesson: a nut that is taken off its seat begins anew: torque, snug an
     CHECK(judge_joint(s.lesson, 0, s.state).torque == doctest::Approx(70.0).epsilon(less_breakaway));
 }
 
-TEST_CASE("Lesson: a nut that is turned by fits and starts is turned") {
+TEST_CASE("Lesson: turning a nut in short movements counts as turning") {
     Script s;
     s.seat_both();
-    for (int frame = 0; frame < 60; ++frame)  // as a mouse moves a hand: then and now, less than a degree
+    for (int frame = 0; frame < 60; ++frame)  // as with a mouse: in increments below 1°
         for (int i = 0; i < 16; ++i) s.tick(0, servo::Grip::wrench, 95.0, i < 8 ? 0.8 : 0.0);
     s.tick(0, servo::Grip::wrench, 10.0);
     s.idle();
     CHECK(s.lesson.joints[0].turned_torque == doctest::Approx(95.0).epsilon(less_breakaway));
-    CHECK(s.count("mistake") == 1);
+    CHECK(s.count(EventKind::mistake) == 1);
 }
 
 TEST_CASE("Lesson: breakaway alone does not count as tightening torque") {
@@ -224,27 +220,27 @@ TEST_CASE("Lesson: breakaway alone does not count as tightening torque") {
     s.seat_both();
     s.pull(0, 70.0);
     s.idle(2000);
-    for (int i = 0; i < 20; ++i) break_away(s, 0, 70.0);  // a degree
+    for (int i = 0; i < 20; ++i) break_away(s, 0, 70.0);  // 1° in all
     s.tick(0, servo::Grip::wrench, 10.0);
     s.idle();
     CHECK(s.lesson.joints[0].turned_torque < 71.0);
 }
 
 TEST_CASE(
-    "Lesson: in assessment a joint left for the next counts as left, a brush does not, and the last is "
-    "handed in") {
+    "Lesson: in assessment, working on the next joint ends a step, a touch does not, and a pause ends the "
+    "last") {
     Script s(Mode::assessment);
     s.seat_both();
     s.tick(0, servo::Grip::wrench, 0.3);
     s.idle();
     s.pull(1, 20.0);
-    CHECK(s.lesson.current == 2);  // only brushed: still due
+    CHECK(s.lesson.current == 2);  // only touched, so the step is still due
     s.pull(0, 20.0);
     CHECK(s.lesson.current == 2);
     CHECK(s.order_errors() == 1);
     s.pull(1, 35.0);
     CHECK(s.lesson.current == 4);
-    CHECK(s.order_errors() == 1);  // leaving for the next is no error of order
+    CHECK(s.order_errors() == 1);  // continuing with the next joint is in order
     s.pull(0, 70.0);
     s.pull(1, 40.0);
     REQUIRE(s.lesson.current == 5);
@@ -266,35 +262,35 @@ TEST_CASE("Lesson: the other modes never end a step that is not done") {
     }
 }
 
-TEST_CASE("Lesson: a bolt that breaks keeps its torque, is named, and the lesson goes on") {
+TEST_CASE("Lesson: a broken bolt keeps its torque and is reported, and the lesson continues") {
     Script s;
     s.seat_both();
     for (int i = 0; i <= 100; ++i) s.tick(0, servo::Grip::wrench, 1.2 * i, 1.0);
     s.state.joints[0].condition = joint::Condition::broken;
     s.tick(0, servo::Grip::wrench, 0.0);
-    CHECK(s.lesson.current == 2);  // not before the hand lets go
+    CHECK(s.lesson.current == 2);  // not before the release
     s.idle();
     CHECK(s.lesson.current == 3);
     CHECK(s.lesson.joints[0].result.torque == doctest::Approx(120.0));
     CHECK(judge_joint(s.lesson, 0, s.state).overall == Verdict::high);
-    // Before it breaks it has had too much, and both are told.
-    std::vector<Cause> causes;
-    for (const Event& event : s.lesson.events)
-        if (event.kind == "mistake") causes.push_back(event.cause);
-    CHECK(causes == std::vector{Cause::over_torque, Cause::broken});
+    // Excess torque precedes the break, and both are reported.
+    std::vector<MistakeKind> kinds;
+    for (const LessonEvent& event : s.lesson.events)
+        if (event.kind == EventKind::mistake) kinds.push_back(event.mistake);
+    CHECK(kinds == std::vector{MistakeKind::over_torque, MistakeKind::broken});
 }
 
-TEST_CASE("Lesson: fingers exchanged for the wrench without letting go are a new visit") {
+TEST_CASE("Lesson: changing from fingers to wrench without a release is a new visit") {
     Script s;
     s.idle();
     s.tick(0, servo::Grip::fingers, 0.1, 1.0);
     s.tick(0, servo::Grip::wrench, 12.0);
     CHECK(s.lesson.grip == servo::Grip::wrench);
     CHECK(s.lesson.joints[0].snug);
-    CHECK(s.count("engage") == 2);
+    CHECK(s.count(EventKind::engage) == 2);
 }
 
-TEST_CASE("Lesson: every pass is announced once, when it begins, with its share of the target") {
+TEST_CASE("Lesson: every pass is announced once, at its start, with its share of the target") {
     Script s;
     s.seat_both();
     for (const double torque : {35.0, 70.0})
@@ -302,9 +298,9 @@ TEST_CASE("Lesson: every pass is announced once, when it begins, with its share 
     REQUIRE(s.lesson.due() == nullptr);
     std::vector<std::string> announced;
     int begun = 0;
-    for (const Event& event : s.lesson.events) {
-        begun += event.kind == "step_begin" ? 1 : 0;
-        if (event.kind != "pass_begin") continue;
+    for (const LessonEvent& event : s.lesson.events) {
+        begun += event.kind == EventKind::step_begin ? 1 : 0;
+        if (event.kind != EventKind::pass_begin) continue;
         CHECK(begun == 2 * static_cast<int>(announced.size()));  // before the first of its two steps
         announced.push_back(event.text);
     }
@@ -315,7 +311,7 @@ TEST_CASE("Lesson: every pass is announced once, when it begins, with its share 
     CHECK(announced[2] == "tighten to 100 %");
 }
 
-TEST_CASE("Lesson: in assessment, the last joint left for another is out of turn: nothing follows it") {
+TEST_CASE("Lesson: in assessment, leaving the last joint for another one is out of turn") {
     Script s(Mode::assessment);
     s.seat_both();
     for (const auto& [joint, torque] : {std::pair{0, 35.0}, {1, 35.0}, {0, 70.0}}) s.pull(joint, torque);
@@ -326,16 +322,15 @@ TEST_CASE("Lesson: in assessment, the last joint left for another is out of turn
     CHECK(s.lesson.joints[0].result.rehits == 1);
 }
 
-TEST_CASE(
-    "Lesson: more torque than the window is told once, and again only when the nut has been off its seat") {
+TEST_CASE("Lesson: excess torque is reported once, and again only after the nut was off its seat") {
     Script s;
     s.seat_both();
     s.pull(0, 76.9);
-    CHECK(s.count("mistake") == 0);
+    CHECK(s.count(EventKind::mistake) == 0);
     s.pull(1, 35.0);
     s.pull(0, 78.0);
     s.pull(0, 90.0);
-    CHECK(s.count("mistake") == 2);  // the other is that it was done already
+    CHECK(s.count(EventKind::mistake) == 2);  // the other one: done already
     CHECK(s.lesson.events.back().joint == 0);
     s.state.joints[0].stage = joint::Stage::navigation;
     s.tick(0, servo::Grip::wrench, -0.1, -1.0);
@@ -343,18 +338,19 @@ TEST_CASE(
     s.idle();
     s.lesson.events.clear();
     s.pull(0, 90.0);
-    int told = 0;
-    for (const Event& event : s.lesson.events) told += event.cause == Cause::over_torque ? 1 : 0;
-    CHECK(told == 1);
+    int reported = 0;
+    for (const LessonEvent& event : s.lesson.events)
+        reported += event.mistake == MistakeKind::over_torque ? 1 : 0;
+    CHECK(reported == 1);
 }
 
-TEST_CASE("Lesson: breakaway alone is not told as too much") {
+TEST_CASE("Lesson: breakaway alone is not reported as excess torque") {
     Script s;
     s.seat_both();
     s.pull(0, 62.0);
     s.idle(2000);
-    for (int i = 0; i < 20; ++i) break_away(s, 0, 75.0);  // a degree; the first with more than is right
+    for (int i = 0; i < 20; ++i) break_away(s, 0, 75.0);  // 1° in all; the first tick exceeds the window
     s.idle();
-    CHECK(s.count("mistake") == 1);  // it was done already
-    for (const Event& event : s.lesson.events) CHECK(event.cause != Cause::over_torque);
+    CHECK(s.count(EventKind::mistake) == 1);  // done already
+    for (const LessonEvent& event : s.lesson.events) CHECK(event.mistake != MistakeKind::over_torque);
 }

@@ -1,4 +1,4 @@
-// A lesson fed with ticks written by hand.
+// A lesson driven by scripted ticks.
 #pragma once
 
 #include <cmath>
@@ -10,14 +10,14 @@ namespace bolt::test {
 
 using namespace bolt::lesson;
 
-// Two joints; one pass to half and one in full. Every call is a run of ticks.
+// Two joints; a run-down, a pass to half and a full pass. Each call adds one or more ticks.
 struct Script {
     content::Assembly assembly;
     Lesson lesson;
     servo::State state;
     servo::Output output;  // of the last tick
 
-    Script(const Script&) = delete;  // the lesson points at the assembly
+    Script(const Script&) = delete;  // the lesson refers to the assembly
     Script& operator=(const Script&) = delete;
     ~Script() = default;
     explicit Script(Mode mode = Mode::guided, content::Strategy strategy = content::Strategy::torque) {
@@ -29,9 +29,9 @@ struct Script {
             joint.spec.strategy = strategy;
             assembly.joints.push_back(joint);
         }
-        content::Pass run{content::StepKind::run_down, 1.0, {0, 1}};
-        content::Pass half{content::StepKind::tighten, 0.5, {0, 1}};
-        content::Pass full{content::StepKind::tighten, 1.0, {0, 1}};
+        content::Pass run{content::PassKind::run_down, 1.0, {0, 1}};
+        content::Pass half{content::PassKind::tighten, 0.5, {0, 1}};
+        content::Pass full{content::PassKind::tighten, 1.0, {0, 1}};
         assembly.passes = {run, half, full};
         lesson = begin(assembly, mode, Task::tighten);
         state.joints.resize(2);
@@ -72,7 +72,7 @@ struct Script {
         tick(joint, servo::Grip::fingers, 0.6);
         idle();
     }
-    // A pull to `torque` that turns the nut by 0.1 rad, then off.
+    // A pull to `torque` in N·m that turns the nut by 0.1 rad, then a release.
     void pull(int joint, double torque) {
         for (int i = 0; i <= 100; ++i) tick(joint, servo::Grip::wrench, torque * i / 100.0, 1.0);
         state.joints[static_cast<std::size_t>(joint)].stage = joint::Stage::linearity;
@@ -89,9 +89,9 @@ struct Script {
         for (const JointTrack& joint : lesson.joints) n += joint.result.order_errors;
         return n;
     }
-    [[nodiscard]] int count(const char* kind) const {
+    [[nodiscard]] int count(EventKind kind) const {
         int n = 0;
-        for (const Event& event : lesson.events) n += event.kind == kind ? 1 : 0;
+        for (const LessonEvent& event : lesson.events) n += event.kind == kind ? 1 : 0;
         return n;
     }
 };

@@ -1,4 +1,4 @@
-// The shipped STEP models, read back and compared with their assembly files.
+// Tests of the shipped STEP models: they are read back and compared with their assembly files.
 #include <doctest/doctest.h>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -30,13 +30,13 @@ namespace {
 
 struct ShippedModel {
     std::string name;
-    Status (*build)(Document&);
+    Status (*build)(CadDocument&);
 };
 
 const ShippedModel shipped[] = {{"dn200-pn16", add_dn200_pn16}, {"cover-m8", add_cover_m8}};
 
 std::string written(const ShippedModel& model, const test::Folder& folder) {
-    Document document(model.name);
+    CadDocument document(model.name);
     const Status built = model.build(document);
     REQUIRE_MESSAGE(built.has_value(), (built ? "" : built.error().message()));
     const std::filesystem::path path = folder / (model.name + ".step");
@@ -175,15 +175,15 @@ TEST_CASE("Models: the shipped file is reproduced byte for byte and contains no 
 }
 
 TEST_CASE("Models: a duplicate name and a missing folder are errors") {
-    Document twice("twice");
-    const Part part = twice.add_part("block", box(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 1)), finish::brass);
+    CadDocument twice("twice");
+    const CadPart part = twice.add_part("block", box(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 1)), finish::brass);
     twice.add_instance(twice.root(), "left", part);
     twice.add_instance(twice.root(), "left", part, shift(2.0, 0.0, 0.0));
     const Status status = twice.write_step("/nowhere/at/all.step");
     REQUIRE_FALSE(status);
     CHECK(status.error().what.find("left") != std::string::npos);
 
-    Document document("one");
+    CadDocument document("one");
     document.add_instance(document.root(), "only",
                           document.add_part("block", box(gp_Pnt(0, 0, 0), gp_Pnt(1, 1, 1)), finish::brass));
     CHECK_FALSE(document.write_step("/nowhere/at/all.step"));

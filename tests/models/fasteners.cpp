@@ -1,4 +1,5 @@
-// Bolts, nuts and washers, measured on their solids and compared with ISO 68-1, 724, 4014, 4032 and 7089.
+// Tests of bolts, nuts and washers: dimensions of the solids are compared with ISO 68-1, 724, 4014, 4032 and
+// 7089.
 #include "tools/assets/models/fasteners.hpp"
 
 #include <doctest/doctest.h>
@@ -70,9 +71,9 @@ TEST_CASE("Bolts: diameters, head and length are those of the tables") {
         }
         // A right-handed thread climbs by P in a turn: a quarter turn shifts it by P/4.
         const auto here = crossings(bolt, parallel_to_axis(0.5 * d2, 0.3));
-        const auto there = crossings(bolt, parallel_to_axis(0.5 * d2, 0.3 + 0.5 * pi));
+        const auto quarter_turn = crossings(bolt, parallel_to_axis(0.5 * d2, 0.3 + 0.5 * pi));
         for (const double z : here)
-            if (z > full + P && z < length - 2.0 * P) CHECK(has(there, z + 0.25 * P, 1e-3));
+            if (z > full + P && z < length - 2.0 * P) CHECK(has(quarter_turn, z + 0.25 * P, 1e-3));
     }
 }
 

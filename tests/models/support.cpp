@@ -109,9 +109,9 @@ Extent extent(const TopoDS_Shape& shape) {
     return e;
 }
 
-bool has(const std::vector<double>& values, double wanted, double tolerance) {
+bool has(const std::vector<double>& values, double expected, double tolerance) {
     return std::any_of(values.begin(), values.end(),
-                       [&](double v) { return std::abs(v - wanted) < tolerance; });
+                       [&](double v) { return std::abs(v - expected) < tolerance; });
 }
 
 }  // namespace bolt::models

@@ -30,7 +30,7 @@ struct Extent {
 };
 Extent extent(const TopoDS_Shape& shape);
 
-// True if one of the values is within the tolerance of `wanted`.
-bool has(const std::vector<double>& values, double wanted, double tolerance = 0.01);
+// True if one of the values is within the tolerance of `expected`.
+bool has(const std::vector<double>& values, double expected, double tolerance = 0.01);
 
 }  // namespace bolt::models

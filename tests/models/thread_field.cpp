@@ -1,4 +1,4 @@
-// The thread as a height field: its polygons are closed and follow the profile of ISO 68-1.
+// Tests of the thread as a height field: its polygons are closed and follow the profile of ISO 68-1.
 #include "tools/assets/models/thread.hpp"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ ThreadField bolt_thread(double d, double pitch, double z0, double length) {
     return field;
 }
 
-// Sides that only one face has, except those on the two ends.
+// Counts the sides that belong to one face only, except those on the two ends.
 int open_sides(const FieldMesh& mesh, const ThreadField& field) {
     std::map<std::pair<int, int>, int> sides;
     for (const FieldFace& face : mesh.faces)

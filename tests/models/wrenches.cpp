@@ -1,4 +1,4 @@
-// The wrenches: frame, fit of the jaw on the nut, and the forged shape.
+// Tests of the wrenches: frame, fit of the jaw on the nut, and the forged shape.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -52,7 +52,7 @@ TEST_CASE("Wrenches: the jaw fits the nut of its size at the head's angle") {
         }
         CHECK(nearest == doctest::Approx(0.5 * spec.jaw).epsilon(1e-5));
         CHECK(farthest == doctest::Approx(-0.5 * spec.jaw).epsilon(1e-5));
-        // The mouth is open: the ray from the middle towards it crosses nothing.
+        // The mouth is open: a ray from the middle through it does not cross the wrench.
         for (const double at : crossings(wrench, gp_Lin(gp_Pnt(0, 0, 0), mouth))) CHECK(at < 0.0);
 
         // The nut's hexagon fits with two flats along the jaw, and overlaps when turned by 10°.

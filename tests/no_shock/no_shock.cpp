@@ -75,7 +75,7 @@ plot::Plot step_plot(const std::vector<Result>& results) {
     plot.y = {plot::covering_ticks(0.0, 200.0), "change in 1 ms, % of the greatest force"};
     const auto lines = [&](Shock Result::*method, std::string_view style) {
         for (std::size_t i = 0; i < results.size(); i += std::size(speeds)) {
-            plot::Line line{{}, style, false};
+            plot::PlotLine line{{}, style, false};
             for (std::size_t k = 0; k < std::size(speeds); ++k)
                 line.points.push_back({results[i + k].speed, 100.0 * (results[i + k].*method).step});
             plot.lines.push_back(line);
@@ -84,7 +84,7 @@ plot::Plot step_plot(const std::vector<Result>& results) {
     lines(&Result::every_point, "ln rest");
     lines(&Result::deepest, "ln cl");
     lines(&Result::god_object, "ln p2");
-    plot.rules.push_back({10.0, "tgt", "10 %", true});
+    plot.reference_lines.push_back({10.0, "tgt", "10 %", true});
     return plot;
 }
 
@@ -95,7 +95,7 @@ plot::Plot time_plot(const Script& script, double speed, double dt) {
     plot.height = 320.0;
     plot.title = "Force over time: pressed on a block, slid over its edge and off it";
     const auto line = [&](const Run& run, std::string_view style) {
-        plot::Line l{{}, style, false};
+        plot::PlotLine l{{}, style, false};
         for (std::size_t i = 0; i < run.size(); ++i)
             l.points.push_back({static_cast<double>(i) * dt, glm::length(run[i].command.force)});
         plot.lines.push_back(l);
@@ -121,12 +121,12 @@ std::string figure(const std::vector<Result>& results, const Script& script, dou
         svg.text({x + 30.0, 18.0}, "tk", words);
         x += 260.0;
     }
-    svg.enter({0.0, head, steps.width, steps.height});
+    svg.begin_clip({0.0, head, steps.width, steps.height});
     plot::draw_into(svg, steps);
-    svg.leave();
-    svg.enter({0.0, head + steps.height, time.width, time.height});
+    svg.end_clip();
+    svg.begin_clip({0.0, head + steps.height, time.width, time.height});
     plot::draw_into(svg, time);
-    svg.leave();
+    svg.end_clip();
     return plot::standalone(svg.finish(), plot::style_sheet());
 }
 

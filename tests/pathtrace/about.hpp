@@ -1,4 +1,4 @@
-// doctest's approximation of floats, which it takes as doubles.
+// Wraps doctest::Approx, which takes doubles, for floats.
 #pragma once
 
 #include <doctest/doctest.h>

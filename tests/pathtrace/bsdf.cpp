@@ -1,4 +1,4 @@
-// The lighting model against what is known of it without a picture.
+// Tests of the lighting model against analytic and integral properties.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -20,8 +20,8 @@ constexpr float pi = std::numbers::pi_v<float>;
 
 glm::vec3 at(float cosine) { return {std::sqrt(1.0F - cosine * cosine), 0.0F, cosine}; }
 
-Surface white(float roughness, float metallic, float coat) {
-    Surface s;
+ShadingPoint white(float roughness, float metallic, float coat) {
+    ShadingPoint s;
     s.metallic = metallic;
     s.alpha = glm::vec2(std::max(roughness * roughness, min_alpha));
     s.coat = coat;
@@ -29,11 +29,11 @@ Surface white(float roughness, float metallic, float coat) {
     return s;
 }
 
-// The part of white surroundings' light that reaches `out`, by sampling.
-float furnace(const Surface& s, const glm::vec3& out, std::uint32_t count) {
+// Returns, by sampling, the fraction of the light of white surroundings that is reflected to `out`.
+float furnace(const ShadingPoint& s, const glm::vec3& out, std::uint32_t count) {
     glm::dvec3 sum(0.0);
     for (std::uint32_t i = 0; i < count; ++i) {
-        Sampler sampler(7, 11, i);
+        SobolSampler sampler(7, 11, i);
         const float pick = sampler.single();
         sum += glm::dvec3(Bsdf(s, out).sample(pick, sampler.pair()).weight);
     }
@@ -63,7 +63,7 @@ TEST_CASE("BSDF: brushed metal reflects the expected light within a few per cent
     for (const float strength : {0.25F, 0.5F, 1.0F}) {
         for (const float roughness : {0.1F, 0.25F, 0.5F, 0.8F}) {
             for (const float cosine : {0.1F, 0.3F, 0.9F}) {
-                Surface s = white(roughness, 1.0F, 0.0F);
+                ShadingPoint s = white(roughness, 1.0F, 0.0F);
                 s.alpha.x = glm::mix(s.alpha.x, 1.0F, strength * strength);
                 float sum = 0.0F;
                 for (int i = 0; i < 5; ++i) {
@@ -81,10 +81,11 @@ TEST_CASE("BSDF: brushed metal reflects the expected light within a few per cent
     }
 }
 
-TEST_CASE("BSDF: the furnace test can fail; without compensation rough metal loses a quarter of the light") {
+TEST_CASE(
+    "BSDF: without compensation rough metal loses a quarter of the light, so the furnace test can fail") {
     const glm::vec2 ab = integrate_albedo(1.0F, 0.6F, 4096);
     CHECK(ab.x + ab.y < 0.72F);
-    // A mirror loses nothing, and its part of F90 is Schlick's.
+    // A mirror loses no light, and its F90 term is Schlick's.
     const glm::vec2 mirror = integrate_albedo(1e-3F, 0.5F, 4096);
     CHECK(mirror.x + mirror.y == about(1.0F).epsilon(1e-3));
     CHECK(mirror.y == about(pow5(0.5F)).epsilon(0.01));
@@ -104,7 +105,7 @@ TEST_CASE("BSDF: the albedo table agrees with its integral") {
 }
 
 TEST_CASE("BSDF: sampling agrees with evaluation over uniform directions") {
-    Surface s = white(0.5F, 0.3F, 0.6F);
+    ShadingPoint s = white(0.5F, 0.3F, 0.6F);
     s.base_color = {0.8F, 0.4F, 0.1F};
     s.alpha = {0.4F, 0.15F};
     s.coat_alpha = 0.2F;
@@ -113,22 +114,22 @@ TEST_CASE("BSDF: sampling agrees with evaluation over uniform directions") {
     double density = 0.0;
     constexpr std::uint32_t count = 1U << 17U;
     for (std::uint32_t i = 0; i < count; ++i) {
-        Sampler sampler(1, 2, i);
+        SobolSampler sampler(1, 2, i);
         const glm::vec2 u = sampler.pair();
         const float r = std::sqrt(1.0F - u.x * u.x);
         const glm::vec3 in(r * std::cos(2.0F * pi * u.y), r * std::sin(2.0F * pi * u.y), u.x);
-        const Scattered scattered = Bsdf(s, out).evaluate(in);
+        const BsdfValue scattered = Bsdf(s, out).evaluate(in);
         uniform += glm::dvec3(scattered.value) * (2.0 * std::numbers::pi / count);
         density += static_cast<double>(scattered.density) * (2.0 * std::numbers::pi / count);
     }
     glm::dvec3 sampled(0.0);
     for (std::uint32_t i = 0; i < count; ++i) {
-        Sampler sampler(3, 4, i);
+        SobolSampler sampler(3, 4, i);
         const float pick = sampler.single();
         sampled += glm::dvec3(Bsdf(s, out).sample(pick, sampler.pair()).weight) / static_cast<double>(count);
     }
     for (int c = 0; c < 3; ++c) CHECK(sampled[c] == about(uniform[c]).epsilon(0.01));
-    // Visible normals send a few rays below the horizon, where nothing is scattered.
+    // Sampling visible normals sends a few rays below the horizon, where the BSDF is zero.
     CHECK(density <= 1.005);
     CHECK(density > 0.93);
 }
@@ -147,7 +148,7 @@ TEST_CASE("BSDF: the distribution of normals is normalised by its projected area
 }
 
 TEST_CASE("BSDF: directions below the surface reflect no light") {
-    const Surface s = white(0.5F, 0.0F, 0.0F);
+    const ShadingPoint s = white(0.5F, 0.0F, 0.0F);
     CHECK(Bsdf(s, at(0.5F)).evaluate(-at(0.5F)).value == glm::vec3(0.0F));
     CHECK(Bsdf(s, -at(0.5F)).evaluate(at(0.5F)).value == glm::vec3(0.0F));
     CHECK(Bsdf(s, -at(0.5F)).sample(0.5F, {0.5F, 0.5F}).density == 0.0F);

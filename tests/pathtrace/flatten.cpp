@@ -1,3 +1,4 @@
+// Tests of node patterns, and of nodes, skins and morph targets resolved into triangles.
 #include <doctest/doctest.h>
 
 #include "tests/pathtrace/shapes.hpp"
@@ -25,7 +26,7 @@ TEST_CASE("Path tracer: nodes are shown and hidden with their descendants") {
     model.nodes[0].translation = {0.0F, 0.0F, 5.0F};
     model.nodes.push_back({.name = "lid", .translation = {1.0F, 0.0F, 0.0F}, .mesh = 0});
     CHECK(flatten(model, {}).triangles.size() == 4);
-    const Flat lid = flatten(model, {.show = {"li*"}, .hide = {}});
+    const FlatMesh lid = flatten(model, {.show = {"li*"}, .hide = {}});
     REQUIRE(lid.triangles.size() == 2);
     CHECK(lid.vertices[0].position == glm::vec3(0.0F, -1.0F, 5.0F));
     CHECK(lid.triangles[0].node == 1);
@@ -42,20 +43,20 @@ TEST_CASE("Path tracer: morph targets are applied before the skin") {
     p.targets[0].positions.assign(4, {0.0F, 0.0F, 0.5F});
     model.meshes[0].weights = {1.0F};
     model.nodes[0].skin = 0;
-    model.nodes[0].translation = {100.0F, 0.0F, 0.0F};  // a skinned node's own place does not count
+    model.nodes[0].translation = {100.0F, 0.0F, 0.0F};  // glTF ignores the transform of a skinned node
     model.nodes.push_back({.name = "a", .translation = {4.0F, 0.0F, 0.0F}});
     model.nodes.push_back({.name = "b", .translation = {0.0F, 8.0F, 0.0F}});
     model.roots = {0, 1, 2};
     model.skins = {{.name = "rig", .joints = {1, 2}}};
-    const Flat flat = flatten(model, {});
+    const FlatMesh flat = flatten(model, {});
     CHECK(flat.vertices[0].position == glm::vec3(-1.0F + 1.0F, -1.0F + 6.0F, 0.5F));
     CHECK(flat.vertices[0].normal == glm::vec3(0.0F, 0.0F, 1.0F));
 }
 
-TEST_CASE("Path tracer: a mirrored node keeps its outside") {
+TEST_CASE("Path tracer: the triangles of a mirrored node still face outward") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
     model.nodes[0].scale = {-1.0F, 1.0F, 1.0F};
-    const Flat flat = flatten(model, {});
+    const FlatMesh flat = flatten(model, {});
     const auto& t = flat.triangles[0].corners;
     const glm::vec3 a = flat.vertices[t[0]].position;
     const glm::vec3 normal = glm::cross(flat.vertices[t[1]].position - a, flat.vertices[t[2]].position - a);

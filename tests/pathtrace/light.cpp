@@ -1,3 +1,4 @@
+// Tests of the environment light and of tone mapping.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -12,7 +13,7 @@
 using namespace bolt::pathtrace;
 using bolt::about;
 
-TEST_CASE("Environment: samples give as much light as the integral over the sphere") {
+TEST_CASE("Environment: sampling estimates the same light as the integral over the sphere") {
     const Environment environment(studio(128));
     double direct = 0.0;
     double density = 0.0;
@@ -32,7 +33,7 @@ TEST_CASE("Environment: samples give as much light as the integral over the sphe
     double sampled = 0.0;
     constexpr std::uint32_t count = 1U << 15U;
     for (std::uint32_t i = 0; i < count; ++i) {
-        const DirectionSample light = environment.sample(Sampler(0, 0, i).pair());
+        const DirectionSample light = environment.sample(SobolSampler(0, 0, i).pair());
         CHECK(glm::length(light.direction) == about(1.0F));
         sampled += static_cast<double>(environment.radiance(light.direction).x / light.density) / count;
     }
@@ -40,7 +41,7 @@ TEST_CASE("Environment: samples give as much light as the integral over the sphe
     CHECK(sampled == about(direct).epsilon(0.01));
 }
 
-TEST_CASE("Environment: −Z is in the middle, +X to the right, +Y above") {
+TEST_CASE("Environment: the image has −Z in the middle, +X to the right and +Y at the top") {
     RadianceImage image = constant(glm::vec3(0.0F));
     image.width = 64;
     image.height = 32;
@@ -60,18 +61,18 @@ TEST_CASE("Environment: −Z is in the middle, +X to the right, +Y above") {
     CHECK(environment.radiance({0, 0, 1}) == glm::vec3(0.0F));
 }
 
-TEST_CASE("Environment: without an image there is no light") {
+TEST_CASE("Environment: without an image the radiance is zero") {
     const Environment environment;
     CHECK(environment.dark());
     CHECK(environment.radiance({0, 1, 0}) == glm::vec3(0.0F));
 }
 
-TEST_CASE("Tone mapping: has the fixed points of Khronos PBR Neutral") {
-    // A grey of 0.04 (reflection of a dielectric on black) comes out as black's toe: 6.25 x².
+TEST_CASE("Tone mapping: the curve has the reference values of Khronos PBR Neutral") {
+    // A grey of 0.04 (reflection of a dielectric on black) is in the toe of the curve, 6.25 x².
     CHECK(pbr_neutral(glm::vec3(0.0F)) == glm::vec3(0.0F));
     CHECK(pbr_neutral(glm::vec3(0.04F)).r == about(6.25F * 0.04F * 0.04F));
     CHECK(pbr_neutral(glm::vec3(0.5F)).r == about(0.46F));
-    // Where compression starts it is continuous, and all above stays below one.
+    // The curve is continuous where compression starts, and stays below one.
     CHECK(pbr_neutral(glm::vec3(0.8001F)).r == about(0.76F).epsilon(0.001));
     float last = 0.0F;
     for (float x = 0.0F; x < 50.0F; x += 0.1F) {
@@ -82,7 +83,7 @@ TEST_CASE("Tone mapping: has the fixed points of Khronos PBR Neutral") {
     }
 }
 
-TEST_CASE("Tone mapping: every 8-bit value survives decoding and encoding") {
+TEST_CASE("Tone mapping: decoding and encoding returns every 8-bit value") {
     for (int i = 0; i < 256; ++i) {
         const float linear = from_srgb(static_cast<std::uint8_t>(i));
         CHECK(std::lround(to_srgb(linear) * 255.0F) == i);

@@ -1,3 +1,4 @@
+// Tests of the path tracer's options and of unusable input files.
 #include "tools/verify/pathtrace/options.hpp"
 
 #include <doctest/doctest.h>
@@ -12,23 +13,23 @@ using namespace bolt::pathtrace;
 
 namespace {
 
-Options typed() {
-    Options options;
+PathTraceOptions valid_options() {
+    PathTraceOptions options;
     options.file = "a.glb";
     options.png = "a.png";
     return options;
 }
 
-bool refused(const Options& options) {
-    Options copy = options;
+bool is_usage_error(const PathTraceOptions& options) {
+    PathTraceOptions copy = options;
     const Status done = resolve(copy);
     return !done && done.error().code == ErrorCode::usage;
 }
 
 }  // namespace
 
-TEST_CASE("Path tracer options: the options define the camera") {
-    Options o = typed();
+TEST_CASE("Path tracer options: size, eye, target, fov and background set the camera and the background") {
+    PathTraceOptions o = valid_options();
     o.size = "320x200";
     o.eye = "1,-2.5,3e-1";
     o.target = "0,0,0";
@@ -47,40 +48,40 @@ TEST_CASE("Path tracer options: the options define the camera") {
 }
 
 TEST_CASE("Path tracer options: invalid values are usage errors") {
-    Options o = typed();
-    CHECK_FALSE(refused(o));
+    PathTraceOptions o = valid_options();
+    CHECK_FALSE(is_usage_error(o));
     for (const char* size :
          {"800", "800x", "x600", "0x600", "800x600x2", "8.5x6", "-1x5", "99999x1", "axb"}) {
-        o = typed();
+        o = valid_options();
         o.size = size;
         CAPTURE(size);
-        CHECK(refused(o));
+        CHECK(is_usage_error(o));
     }
     for (const char* point : {"1,2", "1,2,3,4", "1,,3", "nan,0,0", "1 2 3", ","}) {
-        o = typed();
+        o = valid_options();
         o.eye = point;
         CAPTURE(point);
-        CHECK(refused(o));
+        CHECK(is_usage_error(o));
     }
-    o = typed();
+    o = valid_options();
     o.eye = o.target = "1,2,3";
-    CHECK(refused(o));
-    o = typed();
+    CHECK(is_usage_error(o));
+    o = valid_options();
     o.fov_deg = 180.0F;
-    CHECK(refused(o));
-    o = typed();
+    CHECK(is_usage_error(o));
+    o = valid_options();
     o.view = glm::vec3(1.0F);
     o.from = "0,0,0";
-    CHECK(refused(o));
-    o = typed();
+    CHECK(is_usage_error(o));
+    o = valid_options();
     o.png.clear();
-    CHECK(refused(o));
-    o = typed();
+    CHECK(is_usage_error(o));
+    o = valid_options();
     o.file.clear();
-    CHECK(refused(o));
+    CHECK(is_usage_error(o));
 }
 
-TEST_CASE("Environment: an image survives a .hdr file within its eight bits") {
+TEST_CASE("Environment: an image written to .hdr and read back is equal within 1 %") {
     const test::Folder folder;
     const auto path = folder / "light.hdr";
     const RadianceImage image = studio(32);
@@ -99,6 +100,6 @@ TEST_CASE("Environment: an image survives a .hdr file within its eight bits") {
 TEST_CASE("Path tracer: a scene without triangles is an error") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
     model.meshes[0].primitives[0].topology = assets::Topology::points;
-    CHECK_FALSE(Scene::build(model, {}));
-    CHECK_FALSE(Scene::build(single(square(), {}), {.nodes = {.show = {"nothing"}, .hide = {}}}));
+    CHECK_FALSE(TracedScene::build(model, {}));
+    CHECK_FALSE(TracedScene::build(single(square(), {}), {.nodes = {.show = {"nothing"}, .hide = {}}}));
 }

@@ -1,20 +1,20 @@
-// Small models that the path tracer is tried on.
+// Small models for the tests of the path tracer.
 #pragma once
 
 #include "engine/assets/model.hpp"
 
 namespace bolt::pathtrace {
 
-// A node with a mesh of one primitive, in `material`; whatever the primitive names as its material.
+// A node with a mesh of one primitive, drawn with `material` regardless of primitive.material.
 assets::Model single(assets::Primitive primitive, const assets::Material& material);
 
-// Radius one about the origin, with smooth normals.
+// A sphere of radius 1 about the origin with smooth normals.
 assets::Primitive sphere(int meridians, int parallels);
 
 // A square of side two in the plane z = 0, facing +Z.
 assets::Primitive square();
 
-// Without a specular layer: f = base colour / π, exactly.
+// A material without a specular layer: f = base colour / π, exactly.
 assets::Material matte(const glm::vec3& color);
 
 }  // namespace bolt::pathtrace

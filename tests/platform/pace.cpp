@@ -20,7 +20,7 @@ TEST_CASE("Pace: deadlines are whole periods after the start, without drift in a
     Clock::time_point now = pace.start;
     constexpr int beats = 215784;  // in one hour
     for (int i = 1; i <= beats; ++i) {
-        const Deadline due = next_deadline(pace, now);
+        const FrameDeadline due = next_deadline(pace, now);
         REQUIRE(due.missed == 0);
         now = due.time;                                         // woken exactly then
         if (i % 3 == 0) now += std::chrono::microseconds(900);  // or slightly late
@@ -33,11 +33,11 @@ TEST_CASE("Pace: a long frame skips deadlines, and the next one is on the grid a
     Pace pace{at(10.0), 0.010, 0};
     CHECK(seconds(next_deadline(pace, at(10.001)).time) == doctest::Approx(10.010));
     CHECK(seconds(next_deadline(pace, at(10.012)).time) == doctest::Approx(10.020));
-    const Deadline late = next_deadline(pace, at(10.047));  // 30 and 40 are over
+    const FrameDeadline late = next_deadline(pace, at(10.047));  // 30 and 40 are over
     CHECK(seconds(late.time) == doctest::Approx(10.050));
     CHECK(late.missed == 2);
     CHECK(next_deadline(pace, at(10.0501)).missed == 0);
-    const Deadline day_later = next_deadline(pace, at(86410.0005));
+    const FrameDeadline day_later = next_deadline(pace, at(86410.0005));
     CHECK(seconds(day_later.time) == doctest::Approx(86410.010).epsilon(1e-12));
     CHECK(pace.index == 8640001);
 }
@@ -48,7 +48,7 @@ TEST_CASE("Pace: a deadline is never in the past, for every hour and period") {
             const double offset = 0.001 * i * std::sqrt(2.0) * i;
             Pace pace{at(5.0), period, 0};
             const Clock::time_point now = at(5.0 + offset);
-            const Deadline due = next_deadline(pace, now);
+            const FrameDeadline due = next_deadline(pace, now);
             REQUIRE(due.time >= now);
             REQUIRE(seconds(due.time) - seconds(now) <= period + 1e-6);
         }

@@ -54,9 +54,9 @@ Status ShowCase::prepare_picture(VkExtent2D extent) {
 }
 
 Result<bool> ShowCase::show(std::array<int, 3> color) {
-    (void)window_->events();
+    (void)window_->poll_events();
     const platform::Size size = window_->pixels();
-    const Result<VkExtent2D> extent = swapchain_->ready({size.width, size.height});
+    const Result<VkExtent2D> extent = swapchain_->prepare({size.width, size.height});
     if (!extent) return fail(extent.error());
     drawn = *extent;
     if (drawn.width == 0 || drawn.height == 0) return false;
@@ -75,7 +75,7 @@ Result<bool> ShowCase::show(std::array<int, 3> color) {
     vkCmdClearColorImage(commands, picture_.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &clear, 1, &all);
     gpu::image_barrier(commands, picture_.get(), gpu::ResourceUse::transfer_to,
                        gpu::ResourceUse::transfer_from);
-    return swapchain_->show(*frames_, **frame, picture_);
+    return swapchain_->present(*frames_, **frame, picture_);
 }
 
 void ShowCase::show_surely(std::array<int, 3> color) {

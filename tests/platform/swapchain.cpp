@@ -36,7 +36,7 @@ TEST_CASE("Swapchain: a picture fills the window with exact values, frame after 
         }
     for (int i = 0; i < 40; ++i) show.show_surely({i, 6 * i, 255 - i});
     CHECK(fills_window({39, 234, 216}, 320, 240));
-    CHECK(show.swapchain().made() == 1);
+    CHECK(show.swapchain().creations() == 1);
     CHECK(show.swapchain().plan().reasons.size() == 3);
     CHECK(comes_to_be({0, 0, 0}, 400, 300));  // nothing beside the window
 }
@@ -125,7 +125,7 @@ TEST_CASE("Swapchain: new sizes, larger, smaller and back, are presented") {
         show.show_surely(green);
         CHECK(fills_window(green, width, height));
     }
-    CHECK(show.swapchain().made() >= 4);
+    CHECK(show.swapchain().creations() >= 4);
 }
 
 TEST_CASE("Swapchain: out-of-date images drop one picture and are recreated") {
@@ -137,14 +137,14 @@ TEST_CASE("Swapchain: out-of-date images drop one picture and are recreated") {
         CHECK(fault.failed() == 1);
         CHECK(test::need(show.show(green)));
     }
-    CHECK(show.swapchain().made() == 2);
+    CHECK(show.swapchain().creations() == 2);
     CHECK(fills_window(green, 320, 240));
     {
         const test::Fault<&vkQueuePresentKHR> fault(VK_ERROR_OUT_OF_DATE_KHR, 1, test::Happens::afterwards);
         CHECK_FALSE(test::need(show.show(blue)));
         CHECK(test::need(show.show(blue)));
     }
-    CHECK(show.swapchain().made() == 3);
+    CHECK(show.swapchain().creations() == 3);
     CHECK(fills_window(blue, 320, 240));
     // No image for a while: pictures are dropped, nothing is recreated.
     {
@@ -152,7 +152,7 @@ TEST_CASE("Swapchain: out-of-date images drop one picture and are recreated") {
         for (int i = 0; i < 3; ++i) CHECK_FALSE(test::need(show.show(red)));
         CHECK(test::need(show.show(red)));
     }
-    CHECK(show.swapchain().made() == 3);
+    CHECK(show.swapchain().creations() == 3);
 }
 
 TEST_CASE(
@@ -162,7 +162,7 @@ TEST_CASE(
     const test::Fault<&vkQueuePresentKHR> fault(VK_SUBOPTIMAL_KHR, 1000, test::Happens::afterwards);
     for (int i = 0; i < 10; ++i) CHECK(test::need(show.show(green)));
     CHECK(fault.failed() == 10);
-    CHECK(show.swapchain().made() == 2);
+    CHECK(show.swapchain().creations() == 2);
     CHECK(fills_window(green, 320, 240));
 }
 

@@ -21,7 +21,7 @@ namespace {
 struct Open {
     std::optional<Desktop> desktop;
     std::optional<Window> window;
-    std::deque<Event> waiting;
+    std::deque<InputEvent> waiting;
 
     explicit Open(const std::string& title) {
         Result<Desktop> there = Desktop::open();
@@ -30,15 +30,15 @@ struct Open {
         Result<Window> opened = Window::open(*desktop, {title, 300, 200});
         if (!opened) FAIL(opened.error().message());
         window = std::move(*opened);
-        (void)window->events();
+        (void)window->poll_events();
     }
     // Returns the next event of a type.
     template <class E>
     E next() {
         for (int i = 0; i < 1000; ++i) {
-            for (Event& event : window->wait_for_events(0.1)) waiting.push_back(event);
+            for (InputEvent& event : window->wait_for_events(0.1)) waiting.push_back(event);
             while (!waiting.empty()) {
-                const Event event = waiting.front();
+                const InputEvent event = waiting.front();
                 waiting.pop_front();
                 if (const E* wanted = std::get_if<E>(&event)) return *wanted;
             }
@@ -50,7 +50,7 @@ struct Open {
     template <class Test>
     bool until(const Test& test) {
         return test::eventually([&] {
-            (void)window->events();
+            (void)window->poll_events();
             return test();
         });
     }
@@ -85,9 +85,9 @@ TEST_CASE("Window: keys, buttons, cursor, wheel and close requests arrive in ord
     hand.press(60, 45, 4);
     hand.press(60, 45, 5);
     hand.close();
-    std::vector<Event> events;
+    std::vector<InputEvent> events;
     for (int i = 0; i < 1000 && (events.empty() || !std::holds_alternative<CloseEvent>(events.back())); ++i)
-        for (Event& event : open.window->wait_for_events(0.1))
+        for (InputEvent& event : open.window->wait_for_events(0.1))
             if (!std::holds_alternative<KeyEvent>(event)) events.push_back(event);
     REQUIRE(events.size() == 9);
     CHECK(std::get<CursorEvent>(events[0]).at == glm::dvec2(40, 50));
@@ -100,8 +100,8 @@ TEST_CASE("Window: keys, buttons, cursor, wheel and close requests arrive in ord
     CHECK(std::get<ButtonEvent>(events[3]).at == glm::dvec2(60, 45));
     CHECK(std::get<ButtonEvent>(events[5]).button == Button::right);
     CHECK(std::get<ButtonEvent>(events[5]).at == glm::dvec2(10, 20));
-    CHECK(std::get<WheelEvent>(events[6]).by.y == 1.0);
-    CHECK(std::get<WheelEvent>(events[7]).by.y == -1.0);
+    CHECK(std::get<WheelEvent>(events[6]).notches.y == 1.0);
+    CHECK(std::get<WheelEvent>(events[7]).notches.y == -1.0);
     CHECK(std::get<WheelEvent>(events[7]).at == glm::dvec2(10, 20));
 }
 
@@ -119,9 +119,9 @@ TEST_CASE("Window: has the requested size, and reports a new size and its scale"
     moved.set_title("renamed");
     test::WindowUser("renamed").key("a");
     CHECK(test::eventually([&] {
-        const std::vector<Event> events = moved.events();
+        const std::vector<InputEvent> events = moved.poll_events();
         return std::any_of(events.begin(), events.end(),
-                           [](const Event& event) { return std::holds_alternative<KeyEvent>(event); });
+                           [](const InputEvent& event) { return std::holds_alternative<KeyEvent>(event); });
     }));
 }
 
@@ -159,7 +159,7 @@ TEST_CASE("Window: can start in full screen or hidden") {
     REQUIRE(whole.has_value());
     CHECK(whole->full_screen());
     CHECK(open.until([&] { return whole->pixels().width == screen->width; }));
-    CHECK(whole->refresh() >= 0.0);
+    CHECK(whole->refresh_rate() >= 0.0);
     options = {};
     options.hidden = true;
     CHECK(Window::open(*open.desktop, options).has_value());

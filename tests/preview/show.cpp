@@ -1,4 +1,4 @@
-// The preview in a window, with somebody at it, and a GPU that goes.
+// The preview in a window with a simulated user and a GPU that is lost.
 #include "tools/author/preview/preview.hpp"
 
 #include <doctest/doctest.h>
@@ -32,16 +32,16 @@ PreviewOptions options() {
 
 struct Preview {
     PreviewOptions given = options();
-    Sources sources{given};
+    PreviewSources sources{given};
     platform::Desktop desktop = need(platform::Desktop::open());
     platform::Window window = need(platform::Window::open(desktop, {"cover-m8", 160, 120}));
     std::optional<gpu::Instance> instance;
 
     Preview() {
-        view::LoadedSubject loaded = sources.read_subject(view::Level::near);
+        view::ModelLoadResult loaded = sources.read_model(view::DetailLevel::near);
         REQUIRE(loaded.ok());
-        sources.keep(std::move(loaded.subject), view::Level::near);
-        sources.keep(need(sources.read_light()));
+        sources.set_shown(std::move(loaded.model), view::DetailLevel::near);
+        sources.set_shown(need(sources.read_light()));
         gpu::InstanceOptions validated;
         validated.validation = true;
         const std::vector<const char*> extensions = need(desktop.vulkan_extensions());
@@ -51,8 +51,8 @@ struct Preview {
     Status show() { return show_preview(given, sources, window, *instance); }
 };
 
-// Grey in the corner, and the paint of the model a little below the middle of a window of this size.
-bool cover_is_seen(std::uint32_t width, std::uint32_t height) {
+// Tests the screen for the grey background in a corner and the paint of the model slightly below the middle.
+bool cover_is_shown(std::uint32_t width, std::uint32_t height) {
     const auto screen = test::read_screen();
     if (!screen) return false;
     const auto corner = screen->at(width - 2, 2),
@@ -60,11 +60,11 @@ bool cover_is_seen(std::uint32_t width, std::uint32_t height) {
     return corner[0] > 100 && corner[0] < 200 && paint[0] < 70 && paint[2] > paint[0] + 10;
 }
 
-// Functions are loaded anew for every device, so what fails has to come from the loader. Uploads wait for
-// nothing on the GPU, frames of a window do for its image.
+// Every device loads its functions again, so the loader has to return the failing function. A submission that
+// waits on a semaphore is a frame of the window; uploads wait on none.
 PFN_vkGetDeviceProcAddr real_loader = nullptr;
 PFN_vkQueueSubmit2 real_submit = nullptr;
-int window_frames_until_lost = 0;  // 0: none fails
+int window_frames_until_lost = 0;  // 0: no frame fails
 bool every_submission_fails = false;
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo2* infos,
@@ -82,7 +82,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL loader(VkDevice device, const char* nam
     return reinterpret_cast<PFN_vkVoidFunction>(submit);
 }
 
-// While it lives, devices are made with a queue that can fail.
+// During its lifetime, new devices get a queue that can fail.
 struct FailingQueue {
     FailingQueue() { real_loader = std::exchange(vkGetDeviceProcAddr, loader); }
     ~FailingQueue() {
@@ -96,40 +96,40 @@ struct FailingQueue {
 
 }  // namespace
 
-TEST_CASE("shown until somebody closes it") {
+TEST_CASE("Preview: the window shows the model until the user closes it") {
     Preview preview;
     bool seen = false;
-    std::thread somebody([&] {
-        seen = test::eventually([] { return cover_is_seen(160, 120); });
+    std::thread user([&] {
+        seen = test::eventually([] { return cover_is_shown(160, 120); });
         test::WindowUser("cover-m8").close();
     });
     const Status shown = preview.show();
-    somebody.join();
+    user.join();
     CHECK(seen);
     CHECK_MESSAGE(shown.has_value(), (shown ? "" : shown.error().message()));
 }
 
-TEST_CASE("a GPU that is lost is started again, and the picture comes back where the camera was") {
+TEST_CASE("Preview: a lost GPU is restarted, and the camera keeps its pose") {
     Preview preview;
     const FailingQueue failing;
     window_frames_until_lost = 2;
     bool seen = false, seen_large = false;
-    std::thread somebody([&] {
-        seen = test::eventually([] { return cover_is_seen(160, 120); });
+    std::thread user([&] {
+        seen = test::eventually([] { return cover_is_shown(160, 120); });
         test::WindowUser hand("cover-m8");
         hand.key("F11");  // the second frame, which is lost
-        seen_large = test::eventually([] { return cover_is_seen(1280, 800); });
+        seen_large = test::eventually([] { return cover_is_shown(1280, 800); });
         hand.key("Escape");
     });
     const Status shown = preview.show();
-    somebody.join();
+    user.join();
     CHECK(seen);
     CHECK(window_frames_until_lost == 0);
     CHECK(seen_large);
     CHECK_MESSAGE(shown.has_value(), (shown ? "" : shown.error().message()));
 }
 
-TEST_CASE("a GPU that is lost twice in short succession is given up, with the exit code of a missing one") {
+TEST_CASE("Preview: a GPU lost twice within 10 s ends the preview with no_device") {
     Preview preview;
     const FailingQueue failing;
     every_submission_fails = true;
@@ -140,7 +140,7 @@ TEST_CASE("a GPU that is lost twice in short succession is given up, with the ex
     CHECK(shown.error().what.find("VK_ERROR_DEVICE_LOST") != std::string::npos);
 }
 
-TEST_CASE("a lost GPU is worth another start only after it has worked for a while") {
+TEST_CASE("Preview: the device-loss policy allows a restart only after 10 s of work") {
     gpu::DeviceLossPolicy loss_policy;
     CHECK(loss_policy.should_restart(100.0));
     CHECK_FALSE(loss_policy.should_restart(109.9));

@@ -19,15 +19,15 @@ namespace {
 constexpr double dt = 1e-3;
 
 struct Bench {
-    World world;
+    CollisionWorld world;
     ToolShape tool;
     NarrowPhaseState near;
-    contact_test::Surface obstacle, moving;
+    contact_test::ClosedSurface obstacle, moving;
     ContactMesh wrench;
 
     explicit Bench(const ContactMesh& mesh) : wrench(contact_test::wrench().mesh()) {
         const Obstacle still{ObstacleId::fixed(1), &mesh, {}, false};
-        Result<World> made = make_world({&still, 1});
+        Result<CollisionWorld> made = make_world({&still, 1});
         REQUIRE(made);
         world = std::move(*made);
         Result<ToolShape> shape = make_tool({&wrench, 1}, {.samples = 2000});

@@ -63,7 +63,7 @@ Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_lim
     const ContactMesh round = cylinder(radius, sides);
     const ContactMesh die = contact_test::box(Vec3(-5e-3), Vec3(5e-3)).mesh();
     const Obstacle still{ObstacleId::fixed(1), &round, {}, false};
-    Result<World> world = make_world({&still, 1});
+    Result<CollisionWorld> world = make_world({&still, 1});
     REQUIRE(world);
     Result<ToolShape> tool = make_tool({&die, 1});
     REQUIRE(tool);

@@ -1,4 +1,4 @@
-// The parts of the shipped reducer: valid solids, plausible masses, no overlaps.
+// Tests of the parts of the shipped reducer: valid solids, plausible masses, no overlaps.
 #include <doctest/doctest.h>
 
 #include <BRepCheck_Analyzer.hxx>
@@ -125,23 +125,23 @@ TEST_CASE("Reducer: no part overlaps another") {
     const char* const shafts_by_name[] = {"input", "intermediate", "output"};
     for (const std::string shaft : shafts_by_name)
         for (const std::string side : {"front", "back"}) {
-            const std::string place = shaft + "_" + side;
-            near.emplace_back("bearing_" + place, "shaft_" + shaft);
-            near.emplace_back("bearing_" + place, "cap_" + place);
-            near.emplace_back("cap_" + place + "_screw_1", "cap_" + place);
+            const std::string end = shaft + "_" + side;
+            near.emplace_back("bearing_" + end, "shaft_" + shaft);
+            near.emplace_back("bearing_" + end, "cap_" + end);
+            near.emplace_back("cap_" + end + "_screw_1", "cap_" + end);
             if (side == "back") continue;  // the casing is symmetric
-            near.emplace_back("bearing_" + place, "casing_upper");
-            near.emplace_back("bearing_" + place, "casing_lower");
-            near.emplace_back("cap_" + place, "casing_upper");
-            near.emplace_back("cap_" + place, "casing_lower");
-            near.emplace_back("cap_" + place + "_screw_1", "casing_upper");
+            near.emplace_back("bearing_" + end, "casing_upper");
+            near.emplace_back("bearing_" + end, "casing_lower");
+            near.emplace_back("cap_" + end, "casing_upper");
+            near.emplace_back("cap_" + end, "casing_lower");
+            near.emplace_back("cap_" + end + "_screw_1", "casing_upper");
         }
     for (const auto& [a, b] : near) {
         CAPTURE(a);
         CAPTURE(b);
         CHECK(common_volume(part(a), part(b)) < 0.5);  // mm3
     }
-    // Plain cylinders replace the bolts: their threads do not matter for clearance.
+    // Plain cylinders replace the bolts, because their threads do not affect clearance.
     for (const JointLayout& j : joints) {
         const double t = thickness(j);
         const TopoDS_Shape shank =

@@ -1,5 +1,5 @@
-// The gears against the closed formulas of ISO 21771: circles, involute flanks, and teeth that mesh without
-// overlap.
+// Tests of the gears against the closed formulas of ISO 21771: circles, involute flanks, and teeth that mesh
+// without overlap.
 #include "tools/assets/models/reducer/gear.hpp"
 
 #include <doctest/doctest.h>
@@ -140,8 +140,7 @@ TEST_CASE("Gears: flanks are involutes of the base circle and join the fillet wi
             for (std::size_t i = 0; i < profile.flank.size(); ++i) {
                 const Point2 p = profile.flank[i];
                 const double r = std::hypot(p.x, p.y);
-                // The taut string's length sqrt(r^2 - rb^2) equals the arc of the base circle that it was
-                // unwound from.
+                // The length of the taut string, sqrt(r^2 - rb^2), equals the unwound arc of the base circle.
                 const double length = std::sqrt(r * r - base * base);
                 const double touch = std::atan2(p.y, p.x) + std::atan2(length, base) - length / base;
                 if (i == 0) start = touch;

@@ -1,4 +1,4 @@
-// The twelve joints: the CAD model has hole, seat and fasteners where assembly.json places them.
+// Tests of the twelve joints: the CAD model has hole, seat and fasteners where assembly.json places them.
 #include <doctest/doctest.h>
 
 #include <BRepAdaptor_Curve.hxx>

@@ -1,5 +1,5 @@
-// The teeth of the shipped file: their flanks lie on the involute helicoid, in the phase in which the pairs
-// mesh.
+// Tests of the teeth in the shipped file: their flanks lie on the involute helicoid, in the phase in which
+// the pairs mesh.
 #include <doctest/doctest.h>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -75,7 +75,7 @@ TEST_CASE("Reducer teeth: flanks lie within a micrometre of their involute helic
 
 TEST_CASE("Reducer teeth: the flank check finds the other hand and another profile shift") {
     GearSpec other = wheel_1;
-    other.hand = Hand::left;
+    other.hand = HelixHand::left;
     CHECK(deviation(all_gears[1], other).largest > 0.1);
     other = wheel_1;
     other.shift += 0.01;

@@ -79,8 +79,8 @@ Seen seen(test::Studio& studio, const Object& object, const MeshPart& part) {
     const DeformPass& pass = studio.renderer().deformed();
     const DeformedPart where = pass.parts().at({object.deformation.get(), &part});
     const std::vector<std::byte> bytes = read_back(studio, pass.vertices());
-    Seen result{std::vector<glm::vec3>(part.bends.vertices),
-                std::vector<VertexAttributes>(part.bends.vertices)};
+    Seen result{std::vector<glm::vec3>(part.deformable.vertices),
+                std::vector<VertexAttributes>(part.deformable.vertices)};
     std::memcpy(result.positions.data(), &bytes[where.positions], result.positions.size() * 12);
     std::memcpy(result.attributes.data(), &bytes[where.attributes], result.attributes.size() * 28);
     return result;
@@ -99,7 +99,7 @@ void check_bent(test::Studio& studio, const assets::Mesh& mesh, const Object& ob
         const test::Bent expected = test::bent(p, *object.deformation);
         const Seen got = seen(studio, object, part);
         REQUIRE(got.positions.size() == expected.positions.size());
-        const BoundingBox box = bounds(part.box, part.bends, object.deformation.get());
+        const BoundingBox box = bounds(part.box, part.deformable, object.deformation.get());
         for (std::size_t i = 0; i < got.positions.size(); ++i) {
             worst = std::max(worst, glm::distance(glm::dvec3(got.positions[i]), expected.positions[i]));
             worst_normal = std::max(worst_normal,
@@ -185,7 +185,7 @@ TEST_CASE("Deform: joints and morph targets move vertices as in double precision
     test::Studio studio;
     const assets::Model model = rubber_ball(random);
     const GpuModel gpu_model = studio.upload(model);
-    REQUIRE(gpu_model.parts.front().bends.vertices == model.meshes[0].primitives[0].positions.size());
+    REQUIRE(gpu_model.parts.front().deformable.vertices == model.meshes[0].primitives[0].positions.size());
     for (int round = 0; round < 6; ++round) {
         CAPTURE(round);
         Scene scene;
@@ -331,7 +331,7 @@ TEST_CASE("Deform: culling uses the deformed bounds") {
         for (int j = 0; j < 7; ++j) deformation.joints.push_back(joint(random));
         deformation.weights = {number(random), number(random), number(random)};
         const MeshPart& part = gpu_model.parts[0];
-        const BoundingBox holds = bounds(part.box, part.bends, &deformation);
+        const BoundingBox holds = bounds(part.box, part.deformable, &deformation);
         for (const glm::dvec3& at : test::bent(model.meshes[0].primitives[0], deformation).positions) {
             REQUIRE(glm::all(glm::lessThanEqual(glm::dvec3(holds.low) - 1e-4, at)));
             REQUIRE(glm::all(glm::lessThanEqual(at, glm::dvec3(holds.high) + 1e-4)));

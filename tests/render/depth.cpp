@@ -55,8 +55,8 @@ std::vector<float> rendered(test::Studio& studio, const render::Scene& scene, co
     return depth;
 }
 
-std::vector<float> traced(const pathtrace::Scene& scene, const Point& from) {
-    pathtrace::Camera camera;
+std::vector<float> traced(const pathtrace::TracedScene& scene, const Point& from) {
+    pathtrace::PinholeCamera camera;
     camera.eye = from.eye;
     camera.target = from.target;
     camera.fov = from.fov;
@@ -66,7 +66,7 @@ std::vector<float> traced(const pathtrace::Scene& scene, const Point& from) {
     std::vector<float> depth;
     for (int y = 0; y < camera.height; ++y)
         for (int x = 0; x < camera.width; ++x) {
-            const glm::vec3 ray = pathtrace::direction(camera, glm::vec2(x, y) + first_sample);
+            const glm::vec3 ray = pathtrace::ray_direction(camera, glm::vec2(x, y) + first_sample);
             const auto hit = scene.cast(from.eye, ray);
             depth.push_back(hit ? hit->distance * glm::dot(ray, forward) : 0.0F);
         }
@@ -104,7 +104,7 @@ TEST_CASE(
     REQUIRE(folder != nullptr);
     const auto model = assets::read_gltf(std::filesystem::path(folder) / "assemblies/zq350/zq350.glb");
     REQUIRE(model.has_value());
-    const auto rays = pathtrace::Scene::build(*model, {});
+    const auto rays = pathtrace::TracedScene::build(*model, {});
     REQUIRE(rays.has_value());
     test::Studio studio(keeping_depth());
     const render::GpuModel gpu_model = studio.upload(*model);

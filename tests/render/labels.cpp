@@ -42,9 +42,9 @@ std::vector<double> rasterised(const text::Fonts& fonts, const std::string& utf8
                                VkExtent2D extent) {
     std::vector<double> values(std::size_t{extent.width} * extent.height);
     for (const text::PlacedGlyph& placed : text::lay_out(fonts, utf8).glyphs) {
-        const text::Face& face = fonts.faces[static_cast<std::size_t>(placed.id.face)];
+        const text::FontFace& face = fonts.faces[static_cast<std::size_t>(placed.id.face)];
         const float x = placed.at.x * em_px;
-        const text::Face::Raster raster = face.raster(placed.id.glyph, em_px, x - std::floor(x));
+        const text::FontFace::Raster raster = face.raster(placed.id.glyph, em_px, x - std::floor(x));
         for (int row = 0; row < raster.height; ++row)
             for (int column = 0; column < raster.width; ++column) {
                 const int px = static_cast<int>(extent.width / 2) + static_cast<int>(std::floor(x)) +
@@ -89,7 +89,7 @@ Label written(const text::Fonts& fonts, const std::string& utf8, float em_px) {
     label.height = em_px;
     label.anchor = {0, 0};
     // The label's position is on the baseline, not at the lower edge of the line.
-    label.moved_px.y = -em_px * fonts.faces[0].descent();
+    label.offset_px.y = -em_px * fonts.faces[0].descent();
     return label;
 }
 
@@ -118,9 +118,9 @@ TEST_CASE("Labels: text agrees with a rasteriser at that size") {
         CAPTURE(off);
         CHECK(off < c.bound);
         // The measure can fail: three quarters of a pixel aside, or slightly bolder.
-        scene.labels[0].moved_px.x = 0.75F;
+        scene.labels[0].offset_px.x = 0.75F;
         CHECK(astray(coverage(studio.shoot(scene, front(extent), extent)), reference) > 1.5 * c.bound);
-        scene.labels[0].moved_px.x = 0.0F;
+        scene.labels[0].offset_px.x = 0.0F;
         scene.labels[0].outline = glm::vec4(1.0F);
         scene.labels[0].outline_width = 0.6F / c.em_px;
         CHECK(astray(coverage(studio.shoot(scene, front(extent), extent)), reference) > 1.5 * c.bound);
@@ -135,7 +135,7 @@ double rise(test::Studio& studio, Scene scene, const Eye& eye, VkExtent2D extent
     constexpr int steps = 32;
     std::vector<double> profile(static_cast<std::size_t>(steps) * 12);
     for (int step = 0; step < steps; ++step) {
-        scene.labels[0].moved_px.x = -static_cast<float>(step) / steps;
+        scene.labels[0].offset_px.x = -static_cast<float>(step) / steps;
         const std::vector<double> row = coverage(studio.shoot(scene, eye, extent));
         const std::size_t middle = std::size_t{extent.height / 2} * extent.width + extent.width / 2 - 6;
         for (std::size_t i = 0; i < 12; ++i) {
@@ -172,8 +172,8 @@ TEST_CASE("Labels: glyph edges are one pixel wide, near and far, frontal and obl
             Scene scene = black();
             Label label;
             label.text = block;
-            label.stand = LabelPlacement::fixed;
-            label.turn = turn;
+            label.placement = LabelPlacement::fixed;
+            label.orientation = turn;
             label.height = 3.0F;
             // Puts its left edge through the centre of the picture.
             label.anchor = {static_cast<float>(block_edges(*fonts).x) / text::lay_out(*fonts, block).size.x,
@@ -209,7 +209,7 @@ TEST_CASE("Labels: fixed in its plane, facing with scene size, or constant on th
     label.text = block;  // higher than a line
     label.height = 0.2F;
     const double metre = 60.0 / std::tan(0.3) / 2.0;  // px at a distance of 2
-    label.stand = LabelPlacement::facing;
+    label.placement = LabelPlacement::facing;
     const glm::dvec2 facing = seen(label, front(extent));
     CHECK(facing.x == doctest::Approx(0.2 * width * metre).epsilon(0.02));
     CHECK(facing.y > facing.x * 1.4);
@@ -221,19 +221,19 @@ TEST_CASE("Labels: fixed in its plane, facing with scene size, or constant on th
     const glm::dvec2 aside = seen(label, make_eye({2.0F * std::sin(1.0F), 0, 2.0F * std::cos(1.0F)}, {}, p));
     CHECK(aside.x == doctest::Approx(facing.x).epsilon(0.01));
 
-    label.stand = LabelPlacement::fixed;
+    label.placement = LabelPlacement::fixed;
     CHECK(seen(label, front(extent)).x == doctest::Approx(facing.x).epsilon(0.01));
-    label.turn = glm::angleAxis(1.0471976F, glm::vec3(0, 1, 0));
+    label.orientation = glm::angleAxis(1.0471976F, glm::vec3(0, 1, 0));
     CHECK(seen(label, front(extent)).x == doctest::Approx(0.5 * facing.x).epsilon(0.03));
-    label.turn = glm::angleAxis(1.5707963F, glm::vec3(0, 0, 1));
+    label.orientation = glm::angleAxis(1.5707963F, glm::vec3(0, 0, 1));
     CHECK(seen(label, front(extent)).y == doctest::Approx(facing.x).epsilon(0.02));
 
-    label.stand = LabelPlacement::on_screen;
+    label.placement = LabelPlacement::on_screen;
     label.height = 40.0F;
     for (const float distance : {0.5F, 2.0F, 9.0F})
         CHECK(seen(label, front(extent, distance)).x == doctest::Approx(40.0 * width).epsilon(0.01));
     label.anchor.x = 0.0F;  // everything to the right of the centre
-    label.moved_px.x = 10.0F;
+    label.offset_px.x = 10.0F;
     CHECK(seen(label, front(extent)).x == doctest::Approx(40.0 * width).epsilon(0.01));
     CHECK(seen(label, front(extent)).y == doctest::Approx(0.0));
     CHECK(seen(label, make_eye({0, 0, 2}, {0, 0, 4}, p)).x == 0.0);  // behind the eye
@@ -258,8 +258,8 @@ TEST_CASE("Labels: parts in front hide a label, up to its visible fraction") {
         label.text = std::string(block) + block;
         label.position.z = z;
         label.height = 24.0F;
-        label.through = through;
-        label.before = before;
+        label.occluded_visibility = through;
+        label.occlusion_margin = before;
         scene.labels.push_back(label);
         const std::vector<double> values = coverage(studio.shoot(scene, eye, extent));
         const std::size_t row = std::size_t{32} * extent.width;
@@ -339,7 +339,7 @@ TEST_CASE("Labels: each of several views is correct, and a full atlas restarts")
         label.height = 12.0F;
         label.plate = {0.1F, 0.2F, 0.3F, 0.8F};
         scene.labels.push_back(label);
-        label.stand = LabelPlacement::facing;
+        label.placement = LabelPlacement::facing;
         label.position = {0, 0.25F, 0.5F};  // not clipped: see multiview.cpp
         label.height = 0.06F;
         scene.labels.push_back(label);

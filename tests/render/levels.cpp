@@ -27,12 +27,12 @@ TEST_CASE("Levels of detail: the ZQ350 with less than half of its triangles look
         const render::Eye eye =
             render::make_eye({0.175F, 0.62F, 0.9F}, {0.175F, 0.04F, 0}, {0.698F, 16.0F / 9.0F, 0.05F, 5.0F});
         const render::Picture picture = studio.shoot(scene, eye, extent);
-        imagediff::Picture rgb{static_cast<int>(extent.width), static_cast<int>(extent.height), {}};
+        imagediff::RgbImage rgb{static_cast<int>(extent.width), static_cast<int>(extent.height), {}};
         for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
             rgb.rgb.insert(rgb.rgb.end(), &picture.rgba[i], &picture.rgba[i] + 3);
         return rgb;
     };
-    const imagediff::Picture fine = shoot(all, {}), coarse = shoot(some, {true});
+    const imagediff::RgbImage fine = shoot(all, {}), coarse = shoot(some, {true});
     CHECK(some.renderer().statistics().triangles * 2 < all.renderer().statistics().triangles);
     CHECK(imagediff::mean(imagediff::flip(fine, coarse)) < 0.01);
 }

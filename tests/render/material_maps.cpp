@@ -87,12 +87,12 @@ render::Picture rendered(test::Studio& studio, const assets::Model& model) {
 }
 
 std::vector<std::uint8_t> traced(const assets::Model& model) {
-    const auto scene = pathtrace::Scene::build(model, {});
+    const auto scene = pathtrace::TracedScene::build(model, {});
     REQUIRE(scene.has_value());
-    pathtrace::Camera camera{eye, target, fov, width, height};
-    pathtrace::Settings settings;
+    pathtrace::PinholeCamera camera{eye, target, fov, width, height};
+    pathtrace::PathTraceSettings settings;
     settings.samples = 16;
-    return pathtrace::develop(pathtrace::render(*scene, pathtrace::Environment(), camera, settings), 1.0F);
+    return pathtrace::to_srgb8(pathtrace::render(*scene, pathtrace::Environment(), camera, settings), 1.0F);
 }
 
 // Returns the mean difference of all channels, of 255.

@@ -18,26 +18,26 @@ constexpr int width = 144, height = 108;
 constexpr float fov = 0.6F;
 constexpr glm::vec3 grey(0.32F, 0.34F, 0.36F);
 
-imagediff::Picture traced(const assets::Model& model, const glm::vec3& eye, const glm::vec3& target,
-                          std::vector<float>& depth) {
-    const auto scene = pathtrace::Scene::build(model, {});
+imagediff::RgbImage traced(const assets::Model& model, const glm::vec3& eye, const glm::vec3& target,
+                           std::vector<float>& depth) {
+    const auto scene = pathtrace::TracedScene::build(model, {});
     REQUIRE(scene.has_value());
-    pathtrace::Camera camera;
+    pathtrace::PinholeCamera camera;
     camera.eye = eye;
     camera.target = target;
     camera.fov = fov;
     camera.width = width;
     camera.height = height;
-    pathtrace::Settings settings;
+    pathtrace::PathTraceSettings settings;
     settings.samples = 48;
     settings.background = grey;
     const std::vector<glm::vec3> radiance =
         pathtrace::render(*scene, pathtrace::Environment(shading::studio(128)), camera, settings);
     depth = pathtrace::depth(*scene, camera);
-    return {width, height, pathtrace::develop(radiance, 1.0F)};
+    return {width, height, pathtrace::to_srgb8(radiance, 1.0F)};
 }
 
-imagediff::Picture rendered(const assets::Model& model, const glm::vec3& eye, const glm::vec3& target) {
+imagediff::RgbImage rendered(const assets::Model& model, const glm::vec3& eye, const glm::vec3& target) {
     test::Studio studio;
     const render::GpuModel gpu_model = studio.upload(model);
     const render::EnvironmentLight light = studio.light(shading::studio(128));
@@ -50,13 +50,13 @@ imagediff::Picture rendered(const assets::Model& model, const glm::vec3& eye, co
     lens.fov = fov;
     lens.aspect = static_cast<float>(width) / static_cast<float>(height);
     const render::Picture picture = studio.shoot(scene, render::make_eye(eye, target, lens), {width, height});
-    imagediff::Picture rgb{width, height, {}};
+    imagediff::RgbImage rgb{width, height, {}};
     for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
         rgb.rgb.insert(rgb.rgb.end(), &picture.rgba[i], &picture.rgba[i] + 3);
     return rgb;
 }
 
-double difference_on_the_model(const imagediff::Picture& a, const imagediff::Picture& b,
+double difference_on_the_model(const imagediff::RgbImage& a, const imagediff::RgbImage& b,
                                const std::vector<float>& depth) {
     const std::vector<float> values = imagediff::flip(a, b);
     std::vector<float> model;
@@ -76,8 +76,8 @@ TEST_CASE("Reference: paint, zinc and steel of the M8 cover look as in path trac
     REQUIRE(model.has_value());
     const glm::vec3 eye(0.13F, 0.14F, 0.2F), target(0.0F, -0.01F, 0.0F);
     std::vector<float> depth;
-    const imagediff::Picture reference = traced(*model, eye, target, depth);
-    const imagediff::Picture picture = rendered(*model, eye, target);
+    const imagediff::RgbImage reference = traced(*model, eye, target, depth);
+    const imagediff::RgbImage picture = rendered(*model, eye, target);
     const double difference = difference_on_the_model(reference, picture, depth);
     CAPTURE(difference);
     CHECK(imagediff::mean(imagediff::flip(reference, picture)) < 0.11);

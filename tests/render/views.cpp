@@ -112,7 +112,7 @@ TEST_CASE("Culling: never loses visible objects, and instances are merged") {
             visible |=
                 c.w > 0.0F && std::abs(c.x) <= c.w && std::abs(c.y) <= c.w && c.z >= 0.0F && c.z <= c.w;
         }
-        if (visible) REQUIRE(in_sight(box, eye.clip_from_world));
+        if (visible) REQUIRE(may_be_visible(box, eye.clip_from_world));
     }
     const Eye away = make_eye({0, 0, 8}, {0, 0, 20}, p);
     CHECK(make_draw_list(still.scene, {&away, 1}, {}).draws.empty());

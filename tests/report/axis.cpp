@@ -21,44 +21,46 @@ bool is_nice(double step) {
 
 }  // namespace
 
-TEST_CASE("covering ticks are nice, even and cover the range") {
+TEST_CASE("Axis ticks: covering ticks are round, evenly spaced and cover the range") {
     bolt::Random random(7);
     for (int i = 0; i < 2000; ++i) {
         const double scale = std::pow(10.0, random.uniform(-6.0, 8.0));
         const double low = scale * random.uniform(-1.0, 1.0), high = low + scale * random.uniform(1e-3, 2.0);
         const int about = 2 + static_cast<int>(random.bits() % 8U);
-        const Ticks ticks = covering_ticks(low, high, about);
-        REQUIRE(ticks.at.size() >= 2);
-        const double slack = 1e-6 * (high - low), step = ticks.at[1] - ticks.at[0];
-        CHECK(ticks.at.front() <= low + slack);
-        CHECK(ticks.at.back() >= high - slack);
-        CHECK(ticks.range.low == doctest::Approx(ticks.at.front()));
-        CHECK(ticks.range.high == doctest::Approx(ticks.at.back()));
+        const AxisTicks ticks = covering_ticks(low, high, about);
+        REQUIRE(ticks.values.size() >= 2);
+        const double slack = 1e-6 * (high - low), step = ticks.values[1] - ticks.values[0];
+        CHECK(ticks.values.front() <= low + slack);
+        CHECK(ticks.values.back() >= high - slack);
+        CHECK(ticks.range.low == doctest::Approx(ticks.values.front()));
+        CHECK(ticks.range.high == doctest::Approx(ticks.values.back()));
         CHECK(is_nice(step));
-        CHECK(ticks.at.size() <= static_cast<std::size_t>(about) + 2);
+        CHECK(ticks.values.size() <= static_cast<std::size_t>(about) + 2);
         CHECK(step < 1.01 * std::max(step, high - low));
-        // The label tells neighbours apart.
+        // The labels of neighbours differ.
         CHECK(step * std::pow(10.0, ticks.decimals) > 0.99);
     }
 }
 
-TEST_CASE("ranges that are none still give an axis") {
+TEST_CASE("Axis ticks: empty and invalid ranges still give an axis") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    for (const Ticks& ticks : {covering_ticks(0.0, 0.0), covering_ticks(nan, 1.0), covering_ticks(5.0, 5.0),
-                               covering_ticks(3.0, -3.0), covering_ticks(-HUGE_VAL, HUGE_VAL)}) {
-        CHECK(ticks.at.size() >= 2);
+    for (const AxisTicks& ticks :
+         {covering_ticks(0.0, 0.0), covering_ticks(nan, 1.0), covering_ticks(5.0, 5.0),
+          covering_ticks(3.0, -3.0), covering_ticks(-HUGE_VAL, HUGE_VAL)}) {
+        CHECK(ticks.values.size() >= 2);
         CHECK(ticks.range.span() > 0.0);
     }
 }
 
-TEST_CASE("known axes") {
-    const Ticks torque = covering_ticks(0.0, 230.7, 5);
-    CHECK(torque.at == std::vector<double>{0.0, 50.0, 100.0, 150.0, 200.0, 250.0});
+TEST_CASE("Axis ticks: known axes") {
+    const AxisTicks torque = covering_ticks(0.0, 230.7, 5);
+    CHECK(torque.values == std::vector<double>{0.0, 50.0, 100.0, 150.0, 200.0, 250.0});
     CHECK(torque.decimals == 0);
     CHECK(covering_ticks(0.0, 0.6, 3).decimals == 1);
-    const Ticks degrees = degree_ticks({-33.0, 41.0}, 7);
-    CHECK(degrees.at == std::vector<double>{-30.0, -15.0, 0.0, 15.0, 30.0});
-    CHECK(degree_ticks({-100.0, 900.0}, 6).at == std::vector<double>{0.0, 180.0, 360.0, 540.0, 720.0, 900.0});
-    CHECK(count_ticks(1, 6).at == std::vector<double>{1, 2, 3, 4, 5, 6});
-    CHECK(count_ticks(1, 100, 10).at.size() == 10);
+    const AxisTicks degrees = degree_ticks({-33.0, 41.0}, 7);
+    CHECK(degrees.values == std::vector<double>{-30.0, -15.0, 0.0, 15.0, 30.0});
+    CHECK(degree_ticks({-100.0, 900.0}, 6).values ==
+          std::vector<double>{0.0, 180.0, 360.0, 540.0, 720.0, 900.0});
+    CHECK(count_ticks(1, 6).values == std::vector<double>{1, 2, 3, 4, 5, 6});
+    CHECK(count_ticks(1, 100, 10).values.size() == 10);
 }

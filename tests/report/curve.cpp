@@ -33,7 +33,7 @@ CurveBuilder builder_for(std::size_t joints, double snug = 10.0) {
 
 }  // namespace
 
-TEST_CASE("re-grips are strokes of one visit, another nut ends it") {
+TEST_CASE("Joint curves: re-grips are strokes of one visit, which ends at another nut") {
     CurveBuilder builder = builder_for(2);
     std::vector<session::TickRecord> ticks;
     for (int stroke = 0; stroke < 3; ++stroke) {
@@ -56,12 +56,12 @@ TEST_CASE("re-grips are strokes of one visit, another nut ends it") {
     CHECK(curves[1].visits[0].worked);
 }
 
-TEST_CASE("pieces of any size give the same curves") {
+TEST_CASE("Joint curves: pieces of any size give the same curves") {
     const SyntheticSession session = synthetic_session({});
     CurveRequest request;
     request.snug_torque.assign(12, 20.0);
     request.dt = 0.01;
-    for (const lesson::Event& event : session.events) request.pass_begins.push_back(event.tick);
+    for (const lesson::LessonEvent& event : session.events) request.pass_begins.push_back(event.tick);
     CurveBuilder builder(request);
     const std::span<const session::TickRecord> ticks = session.ticks;
     for (std::size_t at = 0, size = 1; at < ticks.size(); at += size, size = size % 977 + 13)
@@ -79,7 +79,7 @@ TEST_CASE("pieces of any size give the same curves") {
     }
 }
 
-TEST_CASE("snug, run-down and stages of a known joint") {
+TEST_CASE("Joint curves: snug angle, run-down and stages of a known joint") {
     const SyntheticSession session = synthetic_session({});
     for (const JointCurve& curve : session.data.curves) {
         const double seat = 18.0 * 360.0;
@@ -100,7 +100,7 @@ TEST_CASE("snug, run-down and stages of a known joint") {
     }
 }
 
-TEST_CASE("loosening counts the other way") {
+TEST_CASE("Joint curves: loosening reverses the direction") {
     CurveRequest request;
     request.snug_torque.assign(1, 10.0);
     request.direction = joint::Direction::loosen;
@@ -118,7 +118,7 @@ TEST_CASE("loosening counts the other way") {
     CHECK(curve.stages[1].stage == joint::Stage::navigation);
 }
 
-TEST_CASE("broken samples are left out, and many visits stay bounded") {
+TEST_CASE("Joint curves: invalid samples are ignored, and the number of visits is bounded") {
     CurveBuilder builder = builder_for(2);
     std::vector<session::TickRecord> ticks = {tick(7, 1.0, 1.0), tick(-5, 1.0, 1.0),
                                               tick(0, std::nan(""), 1.0), tick(0, 1.0, HUGE_VAL)};

@@ -19,7 +19,7 @@ SessionData session_of(const std::vector<std::size_t>& taken) {
     SessionData session;
     session.assembly = synthetic_assembly();
     session.assembly.joints.resize(5);
-    session.assembly.passes = {{content::StepKind::tighten, 1.0, {0, 1, 2, 3, 4}}};
+    session.assembly.passes = {{content::PassKind::tighten, 1.0, {0, 1, 2, 3, 4}}};
     session.joints = results_by_joint(session.assembly, {});
     session.curves.resize(5);
     for (std::size_t i = 0; i < taken.size(); ++i) {
@@ -33,67 +33,68 @@ SessionData session_of(const std::vector<std::size_t>& taken) {
 
 std::vector<std::size_t> out_of_turn(const PassOrder& order) {
     std::vector<std::size_t> joints;
-    for (const Turn& turn : order.followed)
+    for (const OrderEntry& turn : order.actual)
         if (turn.out_of_turn) joints.push_back(turn.joint);
     return joints;
 }
 
 }  // namespace
 
-TEST_CASE("the order as asked") {
+TEST_CASE("Order: joints in the planned order are in turn") {
     const PassOrder order = pass_orders(session_of({0, 1, 2, 3, 4}))[0];
     CHECK(order.in_turn());
-    CHECK(order.left_out() == 0);
-    CHECK(order.place_followed(3) == 4);
+    CHECK(order.skipped_joints() == 0);
+    CHECK(order.actual_position(3) == 4);
 }
 
-TEST_CASE("the fewest joints are out of turn") {
+TEST_CASE("Order: the smallest set of joints is out of turn") {
     CHECK(out_of_turn(pass_orders(session_of({1, 2, 3, 4, 0}))[0]) == std::vector<std::size_t>{0});
     CHECK(out_of_turn(pass_orders(session_of({0, 3, 2, 1, 4}))[0]).size() == 2);
     const PassOrder skipped = pass_orders(session_of({0, 2, 3, 4}))[0];
     CHECK(skipped.in_turn());
-    CHECK(skipped.left_out() == 1);
-    CHECK(skipped.place_followed(1) == 0);
+    CHECK(skipped.skipped_joints() == 1);
+    CHECK(skipped.actual_position(1) == 0);
 }
 
-TEST_CASE("a joint taken twice has one place and two visits") {
+TEST_CASE("Order: a repeated joint has one position and two visits") {
     const PassOrder order = pass_orders(session_of({0, 1, 0, 2, 3, 4}))[0];
     CHECK_FALSE(order.in_turn());
     CHECK(out_of_turn(order).empty());
     CHECK(order.visits(0) == 2);
-    CHECK(order.place_followed(2) == 3);
+    CHECK(order.actual_position(2) == 3);
 }
 
-TEST_CASE("passes are told apart by their events, and only touched nuts do not count") {
+TEST_CASE("Order: passes are separated by their events, and nuts that were only touched do not count") {
     SyntheticSession session = synthetic_session({});
     const std::vector<PassOrder> orders = pass_orders(session.data);
     REQUIRE(orders.size() == 4);
     CHECK(orders[0].label == "run-down");
     CHECK(orders[1].label == "30 %");
     for (const PassOrder& order : orders) {
-        CHECK(order.followed.size() == 12);
+        CHECK(order.actual.size() == 12);
         CHECK(order.in_turn());
     }
     session.data.pass_texts.clear();
     const std::vector<PassOrder> untold = pass_orders(session.data);
     REQUIRE(untold.size() == 1);
-    CHECK(untold[0].asked.empty());
+    CHECK(untold[0].planned.empty());
 }
 
-TEST_CASE("the plan keeps distances and drawings are well-formed") {
+TEST_CASE("Joint map: keeps proportions, and all drawings are well-formed") {
     const SyntheticSession session = synthetic_session({});
-    const PlanLayout layout = plan_layout(session.data.assembly, 480.0, 40.0);
-    REQUIRE(layout.at.size() == 12);
-    const double along = layout.at[5].x - layout.at[0].x, across = layout.at[6].y - layout.at[0].y;
+    const JointMapLayout layout = joint_map_layout(session.data.assembly, 480.0, 40.0);
+    REQUIRE(layout.positions.size() == 12);
+    const double along = layout.positions[5].x - layout.positions[0].x,
+                 across = layout.positions[6].y - layout.positions[0].y;
     CHECK(along == doctest::Approx(400.0));
     CHECK(across / along == doctest::Approx(0.24 / 0.64));
     for (const PassOrder& order : pass_orders(session.data))
-        CHECK(markup_fault(order_plan(session.data, order)) == "");
-    CHECK(markup_fault(clamp_plan(session.data)) == "");
+        CHECK(markup_fault(order_map(session.data, order)) == "");
+    CHECK(markup_fault(clamp_map(session.data)) == "");
     CHECK(markup_fault(clamp_rows(session.data)) == "");
 }
 
-TEST_CASE("passes that went as asked are drawn once, each other one by itself") {
+TEST_CASE("Order: passes in the planned order share one drawing") {
     SyntheticOptions options;
     const SessionData good = synthetic_session(options).data;
     const std::vector<OrderDrawing> two =
@@ -104,7 +105,7 @@ TEST_CASE("passes that went as asked are drawn once, each other one by itself") 
     CHECK(two[1].passes == 3);
     options.slips = true;
     const std::vector<OrderDrawing> slipped = order_drawings(pass_orders(synthetic_session(options).data));
-    const auto wrong = [](const OrderDrawing& d) { return !d.order.as_asked(); };
+    const auto wrong = [](const OrderDrawing& d) { return !d.order.as_planned(); };
     REQUIRE(std::any_of(slipped.begin(), slipped.end(), wrong));
     for (const OrderDrawing& d : slipped) CHECK((!wrong(d) || d.passes == 1));
 }

@@ -20,22 +20,23 @@ Plot example() {
     plot.x = {inner_ticks({0.0, 100.0}), "angle, °"};
     plot.x.ticks.range = {0.0, 100.0};
     plot.y = {covering_ticks(0.0, 200.0), "torque"};
-    plot.y2 = Axis{covering_ticks(0.0, 90.0), "clamp"};
+    plot.y2 = PlotAxis{covering_ticks(0.0, 90.0), "clamp"};
     plot.bands.push_back({{10.0, 60.0}, "s1", "<band>", false});
     plot.bands.push_back({{180.0, 190.0}, "win", "", true});
-    plot.rules.push_back({185.0, "tgt", "a & b", true});
-    Line line;
+    plot.reference_lines.push_back({185.0, "tgt", "a & b", true});
+    PlotLine line;
     line.style = "ln p2";
     for (int i = 0; i <= 1000; ++i) line.points.push_back({0.1 * i, i == 500 ? 199.0 : 0.1 * i});
     plot.lines.push_back(line);
-    for (const Shape shape : {Shape::dot, Shape::ring, Shape::square, Shape::triangle})
-        plot.marks.push_back({{50.0, 100.0}, shape, "mpeak", "'x'", false});
+    for (const MarkerShape shape :
+         {MarkerShape::dot, MarkerShape::ring, MarkerShape::square, MarkerShape::triangle})
+        plot.markers.push_back({{50.0, 100.0}, shape, "mpeak", "'x'", false});
     return plot;
 }
 
 }  // namespace
 
-TEST_CASE("a plot is well-formed and escapes all words") {
+TEST_CASE("Plot: is well-formed and escapes all text") {
     const std::string svg = draw(example());
     CHECK(markup_fault(svg) == "");
     CHECK(svg.find("&lt;band&gt;") != std::string::npos);
@@ -44,7 +45,7 @@ TEST_CASE("a plot is well-formed and escapes all words") {
     CHECK(markup_fault(standalone(svg, style_sheet())) == "");
 }
 
-TEST_CASE("the checker itself can fail") {
+TEST_CASE("Markup checker: finds faults") {
     CHECK(markup_fault("<p>a</p>") == "");
     CHECK(markup_fault("<p>a") != "");
     CHECK(markup_fault("<p>a</div>") != "");
@@ -55,24 +56,24 @@ TEST_CASE("the checker itself can fail") {
     CHECK(markup_fault("</p>") != "");
 }
 
-TEST_CASE("a drawn line keeps its peak at the pixel where it belongs") {
+TEST_CASE("Plot: a line keeps its peak at the right pixel") {
     const Plot plot = example();
-    const Box area = plot_area(plot);
-    const Scale x{plot.x.ticks.range, area.width, false}, y{plot.y.ticks.range, area.height, true};
+    const SvgBox area = plot_area(plot);
+    const AxisScale x{plot.x.ticks.range, area.width, false}, y{plot.y.ticks.range, area.height, true};
     Svg expected(1, 1, "");
-    const Point peak[] = {{x(50.0), y(199.0)}};
+    const SvgPoint peak[] = {{x(50.0), y(199.0)}};
     expected.path(peak, "");
     const std::string text = expected.finish();
     const std::size_t from = text.find("d=\"M") + 4;
     CHECK(draw(plot).find(text.substr(from, text.find('"', from) - from)) != std::string::npos);
 }
 
-TEST_CASE("what is no number is not drawn") {
+TEST_CASE("Plot: values that are not finite are not drawn") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     Plot plot = example();
     plot.lines.push_back({{{nan, nan}, {1.0, nan}, {HUGE_VAL, 3.0}}, "ln", false});
-    plot.marks.push_back({{nan, 1.0}, Shape::dot, "mpeak", "never", false});
-    plot.rules.push_back({nan, "tgt", "never", false});
+    plot.markers.push_back({{nan, 1.0}, MarkerShape::dot, "mpeak", "never", false});
+    plot.reference_lines.push_back({nan, "tgt", "never", false});
     const std::string svg = draw(plot);
     CHECK(markup_fault(svg) == "");
     CHECK(svg.find("nan") == std::string::npos);
@@ -80,7 +81,7 @@ TEST_CASE("what is no number is not drawn") {
     CHECK(svg.find("never") == std::string::npos);
 }
 
-TEST_CASE("every band is named, narrow ones in a second row and none over another") {
+TEST_CASE("Plot: every band has a label, narrow ones in a second row, without overlap") {
     for (const double narrow : {0.5, 3.0, 10.0}) {
         Plot plot = example();
         plot.bands.clear();
@@ -91,15 +92,15 @@ TEST_CASE("every band is named, narrow ones in a second row and none over anothe
             at = end;
         }
         const std::string svg = draw(plot);
-        std::vector<Box> boxes;
+        std::vector<SvgBox> boxes;
         for (const char* name : {"navigation", "transition", "linearity", "yield"}) {
             const std::size_t end = svg.find(">" + std::string(name) + "</text>");
             REQUIRE_MESSAGE(end != std::string::npos, name);
             CHECK(svg.find(">" + std::string(name) + "</text>", end + 1) == std::string::npos);
             const std::size_t tag = svg.rfind("<text x=\"", end) + 9;
             const std::size_t y = svg.find("y=\"", tag) + 3;
-            const Box box = words_box({{std::stod(svg.substr(tag)), std::stod(svg.substr(y))}}, name, 12.0);
-            for (const Box& other : boxes)
+            const SvgBox box = text_box({{std::stod(svg.substr(tag)), std::stod(svg.substr(y))}}, name, 12.0);
+            for (const SvgBox& other : boxes)
                 CHECK((box.x >= other.x + other.width || other.x >= box.x + box.width ||
                        box.y >= other.y + other.height || other.y >= box.y + box.height));
             boxes.push_back(box);
@@ -107,11 +108,11 @@ TEST_CASE("every band is named, narrow ones in a second row and none over anothe
     }
 }
 
-TEST_CASE("words keep clear of what is taken, and of the edge") {
-    Placer placer({0.0, 0.0, 200.0, 100.0});
-    placer.take({100.0, 40.0, 40.0, 20.0});
-    const Spot spots[] = {{{110.0, 55.0}}, {{190.0, 20.0}}, {{20.0, 80.0}}};
-    CHECK(placer.choose(spots, "words", 12.0).at.x == 20.0);
-    CHECK(placer.choose(spots, "words", 12.0).at.x == 190.0);  // all are in the way by now: this one least
+TEST_CASE("Label layout: labels avoid occupied boxes and the edge") {
+    LabelLayout labels({0.0, 0.0, 200.0, 100.0});
+    labels.occupy({100.0, 40.0, 40.0, 20.0});
+    const LabelPosition spots[] = {{{110.0, 55.0}}, {{190.0, 20.0}}, {{20.0, 80.0}}};
+    CHECK(labels.place(spots, "words", 12.0).baseline.x == 20.0);
+    CHECK(labels.place(spots, "words", 12.0).baseline.x == 190.0);  // all positions overlap; this one least
     CHECK(text_width("Maß", 10.0) == text_width("Mass", 10.0) * 0.75);
 }

@@ -14,6 +14,7 @@
 #include "tests/report/well_formed.hpp"
 
 using namespace bolt;
+using namespace bolt::analysis;
 using namespace bolt::plot;
 using namespace bolt::report;
 
@@ -27,7 +28,7 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 }  // namespace
 
-TEST_CASE("the page is well-formed, self-contained and the same every time") {
+TEST_CASE("Report: is well-formed, self-contained and reproducible") {
     SyntheticOptions options;
     options.slips = true;
     const SyntheticSession session = synthetic_session(options);
@@ -42,7 +43,7 @@ TEST_CASE("the page is well-formed, self-contained and the same every time") {
     CHECK(html.size() < 1'000'000);
 }
 
-TEST_CASE("the figures are those of the results") {
+TEST_CASE("Report: shows the figures of the results") {
     SyntheticOptions options;
     options.slips = true;
     const SessionData session = synthetic_session(options).data;
@@ -68,14 +69,14 @@ TEST_CASE("the figures are those of the results") {
     }
 }
 
-TEST_CASE("verdicts have a shape as well as a colour") {
+TEST_CASE("Report: verdicts have a shape as well as a colour") {
     SyntheticOptions options;
     options.slips = true;
     const std::string html = report_of(synthetic_session(options).data);
     for (const char* mark : {"✓ OK", "▲ HIGH", "▼ LOW", "✕ stripped"}) CHECK_MESSAGE(has(html, mark), mark);
 }
 
-TEST_CASE("a verdict says what it is about where two things are judged") {
+TEST_CASE("Report: a verdict names torque or angle if both are judged") {
     lesson::JointResult r;
     r.overall = r.angle_verdict = lesson::Verdict::high;
     r.torque_verdict = lesson::Verdict::ok;
@@ -86,7 +87,7 @@ TEST_CASE("a verdict says what it is about where two things are judged") {
     CHECK(has(verdict_mark(r), "▲ HIGH<"));
 }
 
-TEST_CASE("hostile names do no harm") {
+TEST_CASE("Report: names with markup are escaped") {
     SyntheticSession session = synthetic_session({});
     const std::string attack = "</title><script>alert(1)</script>\"' onload=\"x";
     SessionData& data = session.data;
@@ -109,7 +110,7 @@ TEST_CASE("hostile names do no harm") {
     }
 }
 
-TEST_CASE("a session that was cut short says so first") {
+TEST_CASE("Report: a session that was cut short shows this first") {
     SyntheticOptions options;
     options.cut_short = true;
     const std::string html = report_of(synthetic_session(options).data);
@@ -117,7 +118,7 @@ TEST_CASE("a session that was cut short says so first") {
     CHECK(markup_fault(html) == "");
 }
 
-TEST_CASE("a session in which nothing happened still makes a page") {
+TEST_CASE("Report: of an empty session") {
     SessionData empty;
     empty.assembly = synthetic_assembly();
     empty.joints = results_by_joint(empty.assembly, {});
@@ -135,7 +136,7 @@ TEST_CASE("a session in which nothing happened still makes a page") {
     CHECK(markup_fault(report_of(empty)) == "");
 }
 
-TEST_CASE("several sessions begin with how they compare") {
+TEST_CASE("Report: several sessions begin with the overview") {
     std::vector<SessionData> sessions;
     for (std::uint64_t i = 0; i < 4; ++i) {
         SyntheticOptions options;
@@ -152,15 +153,15 @@ TEST_CASE("several sessions begin with how they compare") {
     CHECK(html.find("Learning curve") < html.find("<section"));
 }
 
-TEST_CASE("the run-down does not squeeze the last turn") {
+TEST_CASE("Joint plot: the run-down is cut") {
     const SyntheticSession session = synthetic_session({});
-    const JointView view = joint_view(session.data, 0);
-    CHECK(view.cut);
-    CHECK(view.zero_name == "snug");
-    CHECK(view.shown.span() < 120.0);
-    CHECK(view.shown.low < 0.0);
+    const JointPlotFrame frame = joint_plot_frame(session.data, 0);
+    CHECK(frame.cut_before);
+    CHECK(frame.origin_name == "snug");
+    CHECK(frame.range.span() < 120.0);
+    CHECK(frame.range.low < 0.0);
     const double end = to_degrees(session.data.curves[0].end_angle - session.data.curves[0].snug_angle);
-    CHECK(view.shown.high > end);
+    CHECK(frame.range.high > end);
     const Plot plot = joint_plot(session.data, 0);
     CHECK(has(plot.x.label, "drawn from"));
     CHECK(plot.y.ticks.range.high >= session.data.joints[0].torque);
@@ -168,7 +169,7 @@ TEST_CASE("the run-down does not squeeze the last turn") {
     CHECK(run_down_text(session.data.curves[0].run_down).starts_with("Run-down of 17.9 turns in "));
 }
 
-TEST_CASE("the summary against a hand count") {
+TEST_CASE("Summary: equals a manual calculation") {
     SessionData session;
     session.assembly = synthetic_assembly();
     session.joints = results_by_joint(session.assembly, {});
@@ -189,7 +190,7 @@ TEST_CASE("the summary against a hand count") {
     CHECK(s.highest == 2);
 }
 
-TEST_CASE("the clamp target follows from the torque where it is not stated") {
+TEST_CASE("Clamp target: follows from the target torque if it is not specified") {
     content::Assembly assembly = synthetic_assembly();
     CHECK(target_clamp(assembly, 0) == doctest::Approx(80.9e3));
     assembly.joints[0].spec.target_clamp = 0.0;
@@ -202,14 +203,15 @@ TEST_CASE("the clamp target follows from the torque where it is not stated") {
 
 namespace {
 
-// A joint that was tightened in full, and then checked again: with the torques given, turning it by degrees.
+// A joint tightened to torque `full` and then re-checked with torque `check`, which turns the nut by
+// `degrees`.
 SessionData checked_again(double full, double check, double degrees) {
     SessionData session;
     session.assembly = synthetic_assembly();
     session.assembly.joints.resize(1);
-    session.assembly.passes = {{content::StepKind::tighten, 0.5, {0}},
-                               {content::StepKind::tighten, 1.0, {0}},
-                               {content::StepKind::recheck, 1.0, {0}}};
+    session.assembly.passes = {{content::PassKind::tighten, 0.5, {0}},
+                               {content::PassKind::tighten, 1.0, {0}},
+                               {content::PassKind::recheck, 1.0, {0}}};
     session.pass_texts = {"50 %", "100 %", "re-check"};
     session.joints = results_by_joint(session.assembly, {});
     session.header.task = "tighten";
@@ -236,48 +238,48 @@ SessionData checked_again(double full, double check, double degrees) {
     return session;
 }
 
-const Mark* mark_of(const Plot& plot, std::string_view style) {
-    for (const Mark& mark : plot.marks)
-        if (mark.style == style) return &mark;
+const Marker* marker_with(const Plot& plot, std::string_view style) {
+    for (const Marker& marker : plot.markers)
+        if (marker.style == style) return &marker;
     return nullptr;
 }
 
 }  // namespace
 
-TEST_CASE("the judged dot shows the torque of the result, a breakaway is told apart from it") {
+TEST_CASE("Joint plot: the judged marker shows the result's torque, and a breakaway has its own marker") {
     const SessionData moved = checked_again(200.0, 221.0, 1.0);
     const Plot plot = joint_plot(moved, 0);
-    const Mark* judged = mark_of(plot, "mpeak");
+    const Marker* judged = marker_with(plot, "mpeak");
     REQUIRE(judged != nullptr);
-    CHECK(judged->at.y == doctest::Approx(200.0));
+    CHECK(judged->position.y == doctest::Approx(200.0));
     CHECK(judged->label == "200.0");
-    const Mark* breakaway = mark_of(plot, "mbreak");
+    const Marker* breakaway = marker_with(plot, "mbreak");
     REQUIRE(breakaway != nullptr);
     CHECK(breakaway->label == "breakaway 221.0");
-    CHECK(breakaway->quiet);
+    CHECK(breakaway->small_label);
     CHECK(has(report_of(moved), "breakaway in the re-check, not judged"));
 
     const SessionData turned = checked_again(200.0, 210.0, 5.0);
     const Plot again = joint_plot(turned, 0);
-    REQUIRE(mark_of(again, "mpeak") != nullptr);
-    CHECK(mark_of(again, "mpeak")->at.y == doctest::Approx(210.0));
-    CHECK(mark_of(again, "mbreak") == nullptr);
+    REQUIRE(marker_with(again, "mpeak") != nullptr);
+    CHECK(marker_with(again, "mpeak")->position.y == doctest::Approx(210.0));
+    CHECK(marker_with(again, "mbreak") == nullptr);
     CHECK_FALSE(has(report_of(turned), "breakaway in the re-check"));
 }
 
-TEST_CASE("a result between two samples is shown where the curve passes it") {
+TEST_CASE("Joint plot: a result between two samples is marked at the crossing") {
     SessionData session = checked_again(200.0, 221.0, 1.0);
     session.joints[0].torque = 150.04;
     for (Visit& visit : session.curves[0].visits)
         std::erase_if(visit.points, [](const CurvePoint& p) { return p.torque > 149.0 && p.torque < 151.0; });
-    const Mark* judged = nullptr;
+    const Marker* judged = nullptr;
     const Plot plot = joint_plot(session, 0);
-    judged = mark_of(plot, "mpeak");
+    judged = marker_with(plot, "mpeak");
     REQUIRE(judged != nullptr);
-    CHECK(judged->at.y == doctest::Approx(150.04));
+    CHECK(judged->position.y == doctest::Approx(150.04));
 }
 
-TEST_CASE("a pitch that is not the coarse one is part of the bolt's name") {
+TEST_CASE("Report: a pitch other than the coarse one is part of the bolt's name") {
     content::AssemblyJoint joint = synthetic_assembly().joints[0];
     joint.design.bolt_length = 70e-3;
     for (const auto& [size, text] :
@@ -290,7 +292,7 @@ TEST_CASE("a pitch that is not the coarse one is part of the bolt's name") {
     }
 }
 
-TEST_CASE("paths break only after a slash") {
+TEST_CASE("Report: paths break only after a slash") {
     CHECK(path_fact("session", "out/a b/session.boltwright") ==
           "<div class=\"path\"><dt>session</dt><dd>out/<wbr/>a b/<wbr/>session.boltwright</dd></div>\n");
     CHECK(path_fact("session", "").empty());
@@ -300,7 +302,7 @@ TEST_CASE("paths break only after a slash") {
     CHECK(has(make_report(std::vector<SessionData>{session, session}), "out/<wbr/>session.bolt"));
 }
 
-TEST_CASE("attempts are compared only with attempts at the same thing") {
+TEST_CASE("Report: only attempts with the same assembly, task, variant and law are compared") {
     std::vector<SessionData> sessions(4, synthetic_session({}).data);
     sessions[1].header.task = "loosen";
     sessions[3].header.law = "published";
@@ -343,7 +345,7 @@ TEST_CASE("Learning curves: one for each trainee, with the axes of all") {
     CHECK(learning_curves_section(attempts, two, true).empty());
 }
 
-TEST_CASE("Trainees: who held the tool is the session's record, not the name") {
+TEST_CASE("Trainees: the kind of operator follows from the session's record, not from the name") {
     session::Header header;
     header.operator_name = "person";
     header.trainee = "novice";
@@ -370,7 +372,7 @@ TEST_CASE("Trainees: who held the tool is the session's record, not the name") {
     CHECK(trainee_text(header) == "person without a name");
 }
 
-TEST_CASE("what is explained is drawn") {
+TEST_CASE("Report: explains only elements that are drawn") {
     SessionData session = synthetic_session({}).data;
     const std::string html = report_of(session);
     CHECK(has(html, "open dot"));
@@ -383,7 +385,7 @@ TEST_CASE("what is explained is drawn") {
     CHECK_FALSE(has(report_of(session), "open dot"));
 }
 
-TEST_CASE("loosened joints share their axes and are shown to the end") {
+TEST_CASE("Joint plot: loosened joints share their axes and are shown to the end") {
     SessionData session;
     session.assembly = synthetic_assembly();
     session.assembly.joints.resize(2);
@@ -412,8 +414,8 @@ TEST_CASE("loosened joints share their axes and are shown to the end") {
     CHECK(one.y.ticks.range.low == two.y.ticks.range.low);
     CHECK(one.y2->ticks.range.high == two.y2->ticks.range.high);
     CHECK(one.x.ticks.range.high > 90.0);
-    REQUIRE(mark_of(one, "mpeak") != nullptr);
-    CHECK(mark_of(one, "mpeak")->label == "−60.0");
+    REQUIRE(marker_with(one, "mpeak") != nullptr);
+    CHECK(marker_with(one, "mpeak")->label == "−60.0");
     const std::string html = report_of(session);
     CHECK(markup_fault(html) == "");
     for (const char* absent : {"torque window", "earlier passes", "judged", "yield</li>"})

@@ -7,14 +7,16 @@
 
 namespace bolt::report {
 
+using namespace analysis;
+
 namespace {
 
 constexpr double lever = 2.55e-3;   // m, torque per clamp force
 constexpr double target = 206.0;    // N·m
 constexpr double yields_at = 80e3;  // N
 
-// Plays the hand: every tick is what a wrench on the nut would have shown.
-struct Hand {
+// Records the ticks of a wrench or of fingers on the nuts.
+struct TickScript {
     SyntheticSession& session;
     double dt;
     std::vector<double> angle;  // degrees from the hand-started nut
@@ -68,7 +70,7 @@ struct Hand {
     }
 };
 
-lesson::Verdict verdict_of(double value, const content::Window& window) {
+lesson::Verdict verdict_of(double value, const content::ToleranceWindow& window) {
     if (value < window.low) return lesson::Verdict::low;
     return value > window.high ? lesson::Verdict::high : lesson::Verdict::ok;
 }
@@ -115,10 +117,10 @@ content::Assembly synthetic_assembly() {
     }
     const std::vector<std::size_t> cross = {2, 9, 3, 8, 1, 10, 4, 7, 0, 11, 5, 6};
     std::vector<std::size_t> round = {0, 1, 2, 3, 4, 5, 11, 10, 9, 8, 7, 6};
-    assembly.passes = {{content::StepKind::run_down, 1.0, round},
-                       {content::StepKind::tighten, 0.3, cross},
-                       {content::StepKind::tighten, 0.7, cross},
-                       {content::StepKind::tighten, 1.0, cross}};
+    assembly.passes = {{content::PassKind::run_down, 1.0, round},
+                       {content::PassKind::tighten, 0.3, cross},
+                       {content::PassKind::tighten, 0.7, cross},
+                       {content::PassKind::tighten, 1.0, cross}};
     return assembly;
 }
 
@@ -141,19 +143,20 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     header.program = "boltwright 0.1.0";
     Random random(options.seed);
     const std::size_t count = data.assembly.joints.size();
-    Hand hand{session, options.dt, std::vector<double>(count, 0.0), 360.0 * options.run_down_turns};
+    TickScript hand{session, options.dt, std::vector<double>(count, 0.0), 360.0 * options.run_down_turns};
     data.joints = results_by_joint(data.assembly, {});
     const std::size_t passes = data.assembly.passes.size() - (options.cut_short ? 1 : 0);
     for (std::size_t p = 0; p < passes; ++p) {
         const content::Pass& pass = data.assembly.passes[p];
-        session.events.push_back({session.ticks.size(), "pass_begin", -1, static_cast<double>(p), ""});
+        session.events.push_back(
+            {session.ticks.size(), lesson::EventKind::pass_begin, -1, static_cast<double>(p), ""});
         data.pass_texts.emplace_back();
         std::vector<std::size_t> order = pass.order;
         if (options.slips && p == 2) std::swap(order[3], order[6]);
         if (options.slips && p + 1 == passes) order.pop_back();
         for (const std::size_t j : order) {
             const int joint = static_cast<int>(j);
-            if (pass.kind == content::StepKind::run_down) {
+            if (pass.kind == content::PassKind::run_down) {
                 hand.run_down(joint, random);
                 continue;
             }
@@ -166,7 +169,7 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     CurveRequest request;
     request.snug_torque.assign(count, data.assembly.joints.front().spec.snug_torque);
     request.dt = options.dt;
-    for (const lesson::Event& event : session.events) request.pass_begins.push_back(event.tick);
+    for (const lesson::LessonEvent& event : session.events) request.pass_begins.push_back(event.tick);
     CurveBuilder builder(request);
     builder.add(0, session.ticks);
     data.curves = builder.finish();

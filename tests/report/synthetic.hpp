@@ -1,6 +1,5 @@
-// A session made up for the tests of pages and plots: twelve joints of a flange, tightened stroke by stroke
-// in passes. Its curve is a closed form, so that what is drawn can be checked; it claims nothing about real
-// joints.
+// A synthetic session for tests of pages and plots: twelve joints of a flange, tightened stroke by stroke in
+// passes. Its curve is a closed form, so that drawings can be checked. It does not model real joints.
 #pragma once
 
 #include <cstdint>
@@ -13,14 +12,14 @@ namespace bolt::report {
 
 struct SyntheticOptions {
     std::uint64_t seed = 1;
-    double scatter = 0.03;  // of the torque at which the wrench is let go
-    bool slips = false;     // a swap in the order, an over-tightened and an unfinished joint, a broken one
+    double scatter = 0.03;  // of the torque at the release of the wrench
+    bool slips = false;  // with a swap in the order and an over-tightened, an unfinished and a stripped joint
     bool cut_short = false;
     double dt = 0.01;  // s
     double run_down_turns = 18.0;
 };
 
-// Clamp force (N) and torque (N·m) at the degrees beyond the seat.
+// Clamp force (N), torque (N·m) and stage at an angle of `degrees` beyond the seat.
 double synthetic_clamp(double degrees);
 double synthetic_torque(double degrees);
 joint::Stage synthetic_stage(double degrees);
@@ -28,9 +27,9 @@ joint::Stage synthetic_stage(double degrees);
 content::Assembly synthetic_assembly();
 
 struct SyntheticSession {
-    SessionData data;
+    analysis::SessionData data;
     std::vector<session::TickRecord> ticks;
-    std::vector<lesson::Event> events;
+    std::vector<lesson::LessonEvent> events;
 };
 SyntheticSession synthetic_session(const SyntheticOptions& options);
 

@@ -1,4 +1,4 @@
-// A small checker: every tag closed in order, every attribute quoted, every '&' an entity. For tests only.
+// A markup checker for tests: tags are closed in order, attributes are quoted, and each '&' begins an entity.
 #pragma once
 
 #include <cctype>
@@ -78,7 +78,7 @@ struct MarkupChecker {
         if (!starts(">")) return fault("tag not closed");
         ++at;
         open.push_back(tag_name);
-        // A style sheet is no markup; within it only its own end counts.
+        // A style sheet is not markup; it ends at its closing tag.
         if (tag_name == "style") {
             at = text.find("</style>", at);
             if (at == std::string_view::npos) return "style is not closed";
@@ -87,7 +87,7 @@ struct MarkupChecker {
     }
 };
 
-// Empty if the text is well formed, else what is wrong and where.
+// Returns the first fault and its position, or an empty string if the text is well-formed.
 inline std::string markup_fault(std::string_view text) {
     MarkupChecker checker{text, 0, {}};
     while (checker.at < text.size()) {
@@ -102,7 +102,7 @@ inline std::string markup_fault(std::string_view text) {
     return checker.open.empty() ? "" : "<" + checker.open.back() + "> is never closed";
 }
 
-// How often `part` occurs.
+// Number of occurrences of `part`.
 inline std::size_t count_of(std::string_view text, std::string_view part) {
     std::size_t count = 0;
     for (std::size_t at = text.find(part); at != std::string_view::npos;

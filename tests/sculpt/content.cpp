@@ -1,3 +1,4 @@
+// Tests that the committed content files are those that bolt-sculpt generates.
 #include "tools/assets/sculpt/content_files.hpp"
 
 #include <doctest/doctest.h>
@@ -30,7 +31,7 @@ void check_same(const std::filesystem::path& made, const std::filesystem::path& 
 
 }  // namespace
 
-TEST_CASE("Sculpt: remaking hands, workshop and environment gives the committed files") {
+TEST_CASE("Sculpt: regenerating hands, workshop and environment reproduces the committed files") {
     const test::Folder kept;
     const std::filesystem::path& folder = kept.path();
     REQUIRE(sculpt::write_hands(folder).has_value());

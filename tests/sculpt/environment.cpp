@@ -1,3 +1,4 @@
+// Tests of Radiance files and of the workshop's light.
 #include "tools/assets/sculpt/environment.hpp"
 
 #include <doctest/doctest.h>
@@ -37,8 +38,8 @@ TEST_CASE("Radiance files: a file without a complete header is an error") {
 }
 
 TEST_CASE(
-    "The workshop's light: strips above, windows to the left, warmth to the right, a dark floor beyond the "
-    "bench") {
+    "Workshop light: has strip lights above, windows on the left, a warm wall on the right and a dark "
+    "floor") {
     const auto sum = [](const Vec3& c) { return c.x + c.y + c.z; };
     CHECK(sum(workshop_radiance(glm::normalize(Vec3(-0.2, 1.75, 0.4)))) > 40.0);
     CHECK(sum(workshop_radiance(glm::normalize(Vec3(0, -1.05, 2.0)))) < 0.5);
@@ -47,8 +48,8 @@ TEST_CASE(
     const Vec3 warm = workshop_radiance(glm::normalize(Vec3(3.8, 0.6, 0.85)));
     CHECK(cool.z > 1.2 * cool.x);
     CHECK(warm.x > 1.5 * warm.z);
-    for (const Vec3& way : {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0)}) {
-        const Vec3 light = workshop_radiance(way);
+    for (const Vec3& direction : {Vec3(0, 0, -1), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 1, 0)}) {
+        const Vec3 light = workshop_radiance(direction);
         CHECK(std::min({light.x, light.y, light.z}) > 0.0);
     }
 }

@@ -1,3 +1,4 @@
+// Tests of distance fields, surface extraction and mesh cutting.
 #include "tools/assets/sculpt/field.hpp"
 
 #include <doctest/doctest.h>
@@ -23,7 +24,7 @@ TEST_CASE("Field: the distance of a round cone equals brute force over a growing
     }
 }
 
-TEST_CASE("Field: a cone whose one sphere contains the other is that sphere") {
+TEST_CASE("Field: a round cone with one sphere inside the other is the larger sphere") {
     CHECK(round_cone(Vec3(3, 0, 0), Vec3(0.0), Vec3(0.1, 0, 0), 1.0, 0.2) == doctest::Approx(2.0));
 }
 
@@ -34,8 +35,8 @@ TEST_CASE("Field: a blend acts only within its width") {
     CHECK(smooth_difference(-0.3, -0.1, 0.05) == doctest::Approx(0.1));
 }
 
-TEST_CASE("The surface of a ball: closed, on the ball, and as large as it should be") {
-    const Field ball = [](const Vec3& p) { return glm::length(p) - 1.0; };
+TEST_CASE("Field: the extracted surface of a ball is closed, lies on the ball and has its volume") {
+    const SignedDistanceField ball = [](const Vec3& p) { return glm::length(p) - 1.0; };
     const TriMesh mesh = extract(ball, {Vec3(-1.3), Vec3(1.3)}, 0.05);
     CHECK(open_edges(mesh) == 0);
     CHECK(volume(mesh) == doctest::Approx(4.0 / 3.0 * pi).epsilon(2e-3));
@@ -45,22 +46,22 @@ TEST_CASE("The surface of a ball: closed, on the ball, and as large as it should
     CHECK(static_cast<long>(mesh.positions.size()) - faces / 2 == 2);
 }
 
-TEST_CASE("Mesh: holes are counted") {
-    const Field ball = [](const Vec3& p) { return glm::length(p) - 1.0; };
+TEST_CASE("Mesh: open_edges counts the edges of holes") {
+    const SignedDistanceField ball = [](const Vec3& p) { return glm::length(p) - 1.0; };
     TriMesh mesh = extract(ball, {Vec3(-1.3), Vec3(1.3)}, 0.1);
     mesh.triangles.pop_back();
     CHECK(open_edges(mesh) == 3);
 }
 
-TEST_CASE("Mesh: a cut keeps the surface closed and leaves no triangle across the line") {
-    const Field ball = [](const Vec3& p) { return glm::length(p) - 1.0; };
+TEST_CASE("Mesh: cut() keeps the surface closed and leaves no triangle across the line") {
+    const SignedDistanceField ball = [](const Vec3& p) { return glm::length(p) - 1.0; };
     TriMesh mesh = extract(ball, {Vec3(-1.3), Vec3(1.3)}, 0.1);
     const double before = volume(mesh);
     const auto height = [](const Vec3& p) { return p.y - 0.21 - 0.1 * p.x; };
     cut(mesh, height);
     CHECK(open_edges(mesh) == 0);
     CHECK(volume(mesh) == doctest::Approx(before).epsilon(5e-3));
-    for (const Triangle& t : mesh.triangles) {
+    for (const IndexTriangle& t : mesh.triangles) {
         double low = 0.0;
         double high = 0.0;
         for (const std::uint32_t v : t) {

@@ -1,3 +1,4 @@
+// Tests of the hand models: mesh, skinning weights and textures.
 #include "tools/assets/sculpt/hand.hpp"
 
 #include <doctest/doctest.h>
@@ -11,13 +12,13 @@
 using namespace bolt;
 using namespace bolt::sculpt;
 
-TEST_CASE("Hand mesh: closed, outward oriented, within its budget") {
+TEST_CASE("Hand mesh: is closed, oriented outward and within its triangle budget") {
     for (const assets::Model* hand : {&test::hands().left, &test::hands().right}) {
         const TriMesh mesh = test::joined(*hand);
         CHECK(mesh.triangles.size() <= hand_triangles);
         CHECK(mesh.triangles.size() > hand_triangles / 2);
         CHECK(open_edges(mesh) == 0);
-        // A hand displaces some 350 to 400 cm³; the sleeve adds to it.
+        // A hand has a volume of about 350 to 400 cm³; the sleeve adds to it.
         CHECK(volume(mesh) > 330e-6);
         CHECK(volume(mesh) < 450e-6);
     }
@@ -42,7 +43,7 @@ TEST_CASE("Hand mesh: vertices lie on the sculpted surface with outward normals"
     CHECK(against <= mesh.triangles.size() / 1000);
 }
 
-TEST_CASE("Fingers do not merge: between neighbours there is air past the web") {
+TEST_CASE("Hand mesh: neighbouring fingers do not merge past the web") {
     const HandShape& shape = test::shape();
     const Skeleton& hand = shape.skeleton();
     for (std::size_t d = 1; d < 4; ++d) {
@@ -56,7 +57,7 @@ TEST_CASE("Fingers do not merge: between neighbours there is air past the web") 
     }
 }
 
-TEST_CASE("Weights: at most four, exactly one in sum, on joints that exist") {
+TEST_CASE("Hand weights: each vertex has at most four existing joints, and its weights sum to exactly one") {
     for (const assets::Model* hand : {&test::hands().left, &test::hands().right}) {
         for (const assets::Primitive& part : hand->meshes[0].primitives) {
             REQUIRE(part.weights.size() == part.positions.size());
@@ -118,7 +119,7 @@ TEST_CASE("Hand mesh: tangents are unit and perpendicular to the normals") {
     }
 }
 
-TEST_CASE("The knit is laid on the hand at its size: hardly anywhere stretched beyond three quarters") {
+TEST_CASE("Hand textures: few edges of the knit are stretched beyond a factor of 1.75") {
     double area = 0.0;
     double stretched = 0.0;
     for (const assets::Primitive& part : test::hands().right.meshes[0].primitives) {
@@ -129,16 +130,16 @@ TEST_CASE("The knit is laid on the hand at its size: hardly anywhere stretched b
                 p[k] = Vec3(part.positions[part.indices[i + k]]);
                 uv[k] = glm::dvec2(part.texcoords[0][part.indices[i + k]]) * tile_length;
             }
-            const double whole = glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
-            area += whole;
-            // Edge by edge: as long on the texture as on the hand, within the factor.
+            const double triangle_area = glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
+            area += triangle_area;
+            // Each edge has the same length on the texture as on the hand, within the factor.
             double worst = 1.0;
             for (std::size_t k = 0; k < 3; ++k) {
-                const double there = glm::length(p[(k + 1) % 3] - p[k]);
-                const double flat = glm::length(uv[(k + 1) % 3] - uv[k]);
-                worst = std::max(worst, there / std::max(flat, 1e-9));
+                const double on_hand = glm::length(p[(k + 1) % 3] - p[k]);
+                const double on_texture = glm::length(uv[(k + 1) % 3] - uv[k]);
+                worst = std::max(worst, on_hand / std::max(on_texture, 1e-9));
             }
-            if (worst > 1.75) stretched += whole;
+            if (worst > 1.75) stretched += triangle_area;
         }
     }
     CHECK(stretched < 0.05 * area);

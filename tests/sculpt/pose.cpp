@@ -1,3 +1,4 @@
+// Tests of posed hands.
 #include "tools/assets/sculpt/pose.hpp"
 
 #include <doctest/doctest.h>
@@ -10,28 +11,29 @@ using namespace bolt::sculpt;
 
 namespace {
 
-TriMesh bent(const assets::Model& hand, const HandPosture& pose) {
+TriMesh posed_mesh(const assets::Model& hand, const HandPosture& pose) {
     const Result<assets::Model> out = posed(hand, pose);
     REQUIRE(out.has_value());
     return test::as_stored(*out);
 }
 
-// The digit that a point past the web belongs to; 5: palm or cuff.
+// Returns the digit of a point past the web; 5: palm or cuff.
 std::size_t digit_of(const Vec3& p) {
     std::size_t best = 0;
     for (std::size_t d = 1; d < 5; ++d) {
-        if (test::shape().finger(d, p) < test::shape().finger(best, p)) best = d;
+        if (test::shape().digit_distance(d, p) < test::shape().digit_distance(best, p)) best = d;
     }
     const double web = test::shape().travel(best, 1) + (best == 0 ? 16 * mm : 24 * mm);
-    const bool own = test::shape().along(best, p).travel > web && test::shape().finger(best, p) < 1.5 * mm;
+    const bool own =
+        test::shape().locate(best, p).travel > web && test::shape().digit_distance(best, p) < 1.5 * mm;
     return own ? best : 5;
 }
 
 }  // namespace
 
-TEST_CASE("Skin: at rest the skinned mesh is the mesh") {
+TEST_CASE("Skin: at rest the skinned mesh equals the mesh") {
     const TriMesh rest = test::as_stored(test::hands().right);
-    const TriMesh same = bent(test::hands().right, HandPosture());
+    const TriMesh same = posed_mesh(test::hands().right, HandPosture());
     double furthest = 0.0;
     for (std::size_t i = 0; i < rest.positions.size(); ++i) {
         furthest = std::max(furthest, glm::length(rest.positions[i] - same.positions[i]));
@@ -45,7 +47,7 @@ TEST_CASE("Skin: a bent finger does not move its neighbours") {
         HandPosture pose;
         const Digit& digit = digits[moved];
         for (std::size_t k = 1; k + 1 < digit.count; ++k) pose.flex(digit.first + k, 60.0);
-        const TriMesh now = bent(test::hands().right, pose);
+        const TriMesh now = posed_mesh(test::hands().right, pose);
         std::array<double, 6> furthest{};
         std::array<std::size_t, 6> count{};
         for (std::size_t i = 0; i < rest.positions.size(); ++i) {
@@ -66,7 +68,7 @@ TEST_CASE("Skin: a bent finger does not move its neighbours") {
     }
 }
 
-TEST_CASE("Skin: poses keep the volume and flip hardly any triangle") {
+TEST_CASE("Skin: poses preserve the volume and flip few triangles") {
     for (const bool left : {false, true}) {
         const assets::Model& hand = left ? test::hands().left : test::hands().right;
         const TriMesh rest = test::as_stored(hand);
@@ -79,7 +81,7 @@ TEST_CASE("Skin: poses keep the volume and flip hardly any triangle") {
             const TriMesh now = test::as_stored(*out);
             CHECK(volume(now) > 0.85 * whole);
             CHECK(volume(now) < 1.15 * whole);
-            // Turned over: the triangle looks against the normals that its own corners carry along.
+            // A triangle is flipped if its normal opposes the skinned normals of its corners.
             std::size_t over = 0;
             std::size_t t = 0;
             double area_over = 0.0;
@@ -88,15 +90,15 @@ TEST_CASE("Skin: poses keep the volume and flip hardly any triangle") {
                 for (std::size_t i = 0; i < part.indices.size(); i += 3, ++t) {
                     Vec3 mean(0.0);
                     for (std::size_t k = 0; k < 3; ++k) mean += Vec3(part.normals[part.indices[i + k]]);
-                    const Vec3 looks = area_vector(now, now.triangles[t]);
-                    area += glm::length(looks);
-                    if (glm::dot(mean, looks) >= 0.0) continue;
+                    const Vec3 normal = area_vector(now, now.triangles[t]);
+                    area += glm::length(normal);
+                    if (glm::dot(mean, normal) >= 0.0) continue;
                     ++over;
-                    area_over += glm::length(looks);
+                    area_over += glm::length(normal);
                 }
             }
-            // Linear blending folds the skin into itself inside a joint bent by a right angle; nobody sees
-            // it.
+            // Linear blending folds the skin inside a joint that is bent by a right angle, where it is not
+            // visible.
             CHECK(over < now.triangles.size() / 33);
             CHECK(area_over < 0.01 * area);
         }

@@ -1,3 +1,4 @@
+// Tests of the hands' skeletons.
 #include "haptics/hand/kinematics.hpp"
 
 #include <doctest/doctest.h>
@@ -69,11 +70,11 @@ TEST_CASE("Skeleton: each joint's frame points along its bone, the back of the h
             }
         }
     }
-    // Palm down and fingers away, the right hand's thumb is on the left.
+    // With the palm down and the fingers pointing away, the right hand's thumb is on the left.
     CHECK(right_skeleton().position[thumb_tip].x < -0.05);
 }
 
-TEST_CASE("Skeleton: bone lengths are near the published ones, the hand is a median man's") {
+TEST_CASE("Skeleton: bone lengths are near the published values of a median male hand") {
     const Skeleton hand = right_skeleton();
     const auto length = [&](std::size_t joint) {
         return glm::length(hand.position[joint + 1] - hand.position[joint]) / mm;
@@ -92,7 +93,7 @@ TEST_CASE("Skeleton: bone lengths are near the published ones, the hand is a med
     CHECK(hand.position[index_tip].z < hand.position[little_tip].z);
 }
 
-TEST_CASE("Skeleton: the breadth over the knuckles is that of a gloved hand") {
+TEST_CASE("Skeleton: the breadth over the knuckles matches a gloved hand") {
     double left = 0.0;
     double right = 0.0;
     for (const Vec3& p : test::joined(test::hands().right).positions) {

@@ -4,9 +4,9 @@
 
 namespace bolt::sculpt::test {
 
-const Hands& hands() {
-    static const Hands made = [] {
-        Result<Hands> result = make_hands();
+const HandModels& hands() {
+    static const HandModels made = [] {
+        Result<HandModels> result = make_hands();
         REQUIRE(result.has_value());
         return std::move(*result);
     }();

@@ -1,4 +1,4 @@
-// What the tests of the sculptor share: the hands, made once, and measures on them.
+// Helpers of the sculpt tests: the hands, which are generated once, and conversions of their meshes.
 #pragma once
 
 #include "engine/assets/model.hpp"
@@ -7,12 +7,12 @@
 
 namespace bolt::sculpt::test {
 
-const Hands& hands();
+const HandModels& hands();
 const HandShape& shape();
 
-// All primitives of the first mesh in one, vertices at the same place joined.
+// Returns all primitives of the first mesh as one mesh with identical vertices merged.
 TriMesh joined(const assets::Model& model);
-// The same before joining: vertex i of it is vertex i of the primitives in their order.
+// The same without merging: vertex i is vertex i of the primitives in their order.
 TriMesh as_stored(const assets::Model& model);
 
 }  // namespace bolt::sculpt::test

@@ -1,3 +1,4 @@
+// Tests of the workshop model.
 #include "tools/assets/sculpt/workshop.hpp"
 
 #include <doctest/doctest.h>
@@ -33,7 +34,7 @@ const assets::Mesh& mesh_of(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("Workshop: within its budget, node names are unique") {
+TEST_CASE("Workshop: the model is within its triangle budget and node names are unique") {
     std::size_t triangles = 0;
     std::set<std::string> names;
     for (const assets::Node& node : workshop().nodes) {
@@ -68,7 +69,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Workshop: boxes and tools are closed and outward oriented") {
+TEST_CASE("Workshop: boxes and tools are closed and oriented outward") {
     for (const std::string name : {"floor", "clamping_plate", "bench_top", "bench_drawers", "tool_board"}) {
         CAPTURE(name);
         TriMesh all;

@@ -1,6 +1,5 @@
-// A torque wrench in the hand: its setting is an input, what it trips at is the tool's own, and the click is
-// felt within what the device may do.
-
+// The click-type torque wrench: its setting is an input, the deviation from it belongs to the tool, and the
+// click is rendered within the device's limits.
 #include <doctest/doctest.h>
 
 #include "tests/servo/support.hpp"
@@ -21,7 +20,7 @@ Setup with_torque_wrench(double deviation = 0.0, double dt = 1e-3) {
     return setup;
 }
 
-// The wrench on nut 0, its handle where the hand has it.
+// The wrench on nut 0, with its handle at the hand's angle.
 struct Bench {
     Setup setup;
     State state;
@@ -38,7 +37,7 @@ struct Bench {
         input.setting = static_cast<float>(scale);
         return last = tick(setup, state, input);
     }
-    // Turns on until it clicks or has gone this far; the greatest torque on the way.
+    // Turns the handle until the wrench clicks, at most by `at_most` (rad). Returns the greatest torque, N·m.
     double pull(double at_most, double speed = 1.0) {
         double greatest = 0.0;
         const double end = handle + at_most;
@@ -132,7 +131,7 @@ TEST_CASE("Click: the device's torque drops briefly, within the slew limits") {
         for (int i = 0; i < static_cast<int>(0.1 / dt); ++i) {
             const Vec3 felt = bench.last.torque;
             bench.hold(bench.handle);
-            // By itself, with room to spare: the limiter has nothing to do.
+            // The click itself is slower than the slew limit.
             REQUIRE(glm::length(bench.last.torque - felt) <= 0.9 * bench.setup.limits.torque_rate * dt);
         }
         CHECK(glm::length(bench.last.torque) < 0.6 * before);

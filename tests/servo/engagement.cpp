@@ -61,7 +61,7 @@ TEST_CASE("Engagement: a jaw that is off centre, tilted, too high or misaligned 
     State state = initial_state(setup);
     const NutGeometry& nut = setup.nuts[0];
     const Vec3 centre = nut_centre(nut, 0.0);
-    const double fits = setup.wrench.head_angle;  // handle angle at which the jaw lies on the flats
+    const double fits = setup.wrench.head_angle;  // handle angle at which the jaw is aligned with the flats
     const auto holds = [&](Grip grip, const Vec3& at, double angle, double tilt) {
         ToolPose tool = pose_of(test::tool_at(nut, at, angle));
         tool.normal = glm::angleAxis(tilt, nut.e1) * tool.normal;

@@ -1,6 +1,5 @@
-// What an engaged tool feels besides the joint's torque, when it is let go, and what letting go leaves
-// behind.
-
+// Forces on an engaged tool besides the joint's torque, the conditions of its release, and the state after a
+// release.
 #include <doctest/doctest.h>
 
 #include <initializer_list>
@@ -12,8 +11,8 @@ using namespace bolt::servo;
 
 namespace {
 
-// Limits that do not blur a force within one tick: full strength at once, a steep slew, and nothing damped of
-// poses that leap as no hand does.
+// Limits that let a force appear within one tick: full strength at once, a steep slew, and no damping, as the
+// poses of these tests jump.
 force::OutputLimits at_once() {
     force::OutputLimits limits;
     limits.ramp_up = 1e-3;
@@ -44,7 +43,7 @@ struct Held {
     Output step(Grip grip, const DeviceSample& sample) {
         return tick(setup, state, test::holding(grip, sample));
     }
-    // Handle angle at which the jaw lies on the flats of the nut at angle 0.
+    // Handle angle at which the jaw is aligned with the flats of the nut at angle 0.
     [[nodiscard]] double fits(bool flipped = false) const {
         return flipped ? -setup.wrench.head_angle : setup.wrench.head_angle;
     }
@@ -126,7 +125,7 @@ TEST_CASE(
         CHECK((output.joint == 0) == (degrees < 30.0));
         CHECK(held.state.joints[0].nut.angle == 0.0);
     }
-    for (const double degrees : {52.0, 55.0}) {  // 0.8 is the cosine of 36.9 degrees to the axis
+    for (const double degrees : {52.0, 55.0}) {  // the limit is 0.8, the cosine of 36.9 degrees to the axis
         Held held;
         const DeviceSample square_on = held.at(Vec3(0.0));
         REQUIRE(held.step(Grip::fingers, square_on).joint == 0);
@@ -166,7 +165,8 @@ TEST_CASE("Servo: an empty hand is guided to the nut's centre with k over the di
         Input input = test::holding(Grip::none, test::tool_at(nut, nut_centre(nut, 0.0) + away, 0.0));
         input.guide = guide;
         Output output;
-        for (int i = 0; i < 250; ++i) output = tick(held.setup, held.state, input);  // it comes slowly
+        for (int i = 0; i < 250; ++i)
+            output = tick(held.setup, held.state, input);  // the guiding force ramps up
         const double d = glm::length(away);
         CHECK(output.joint == -1);
         CHECK(glm::length(output.force + away / d * (held.setup.guiding.gain / d)) < 1e-5);
@@ -190,7 +190,7 @@ TEST_CASE("Fingers: after slipping at the seat they unload at once when the hand
         return held.step(Grip::fingers, test::tool_at(held.nut, at, hand));
     };
     Output output;
-    for (int i = 0; i < 3000; ++i) output = turn_by(3e-3);  // 9 rad: the seat is at 2 pi
+    for (int i = 0; i < 3000; ++i) output = turn_by(3e-3);  // 9 rad, beyond the seat at 2 pi
     REQUIRE(output.wrench_torque == doctest::Approx(limit).epsilon(1e-3));
     const double stands_at = held.state.joints[0].nut.angle;
     for (int i = 1; i <= 20; ++i) {
@@ -234,7 +234,7 @@ TEST_CASE("Servo: a NaN pose at 40 kN releases the nut, which stays, and the tor
 
 TEST_CASE("Servo: an invalid sample is not taken for a hand at the origin") {
     for (const bool engaged_before : {true, false}) {
-        Held held;  // the first seat is the origin, and a default pose would lie in the fingers' reach of it
+        Held held;  // the first seat is at the origin, so a default pose would be within reach of the fingers
         const DeviceSample there = test::tool_at(held.nut, held.centre, 0.0);
         if (engaged_before) REQUIRE(held.step(Grip::fingers, there).joint == 0);
         DeviceSample lost = there;

@@ -1,4 +1,4 @@
-// The loop on a clock that only this test moves, so that every lateness is the one wanted; then the verdicts.
+// The servo loop on a virtual clock with controlled delays, and the assessment of hosts.
 #include "haptics/servo/thread.hpp"
 
 #include <doctest/doctest.h>
@@ -15,11 +15,11 @@ constexpr std::int64_t us = 1000, ms = 1000 * us;
 
 struct VirtualClock {
     std::int64_t time = 77 * ms;
-    std::int64_t late = 20 * us;  // of every waking
+    std::int64_t late = 20 * us;  // delay of every wake-up, ns
     int sleeps = 0;
     [[nodiscard]] std::int64_t now() const { return time; }
     void sleep_until(std::int64_t deadline) {
-        REQUIRE(deadline > time);  // a deadline that is over would be a burst
+        REQUIRE(deadline > time);  // a past deadline would cause a burst of ticks
         ++sleeps;
         time = deadline + late;
     }
@@ -28,11 +28,11 @@ struct VirtualClock {
 struct Run {
     Timing timing;
     std::vector<Deadline> beats;
-    std::vector<std::int64_t> begun;
+    std::vector<std::int64_t> started;
     VirtualClock clock;
 };
 
-// `work(i)` is how long tick i takes.
+// `work(i)`: duration of tick i, ns.
 Run run(int ticks, std::int64_t period, const std::function<std::int64_t(int)>& work) {
     Run r;
     int i = 0;
@@ -40,7 +40,7 @@ Run run(int ticks, std::int64_t period, const std::function<std::int64_t(int)>& 
         r.clock, period, r.timing,
         [&](const Deadline& beat) {
             r.beats.push_back(beat);
-            r.begun.push_back(r.clock.time);
+            r.started.push_back(r.clock.time);
             r.clock.time += work(i);
             return ++i < ticks;
         },
@@ -59,9 +59,9 @@ Timing timed(std::int64_t wake_up, std::int64_t compute, int ticks, std::int64_t
     return t;
 }
 
-bool says(const HostAssessment& assessment, const std::string& words) {
+bool has_reason(const HostAssessment& assessment, const std::string& text) {
     for (const std::string& reason : assessment.reasons)
-        if (reason.find(words) != std::string::npos) return true;
+        if (reason.find(text) != std::string::npos) return true;
     return false;
 }
 
@@ -73,14 +73,14 @@ TEST_CASE("Loop: in time, every deadline has its tick and deadlines do not shift
     for (std::size_t i = 0; i < r.beats.size(); ++i) {
         REQUIRE(r.beats[i].number == i + 1);
         REQUIRE(r.beats[i].missed == 0);
-        REQUIRE(r.begun[i] == 77 * ms + static_cast<std::int64_t>(i + 1) * ms + 20 * us);
+        REQUIRE(r.started[i] == 77 * ms + static_cast<std::int64_t>(i + 1) * ms + 20 * us);
     }
     CHECK(r.timing.ticks == 1000);
     CHECK(r.timing.missed == 0);
     CHECK(r.timing.wake_up.count == 1000);
     CHECK(r.timing.wake_up.greatest == 20 * us);
     CHECK(r.timing.compute.least == 300 * us);
-    CHECK(r.timing.period.count == 999);  // the first has none before it
+    CHECK(r.timing.period.count == 999);  // the first tick has no period
     CHECK(r.timing.period.least == ms);
     CHECK(r.timing.period.greatest == ms);
 }
@@ -92,13 +92,13 @@ TEST_CASE("Loop: an overrun skips and counts deadlines, and never makes two tick
     CHECK(r.beats[11].number == 15);  // 11.02 + 3.5 ms: the next deadline is the 15th
     CHECK(r.beats[11].missed == 3);
     CHECK(r.beats[12].missed == 0);
-    CHECK(r.beats[51].missed == 1);  // 20 µs late and 999 µs of work: just over
+    CHECK(r.beats[51].missed == 1);  // 20 µs late and 999 µs of work exceed the period
     CHECK(r.timing.missed == 4);
     CHECK(r.timing.ticks == 100);
     CHECK(r.beats.back().number == 104);
-    for (std::size_t i = 1; i < r.begun.size(); ++i) {
-        REQUIRE(r.begun[i] - r.begun[i - 1] >= ms);
-        REQUIRE((r.begun[i] - 77 * ms - 20 * us) % ms == 0);
+    for (std::size_t i = 1; i < r.started.size(); ++i) {
+        REQUIRE(r.started[i] - r.started[i - 1] >= ms);
+        REQUIRE((r.started[i] - 77 * ms - 20 * us) % ms == 0);
     }
     CHECK(r.timing.period.greatest == 4 * ms);
 }
@@ -113,11 +113,11 @@ TEST_CASE("Loop: with ticks longer than the period it still sleeps before each t
 TEST_CASE("Host assessment: each violated limit is named") {
     const HostAssessment good = assess_host(timed(40 * us, 100 * us, 5000), 1000.0);
     CHECK(good.adequate);
-    CHECK(good.reasons.size() == 4);  // what was held is told too
+    CHECK(good.reasons.size() == 4);  // including the limits that are met
 
     const HostAssessment few = assess_host(timed(40 * us, 100 * us, 999), 1000.0);
     CHECK_FALSE(few.adequate);
-    CHECK(says(few, "only 999 ticks"));
+    CHECK(has_reason(few, "only 999 ticks"));
     CHECK_FALSE(assess_host(Timing{}, 1000.0).adequate);
 
     const HostAssessment late = assess_host(timed(300 * us, 100 * us, 5000), 1000.0);
@@ -146,12 +146,12 @@ TEST_CASE("Host assessment: a host fit for 1 kHz can fail at 4 kHz") {
     CHECK(assess_host(t, 1000.0).adequate);
     CHECK_FALSE(assess_host(t, 4000.0).adequate);
     CHECK(assess_host(timed(40 * us, 60 * us, 5000), 4000.0).adequate);
-    // Timed at 1 kHz without a miss, but one waking in a hundred comes after more than a quarter millisecond.
+    // No missed deadline at 1 kHz, but one wake-up in a hundred is more than 0.25 ms late.
     Timing rare = timed(40 * us, 60 * us, 5000);
     for (int i = 0; i < 50; ++i) add(rare.wake_up, 400 * us);
     const HostAssessment assessment = assess_host(rare, 4000.0);
     CHECK_FALSE(assessment.adequate);
-    CHECK(says(assessment, "0.99 % of the deadlines were missed"));
+    CHECK(has_reason(assessment, "0.99 % of the deadlines were missed"));
 }
 
 TEST_CASE("Timing: the table gives percentiles in microseconds") {

@@ -22,7 +22,8 @@ inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis
     return servo::make_setup(description);
 }
 
-// A tool at a place, its handle at `angle` about the nut's axis (tightening positive), upright or flipped.
+// Sample of a tool at a position, with its handle at `angle` (rad) about the nut's axis (tightening
+// positive), upright or flipped.
 inline servo::DeviceSample tool_at(const servo::NutGeometry& nut, const Vec3& position, double angle,
                                    bool flipped = false) {
     const Vec3 x = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;

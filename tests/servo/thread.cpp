@@ -1,5 +1,5 @@
-// The servo thread on the real clock. What passes or fails is what is so at any speed: counts, order, what is
-// set and put back. Whether this host keeps time is for `boltwright doctor`.
+// The servo thread on the real clock. The tests check only counts, order and restored settings, which do not
+// depend on the speed of the host; `boltwright doctor` checks the timing.
 #include "haptics/servo/thread.hpp"
 
 #include <doctest/doctest.h>
@@ -39,7 +39,7 @@ TEST_CASE("Denormals: flushed during the object's lifetime, restored afterwards,
 TEST_CASE("Servo thread: ticks in order until stopped, and its timing counts every tick") {
     std::atomic<std::uint64_t> ticks{0}, backwards{0};
     std::uint64_t last = 0;
-    Result<Thread> thread = Thread::start({}, [&](const Deadline& beat) {
+    Result<ServoThread> thread = ServoThread::start({}, [&](const Deadline& beat) {
         if (beat.number != last + beat.missed + 1) ++backwards;
         last = beat.number;
         ++ticks;
@@ -48,22 +48,22 @@ TEST_CASE("Servo thread: ticks in order until stopped, and its timing counts eve
     REQUIRE(thread.has_value());
     CHECK(test::eventually([&] { return ticks >= 300; }));
     CHECK(thread->running());
-    CHECK(test::eventually([&] { return thread->timing().ticks >= 200; }));  // seen while it runs
+    CHECK(test::eventually([&] { return thread->timing().ticks >= 200; }));  // published while it runs
     thread->stop();
     CHECK_FALSE(thread->running());
     const Timing& timing = thread->timing();
-    CHECK(timing.ticks == ticks + 1);  // the turn that saw the request to stop did no tick
+    CHECK(timing.ticks == ticks + 1);  // the last wake-up found the request to stop and made no tick
     CHECK(timing.wake_up.count == timing.ticks);
     CHECK(timing.compute.count == timing.ticks);
     CHECK(timing.period.count == timing.ticks - 1);
     CHECK(backwards == 0);
     CHECK(last >= ticks);
-    thread->stop();  // once more does no harm
+    thread->stop();  // stopping twice is harmless
 }
 
 TEST_CASE("Servo thread: a tick that returns false ends it") {
     int ticks = 0;
-    Result<Thread> thread = Thread::start({4000.0}, [&](const Deadline&) { return ++ticks < 10; });
+    Result<ServoThread> thread = ServoThread::start({4000.0}, [&](const Deadline&) { return ++ticks < 10; });
     REQUIRE(thread.has_value());
     CHECK(test::eventually([&] { return !thread->running(); }));
     thread->stop();
@@ -74,7 +74,7 @@ TEST_CASE("Servo thread: a tick that returns false ends it") {
 TEST_CASE("Servo thread: the reported privileges are the kernel's, for this thread only") {
     std::atomic<int> policy{-1}, priority{-1};
     std::atomic<bool> flushes{false};
-    Result<Thread> thread = Thread::start({}, [&](const Deadline&) {
+    Result<ServoThread> thread = ServoThread::start({}, [&](const Deadline&) {
         sched_param now{};
         int p = -1;
         pthread_getschedparam(pthread_self(), &p, &now);
@@ -101,7 +101,7 @@ TEST_CASE("Servo thread: without requests nothing is refused") {
     ThreadOptions options;
     options.priority = 0;
     options.lock_memory = false;
-    Result<Thread> thread = Thread::start(options, [](const Deadline&) { return false; });
+    Result<ServoThread> thread = ServoThread::start(options, [](const Deadline&) { return false; });
     REQUIRE(thread.has_value());
     CHECK(thread->privileges().refused.empty());
     CHECK(thread->privileges().priority == 0);
@@ -110,16 +110,16 @@ TEST_CASE("Servo thread: without requests nothing is refused") {
 
 TEST_CASE("Servo thread: invalid rates and priorities are errors; a moved thread is stopped once") {
     const auto no = [](const Deadline&) { return false; };
-    CHECK_FALSE(Thread::start({0.0}, no).has_value());
-    CHECK_FALSE(Thread::start({std::numeric_limits<double>::quiet_NaN()}, no).has_value());
-    CHECK_FALSE(Thread::start({1e6}, no).has_value());
+    CHECK_FALSE(ServoThread::start({0.0}, no).has_value());
+    CHECK_FALSE(ServoThread::start({std::numeric_limits<double>::quiet_NaN()}, no).has_value());
+    CHECK_FALSE(ServoThread::start({1e6}, no).has_value());
     ThreadOptions options;
     options.priority = 100;
-    CHECK_FALSE(Thread::start(options, no).has_value());
+    CHECK_FALSE(ServoThread::start(options, no).has_value());
 
     std::atomic<int> a{0}, b{0};
-    Result<Thread> first = Thread::start({}, [&](const Deadline&) { return ++a > 0; });
-    Result<Thread> second = Thread::start({}, [&](const Deadline&) { return ++b > 0; });
+    Result<ServoThread> first = ServoThread::start({}, [&](const Deadline&) { return ++a > 0; });
+    Result<ServoThread> second = ServoThread::start({}, [&](const Deadline&) { return ++b > 0; });
     REQUIRE(first.has_value());
     REQUIRE(second.has_value());
     CHECK(test::eventually([&] { return a > 5 && b > 5; }));

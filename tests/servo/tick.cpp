@@ -16,7 +16,7 @@ using namespace bolt::servo;
 
 namespace {
 
-// Reach over the nut, come down on it with the wrench, pull 40 degrees, let go, lift.
+// Reaches above the nut, lowers the wrench onto it, pulls by 40 degrees, releases and lifts.
 Input scripted(const Setup& setup, const State& state, int i) {
     const NutGeometry& nut = setup.nuts[0];
     const double fits = setup.wrench.head_angle;
@@ -100,7 +100,7 @@ TEST_CASE("Servo: reach, engage, turn and release keep force and torque within t
         const Output output = tick(setup, state, scripted(setup, state, i));
         REQUIRE(glm::length(output.force - last.force) <= setup.limits.force_rate * setup.dt * 1.0001);
         REQUIRE(glm::length(output.torque - last.torque) <= setup.limits.torque_rate * setup.dt * 1.0001);
-        // The act of engaging adds no torque of its own: the nut's answer begins from nothing.
+        // Engaging adds no torque: the nut's torque starts at zero.
         if (output.joint == 0 && last.joint == -1) CHECK(output.wrench_torque == 0.0);
         engaged = engaged || output.joint == 0;
         turned = turned || output.nut_angle > to_radians(30.0);
@@ -143,7 +143,7 @@ TEST_CASE("Servo: a device without torque renders it as a force across the handl
     }
     REQUIRE(output.wrench_torque > 140.0);
     const ToolPose tool = pose_of(test::tool_at(nut, Vec3(0.0), angle));
-    const Vec3 pull = glm::cross(-nut.axis, tool.handle);  // where the grip goes when tightening
+    const Vec3 pull = glm::cross(-nut.axis, tool.handle);  // direction of the grip's motion when tightening
     CHECK(glm::dot(output.force, pull) ==
           doctest::Approx(-output.wrench_torque * setup.torque.as_force).epsilon(0.05));
     CHECK(glm::length(output.torque) == 0.0);
@@ -178,7 +178,7 @@ TEST_CASE("Fingers: they run the nut down and slip at its seat") {
         REQUIRE(output.wrench_torque <= setup.finger_torque(nut) * 1.0001);
     }
     CHECK(output.stage != joint::Stage::navigation);
-    CHECK(output.nut_angle == doctest::Approx(2 * pi).epsilon(0.1));  // 2 mm of gap, 2 mm of pitch
+    CHECK(output.nut_angle == doctest::Approx(2 * pi).epsilon(0.1));  // a gap of 2 mm and a pitch of 2 mm
 }
 
 TEST_CASE("Servo: the hand's angle is unwrapped across half turns") {

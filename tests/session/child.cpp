@@ -21,12 +21,12 @@ ChildEnd run_child(const std::function<int(const std::function<void(std::uint64_
         const int code = work([&](std::uint64_t number) {
             if (::write(ends[1], &number, sizeof number) != sizeof number) ::_exit(99);
         });
-        ::_exit(code);  // no destructors of the test program, no reports of its own
+        ::_exit(code);  // skips the destructors and reports of the test program
     }
     (void)::close(ends[1]);
     ChildEnd end;
     std::uint64_t number = 0;
-    // Eight bytes go through a pipe whole. After the kill the rest of the reports is still read.
+    // A pipe transfers eight bytes atomically. Reports from before the kill are still read.
     while (::read(ends[0], &number, sizeof number) == sizeof number) {
         end.last_report = number;
         if (++end.reports != kill_at) continue;

@@ -19,7 +19,7 @@ std::vector<std::byte> packed(std::uint64_t first, std::span<const TickRecord> t
 
 }  // namespace
 
-TEST_CASE("Chunk: a chunk gives back every bit of its ticks") {
+TEST_CASE("Chunk: decoding returns every bit of the ticks") {
     ChunkEncoder encoder;
     ChunkDecoder decoder;
     for (const std::size_t count : {1U, 2U, 3U, 999U, 1000U, 1001U, 4000U, 7U}) {
@@ -33,31 +33,31 @@ TEST_CASE("Chunk: a chunk gives back every bit of its ticks") {
     }
 }
 
-TEST_CASE("Chunk: a chunk of nothing is a chunk") {
+TEST_CASE("Chunk: an empty chunk is valid") {
     ChunkDecoder decoder;
     const auto read = decoder.decode(0, 0, packed(0, {}));
     REQUIRE(read);
     CHECK(read->empty());
 }
 
-TEST_CASE("Chunk: the bytes of a chunk are the same on every machine") {
+TEST_CASE("Chunk: the bytes are the same on every machine") {
     TickRecord tick;
     tick.device.position[0] = 1.0F;  // 0x3F800000
     const std::vector<std::byte> bytes = packed(0x0102, {&tick, 1});
     const std::vector<std::byte> header(bytes.begin(), bytes.begin() + 13);
     const int expected[] = {4, 1, 0, 0, 0, 0x02, 0x01, 0, 0, 0, 0, 0, 0};
     for (std::size_t i = 0; i < header.size(); ++i) CHECK(header[i] == static_cast<std::byte>(expected[i]));
-    // zstd's magic number and, in the frame header's descriptor, the bit that says that there is a checksum.
+    // zstd's magic number, and the checksum bit in the frame header's descriptor.
     CHECK(bytes[13] == std::byte{0x28});
     CHECK((bytes[17] & std::byte{4}) == std::byte{4});
 }
 
-TEST_CASE("Chunk: steady ticks take next to no room") {
+TEST_CASE("Chunk: constant ticks need almost no space") {
     const std::vector<TickRecord> still(1000, random_ticks(1, 7).front());
     CHECK(packed(0, still).size() < 500);
 }
 
-TEST_CASE("Chunk: a damaged chunk says what is wrong") {
+TEST_CASE("Chunk: the error for a damaged chunk names the defect") {
     const std::vector<TickRecord> ticks = random_ticks(50, 3);
     const std::vector<std::byte> good = packed(100, ticks);
     ChunkDecoder decoder;
@@ -79,7 +79,7 @@ TEST_CASE("Chunk: a damaged chunk says what is wrong") {
     CHECK(message(100, 50, longer).find("damaged") != std::string::npos);
 }
 
-TEST_CASE("Chunk: no flipped bit of a chunk goes unnoticed") {
+TEST_CASE("Chunk: a flipped bit is detected or has no effect") {
     const std::vector<TickRecord> ticks = random_ticks(20, 5);
     const std::vector<std::byte> good = packed(40, ticks);
     ChunkDecoder decoder;
@@ -92,19 +92,19 @@ TEST_CASE("Chunk: no flipped bit of a chunk goes unnoticed") {
             if (!read)
                 ++noticed;
             else
-                CHECK(same(*read, ticks));  // bits that zstd gives no meaning
+                CHECK(same(*read, ticks));  // bits that zstd ignores
         }
     }
     CHECK(noticed > good.size() * 8 - 8);
 }
 
-TEST_CASE("Chunk: values that no type has are refused, not handed out") {
+TEST_CASE("Chunk: values outside their enumeration are refused") {
     std::vector<TickRecord> ticks = random_ticks(3, 9);
     SUBCASE("grip") { ticks[1].grip = 3; }
     SUBCASE("stage") { ticks[1].stage = 4; }
     SUBCASE("joint") { ticks[1].joint = -2; }
     SUBCASE("guide") { ticks[1].guide = -2; }
-    SUBCASE("touched") { ticks[1].touched = collision::ObstacleId::fixed(most_fixed); }
+    SUBCASE("touched") { ticks[1].touched = collision::ObstacleId::fixed(max_fixed); }
     SUBCASE("fault") { ticks[1].fault = force::fault_kinds; }
     ChunkDecoder decoder;
     const auto read = decoder.decode(0, 3, packed(0, ticks));

@@ -1,5 +1,4 @@
-// Bytes that the disk or a cable changed: nothing crashes, and nothing wrong is handed out as if it were
-// right.
+// Sessions with changed bytes: reading never crashes, and never returns wrong data without an error.
 #include <doctest/doctest.h>
 
 #include "game/session/session_file.hpp"
@@ -15,12 +14,12 @@ struct Contents {
     Header header;
     bool complete = false;
     std::vector<TickRecord> ticks;
-    std::vector<lesson::Event> events;
+    std::vector<lesson::LessonEvent> events;
     lesson::LessonResult result;
 };
 
 Contents contents_of(const std::filesystem::path& path) {
-    const auto reader = Reader::open(path);
+    const auto reader = SessionReader::open(path);
     REQUIRE(reader);
     auto events = reader->events();
     auto result = reader->result();
@@ -29,9 +28,9 @@ Contents contents_of(const std::filesystem::path& path) {
     return {reader->header(), reader->complete(), all_ticks(*reader), *events, *result};
 }
 
-// Reads all that can be read; every part is an error or equal to `right`. True if all of it was read.
+// Reads everything; every part must be an error or equal to `right`. Returns true if all of it was read.
 bool is_right_or_refused(const std::filesystem::path& path, const Contents& right) {
-    const auto reader = Reader::open(path);
+    const auto reader = SessionReader::open(path);
     if (!reader) {
         CHECK(reader.error().file == path.string());
         CHECK_FALSE(reader.error().what.empty());
@@ -45,7 +44,7 @@ bool is_right_or_refused(const std::filesystem::path& path, const Contents& righ
         ticks.insert(ticks.end(), chunk.begin(), chunk.end());
     });
     CHECK(ticks.size() <= right.ticks.size());
-    CHECK(same(ticks, std::span(right.ticks).first(ticks.size())));  // also those before the damage
+    CHECK(same(ticks, std::span(right.ticks).first(ticks.size())));  // also the ticks before the damage
     if (read) CHECK(ticks.size() == right.ticks.size());
     const auto events = reader->events();
     if (events) {
@@ -68,7 +67,7 @@ std::filesystem::path whole_session(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("Damage: flipped bits anywhere in a session are harmless or noticed") {
+TEST_CASE("Damage: flipped bits anywhere in a session are harmless or detected") {
     const Folder folder;
     const Contents right = contents_of(whole_session(folder));
     const std::string good = bytes_of(folder / "whole.session");
@@ -84,10 +83,10 @@ TEST_CASE("Damage: flipped bits anywhere in a session are harmless or noticed") 
         put_bytes(folder / "a.session", bytes);
         if (!is_right_or_refused(folder / "a.session", right)) ++refused;
     }
-    CHECK(refused > 500);  // pages have room to spare, in which nothing matters
+    CHECK(refused > 500);  // flips in the unused parts of pages are harmless
 }
 
-TEST_CASE("Damage: runs of wrong bytes in a session are harmless or noticed") {
+TEST_CASE("Damage: runs of wrong bytes in a session are harmless or detected") {
     const Folder folder;
     const Contents right = contents_of(whole_session(folder));
     const std::string good = bytes_of(folder / "whole.session");
@@ -106,7 +105,7 @@ TEST_CASE("Damage: runs of wrong bytes in a session are harmless or noticed") {
     }
 }
 
-TEST_CASE("Damage: a session cut off anywhere is refused") {
+TEST_CASE("Damage: a truncated session is refused") {
     const Folder folder;
     const Contents right = contents_of(whole_session(folder));
     const std::string good = bytes_of(folder / "whole.session");
@@ -119,7 +118,7 @@ TEST_CASE("Damage: a session cut off anywhere is refused") {
     CHECK(is_right_or_refused(folder / "a.session", right));
 }
 
-TEST_CASE("Damage: a damaged log gives a session that was cut short earlier, or an error") {
+TEST_CASE("Damage: a damaged log gives an earlier state of the session, or an error") {
     const Folder folder;
     auto writer = create_script(folder / "live.session");
     REQUIRE(writer);
@@ -140,7 +139,7 @@ TEST_CASE("Damage: a damaged log gives a session that was cut short earlier, or 
         std::filesystem::remove(folder / "a.session-shm");
         put_bytes(folder / "a.session", main);
         put_bytes(folder / "a.session-wal", bytes);
-        const auto reader = Reader::open(folder / "a.session");
+        const auto reader = SessionReader::open(folder / "a.session");
         if (!reader) continue;
         CHECK_FALSE(reader->complete());
         CHECK(reader->tick_count() <= 80);

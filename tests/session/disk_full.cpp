@@ -1,4 +1,4 @@
-// The disk has no room: at every single file operation, and by the system's own limit on the size of a file.
+// A full disk at each file operation, and the system's limit on the size of a file.
 #include <doctest/doctest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t script_ticks = 55;
 
-// All that may be called after an error, with what it has to answer.
-void check_refuses_alike(Writer& writer, const Error& first) {
+// Every call after an error, with its required result.
+void check_refuses_alike(SessionWriter& writer, const Error& first) {
     const Status more[] = {writer.append({}), writer.add({}), writer.update({}), writer.finish({})};
     for (const Status& status : more) {
         REQUIRE_FALSE(status);
@@ -27,8 +27,7 @@ void check_refuses_alike(Writer& writer, const Error& first) {
 
 }  // namespace
 
-TEST_CASE(
-    "Disk full: a disk that is full from any file operation on is an error, and what was committed is kept") {
+TEST_CASE("Disk full: from any file operation on it is an error, and the committed data is kept") {
     const Folder folder;
     const auto path = folder / "a.session";
     int failures = 0;
@@ -51,7 +50,7 @@ TEST_CASE(
                 if (!done) check_refuses_alike(*writer, done.error());
             }
         }
-        const auto reader = Reader::open(path);
+        const auto reader = SessionReader::open(path);
         if (!reader) FAIL_CHECK(reader.error().message());
         REQUIRE(reader);
         const std::string mismatch = script_mismatch(*reader);
@@ -71,8 +70,7 @@ TEST_CASE(
     CHECK(failures > 20);
 }
 
-TEST_CASE(
-    "Disk full: a file that reaches the system's limit on size is an error, and what was committed is kept") {
+TEST_CASE("Disk full: the system's limit on file size is an error, and the committed data is kept") {
     const Folder folder;
     const auto path = folder / "a.session";
     const ChildEnd end = run_child([&](const auto& report) {
@@ -91,7 +89,7 @@ TEST_CASE(
     });
     CHECK(end.code == 0);
     CHECK(end.last_report > 100);
-    const auto reader = Reader::open(path);
+    const auto reader = SessionReader::open(path);
     REQUIRE(reader);
     CHECK_FALSE(reader->complete());
     CHECK(reader->tick_count() + script_second > end.last_report);

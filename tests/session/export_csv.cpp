@@ -42,8 +42,8 @@ std::vector<TickRecord> finite_ticks(std::size_t count) {
 }
 
 // Joints 0 and 1 have results, with ids that need quoting; joint 2 has none.
-Reader recorded(const std::filesystem::path& path, const std::vector<TickRecord>& ticks) {
-    auto writer = Writer::create(path, sample_header(0.001));
+SessionReader recorded(const std::filesystem::path& path, const std::vector<TickRecord>& ticks) {
+    auto writer = SessionWriter::create(path, sample_header(0.001));
     REQUIRE(writer);
     for (const char* id : {"A,1", "the \"second\""}) {
         lesson::JointResult joint;
@@ -52,12 +52,12 @@ Reader recorded(const std::filesystem::path& path, const std::vector<TickRecord>
     }
     for (const TickRecord& tick : ticks) REQUIRE(writer->append(tick));
     REQUIRE(writer->finish({}));
-    auto reader = Reader::open(path);
+    auto reader = SessionReader::open(path);
     REQUIRE(reader);
     return std::move(*reader);
 }
 
-// The fields as RFC 4180 says, without newlines inside of fields.
+// Splits a line as in RFC 4180, without newlines inside fields.
 Rows parsed(const std::string& text) {
     Rows rows;
     std::istringstream lines(text);
@@ -80,7 +80,7 @@ Rows parsed(const std::string& text) {
     return rows;
 }
 
-Rows exported(const Reader& reader, const std::filesystem::path& csv, std::uint64_t every_n) {
+Rows exported(const SessionReader& reader, const std::filesystem::path& csv, std::uint64_t every_n) {
     const File out(std::fopen(csv.c_str(), "wb"));
     REQUIRE(out);
     REQUIRE(export_csv(reader, out.get(), {every_n, csv.string()}));
@@ -100,7 +100,7 @@ float number(const std::string& text) {
 TEST_CASE("CSV export: an exported session reads back to the same ticks") {
     const Folder folder;
     const std::vector<TickRecord> ticks = finite_ticks(2345);
-    const Reader reader = recorded(folder / "a.session", ticks);
+    const SessionReader reader = recorded(folder / "a.session", ticks);
     const Rows rows = exported(reader, folder / "a.csv", 1);
     REQUIRE(rows.size() == ticks.size() + 1);
     CHECK(rows[0].front() == "time_s");
@@ -134,9 +134,9 @@ TEST_CASE("CSV export: an exported session reads back to the same ticks") {
     }
 }
 
-TEST_CASE("CSV export: every n-th tick is exported, across the seconds") {
+TEST_CASE("CSV export: every n-th tick is exported, also across chunks") {
     const Folder folder;
-    const Reader reader = recorded(folder / "a.session", finite_ticks(3100));
+    const SessionReader reader = recorded(folder / "a.session", finite_ticks(3100));
     for (const std::uint64_t every_n : {2U, 7U, 1000U, 1300U, 4000U}) {
         CAPTURE(every_n);
         const Rows rows = exported(reader, folder / "a.csv", every_n);
@@ -154,12 +154,12 @@ TEST_CASE("CSV export: a session without ticks is exported as the header row") {
     CHECK(exported(recorded(folder / "a.session", {}), folder / "a.csv", 1).size() == 1);
 }
 
-TEST_CASE("CSV export: an export that cannot be written is an error that names where to") {
+TEST_CASE("CSV export: the error for a failed write names the destination") {
     const Folder folder;
     std::size_t count = 0;
-    SUBCASE("more than a buffer") { count = 3000; }
-    SUBCASE("so little that only the flush fails") { count = 1; }
-    const Reader reader = recorded(folder / "a.session", finite_ticks(count));
+    SUBCASE("more than one buffer") { count = 3000; }
+    SUBCASE("so little data that only the flush fails") { count = 1; }
+    const SessionReader reader = recorded(folder / "a.session", finite_ticks(count));
     const File full(std::fopen("/dev/full", "wb"));
     REQUIRE(full);
     const Status to_full = export_csv(reader, full.get(), {1, "/dev/full"});
@@ -178,15 +178,15 @@ TEST_CASE("CSV export: an export that cannot be written is an error that names w
     CHECK(to_broken.error().message() == "the standard output: cannot be written: Broken pipe");
 }
 
-TEST_CASE("CSV export: a damaged session is exported up to the damage and then is an error") {
+TEST_CASE("CSV export: a damaged session is exported up to the damage, followed by an error") {
     const Folder folder;
     const std::vector<TickRecord> ticks = finite_ticks(1000);
-    { const Reader reader = recorded(folder / "a.session", ticks); }
+    { const SessionReader reader = recorded(folder / "a.session", ticks); }
     std::string bytes = bytes_of(folder / "a.session");
-    // The last page of a chunk of one second is its own: zeros there hit nothing else.
+    // The last page of a one-second chunk holds no other data, so zeros there damage only the chunk.
     bytes.replace(bytes.size() - 2000, 1000, 1000, '\0');
     put_bytes(folder / "a.session", bytes);
-    const auto reader = Reader::open(folder / "a.session");
+    const auto reader = SessionReader::open(folder / "a.session");
     REQUIRE(reader);
     const File out(std::fopen("/dev/null", "wb"));
     const Status done = export_csv(*reader, out.get(), {1, "/dev/null"});

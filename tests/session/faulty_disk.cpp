@@ -33,7 +33,7 @@ bool is_due() { return ++faults.done > faults.at; }
     std::abort();
 }
 
-// For operations that need no room on the disk.
+// For operations that need no space on the disk.
 void count_or_die() {
     if (is_due() && faults.fault == Fault::kill) die();
 }

@@ -1,7 +1,7 @@
-// A disk that fails on purpose: while an object lives, SQLite does its file work through it.
+// Fault injection for disk access: while an object exists, SQLite accesses files through it.
 //
-// Work is counted in operations that change a file (write, truncate, sync, delete). At a chosen one either
-// the process is killed, with half of a write done, or the disk is full from there on.
+// Counts the operations that change a file (write, truncate, sync, delete). At a chosen one either the
+// process is killed, halfway through a write, or the disk is full from then on.
 #pragma once
 
 namespace bolt::session::test {
@@ -15,7 +15,7 @@ class FaultyDisk {
     FaultyDisk& operator=(const FaultyDisk&) = delete;
     ~FaultyDisk();
 
-    [[nodiscard]] static int operations();  // since the object was made
+    [[nodiscard]] static int operations();  // since the object was created
 };
 
 }  // namespace bolt::session::test

@@ -1,4 +1,4 @@
-// What a session says of how it was made, and sessions of older programs.
+// Metadata of sessions, and sessions of older formats.
 #include <doctest/doctest.h>
 
 #include <bit>
@@ -14,14 +14,13 @@ using namespace bolt;
 using namespace bolt::session;
 using namespace bolt::session::test;
 
-TEST_CASE(
-    "Session format: a session of format 1, recorded by an older program, opens with all that it holds") {
-    const auto reader = Reader::open(bolt::test::test_file("data/format-1.boltwright"));
+TEST_CASE("Session format: a session of format 1 opens with all its data") {
+    const auto reader = SessionReader::open(bolt::test::test_file("data/format-1.boltwright"));
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     CHECK(reader->complete());
     CHECK(reader->header().assembly == "cover-m8");
     CHECK(reader->header().operator_name == "novice");
-    CHECK(reader->header().obstacles.empty());  // it did not say
+    CHECK(reader->header().obstacles.empty());  // format 1 does not store them
     CHECK(reader->header().device.empty());
     CHECK(reader->header().obstacle_names.empty());
     const std::vector<TickRecord> ticks = all_ticks(*reader);
@@ -39,8 +38,8 @@ TEST_CASE(
     CHECK(reader->events()->size() > 2);
 }
 
-TEST_CASE("Session format: a session of format 2 too, and nothing was undone in it") {
-    const auto reader = Reader::open(bolt::test::test_file("data/format-2.boltwright"));
+TEST_CASE("Session format: a session of format 2 opens, without undo") {
+    const auto reader = SessionReader::open(bolt::test::test_file("data/format-2.boltwright"));
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     CHECK(reader->complete());
     CHECK(reader->header().obstacles == "none");
@@ -55,8 +54,8 @@ TEST_CASE("Session format: a session of format 2 too, and nothing was undone in 
     CHECK(held);
 }
 
-TEST_CASE("Session format: a session of format 3 too, and its wrench was set to nothing") {
-    const auto reader = Reader::open(bolt::test::test_file("data/format-3.boltwright"));
+TEST_CASE("Session format: a session of format 3 opens, with a set torque of 0") {
+    const auto reader = SessionReader::open(bolt::test::test_file("data/format-3.boltwright"));
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     CHECK(reader->complete());
     CHECK(reader->header().tool.empty());
@@ -74,7 +73,7 @@ TEST_CASE("Session format: a session of format 3 too, and its wrench was set to 
     CHECK(marked);
 }
 
-TEST_CASE("Session format: a device's limits come back from their text to the last bit") {
+TEST_CASE("Session format: parsing the text of device limits returns all bits") {
     Random random(3);
     for (int i = 0; i < 100; ++i) {
         force::OutputLimits limits;
@@ -83,19 +82,19 @@ TEST_CASE("Session format: a device's limits come back from their text to the la
         limits.stiffness = std::exp(random.uniform(-300.0, 300.0));
         limits.delay = i % 4;
         limits.recovery = random.uniform();
-        const auto read = limits_of(text_of(limits));
+        const auto read = parse_limits(limits_text(limits));
         REQUIRE(read);
-        CHECK(text_of(*read) == text_of(limits));
+        CHECK(limits_text(*read) == limits_text(limits));
         CHECK(read->force == limits.force);
         CHECK(read->stiffness == limits.stiffness);
         CHECK(read->delay == limits.delay);
         CHECK(read->recovery == limits.recovery);
     }
-    const std::string good = text_of({});
-    CHECK_FALSE(limits_of(""));
-    CHECK_FALSE(limits_of(good + " more=1"));
-    CHECK_FALSE(limits_of(good.substr(0, good.size() - 4)));
-    CHECK_FALSE(limits_of("force_N=twenty" + good.substr(good.find(' '))));
+    const std::string good = limits_text({});
+    CHECK_FALSE(parse_limits(""));
+    CHECK_FALSE(parse_limits(good + " more=1"));
+    CHECK_FALSE(parse_limits(good.substr(0, good.size() - 4)));
+    CHECK_FALSE(parse_limits("force_N=twenty" + good.substr(good.find(' '))));
 }
 
 namespace {
@@ -121,16 +120,16 @@ bool same(const servo::Histogram& a, const servo::Histogram& b) {
 
 }  // namespace
 
-TEST_CASE("Session format: how a servo thread kept its time is in the session, as last told") {
+TEST_CASE("Session format: the session stores the latest timing of the servo thread") {
     const Folder folder;
-    auto writer = Writer::create(folder / "a.session", sample_header(0.1));
+    auto writer = SessionWriter::create(folder / "a.session", sample_header(0.1));
     REQUIRE(writer);
-    REQUIRE(writer->keep(servo::Timing{}));
+    REQUIRE(writer->record_timing(servo::Timing{}));
     for (const TickRecord& tick : random_ticks(25, 1)) REQUIRE(writer->append(tick));
     const servo::Timing timing = some_timing();
-    REQUIRE(writer->keep(timing));
+    REQUIRE(writer->record_timing(timing));
     REQUIRE(writer->finish({}));
-    const auto reader = Reader::open(folder / "a.session");
+    const auto reader = SessionReader::open(folder / "a.session");
     REQUIRE(reader);
     const auto read = reader->timing();
     REQUIRE_MESSAGE(read, (read ? "" : read.error().message()));
@@ -143,21 +142,21 @@ TEST_CASE("Session format: how a servo thread kept its time is in the session, a
     CHECK(same(reader->header(), sample_header(0.1)));
 }
 
-TEST_CASE("Session format: a row that is no histogram is not taken for one") {
+TEST_CASE("Session format: a timing row that is not a histogram is refused") {
     const auto rows = rows_of(some_timing());
     for (const TimingRow& row : rows) {
         servo::Timing timing;
-        CHECK(take_row(timing, row));
+        CHECK(read_row(timing, row));
     }
     servo::Timing timing;
     TimingRow wrong = rows[0];
     SUBCASE("another name") { wrong.name = "waking"; }
-    SUBCASE("a count that is not the bins' sum") { ++wrong.count; }
+    SUBCASE("a count that differs from the sum of the bins") { ++wrong.count; }
     SUBCASE("half an entry") { wrong.bins.pop_back(); }
-    SUBCASE("a bin that there is not") { wrong.bins[3] = std::byte{0xFF}; }
-    SUBCASE("bins that add up round the corner") {
+    SUBCASE("an invalid bin index") { wrong.bins[3] = std::byte{0xFF}; }
+    SUBCASE("bins whose sum overflows") {
         wrong.bins.resize(24);
         for (std::size_t i = 4; i < 12; ++i) wrong.bins[i] = std::byte{0xFF};
     }
-    CHECK_FALSE(take_row(timing, wrong));
+    CHECK_FALSE(read_row(timing, wrong));
 }

@@ -1,4 +1,4 @@
-// libFuzzer: any bytes are refused or decoded, and any ticks come back from their chunk bit for bit.
+// libFuzzer: any bytes are refused or decoded, and decoding an encoded chunk returns all bits of its ticks.
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -10,14 +10,14 @@ using namespace bolt::session;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto bytes = std::as_bytes(std::span(data, size));
     ChunkDecoder decoder;
-    // The count that the bytes claim, so that the frame behind the header is reached.
+    // Use the count in the bytes, so that decoding continues after the header.
     std::uint32_t count = 0;
     if (size >= 5) std::memcpy(&count, data + 1, sizeof count);
     std::uint64_t first = 0;
     if (size >= 13) std::memcpy(&first, data + 5, sizeof first);
     if (const auto ticks = decoder.decode(first, count, bytes); ticks && ticks->size() != count) std::abort();
 
-    // The same bytes as ticks.
+    // Interpret the same bytes as ticks.
     std::vector<TickRecord> ticks(size / sizeof(TickRecord));
     for (std::size_t i = 0; i < ticks.size(); ++i) {
         TickRecord& tick = ticks[i];
@@ -37,14 +37,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!packed) std::abort();
     std::vector<std::byte> good(packed->begin(), packed->end());
     const auto is_same = [&](std::span<const TickRecord> back) {
-        // Different ticks have different bytes, NaNs included, which the values themselves could not tell.
+        // Compare bytes, because NaNs do not compare equal.
         const auto again = encoder.encode(size, back);
         return again && std::ranges::equal(*again, good);
     };
     const auto back = decoder.decode(size, ticks.size(), good);
     if (!back || !is_same(*back)) std::abort();
 
-    // And with one byte changed they are refused or still the same.
+    // With one changed byte they are refused or still the same.
     if (size < 4) return 0;
     auto damaged = good;
     damaged[(data[0] + 256U * data[1]) % good.size()] ^= bytes[2];

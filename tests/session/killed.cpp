@@ -1,4 +1,4 @@
-// The process dies: at every single file operation, and at random moments.
+// Killing the process at each file operation and at random times.
 #include <doctest/doctest.h>
 
 #include "game/session/session_file.hpp"
@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t script_ticks = 55;
 constexpr std::size_t old_ticks = 5;
 
-// Records the script to its end over what is at `path` and reports: 1 when the file was made, then 1 + ticks.
+// Records the script to its end at `path`, over an existing file. Reports 1 when the file exists, then 1 +
+// ticks.
 int record_script(const std::filesystem::path& path, const std::function<void(std::uint64_t)>& report) {
     auto writer = create_script(path);
     if (!writer) return 1;
@@ -24,18 +25,18 @@ int record_script(const std::filesystem::path& path, const std::function<void(st
     return writer->finish({}) ? 0 : 3;
 }
 
-// What has to be true of the file, whenever its writer died after `reported`.
-void check_left(const std::filesystem::path& path, std::uint64_t reported) {
-    const auto reader = Reader::open(path);
+// Checks the file of a writer that died after the report `reported`.
+void check_file(const std::filesystem::path& path, std::uint64_t reported) {
+    const auto reader = SessionReader::open(path);
     if (!reader) FAIL_CHECK(reader.error().message());
     if (!reader) return;
     const std::string mismatch = script_mismatch(*reader);
     CHECK_MESSAGE(mismatch.empty(), mismatch);
     if (reported == 0 && reader->complete()) {
-        CHECK(reader->tick_count() == old_ticks);  // the session that was to be replaced
+        CHECK(reader->tick_count() == old_ticks);  // the session before the replacement
         return;
     }
-    const auto previous = Reader::open(path.parent_path() / "a.previous.session");
+    const auto previous = SessionReader::open(path.parent_path() / "a.previous.session");
     if (!previous) FAIL_CHECK(previous.error().message());
     if (previous) CHECK((previous->complete() && previous->tick_count() == old_ticks));
     const std::uint64_t appended = reported == 0 ? 0 : reported - 1;
@@ -45,9 +46,9 @@ void check_left(const std::filesystem::path& path, std::uint64_t reported) {
     if (appended < script_ticks) CHECK_FALSE(reader->complete());
 }
 
-// How many ticks there are, all of them right.
-std::size_t left_under(const std::filesystem::path& path) {
-    const auto reader = Reader::open(path);
+// Number of ticks at `path`; checks that all are right.
+std::size_t ticks_at(const std::filesystem::path& path) {
+    const auto reader = SessionReader::open(path);
     if (!reader) FAIL_CHECK(reader.error().message());
     if (!reader) return 0;
     CHECK(script_mismatch(*reader).empty());
@@ -56,7 +57,7 @@ std::size_t left_under(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("Killed process: a process killed at any file operation leaves a session that opens") {
+TEST_CASE("Killed process: after a kill at any file operation the session opens") {
     int survived = -1;
     int cut_short = 0;
     for (int at = 0; survived < 0; ++at) {
@@ -73,17 +74,16 @@ TEST_CASE("Killed process: a process killed at any file operation leaves a sessi
             CHECK(end.code == 0);
             survived = at;
         }
-        check_left(path, end.last_report);
-        const auto reader = Reader::open(path);
+        check_file(path, end.last_report);
+        const auto reader = SessionReader::open(path);
         if (reader && !reader->complete()) ++cut_short;
     }
-    // The operations really were in the way: several a second of the script, and more to begin and to end
-    // with.
+    // The script has several operations a second, and more at its start and end.
     CHECK(survived > 40);
     CHECK(cut_short > 20);
 }
 
-TEST_CASE("Killed process: a process killed while it replaces a cut-short session loses nothing of it") {
+TEST_CASE("Killed process: a kill during the replacement of a cut-short session loses no data of it") {
     constexpr std::size_t cut_ticks = 20;
     int survived = -1;
     int still_there = 0;
@@ -101,20 +101,20 @@ TEST_CASE("Killed process: a process killed while it replaces a cut-short sessio
             CHECK(end.code == 0);
             survived = at;
         }
-        if (left_under(path) == cut_ticks)
+        if (ticks_at(path) == cut_ticks)
             ++still_there;
         else
-            CHECK(left_under(folder / "a.previous.session") == cut_ticks);
-        // What died in the middle is in nobody's way either.
+            CHECK(ticks_at(folder / "a.previous.session") == cut_ticks);
+        // The leftovers of the killed process do not disturb the next recording.
         CHECK(create_script(path));
-        CHECK(left_under(path) == 0);
-        CHECK(left_under(folder / "a.previous.session") == cut_ticks);
+        CHECK(ticks_at(path) == 0);
+        CHECK(ticks_at(folder / "a.previous.session") == cut_ticks);
     }
     CHECK(still_there > 10);
     CHECK(survived > still_there);
 }
 
-TEST_CASE("Killed process: a process killed at a random moment loses at most the last second") {
+TEST_CASE("Killed process: a kill at a random time loses at most the last second") {
     const Folder folder;
     const auto path = folder / "a.session";
     Random random(2024);
@@ -135,7 +135,7 @@ TEST_CASE("Killed process: a process killed at a random moment loses at most the
             },
             kill_at, random.bits() % 3000);
         REQUIRE(end.killed);
-        const auto reader = Reader::open(path);
+        const auto reader = SessionReader::open(path);
         REQUIRE(reader);
         CHECK_FALSE(reader->complete());
         CHECK(reader->tick_count() + script_second >= end.last_report - 1);

@@ -1,4 +1,4 @@
-// What Reader::open makes of files that are no sessions, and that it leaves all files alone.
+// SessionReader::open with files that are not sessions, and without changing any file.
 #include <doctest/doctest.h>
 #include <sqlite3.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@ using namespace bolt::session::test;
 namespace {
 
 std::string refusal(const std::filesystem::path& path) {
-    const auto reader = Reader::open(path);
+    const auto reader = SessionReader::open(path);
     REQUIRE_FALSE(reader);
     CHECK(reader.error().code == ErrorCode::failed);
     CHECK(reader.error().file == path.string());
@@ -32,7 +32,7 @@ void run_sql(const std::filesystem::path& path, const char* sql) {
 
 }  // namespace
 
-TEST_CASE("Reader: what is no session is refused in words") {
+TEST_CASE("Reader: a file that is not a session is refused with the reason") {
     const Folder folder;
     const auto path = folder / "a.session";
     CHECK(contains(refusal(path), "No such file"));
@@ -85,19 +85,19 @@ TEST_CASE("Reader: a session with a gap, a lost row or an altered value is refus
         run_sql(path, "UPDATE meta SET value = '100' WHERE key = 'score'");
         CHECK(contains(refusal(path), "meta has altered values"));
     }
-    SUBCASE("a row that claims to be 2^62 ticks") {
+    SUBCASE("a row with a count of 2^62 ticks") {
         run_sql(path, "UPDATE tick_chunk SET count = 4611686018427387904 WHERE first_tick = 40");
         CHECK(contains(refusal(path), "a value out of range"));
     }
 }
 
-TEST_CASE("Reader: an altered event or result is an error of its own; the rest stays readable") {
+TEST_CASE("Reader: an altered event or result gives an error; the rest stays readable") {
     const Folder folder;
     const auto path = script_session(folder / "a.session", 45);
     run_sql(
         path,
         "UPDATE event SET value = value + 1 WHERE ordinal = 2; DELETE FROM joint_result WHERE ordinal = 0");
-    const auto reader = Reader::open(path);
+    const auto reader = SessionReader::open(path);
     REQUIRE(reader);
     const auto events = reader->events();
     REQUIRE_FALSE(events);
@@ -109,13 +109,13 @@ TEST_CASE("Reader: an altered event or result is an error of its own; the rest s
     CHECK(all_ticks(*reader).size() == 45);
 }
 
-TEST_CASE("Reader: a damaged chunk is named, and the chunks before it are handed out") {
+TEST_CASE("Reader: the error names a damaged chunk, and the chunks before it are read") {
     const Folder folder;
     const auto path = script_session(folder / "a.session", 45);
     run_sql(path,
             "UPDATE tick_chunk SET data = substr(data, 1, 100) || x'00' || substr(data, 102) "
             "WHERE first_tick = 20");
-    const auto reader = Reader::open(path);
+    const auto reader = SessionReader::open(path);
     REQUIRE(reader);
     std::size_t seen = 0;
     const Status read =
@@ -126,19 +126,19 @@ TEST_CASE("Reader: a damaged chunk is named, and the chunks before it are handed
     CHECK(seen == 20);
 }
 
-TEST_CASE("Reader: a schema that calls functions is not obeyed") {
+TEST_CASE("Reader: functions in a file's schema are not called") {
     const Folder folder;
     const auto path = script_session(folder / "a.session", 5);
     run_sql(
         path,
         "DROP TABLE event; CREATE VIEW event AS SELECT 0 AS ordinal, 0 AS tick, '' AS kind, 0 AS joint, 0 "
         "AS value, hex(randomblob(100000000)) AS text");
-    const auto reader = Reader::open(path);
+    const auto reader = SessionReader::open(path);
     REQUIRE(reader);
     CHECK_FALSE(reader->events());
 }
 
-TEST_CASE("Reader: reading leaves complete and cut-short sessions as they were") {
+TEST_CASE("Reader: reading does not change complete and cut-short sessions") {
     const Folder folder;
     const auto path = folder / "a.session";
     bool complete = false;
@@ -148,7 +148,7 @@ TEST_CASE("Reader: reading leaves complete and cut-short sessions as they were")
     const std::string before = bytes_of(path);
     const std::string log = bytes_of(path.string() + "-wal");
     for (int i = 0; i < 2; ++i) {
-        const auto reader = Reader::open(path);
+        const auto reader = SessionReader::open(path);
         REQUIRE(reader);
         CHECK(reader->complete() == complete);
         CHECK(reader->tick_count() == (complete ? 25 : 20));
@@ -159,7 +159,7 @@ TEST_CASE("Reader: reading leaves complete and cut-short sessions as they were")
     CHECK(std::filesystem::exists(path.string() + "-wal") == !complete);
 }
 
-TEST_CASE("Reader: sessions open in a folder where nothing can be written") {
+TEST_CASE("Reader: sessions open in a read-only folder") {
     const Folder folder;
     const auto path = folder / "a.session";
     std::size_t ticks = 20;
@@ -179,7 +179,7 @@ TEST_CASE("Reader: sessions open in a folder where nothing can be written") {
         constexpr uid_t nobody = 65534;  // root may write everywhere
         if (::getuid() == 0 && ::setuid(nobody) != 0) return 1;
         if (::access(folder.path().c_str(), W_OK) == 0) return 2;
-        const auto reader = Reader::open(path);
+        const auto reader = SessionReader::open(path);
         if (!reader) {
             (void)std::fputs((reader.error().message() + "\n").c_str(), stderr);
             return 3;

@@ -1,4 +1,4 @@
-// What was recorded before: kept beside the new session, whole, until the next one takes its place.
+// The previous session: kept beside the new one until the next recording replaces it.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 void check_session(const std::filesystem::path& path, bool complete, std::size_t ticks) {
     CAPTURE(path);
-    const auto reader = Reader::open(path);
+    const auto reader = SessionReader::open(path);
     if (!reader) FAIL_CHECK(reader.error().message());
     if (!reader) return;
     CHECK(reader->complete() == complete);
@@ -35,7 +35,7 @@ Names names_in(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("Previous session: the session before is kept, complete or cut short, for one generation") {
+TEST_CASE("Previous session: kept for one generation, complete or cut short") {
     const Folder folder;
     const auto path = folder / "a.session";
     const auto previous = folder / "a.previous.session";
@@ -62,7 +62,7 @@ TEST_CASE("Previous session: the session before is kept, complete or cut short, 
     check_session(previous, false, 15);
 }
 
-TEST_CASE("Previous session: the session before is there from the first moment of the new one") {
+TEST_CASE("Previous session: exists as soon as the new session does") {
     const Folder folder;
     script_session(folder / "a.session", 25);
     const auto writer = create_script(folder / "a.session");
@@ -71,11 +71,11 @@ TEST_CASE("Previous session: the session before is there from the first moment o
     check_session(folder / "a.previous.session", true, 25);
 }
 
-TEST_CASE("Previous session: what a killed process left in a log is kept with its session") {
+TEST_CASE("Previous session: the log of a killed process is kept with its session") {
     const Folder folder;
     leave_cut_short(folder / "a.session", true);
-    SUBCASE("over nothing") {}
-    SUBCASE("over the log of one kept before") {
+    SUBCASE("without an earlier one") {}
+    SUBCASE("with the log of an earlier one") {
         leave_cut_short(folder / "a.previous.session", true);
         put_bytes(folder / "a.previous.session-journal", "half a journal");
     }
@@ -85,7 +85,7 @@ TEST_CASE("Previous session: what a killed process left in a log is kept with it
     check_session(folder / "a.previous.session", false, 20);
 }
 
-TEST_CASE("Previous session: a session without a single tick pushes nothing out") {
+TEST_CASE("Previous session: a session without ticks does not replace it") {
     const Folder folder;
     const auto path = folder / "a.session";
     script_session(path, 25);
@@ -96,7 +96,7 @@ TEST_CASE("Previous session: a session without a single tick pushes nothing out"
     check_session(folder / "a.previous.session", true, 25);
 }
 
-TEST_CASE("Previous session: what is damaged or no session is kept as it is") {
+TEST_CASE("Previous session: a damaged file or another file is kept unchanged") {
     const Folder folder;
     const auto path = folder / "a.session";
     SUBCASE("a text file") { put_bytes(path, "not a session\n"); }
@@ -108,7 +108,7 @@ TEST_CASE("Previous session: what is damaged or no session is kept as it is") {
     CHECK(names_in(folder) == Names{"a.session", "a.previous.session"});
 }
 
-TEST_CASE("Previous session: a cut-short session that nobody may write to is kept with its log") {
+TEST_CASE("Previous session: a read-only cut-short session is kept with its log") {
     const Folder folder;
     const auto path = folder / "a.session";
     leave_cut_short(path, false);
@@ -116,7 +116,7 @@ TEST_CASE("Previous session: a cut-short session that nobody may write to is kep
         std::filesystem::permissions(path.string() + suffix, std::filesystem::perms(0444));
     std::filesystem::permissions(folder.path(), std::filesystem::perms(0777));
     const ChildEnd end = run_child([&](const auto&) {
-        constexpr uid_t nobody = 65534;  // who cannot make a second name for root's files either
+        constexpr uid_t nobody = 65534;  // may not create hard links to root's files either
         if (::getuid() == 0 && ::setuid(nobody) != 0) return 1;
         if (::access(path.c_str(), W_OK) == 0) return 2;
         script_session(path, 5);
@@ -128,7 +128,7 @@ TEST_CASE("Previous session: a cut-short session that nobody may write to is kep
     check_session(folder / "a.previous.session", false, 20);
 }
 
-TEST_CASE("Previous session: a session that was just about to be replaced when its program died is kept") {
+TEST_CASE("Previous session: kept after a kill just before the replacement") {
     const Folder folder;
     script_session(folder / "a.session", 25);
     std::filesystem::create_hard_link(folder / "a.session", folder / "a.previous.session");
@@ -141,7 +141,7 @@ TEST_CASE("Previous session: a session that was just about to be replaced when i
     check_session(folder / "a.previous.session", true, 25);
 }
 
-TEST_CASE("Previous session: what cannot be kept is not replaced") {
+TEST_CASE("Previous session: a session that cannot be kept is not replaced") {
     const Folder folder;
     const auto path = folder / "a.session";
     const auto previous = folder / "a.previous.session";
@@ -150,7 +150,7 @@ TEST_CASE("Previous session: what cannot be kept is not replaced") {
         REQUIRE_FALSE(writer);
         return writer.error().message();
     };
-    SUBCASE("a folder has the name") {
+    SUBCASE("a folder has that name") {
         script_session(path, 25);
         std::filesystem::create_directory(previous);
         CHECK(refusal().find("cannot be kept as " + previous.string()) != std::string::npos);
@@ -158,7 +158,7 @@ TEST_CASE("Previous session: what cannot be kept is not replaced") {
         CHECK(names_in(folder) == Names{"a.session", "a.previous.session"});
         check_session(path, true, 25);
     }
-    SUBCASE("somebody records under the name") {
+    SUBCASE("another writer records into that name") {
         script_session(path, 25);
         auto writer = create_script(previous);
         REQUIRE(writer);
@@ -168,9 +168,9 @@ TEST_CASE("Previous session: what cannot be kept is not replaced") {
         check_session(path, true, 25);
         check_session(previous, true, 35);
     }
-    SUBCASE("somebody still reads the log") {
+    SUBCASE("a reader has the log open") {
         leave_cut_short(path, true);
-        const auto reader = Reader::open(path);
+        const auto reader = SessionReader::open(path);
         REQUIRE(reader);
         CHECK(refusal() == path.string() + ": cannot be replaced while it is open elsewhere");
         CHECK(script_mismatch(*reader).empty());
@@ -179,8 +179,7 @@ TEST_CASE("Previous session: what cannot be kept is not replaced") {
     }
 }
 
-TEST_CASE(
-    "Previous session: through a link the session before is kept beside the file, not beside the link") {
+TEST_CASE("Previous session: with a symbolic link it is kept beside the file, not beside the link") {
     const Folder folder;
     std::filesystem::create_directory(folder / "far");
     script_session(folder / "far/b.session", 25);
@@ -190,7 +189,7 @@ TEST_CASE(
     check_session(folder / "far/b.session", true, 5);
 }
 
-TEST_CASE("Previous session: a name with dots or without an extension has a name for the session before") {
+TEST_CASE("Previous session: names with dots or without an extension work") {
     const Folder folder;
     for (const auto& [name, previous] : {std::pair("a", "a.previous"),
                                          {"a.b.c", "a.b.previous.c"},

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The published law in force, through the program: its targets in all that a lesson leaves, and its session replays.
+# Lessons under the published law: its targets are in all outputs of a lesson, and the session replays.
 # $1: folder of the programs, $2: sources.
 . "$(dirname "$0")/../cli/checks.sh"
 
@@ -17,7 +17,7 @@ expect 0 'report.html' "$bin/boltwright" report expert/session.boltwright --html
 check "the report has the target" grep -q '72\.1' report.html
 expect 0 ' 78\.0 ' "$bin/boltwright" train zq350 --headless --no-pictures --no-obstacles --quiet --out mechanistic
 
-# A tool without a model: the message names the tool, its place and what to add.
+# A tool without a model: the message names the tool, its position in the file and the missing key.
 mkdir bare && cp "$sources/content/assemblies/cover-m8/"* bare/
 python3 - bare/assembly.json <<'END'
 import json, sys
@@ -27,9 +27,9 @@ for tool in [assembly["tool"], *assembly.get("more_tools", {}).values()]:
 json.dump(assembly, open(sys.argv[1], "w"))
 END
 expect 0 'no mistakes' "$bin/bolt-author" validate bare
-expect 3 'bare/assembly.json: /tool: the tool "wrench" names no model that could meet the contact model; expected "model": the .glb of the wrench' \
+expect 3 'bare/assembly.json: /tool: the tool "wrench" has no model; expected "model": the .glb of the wrench' \
     "$bin/boltwright" train bare --headless --no-pictures --obstacles --quiet --out never
 expect 0 'The wrench goes through everything: .*/tool: the tool "wrench" names no model' \
     "$bin/boltwright" train bare --headless --no-pictures --out through
 
-tell_and_leave
+finish_checks

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t count = 2500;
 
-// A hand that goes and turns, is silent in every seventh tick, and lets go at the end.
+// A hand that moves and turns, sends no sample in every seventh tick, and releases at the end.
 servo::Input hand_at(std::size_t i) {
     const double t = 1e-3 * static_cast<double>(i);
     const Quat q = rotation(Vec3(0.2 * std::sin(3.0 * t), t, 0.1));
@@ -33,7 +33,7 @@ servo::Input hand_at(std::size_t i) {
 }
 
 void record_hand(const std::filesystem::path& file) {
-    auto writer = Writer::create(file, sample_header(1e-3));
+    auto writer = SessionWriter::create(file, sample_header(1e-3));
     REQUIRE(writer);
     for (std::size_t i = 0; i < count; ++i) REQUIRE(writer->append(make_record(hand_at(i), servo::Output{})));
     REQUIRE(writer->finish({}));
@@ -41,12 +41,10 @@ void record_hand(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE(
-    "Replay device: a session's hand moves a station's tool again as it was moved, and holds and lets go as "
-    "it did") {
+TEST_CASE("Replay device: a recorded hand repeats its motion, grip and release in a station") {
     const Folder folder;
     record_hand(folder / "a.session");
-    const auto reader = Reader::open(folder / "a.session");
+    const auto reader = SessionReader::open(folder / "a.session");
     REQUIRE(reader);
     const auto hand = replay_device(*reader);
     REQUIRE(hand);
@@ -57,20 +55,20 @@ TEST_CASE(
         device::recorded(hand->description, hand->recording, device::virtual_timer(time)),
         device::virtual_timer(time));
     device::DeviceMailboxes mailboxes;
-    device::DeviceSnapshot told;
+    device::DeviceSnapshot snapshot;
     station::Layout layout;
     layout.mover = hand->description;
     layout.mover_buttons = {button_held, 0, button_stop, button_reset};
     layout.home = hand->first;
     const servo::Setup setup = bolt::test::two_joints(station::limits_of(layout));
-    station::State state = station::initial_state(layout);
+    station::StationState state = station::initial_state(layout);
     std::size_t next = 0;
     while (time.now < 1e-3 * count) {
-        device::run_once(supervisor, mailboxes, told);
-        station::StationInputs heard;
+        device::run_once(supervisor, mailboxes, snapshot);
+        station::StationInputs inputs;
         mailboxes.snapshots.update();
-        heard.mover = mailboxes.snapshots.latest();
-        const servo::Input input = station::read_inputs(layout, setup, state, heard);
+        inputs.mover = mailboxes.snapshots.latest();
+        const servo::Input input = station::read_inputs(layout, setup, state, inputs);
         if (!input.fresh || next >= count) continue;
         const servo::Input was = hand_at(next);
         for (int k = 0; k < 3; ++k)
@@ -85,14 +83,14 @@ TEST_CASE(
     CHECK(next >= count);
 }
 
-TEST_CASE("Replay device: a session without a tick is no device") {
+TEST_CASE("Replay device: a session without ticks is refused") {
     const Folder folder;
-    auto writer = Writer::create(folder / "a.session", sample_header(1e-3));
+    auto writer = SessionWriter::create(folder / "a.session", sample_header(1e-3));
     REQUIRE(writer);
     REQUIRE(writer->finish({}));
-    const auto reader = Reader::open(folder / "a.session");
+    const auto reader = SessionReader::open(folder / "a.session");
     REQUIRE(reader);
     const auto none = replay_device(*reader);
     REQUIRE_FALSE(none);
-    CHECK(none.error().message().find("no ticks with a fresh device sample") != std::string::npos);
+    CHECK(none.error().message().find("no tick with a fresh device sample") != std::string::npos);
 }

@@ -22,15 +22,15 @@ using namespace bolt::session::test;
 
 namespace {
 
-Writer created(const std::filesystem::path& path, double dt = 0.001) {
-    auto writer = Writer::create(path, sample_header(dt));
+SessionWriter created(const std::filesystem::path& path, double dt = 0.001) {
+    auto writer = SessionWriter::create(path, sample_header(dt));
     if (!writer) MESSAGE(writer.error().message());
     REQUIRE(writer);
     return std::move(*writer);
 }
 
-Reader opened(const std::filesystem::path& path) {
-    auto reader = Reader::open(path);
+SessionReader opened(const std::filesystem::path& path) {
+    auto reader = SessionReader::open(path);
     if (!reader) MESSAGE(reader.error().message());
     REQUIRE(reader);
     return std::move(*reader);
@@ -43,18 +43,18 @@ std::size_t files_in(const Folder& folder) {
 
 }  // namespace
 
-TEST_CASE("Session file: a session gives back every bit of its ticks, whole seconds or not") {
+TEST_CASE("Session file: reading returns every bit of the ticks, in whole seconds or not") {
     for (const double dt : {0.001, 0.00025, 1.0, 2.5, 0.3}) {
         for (const std::size_t count : {0U, 1U, 999U, 1000U, 1001U, 4001U}) {
             const Folder folder;
             CAPTURE(dt);
             CAPTURE(count);
-            if (dt >= 1.0 && count > 1) continue;  // a commit a tick
+            if (dt >= 1.0 && count > 1) continue;  // one commit for each tick
             const std::vector<TickRecord> ticks = random_ticks(count, count);
-            Writer writer = created(folder / "a.session", dt);
+            SessionWriter writer = created(folder / "a.session", dt);
             for (const TickRecord& tick : ticks) REQUIRE(writer.append(tick));
             REQUIRE(writer.finish({}));
-            const Reader reader = opened(folder / "a.session");
+            const SessionReader reader = opened(folder / "a.session");
             CHECK(reader.complete());
             CHECK(reader.tick_count() == count);
             CHECK(same(all_ticks(reader), ticks));
@@ -64,20 +64,21 @@ TEST_CASE("Session file: a session gives back every bit of its ticks, whole seco
     }
 }
 
-TEST_CASE("Session file: events and results come back as they were given") {
+TEST_CASE("Session file: reading returns the events and results as written") {
     const Folder folder;
-    std::vector<lesson::Event> events;
+    std::vector<lesson::LessonEvent> events;
     for (std::uint64_t i = 0; i < 300; ++i)
-        events.push_back({i * 17, i % 2 == 0 ? "engage" : "mistake", static_cast<int>(i % 13) - 1,
-                          0.1 * static_cast<double>(i), "“text” " + std::to_string(i)});
-    events.push_back({std::numeric_limits<std::uint64_t>::max(), "", -1, -0.0, ""});
-    events.push_back(
-        {0, "note", 2147483647, std::numeric_limits<double>::quiet_NaN(), std::string("a\0b", 3)});
-    events.push_back({0, "note", -2147483647, std::numeric_limits<double>::infinity(), "x"});
-    events.push_back({0, "note", 0, std::numeric_limits<double>::denorm_min(), "x"});
+        events.push_back({i * 17, i % 2 == 0 ? lesson::EventKind::engage : lesson::EventKind::mistake,
+                          static_cast<int>(i % 13) - 1, 0.1 * static_cast<double>(i),
+                          "“text” " + std::to_string(i)});
+    events.push_back({std::numeric_limits<std::uint64_t>::max(), lesson::EventKind::note, -1, -0.0, ""});
+    events.push_back({0, lesson::EventKind::note, 2147483647, std::numeric_limits<double>::quiet_NaN(),
+                      std::string("a\0b", 3)});
+    events.push_back({0, lesson::EventKind::note, -2147483647, std::numeric_limits<double>::infinity(), "x"});
+    events.push_back({0, lesson::EventKind::note, 0, std::numeric_limits<double>::denorm_min(), "x"});
     lesson::LessonResult result = sample_result();
     SUBCASE("ordinary numbers") {}
-    SUBCASE("numbers that SQL does not have") {
+    SUBCASE("numbers that SQL cannot store") {
         result.score = std::numeric_limits<double>::quiet_NaN();
         result.duration = std::numeric_limits<double>::infinity();
         result.joints[2].torque = std::numeric_limits<double>::quiet_NaN();
@@ -85,19 +86,19 @@ TEST_CASE("Session file: events and results come back as they were given") {
         result.reasons[0].points = -std::numeric_limits<double>::infinity();
     }
 
-    Writer writer = created(folder / "a.session", 0.01);
+    SessionWriter writer = created(folder / "a.session", 0.01);
     for (const lesson::JointResult& joint : result.joints) {
         lesson::JointResult start;
         start.id = joint.id;
         REQUIRE(writer.update(start));
     }
-    for (const lesson::Event& event : events) {
+    for (const lesson::LessonEvent& event : events) {
         REQUIRE(writer.add(event));
         REQUIRE(writer.append({}));
     }
     REQUIRE(writer.finish(result));
 
-    const Reader reader = opened(folder / "a.session");
+    const SessionReader reader = opened(folder / "a.session");
     const auto read_events = reader.events();
     REQUIRE(read_events);
     REQUIRE(read_events->size() == events.size());
@@ -107,9 +108,9 @@ TEST_CASE("Session file: events and results come back as they were given") {
     CHECK(same(*read_result, result));
 }
 
-TEST_CASE("Session file: joints keep the order in which they were first given") {
+TEST_CASE("Session file: joints keep the order of their first update") {
     const Folder folder;
-    Writer writer = created(folder / "a.session", 1.0);
+    SessionWriter writer = created(folder / "a.session", 1.0);
     for (const char* id : {"C", "A", "B"}) {
         lesson::JointResult joint;
         joint.id = id;
@@ -128,13 +129,13 @@ TEST_CASE("Session file: joints keep the order in which they were first given") 
     CHECK(read->joints[2].id == "B");
 }
 
-TEST_CASE("Session file: a session left without finish() keeps everything and is not complete") {
+TEST_CASE("Session file: without finish() a session keeps all data and is not complete") {
     const Folder folder;
     {
-        Writer writer = created(folder / "a.session", 0.1);
+        SessionWriter writer = created(folder / "a.session", 0.1);
         REQUIRE(play_script(writer, 33));
     }
-    const Reader reader = opened(folder / "a.session");
+    const SessionReader reader = opened(folder / "a.session");
     CHECK_FALSE(reader.complete());
     CHECK(reader.tick_count() == 33);
     CHECK(script_mismatch(reader).empty());
@@ -144,9 +145,9 @@ TEST_CASE("Session file: a session left without finish() keeps everything and is
     CHECK_FALSE(result->finished);
 }
 
-TEST_CASE("Session file: a finished writer refuses more and changes nothing") {
+TEST_CASE("Session file: a finished writer refuses more data and changes nothing") {
     const Folder folder;
-    Writer writer = created(folder / "a.session");
+    SessionWriter writer = created(folder / "a.session");
     REQUIRE(writer.append({}));
     REQUIRE(writer.finish(sample_result()));
     const std::string before = bytes_of(folder / "a.session");
@@ -160,9 +161,9 @@ TEST_CASE("Session file: a finished writer refuses more and changes nothing") {
     CHECK(bytes_of(folder / "a.session") == before);
 }
 
-TEST_CASE("Session file: a tick that cannot be is refused and leaves no gap") {
+TEST_CASE("Session file: an invalid tick is refused and leaves no gap") {
     const Folder folder;
-    Writer writer = created(folder / "a.session");
+    SessionWriter writer = created(folder / "a.session");
     TickRecord wrong;
     wrong.stage = 200;
     REQUIRE(writer.append({}));
@@ -172,51 +173,50 @@ TEST_CASE("Session file: a tick that cannot be is refused and leaves no gap") {
     CHECK(opened(folder / "a.session").tick_count() == 2);
 }
 
-TEST_CASE(
-    "Session file: a session can be read while it is recorded, and stays what it was when it was opened") {
+TEST_CASE("Session file: a reader sees the session as it was when opened, also during the recording") {
     const Folder folder;
-    Writer writer = created(folder / "a.session", 0.1);
-    const Reader empty = opened(folder / "a.session");
+    SessionWriter writer = created(folder / "a.session", 0.1);
+    const SessionReader empty = opened(folder / "a.session");
     REQUIRE(play_script(writer, 25));
-    const Reader reader = opened(folder / "a.session");
+    const SessionReader reader = opened(folder / "a.session");
     CHECK(empty.tick_count() == 0);
     CHECK(script_mismatch(empty).empty());
     CHECK(reader.tick_count() == 20);
     REQUIRE(writer.finish({}));
     CHECK(script_mismatch(reader).empty());
     CHECK_FALSE(reader.complete());
-    const Reader later = opened(folder / "a.session");
+    const SessionReader later = opened(folder / "a.session");
     CHECK(later.complete());
     CHECK(later.tick_count() == 25);
     CHECK(script_mismatch(later).empty());
 }
 
-TEST_CASE("Session file: creating replaces what was there, with all that belonged to it") {
+TEST_CASE("Session file: creating replaces an existing file and its logs") {
     const Folder folder;
     const auto path = folder / "a.session";
     SUBCASE("a complete session") { script_session(path, 25); }
     SUBCASE("a text file") { put_bytes(path, "not a session\n"); }
     SUBCASE("a cut-short session with its log") {
-        Writer old = created(folder / "old.session", 0.1);
+        SessionWriter old = created(folder / "old.session", 0.1);
         REQUIRE(play_script(old, 25));
         for (const char* suffix : {"", "-wal", "-shm"})
             put_bytes(path.string() + suffix, bytes_of((folder / "old.session").string() + suffix));
         CHECK(opened(path).tick_count() == 20);
     }
-    SUBCASE("a log whose session is gone") {
-        Writer old = created(folder / "old.session", 0.1);
+    SUBCASE("a log without its session") {
+        SessionWriter old = created(folder / "old.session", 0.1);
         REQUIRE(play_script(old, 25));
         put_bytes(path.string() + "-wal", bytes_of((folder / "old.session").string() + "-wal"));
     }
-    SUBCASE("leftovers of a creation that was killed") {
+    SUBCASE("leftovers of a killed creation") {
         put_bytes(path.string() + ".part", "half a file");
         put_bytes(path.string() + ".part-wal", "half a log");
         put_bytes(path.string() + "-journal", "half a journal");
     }
-    Writer writer = created(path, 0.1);
+    SessionWriter writer = created(path, 0.1);
     REQUIRE(play_script(writer, 5));
     REQUIRE(writer.finish({}));
-    const Reader reader = opened(path);
+    const SessionReader reader = opened(path);
     CHECK(reader.tick_count() == 5);
     CHECK(script_mismatch(reader).empty());
     CHECK_FALSE(std::filesystem::exists(path.string() + ".part"));
@@ -226,9 +226,9 @@ TEST_CASE("Session file: creating replaces what was there, with all that belonge
 
 TEST_CASE("Session file: a session that is being recorded is not replaced") {
     const Folder folder;
-    Writer writer = created(folder / "a.session", 0.1);
+    SessionWriter writer = created(folder / "a.session", 0.1);
     REQUIRE(play_script(writer, 15));
-    const auto second = Writer::create(folder / "a.session", sample_header(0.1));
+    const auto second = SessionWriter::create(folder / "a.session", sample_header(0.1));
     REQUIRE_FALSE(second);
     CHECK(second.error().what == "another program is recording into this file");
     CHECK(second.error().file == (folder / "a.session").string());
@@ -238,19 +238,19 @@ TEST_CASE("Session file: a session that is being recorded is not replaced") {
     CHECK(files_in(folder) == 1);
 }
 
-TEST_CASE("Session file: a session is made in a folder that is not there yet") {
+TEST_CASE("Session file: a missing folder is created") {
     const Folder folder;
     const auto path = folder / "out/of/the way/100% #1?.session";
     script_session(path, 25);
     CHECK(opened(path).tick_count() == 25);
 }
 
-TEST_CASE("Session file: a link leads to the session and its log") {
+TEST_CASE("Session file: a symbolic link to a session works") {
     const Folder folder;
     std::filesystem::create_directory(folder / "far");
     put_bytes(folder / "far/a.session", "to be replaced");
     std::filesystem::create_symlink(folder / "far/a.session", folder / "link");
-    Writer writer = created(folder / "link", 0.1);
+    SessionWriter writer = created(folder / "link", 0.1);
     REQUIRE(play_script(writer, 15));
     CHECK(opened(folder / "link").tick_count() == 10);
     REQUIRE(writer.finish({}));
@@ -258,14 +258,14 @@ TEST_CASE("Session file: a link leads to the session and its log") {
     CHECK(std::filesystem::is_symlink(folder / "link"));
 }
 
-TEST_CASE("Session file: where no session can be made the error names the file") {
+TEST_CASE("Session file: the error of a failed creation names the file") {
     const Folder folder;
     put_bytes(folder / "file", "");
     std::filesystem::create_directory(folder / "folder");
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
     for (const char* name : {"file/a.session", "folder", "pipe"}) {
         CAPTURE(name);
-        const auto writer = Writer::create(folder / name, sample_header(0.001));
+        const auto writer = SessionWriter::create(folder / name, sample_header(0.001));
         REQUIRE_FALSE(writer);
         CHECK(writer.error().code == ErrorCode::failed);
         CHECK(writer.error().file == (folder / name).string());
@@ -274,18 +274,17 @@ TEST_CASE("Session file: where no session can be made the error names the file")
     CHECK(std::filesystem::is_fifo(folder / "pipe"));
 }
 
-TEST_CASE("Session file: where nothing can be written the error says why") {
+TEST_CASE("Session file: the error for a folder that is not writable gives the reason") {
     const auto reason_at = [](const std::filesystem::path& path) {
-        const auto writer = Writer::create(path, sample_header(0.001));
+        const auto writer = SessionWriter::create(path, sample_header(0.001));
         return writer ? std::string("it was made") : writer.error().what;
     };
-    // The kernel's own folders take no files, not even root's.
+    // Not even root can create files in the kernel's folders.
     for (const std::filesystem::path path : {"/sys/a.session", "/proc/a.session"}) {
         CAPTURE(path);
         errno = 0;
         REQUIRE(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0600) < 0);
-        CHECK(reason_at(path) ==
-              std::string("nothing can be written in its folder: ") + std::strerror(errno));
+        CHECK(reason_at(path) == std::string("its folder is not writable: ") + std::strerror(errno));
     }
     const Folder folder;
     put_bytes(folder / "file", "");
@@ -304,8 +303,7 @@ TEST_CASE("Session file: where nothing can be written the error says why") {
     const ChildEnd denied = run_child([&](const auto&) {
         constexpr uid_t nobody = 65534;  // root may write everywhere
         if (::getuid() == 0 && ::setuid(nobody) != 0) return cannot_be_shown;
-        if (status_of(folder / "closed/a.session",
-                      "nothing can be written in its folder: Permission denied") != 0)
+        if (status_of(folder / "closed/a.session", "its folder is not writable: Permission denied") != 0)
             return 1;
         return status_of(folder / "closed/new/a.session", "its folder cannot be created: Permission denied");
     });
@@ -319,25 +317,24 @@ TEST_CASE("Session file: where nothing can be written the error says why") {
         (void)::mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr);
         if (::mount("none", (folder / "closed").c_str(), "tmpfs", MS_RDONLY, nullptr) != 0)
             return cannot_be_shown;
-        return status_of(folder / "closed/a.session",
-                         "nothing can be written in its folder: Read-only file system");
+        return status_of(folder / "closed/a.session", "its folder is not writable: Read-only file system");
     });
     if (read_only.code == cannot_be_shown)
         bolt::test::skip_part("a read-only file system cannot be mounted here");
     CHECK((read_only.code == 0 || read_only.code == cannot_be_shown));
 }
 
-TEST_CASE("Session file: a tick that no session has is refused") {
+TEST_CASE("Session file: a tick length out of range is refused") {
     const Folder folder;
     for (const double dt : {0.0, -0.001, 1.0e-6, std::numeric_limits<double>::quiet_NaN(),
                             std::numeric_limits<double>::infinity()}) {
         CAPTURE(dt);
-        CHECK_FALSE(Writer::create(folder / "a.session", sample_header(dt)));
+        CHECK_FALSE(SessionWriter::create(folder / "a.session", sample_header(dt)));
     }
     CHECK(files_in(folder) == 0);
 }
 
-TEST_CASE("Session file: another program sees a sound database with names and units") {
+TEST_CASE("Session file: it is a valid database with names and units in its columns") {
     const Folder folder;
     const auto path = script_session(folder / "a.session", 25);
     sqlite3* database = nullptr;
@@ -352,7 +349,7 @@ TEST_CASE("Session file: another program sees a sound database with names and un
         return text;
     };
     CHECK(first("PRAGMA integrity_check") == "ok");
-    CHECK(first("PRAGMA journal_mode") == "delete");  // one file, no log to carry along
+    CHECK(first("PRAGMA journal_mode") == "delete");  // one file, no log
     CHECK(first("SELECT value FROM meta WHERE key = 'state'") == "complete");
     CHECK(first("SELECT torque_Nm FROM joint_result WHERE id = 'even'") == "2.4");
     CHECK(first("SELECT text FROM event WHERE tick = 10") == "at 10");

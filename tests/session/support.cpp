@@ -80,7 +80,7 @@ bool same(const Header& a, const Header& b) {
 
 namespace {
 
-// As the file promises: every value to the last bit, but not the sign of zero nor which NaN it is.
+// Equal in all bits, except the sign of zero and the bits of a NaN, as the file format guarantees.
 bool equal(double x, double y) { return !(x < y) && !(x > y) && (x != x) == (y != y); }
 
 bool same(const lesson::JointResult& a, const lesson::JointResult& b) {
@@ -92,7 +92,7 @@ bool same(const lesson::JointResult& a, const lesson::JointResult& b) {
 
 }  // namespace
 
-bool same(const lesson::Event& a, const lesson::Event& b) {
+bool same(const lesson::LessonEvent& a, const lesson::LessonEvent& b) {
     return a.tick == b.tick && a.kind == b.kind && a.joint == b.joint && equal(a.value, b.value) &&
            a.text == b.text;
 }
@@ -124,7 +124,7 @@ Header sample_header(double dt) {
     header.program = "boltwright 0.1.0";
     header.guide = "on";
     header.obstacles = "cover.contact.glb 12 bytes, fnv1a 00000000075bcd15";
-    header.device = text_of(force::OutputLimits{});
+    header.device = limits_text(force::OutputLimits{});
     header.servo = "virtual time";
     header.tool = "torque_wrench";
     header.view_help = "on";
@@ -144,7 +144,7 @@ lesson::LessonResult sample_result() {
     result.finished = true;
     for (int i = 0; i < 12; ++i) {
         lesson::JointResult joint;
-        joint.id = "J" + std::to_string(12 - i);  // not in the order of the alphabet
+        joint.id = "J" + std::to_string(12 - i);  // not in alphabetical order
         joint.torque = 48.7 / (i + 1);
         joint.angle = 0.1 * i;
         joint.clamp = 1.0e4 / 3.0 * i;
@@ -162,7 +162,7 @@ lesson::LessonResult sample_result() {
     return result;
 }
 
-std::vector<TickRecord> all_ticks(const Reader& reader) {
+std::vector<TickRecord> all_ticks(const SessionReader& reader) {
     std::vector<TickRecord> ticks;
     const Status read = reader.for_each_chunk([&](std::uint64_t first, std::span<const TickRecord> chunk) {
         if (first != ticks.size()) std::abort();
@@ -189,8 +189,8 @@ TickRecord script_tick(std::size_t number) {
     return random_tick(random);
 }
 
-lesson::Event script_event(std::size_t tick) {
-    return {tick, "note", static_cast<int>(tick % 3), static_cast<double>(tick) / 3.0,
+lesson::LessonEvent script_event(std::size_t tick) {
+    return {tick, lesson::EventKind::note, static_cast<int>(tick % 3), static_cast<double>(tick) / 3.0,
             "at " + std::to_string(tick)};
 }
 bool has_event(std::size_t tick) { return tick % 7 == 3; }
@@ -205,11 +205,11 @@ lesson::JointResult script_joint(std::size_t tick) {
 
 }  // namespace
 
-Result<Writer> create_script(const std::filesystem::path& path) {
-    return Writer::create(path, sample_header(1.0 / static_cast<double>(script_second)));
+Result<SessionWriter> create_script(const std::filesystem::path& path) {
+    return SessionWriter::create(path, sample_header(1.0 / static_cast<double>(script_second)));
 }
 
-Status play_script(Writer& writer, std::size_t ticks, const std::function<void(std::size_t)>& after) {
+Status play_script(SessionWriter& writer, std::size_t ticks, const std::function<void(std::size_t)>& after) {
     for (std::size_t i = 0; i < ticks; ++i) {
         if (has_event(i))
             if (auto done = writer.add(script_event(i)); !done) return done;
@@ -240,7 +240,7 @@ void leave_cut_short(const std::filesystem::path& path, bool with_index) {
     std::filesystem::remove(live);
 }
 
-std::string script_mismatch(const Reader& reader) {
+std::string script_mismatch(const SessionReader& reader) {
     const std::vector<TickRecord> ticks = all_ticks(reader);
     if (ticks.size() != reader.tick_count()) return "the ticks cannot be read";
     for (std::size_t i = 0; i < ticks.size(); ++i)
@@ -248,7 +248,7 @@ std::string script_mismatch(const Reader& reader) {
 
     const auto events = reader.events();
     if (!events) return events.error().message();
-    std::vector<lesson::Event> expected;
+    std::vector<lesson::LessonEvent> expected;
     for (std::size_t i = 0; i < ticks.size(); ++i)
         if (has_event(i)) expected.push_back(script_event(i));
     if (events->size() != expected.size()) return std::to_string(events->size()) + " events";

@@ -7,7 +7,7 @@
 using namespace bolt;
 using namespace bolt::session;
 
-TEST_CASE("Tick record: a tick's input comes back as it went in") {
+TEST_CASE("Tick record: converting to a record and back returns the input") {
     Random random(11);
     for (int i = 0; i < 200; ++i) {
         servo::Input input;
@@ -32,7 +32,7 @@ TEST_CASE("Tick record: a tick's input comes back as it went in") {
     }
 }
 
-TEST_CASE("Tick record: a tick's output is kept in single precision") {
+TEST_CASE("Tick record: the output is stored in single precision") {
     servo::Output output;
     output.force = {0.1, -2.0, 3.0e-8};
     output.torque = {1.0 / 3.0, 0.0, -0.25};
@@ -60,7 +60,7 @@ TEST_CASE("Tick record: a tick's output is kept in single precision") {
     CHECK(record.fault == static_cast<std::uint8_t>(force::Fault::jumped));
 }
 
-TEST_CASE("Session: obstacles keep the numbers that older files have, and every number names one obstacle") {
+TEST_CASE("Tick record: obstacle numbers match older files, and each number is one obstacle") {
     using collision::ObstacleId;
     CHECK(file_number({}) == std::int16_t{-1});
     for (const std::size_t i : {0U, 1U, 999U})
@@ -68,8 +68,8 @@ TEST_CASE("Session: obstacles keep the numbers that older files have, and every 
     for (const std::size_t i : {0U, 11U, 31767U})
         CHECK(file_number(ObstacleId::nut(i)) == static_cast<std::int16_t>(1000 + i));
     CHECK(file_number(ObstacleId::fixed(1000)) == std::int16_t{-2});
-    CHECK_FALSE(file_number(ObstacleId::fixed(most_fixed)));
-    CHECK_FALSE(file_number(ObstacleId::nut(most_nuts)));
+    CHECK_FALSE(file_number(ObstacleId::fixed(max_fixed)));
+    CHECK_FALSE(file_number(ObstacleId::nut(max_nuts)));
     for (int number = -32767; number <= 32767; ++number)
         CHECK(file_number(obstacle_of_number(static_cast<std::int16_t>(number))) == number);
     CHECK_FALSE(file_number(obstacle_of_number(INT16_MIN)));

@@ -1,5 +1,4 @@
-// A whole simulated lesson, listened to.
-
+// The sound of a whole simulated lesson.
 #include "engine/audio/wav.hpp"
 
 #include <bit>
@@ -13,8 +12,8 @@ using namespace bolt;
 
 namespace {
 
-// How loud it was while something was the case: 20 ms at a time, the median and the most.
-struct Level {
+// The distribution of loudness over pieces of 20 ms.
+struct Loudness {
     std::vector<double> pieces;
     std::vector<float> samples;
 
@@ -31,7 +30,7 @@ struct Level {
     }
 };
 
-struct Sum {
+struct SampleHash {
     std::uint64_t hash = 14695981039346656037ULL;  // FNV-1a
     void add(std::span<const float> samples) {
         for (const float s : samples) hash = (hash ^ std::bit_cast<std::uint32_t>(s)) * 1099511628211ULL;
@@ -40,19 +39,19 @@ struct Sum {
 
 }  // namespace
 
-TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, its wrench clicks") {
+TEST_CASE("Lesson sound: stages differ in loudness, steps chime and the torque wrench clicks") {
     const test::Folder folder;
     const auto path = folder / "lesson.wav";
     auto wav = audio::WavWriter::create(path, test::rate);
     REQUIRE(wav);
-    Level air, spun, half, full;
+    Loudness air, spun, half, full;
     int clicks = 0, felt = 0, chimes = 0, mistakes = 0, strikes = 0;
     std::size_t count = 0, ticks = 0, since = 0;
     double most = 0.0, step = 0.0;
     float before = 0.0F;
-    const session::Played played = test::hear_lesson(
+    const session::LessonOutcome outcome = test::run_lesson(
         "cover-m8", "expert", 300.0, "torque_wrench", folder / "a.boltwright",
-        [&](const servo::Output& output, const sound::Heard& heard, std::span<const float> samples) {
+        [&](const servo::Output& output, const sound::SoundCues& cues, std::span<const float> samples) {
             REQUIRE(wav->write(samples));
             ++ticks;
             count += samples.size();
@@ -61,30 +60,31 @@ TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, 
                 step = std::max(step, std::abs(static_cast<double>(s - before)));
                 before = s;
             }
-            clicks += heard.click ? 1 : 0;
-            chimes += heard.done ? 1 : 0;
-            mistakes += heard.mistake ? 1 : 0;
-            strikes += heard.strike > 0.0F ? 1 : 0;
+            clicks += cues.click ? 1 : 0;
+            chimes += cues.done ? 1 : 0;
+            mistakes += cues.mistake ? 1 : 0;
+            strikes += cues.strike_speed > 0.0F ? 1 : 0;
             felt += output.clicked ? 1 : 0;
-            // Away from what rings on for itself.
-            since = heard.click || heard.done || heard.strike > 0.0F ? 0 : since + 1;
+            // Skips the decay of single sounds.
+            since = cues.click || cues.done || cues.strike_speed > 0.0F ? 0 : since + 1;
             if (since < 2000) return;
             if (output.joint < 0 && output.touched.is_none()) air.add(samples);
-            if (heard.run > 5.0F) spun.add(samples);
-            if (heard.creep > 0.2F && heard.load > 0.2F && heard.load < 0.4F) half.add(samples);
-            if (heard.creep > 0.2F && heard.load > 0.6F) full.add(samples);
+            if (cues.run_speed > 5.0F) spun.add(samples);
+            if (cues.creep_speed > 0.2F && cues.load > 0.2F && cues.load < 0.4F) half.add(samples);
+            if (cues.creep_speed > 0.2F && cues.load > 0.6F) full.add(samples);
         });
     REQUIRE(wav->finish());
-    REQUIRE(played.result.finished);
-    CHECK(chimes == 16);  // four nuts: run down, half, full, looked at again
+    REQUIRE(outcome.result.finished);
+    CHECK(chimes == 16);  // four nuts: run-down, half torque, full torque, re-check
     CHECK(mistakes == 0);
     CHECK(clicks == felt);
-    CHECK(clicks >= 8);  // four nuts to half and to their full torque; a check ends before where one moves
+    CHECK(clicks >=
+          8);  // four nuts at half and full torque; a re-check ends before the click if the nut moves
     CHECK(strikes > 4);
     CHECK(strikes < 100);
     CHECK(most < 1.0);
-    CHECK(step <= 1.0001 * sound::steepest / test::rate);
-    // In the air all is silent but for what rings out.
+    CHECK(step <= 1.0001 * sound::max_slope / test::rate);
+    // In the air everything is silent except for decaying sounds.
     CHECK(air.share(0.5) < 2e-3);
     CHECK(spun.share(0.5) > 0.02);
     CHECK(half.share(0.5) > 2e-3);
@@ -96,41 +96,42 @@ TEST_CASE("an expert's lesson can be heard: its stages differ, its steps chime, 
     CHECK(bytes->size() == 44 + 2 * count);
 }
 
-TEST_CASE("a replay sounds as the lesson did, sample for sample") {
+TEST_CASE("Lesson sound: a replay gives the same samples") {
     const test::Folder folder;
-    Sum lesson;
+    SampleHash lesson;
     int strikes = 0, chimes = 0, clicks = 0;
-    test::hear_lesson("cover-m8", "expert", 60.0, "torque_wrench", folder / "a.boltwright",
-                      [&](const servo::Output&, const sound::Heard& heard, std::span<const float> samples) {
-                          lesson.add(samples);
-                          strikes += heard.strike > 0.0F ? 1 : 0;
-                          chimes += heard.done ? 1 : 0;
-                          clicks += heard.click ? 1 : 0;
-                      });
+    test::run_lesson("cover-m8", "expert", 60.0, "torque_wrench", folder / "a.boltwright",
+                     [&](const servo::Output&, const sound::SoundCues& cues, std::span<const float> samples) {
+                         lesson.add(samples);
+                         strikes += cues.strike_speed > 0.0F ? 1 : 0;
+                         chimes += cues.done ? 1 : 0;
+                         clicks += cues.click ? 1 : 0;
+                     });
     CHECK(clicks > 0);
     CHECK(strikes > 0);
     CHECK(chimes > 4);
-    const auto reader = session::Reader::open(folder / "a.boltwright");
+    const auto reader = session::SessionReader::open(folder / "a.boltwright");
     REQUIRE(reader);
     for (const bool changed : {false, true}) {
-        auto again = session::prepare_again(*reader);
+        auto again = session::restore_setup(*reader);
         REQUIRE(again);
-        sound::Ear ear;
-        ear.still = sound::materials(again->assembly, again->obstacle_names);
-        sound::Track track(sound::make_synth(again->setup, test::rate), again->setup.dt);
-        Sum replay;
+        sound::EventDetector detector;
+        detector.surfaces = sound::struck_surfaces(again->assembly, again->obstacle_names);
+        sound::CueRenderer renderer(sound::make_synth(again->setup, test::rate), again->setup.dt);
+        SampleHash replay;
         world::World world;
         world::add_haptics(world, again->state);
-        const auto replayed = session::replay(*reader, std::move(*again), [&](const session::Moment& moment) {
-            servo::Output output = moment.output;
-            if (changed) output.clicked = false;
-            const sound::Cues cues = sound::cues_of(moment.lesson.events);
-            world::write_snapshot(world, {moment.state, moment.input, output});
-            replay.add(track.next(sound::hear(ear, moment.setup, world, cues)));
-            return true;
-        });
+        const auto replayed =
+            session::replay(*reader, std::move(*again), [&](const session::ReplayTick& moment) {
+                servo::Output output = moment.output;
+                if (changed) output.clicked = false;
+                const sound::LessonCues cues = sound::lesson_cues(moment.lesson.events);
+                world::write_snapshot(world, {moment.state, moment.input, output});
+                replay.add(renderer.next(sound::detect_events(detector, moment.setup, world, cues)));
+                return true;
+            });
         REQUIRE(replayed);
-        CHECK(replayed->wrong == 0);
+        CHECK(replayed->mismatches == 0);
         CHECK((replay.hash == lesson.hash) != changed);
     }
 }

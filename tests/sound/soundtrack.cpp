@@ -1,5 +1,4 @@
-// What a replayed session leaves as a file: the lesson's own samples.
-
+// The sound file of a replayed session.
 #include "game/sound/playback.hpp"
 
 #include "engine/audio/sink.hpp"
@@ -26,41 +25,41 @@ std::vector<std::int16_t> samples_of(const std::filesystem::path& wav) {
     return samples;
 }
 
-void write_track(const session::Reader& session, const std::filesystem::path& wav, double from) {
-    auto at = session::prepare_again(session);
+void write_track(const session::SessionReader& session, const std::filesystem::path& wav, double from) {
+    auto at = session::restore_setup(session);
     REQUIRE(at);
-    auto track =
-        sound::Soundtrack::create(wav, at->setup, sound::materials(at->assembly, at->obstacle_names), from);
+    auto track = sound::Soundtrack::create(wav, at->setup,
+                                           sound::struck_surfaces(at->assembly, at->obstacle_names), from);
     REQUIRE(track);
     world::World world;
     world::add_haptics(world, at->state);
-    const auto replayed = session::replay(session, std::move(*at), [&](const session::Moment& m) {
+    const auto replayed = session::replay(session, std::move(*at), [&](const session::ReplayTick& m) {
         world::write_snapshot(world, {m.state, m.input, m.output});
-        REQUIRE(track->hear(m.setup, world, sound::cues_of(m.lesson.events), m.time));
+        REQUIRE(track->add_tick(m.setup, world, sound::lesson_cues(m.lesson.events), m.time));
         return true;
     });
     REQUIRE(replayed);
-    CHECK(replayed->wrong == 0);
+    CHECK(replayed->mismatches == 0);
     REQUIRE(track->finish());
 }
 
 }  // namespace
 
-TEST_CASE("the sound of a replay is that of the lesson, sample for sample, wherever it begins") {
+TEST_CASE("Soundtrack: has the samples of the lesson, from whatever time it begins") {
     const Folder folder;
     const std::filesystem::path session = folder / "a.boltwright", wav = folder / "a.wav";
     std::vector<std::int16_t> lesson;
-    test::hear_lesson("cover-m8", "expert", 30.0, "", session,
-                      [&](const servo::Output&, const sound::Heard&, std::span<const float> samples) {
-                          for (const float s : samples) lesson.push_back(audio::to_pcm16(s));
-                      });
+    test::run_lesson("cover-m8", "expert", 30.0, "", session,
+                     [&](const servo::Output&, const sound::SoundCues&, std::span<const float> samples) {
+                         for (const float s : samples) lesson.push_back(audio::to_pcm16(s));
+                     });
     CHECK(std::any_of(lesson.begin(), lesson.end(), [](int s) { return std::abs(s) > 1000; }));
-    const auto reader = session::Reader::open(session);
+    const auto reader = session::SessionReader::open(session);
     REQUIRE(reader);
     write_track(*reader, wav, 0.0);
     CHECK((samples_of(wav) == lesson));
 
-    // From the tick on that ends there; what rings then was struck before.
+    // The file begins with the tick that ends at `from` and includes the decay of earlier sounds.
     write_track(*reader, wav, 10.0);
     const std::size_t left_out = (10000 - 1) * 48;
     CHECK((samples_of(wav) ==

@@ -1,4 +1,4 @@
-// What sound tests share: ticks made by hand, spectra, a simulated lesson that is listened to.
+// Measurements of samples, and a simulated lesson rendered to samples.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -42,7 +42,7 @@ inline double steepest_step(std::span<const float> samples) {
     return most;
 }
 
-// How much of a frequency there is, by its Fourier sum under a Hann window.
+// Amplitude of a frequency: Fourier sum under a Hann window.
 inline double amount(std::span<const float> samples, double frequency) {
     const auto n = static_cast<double>(samples.size());
     const std::complex<double> turn = std::polar(1.0, 2.0 * pi * frequency / rate),
@@ -68,44 +68,48 @@ inline double dominant(std::span<const float> samples, double from, double to, d
     return best;
 }
 
-// So many seconds of one thing that is heard over and over.
-inline std::vector<float> listen(sound::Synth& synth, const sound::Heard& heard, double seconds) {
-    sound::sound(synth, heard);
+// Renders some seconds with constant cues.
+inline std::vector<float> listen(sound::Synth& synth, const sound::SoundCues& cues, double seconds) {
+    sound::apply_cues(synth, cues);
     std::vector<float> samples(static_cast<std::size_t>(seconds * rate));
     sound::render(synth, samples);
     return samples;
 }
 
-// A lesson as boltwright train plays it, listened to and recorded; `visit` gets every tick's output and
-// samples.
-using Visit = std::function<void(const servo::Output&, const sound::Heard&, std::span<const float>)>;
-inline session::Played hear_lesson(const char* name, const char* trainee, double longest, const char* tool,
-                                   const std::filesystem::path& session, const Visit& visit) {
-    content::Loaded loaded = content::load_assembly(name);
+// Runs a lesson as boltwright train does and records it to `session`. Calls `visit` with each tick's output,
+// cues and samples.
+using Visit = std::function<void(const servo::Output&, const sound::SoundCues&, std::span<const float>)>;
+inline session::LessonOutcome run_lesson(const char* name, const char* trainee, double longest,
+                                         const char* tool, const std::filesystem::path& session,
+                                         const Visit& visit) {
+    content::LoadedAssembly loaded = content::load_assembly(name);
     REQUIRE(loaded.ok());
     REQUIRE(content::choose_tool(loaded.assembly, tool));
-    session::CourseOptions options;
+    session::LessonOptions options;
     options.obstacles = session::Obstacles::required;
-    auto begun = session::Course::begin(loaded.assembly, options, session);
-    REQUIRE(begun);
-    session::Course& course = **begun;
-    trainees::Operator hand(trainees::find_profile(trainee).value(), options.seed, course.setup());
-    sound::Ear ear;
-    ear.still = sound::materials(course.assembly(), course.obstacle_names());
-    sound::Track track(sound::make_synth(course.setup(), rate), course.setup().dt);
+    auto started = session::LessonSession::begin(loaded.assembly, options, session);
+    REQUIRE(started);
+    session::LessonSession& lesson_session = **started;
+    trainees::SimulatedTrainee hand(trainees::find_profile(trainee).value(), options.seed,
+                                    lesson_session.setup());
+    sound::EventDetector detector;
+    detector.surfaces = sound::struck_surfaces(lesson_session.assembly(), lesson_session.obstacle_names());
+    sound::CueRenderer renderer(sound::make_synth(lesson_session.setup(), rate), lesson_session.setup().dt);
     world::World world;
-    world::add_haptics(world, course.state());
-    while (!course.over() && course.time() < longest) {
-        const auto output = course.step(hand.act(course.setup(), course.state(), course.lesson()));
+    world::add_haptics(world, lesson_session.state());
+    while (!lesson_session.finished() && lesson_session.time() < longest) {
+        const auto output = lesson_session.step(
+            hand.act(lesson_session.setup(), lesson_session.state(), lesson_session.lesson()));
         REQUIRE(output);
-        world::write_joints(world, course.state().joints, course.state().rounded);
+        world::write_joints(world, lesson_session.state().joints, lesson_session.state().rounded);
         world::write_output(world, *output);
-        const sound::Heard heard = sound::hear(ear, course.setup(), world, sound::cues_of(course.events()));
-        visit(*output, heard, track.next(heard));
+        const sound::SoundCues cues = sound::detect_events(detector, lesson_session.setup(), world,
+                                                           sound::lesson_cues(lesson_session.events()));
+        visit(*output, cues, renderer.next(cues));
     }
-    const auto played = course.finish();
-    REQUIRE(played);
-    return *played;
+    const auto outcome = lesson_session.finish();
+    REQUIRE(outcome);
+    return *outcome;
 }
 
 }  // namespace bolt::test

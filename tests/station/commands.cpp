@@ -1,4 +1,4 @@
-// What whoever shows a station wishes of it: pauses, marks, ways back, the wrench and the hand.
+// Commands to a station: pause, checkpoints, undo, and the placement of wrench and hand.
 #include "tests/station/test_station.hpp"
 
 using namespace bolt;
@@ -21,7 +21,7 @@ TEST_CASE("Station: a pause renders no force and moves nothing; afterwards force
         }
     };
     rests(100);
-    rig.hand().position += Vec3(0.0, 0.3, 0.0);  // the arm is laid down
+    rig.hand().position += Vec3(0.0, 0.3, 0.0);  // the device's arm is put down
     rests(100);
     CHECK(rig.servo.tick == ticks);
     CHECK(glm::length(rig.tool().position - before.position) < 1e-12);
@@ -77,7 +77,7 @@ TEST_CASE(
         rig.ticks(20);
         CHECK(rig.servo.checkpoint_count == 2);
         CHECK(rig.state.input.undo == 0);
-        rig.commands = {AmendRestore{2}};  // comes too late
+        rig.commands = {AmendRestore{2}};  // too late: the restore is done
         rig.ticks(20);
         CHECK(rig.servo.checkpoint_count == 2);
         rig.commands = {RestoreCheckpoint{2}};
@@ -137,7 +137,7 @@ TEST_CASE(
     rig.tick();
     CHECK_FALSE(rig.state.wrench_rest);
     CHECK(glm::length(rig.tool().position - rest.position) < 1e-9);
-    // From there it follows the hand.
+    // From there on it follows the hand.
     rig.hand().position += Vec3(0.0, 0.0, 1e-3);
     rig.tick();
     CHECK(glm::length(rig.tool().position - rest.position) == doctest::Approx(1e-3));
@@ -153,7 +153,7 @@ TEST_CASE(
     rig.inputs.controls.grip = servo::Grip::wrench;
     rig.tick();
     CHECK(glm::length(rig.tool().position - on.position) < 1e-3);
-    // Let go of in the air.
+    // Released in the air.
     rig.hand().position += Vec3(0.0, 0.02, 0.0);
     rig.ticks(5);
     REQUIRE(rig.state.output.joint < 0);
@@ -186,7 +186,7 @@ TEST_CASE(
     CHECK(glm::distance(wrist().position, holding.position) < 1e-9);
     CHECK(std::abs(glm::dot(wrist().orientation, holding.orientation)) > 1.0 - 1e-9);
     CHECK(glm::distance(rig.tool().position, rig.inputs.controls.wrench_rest->position) > 0.01);
-    // Beside the wrench that lies there it has its hand about the handle.
+    // Placed at the rest pose of the wrench, the hand is around its handle.
     rig.commands = {
         PlaceTool{*rig.state.wrench_rest * Pose{Vec3(0.1, 0.03, 0.02), rotation(Vec3(0.3, 0.0, 0.0))}}};
     rig.ticks(2);

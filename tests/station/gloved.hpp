@@ -1,4 +1,4 @@
-// A hand for a station's tests, with a glove whose sensors are as easy as can be, at a bar across its palm.
+// A hand for tests of a station: its glove's sensors all have the same fit, and a bar lies across its palm.
 #pragma once
 
 #include "haptics/station/gloved_hand.hpp"

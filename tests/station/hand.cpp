@@ -1,4 +1,4 @@
-// What a gloved hand does at a station, without its thread.
+// The gloved hand at a station, without its thread.
 #include "haptics/station/gloved_hand.hpp"
 
 #include <doctest/doctest.h>
@@ -16,15 +16,15 @@ namespace {
 
 constexpr double dt = 1.0 / 80.0;
 
-// A hand in a glove that gives 80 samples a second, or none.
+// A hand in a glove that sends 80 samples per second, or none.
 struct Worn {
     HandSetup plan = test::hand_at_bar();
     HandState state;
     hand::GloveSample sample;
     ToolPoses place;
-    std::vector<hand::GraspEvent> told;
+    std::vector<hand::GraspEvent> events;
 
-    void shows(const hand::PerSensor<std::uint8_t>& raw, double seconds) {
+    void send(const hand::PerSensor<std::uint8_t>& raw, double seconds) {
         for (double t = 0.0; t < seconds; t += dt) {
             sample.frame.raw = raw;
             ++sample.number;
@@ -32,7 +32,7 @@ struct Worn {
             step();
         }
     }
-    void is_mute(double seconds) {
+    void stay_silent(double seconds) {
         for (double t = 0.0; t < seconds; t += dt) {
             sample.time += dt;
             step();
@@ -40,7 +40,7 @@ struct Worn {
     }
     void step() {
         const hand::GraspEvent now = update_hand(plan, state, sample, place, dt);
-        if (now != hand::GraspEvent::none) told.push_back(now);
+        if (now != hand::GraspEvent::none) events.push_back(now);
     }
 };
 
@@ -56,33 +56,34 @@ double apart(const hand::Skeleton& a, const hand::Skeleton& b) {
 TEST_CASE("Gloved hand: closing grasps the wrench and opening releases it, with and without tremor") {
     Worn worn;
     CHECK(!display(worn.plan, worn.state).has_frame);
-    worn.shows(test::raw_open(), 0.5);
+    worn.send(test::raw_open(), 0.5);
     CHECK(grip_of(worn.state) == servo::Grip::none);
-    worn.shows(test::raw_closed(), 0.5);
+    worn.send(test::raw_closed(), 0.5);
     CHECK(grip_of(worn.state) == servo::Grip::wrench);
-    worn.shows(test::raw_open(), 0.1);  // for a moment
-    worn.shows(test::raw_closed(), 0.5);
-    CHECK(worn.told == std::vector<hand::GraspEvent>{hand::GraspEvent::grasped});
-    worn.shows(test::raw_open(), 0.5);
+    worn.send(test::raw_open(), 0.1);  // too briefly to release
+    worn.send(test::raw_closed(), 0.5);
+    CHECK(worn.events == std::vector<hand::GraspEvent>{hand::GraspEvent::grasped});
+    worn.send(test::raw_open(), 0.5);
     CHECK(grip_of(worn.state) == servo::Grip::none);
-    CHECK(worn.told == std::vector<hand::GraspEvent>{hand::GraspEvent::grasped, hand::GraspEvent::released});
+    CHECK(worn.events ==
+          std::vector<hand::GraspEvent>{hand::GraspEvent::grasped, hand::GraspEvent::released});
 }
 
 TEST_CASE(
     "Gloved hand: a glove lost during a grasp keeps the wrench, is reported, and drops nothing on its "
     "return") {
     Worn worn;
-    worn.shows(test::raw_open(), 0.5);
-    worn.shows(test::raw_closed(), 0.5);
-    worn.told.clear();
-    worn.is_mute(30.0);
+    worn.send(test::raw_open(), 0.5);
+    worn.send(test::raw_closed(), 0.5);
+    worn.events.clear();
+    worn.stay_silent(30.0);
     CHECK(grip_of(worn.state) == servo::Grip::wrench);
-    CHECK(worn.told == std::vector<hand::GraspEvent>{hand::GraspEvent::glove_lost});
-    // Sensors are quicker back than the hand in them thinks.
-    worn.shows(test::raw_open(), 0.3);
-    worn.shows(test::raw_closed(), 5.0);
+    CHECK(worn.events == std::vector<hand::GraspEvent>{hand::GraspEvent::glove_lost});
+    // The glove returns open for less than the time in which nothing is released.
+    worn.send(test::raw_open(), 0.3);
+    worn.send(test::raw_closed(), 5.0);
     CHECK(grip_of(worn.state) == servo::Grip::wrench);
-    CHECK(worn.told ==
+    CHECK(worn.events ==
           std::vector<hand::GraspEvent>{hand::GraspEvent::glove_lost, hand::GraspEvent::glove_back});
 }
 
@@ -92,25 +93,25 @@ TEST_CASE(
     Worn worn;
     const Pose somewhere{Vec3(0.4, 1.0, -0.3), rotation({0.3, -1.1, 0.4})};
     worn.place = {somewhere, somewhere};
-    worn.shows(test::raw_open(), 0.5);
+    worn.send(test::raw_open(), 0.5);
     const hand::Skeleton open =
         hand::joints(worn.plan.wearer.hand, worn.state.grip.closure.angles, worn.plan.wrist);
     CHECK(apart(display(worn.plan, worn.state).joints, open) < 1e-12);
-    // The tool is held back 0.1 m below the hand.
+    // An obstacle holds the tool 0.1 m below the hand.
     worn.place.actual.position -= Vec3(0.0, 0.1, 0.0);
-    worn.shows(test::raw_open(), 0.1);
+    worn.send(test::raw_open(), 0.1);
     const Vec3 palm = worn.place.actual * display(worn.plan, worn.state).joints.position[hand::palm];
     CHECK(glm::length(palm - somewhere * open.position[hand::palm]) < 1e-12);
-    // It cannot be taken from there, but where it is at hand; from then on the hand goes where the tool can.
-    worn.shows(test::raw_closed(), 0.5);
+    // The hand cannot grasp the tool from a distance. Once it holds it, the displayed hand follows the tool.
+    worn.send(test::raw_closed(), 0.5);
     CHECK(!display(worn.plan, worn.state).held);
     worn.place.actual = somewhere;
-    worn.shows(test::raw_closed(), 0.5);
+    worn.send(test::raw_closed(), 0.5);
     const DisplayedHand closed = display(worn.plan, worn.state);
     CHECK(closed.held);
     CHECK(apart(closed.joints, open) > 0.03);
     worn.place.actual.position -= Vec3(0.0, 0.1, 0.0);
-    worn.shows(test::raw_closed(), 0.5);
+    worn.send(test::raw_closed(), 0.5);
     CHECK(apart(display(worn.plan, worn.state).joints, closed.joints) < 1e-4);
 }
 
@@ -134,8 +135,8 @@ TEST_CASE("Gloved hand: messages name its problems, worst first") {
 
 TEST_CASE("Gloved hand: a step neither allocates nor waits") {
     Worn worn;
-    worn.told.reserve(8);
+    worn.events.reserve(8);
     for (const auto& raw : {test::raw_open(), test::raw_closed(), test::raw_open()})
-        CHECK(test::forbidden_in([&] { worn.shows(raw, 0.5); }).all() == 0);
-    CHECK(worn.told.size() == 2);
+        CHECK(test::forbidden_in([&] { worn.send(raw, 0.5); }).all() == 0);
+    CHECK(worn.events.size() == 2);
 }

@@ -1,4 +1,4 @@
-// Devices that move the tool by being pushed or turned: a puck, keys, a wheel.
+// Devices that move the tool by rates or rotations: puck, keys, wheel.
 #include "tests/station/test_station.hpp"
 
 using namespace bolt;
@@ -59,7 +59,7 @@ TEST_CASE("Wheel: clockwise as the user sees it tightens, whatever the sign of t
         layout.mover = test::puck();
         layout.wheel = test::wheel_of(10.0, axis);
         Rig rig = on_nut(layout);
-        // The user looks along −z, or down; with the clock is right-handed about where the user looks to.
+        // The user looks along −z, or down. Clockwise is right-handed about the viewing direction.
         const double with_clock = axis.y + axis.z < 0.0 ? 1.0 : -1.0;
         DeviceCommands answer;
         for (int i = 0; i < 30'000 && rig.state.output.wrench_torque < 100.0; ++i) {
@@ -68,14 +68,14 @@ TEST_CASE("Wheel: clockwise as the user sees it tightens, whatever the sign of t
         }
         REQUIRE(rig.state.output.wrench_torque > 99.0);
         CHECK(rig.state.output.nut_angle > 0.5);
-        // What it feels is the nut's torque, scaled to its motor, against the way it is turned.
+        // The wheel renders the nut's torque, scaled to its motor, against its rotation.
         const double felt = glm::dot(answer.wheel.torque, axis) * -with_clock;
         CHECK(felt == doctest::Approx(rig.state.output.wrench_torque * rig.setup.torque.scale).epsilon(0.02));
         CHECK(glm::length(answer.wheel.torque) <= 10.0);
         CHECK(nothing(answer.mover));
         CHECK(rig.state.output.fault == force::Fault::none);
 
-        // The wheel falls mute: nothing is left of that after 18 ms.
+        // After 18 ms without a sample of the wheel the torque is zero.
         rig.wheel_speaks = false;
         CHECK(nothing(rig.ticks(18).wheel));
         CHECK(rig.state.output.fault == force::Fault::silent);
@@ -120,7 +120,7 @@ TEST_CASE("Wheel: without an engaged nut it turns nothing, and that rotation is 
 
     Rig on = on_nut(layout);
     const Pose there = on.tool();
-    ++on.inputs.wheel.opening;  // plugged in again, and its count begins anew
+    ++on.inputs.wheel.opening;  // replugged: its count restarts
     on.inputs.wheel.sample.turn = 40.0;
     on.ticks(5);
     CHECK(glm::length(rotation_vector(
@@ -142,7 +142,7 @@ TEST_CASE("Puck: the tool glides onto the nut, descends with it, and leaves it w
     rig.inputs.controls.glide = 0;
     rig.ticks(4000);
     REQUIRE(rig.state.output.joint == 0);
-    // Spun, with the clock as one sees it from above.
+    // Spun clockwise, seen from above.
     rig.inputs.mover.sample.angular_velocity = Vec3(0.0, -2.0, 0.0);
     rig.ticks(500);
     CHECK(rig.state.output.nut_angle == doctest::Approx(spinning * 1.0).epsilon(0.1));
@@ -175,5 +175,5 @@ TEST_CASE("Puck: a wrench turns more slowly the more torque it transmits") {
     }
     CHECK(rig.state.output.joint == 0);
     CHECK(last >= 150.0);
-    CHECK(fastest < 0.2);  // N·m in a millisecond: a hand can stop within a second of the target
+    CHECK(fastest < 0.2);  // N·m per millisecond, slow enough to stop at the target
 }

@@ -1,6 +1,6 @@
-// Two hours at a station whose devices and glove fail in every way that we know, at random, in virtual time.
-// Two hours by default; BOLTWRIGHT_SOAK_SECONDS and BOLTWRIGHT_SOAK_SEED say otherwise. Under a sanitizer ten
-// minutes.
+// A soak test in virtual time: a station whose devices and glove fail at random in all known ways. It lasts
+// two hours, under a sanitizer ten minutes; BOLTWRIGHT_SOAK_SECONDS and BOLTWRIGHT_SOAK_SEED change duration
+// and seed.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 #include <malloc.h>
@@ -23,45 +23,46 @@ using device::InjectedFault;
 namespace {
 
 constexpr double dt = 1e-3;
-constexpr double gone = 0.020;        // s until no force is left
-constexpr double said = 1.0;          // s until it is said
-constexpr double usable_again = 2.0;  // s from plugging in
-constexpr double thinks = 0.5;        // s after the glove is back in which nothing falls
-constexpr int looks = 50;             // ticks between two of the hand at its glove: its closing costs most
-constexpr double done = 1.5;          // s after which a hand that closed or opened has taken or let go
+constexpr double force_timeout = 0.020;   // s from a fault until the force is zero
+constexpr double report_timeout = 1.0;    // s from a fault until it is reported
+constexpr double recovery_timeout = 2.0;  // s from plugging in until a device is usable
+constexpr double no_release_time = 0.5;   // s after the glove's return in which nothing is released
+constexpr int hand_interval = 50;      // ticks between updates of the hand, whose finger closure is expensive
+constexpr double grasp_timeout = 1.5;  // s after which a closed or opened hand has grasped or released
 
-bool nothing(const force::OutputCommand& c) { return c.force == Vec3(0.0) && c.torque == Vec3(0.0); }
+bool is_zero(const force::OutputCommand& c) { return c.force == Vec3(0.0) && c.torque == Vec3(0.0); }
 
 bool mutes(InjectedFault what) {
     return what == InjectedFault::unplugged || what == InjectedFault::silent ||
            what == InjectedFault::not_a_number;
 }
 
-// A device of the station, what befalls it, and whether the promises are kept.
-struct Watched {
+// A device of the station with its random faults, and the limits that it must keep.
+struct MonitoredDevice {
     test::VirtualLine line;
     Random random;
-    device::FaultInterval trouble{InjectedFault::silent, -1.0,
-                                  -1.0};  // the newest; in the past if there is none now
-    double sound_since = 0.0;             // when the last one ended
-    double undisturbed = 0.0;             // when nothing any more kept a write from going through
-    bool again = true;                    // usable since then
+    device::FaultInterval trouble{InjectedFault::silent, -1.0, -1.0};  // the latest one; it may be over
+    double sound_since = 0.0;                                          // s, end of the latest fault
+    double undisturbed = 0.0;  // s, time from which no fault delays a write
+    bool recovered = true;     // usable since the end of the latest fault
     std::array<std::uint64_t, device::injected_fault_count> counts{};
-    double longest_back = 0.0;  // s from the end of a mishap to being usable
-    double longest_lost = 0.0, longest_let_go = 0.0, longest_hung = 0.0;  // s that a force stayed
+    double longest_recovery = 0.0;  // s from the end of a fault until it is usable
+    // s for which a force remained after the loss of the device, the release of the dead-man switch, or a
+    // hang of the servo
+    double longest_lost = 0.0, longest_released = 0.0, longest_hung = 0.0;
 
-    Watched(device::SimulatedDeviceOptions design, std::uint64_t seed)
+    MonitoredDevice(device::SimulatedDeviceOptions design, std::uint64_t seed)
         : line(std::move(design)), random(seed) {}
 
-    void live(double now) {
+    void advance(double now) {
         if (now >= trouble.until && now > sound_since + 0.1 && random.chance(dt / 4.0)) {
             const auto kind = static_cast<InjectedFault>(random.bits() % device::injected_fault_count);
-            // A millisecond to three seconds, as many short ones as long ones.
+            // 1 ms to 3 s, uniform in the logarithm.
             const double lasts = 1e-3 * std::exp(random.uniform() * std::log(3000.0));
             trouble = {kind, now, now + lasts};
             line.thing.inject(trouble);
             ++counts[static_cast<std::size_t>(kind)];
-            again = false;
+            recovered = false;
         }
         if (now < trouble.until) {
             sound_since = trouble.until;
@@ -72,18 +73,18 @@ struct Watched {
     }
 };
 
-struct Tally {
+struct SoakStatistics {
     std::uint64_t ticks = 0, forces = 0, releases = 0, hangs = 0, jumps = 0, engaged = 0, allocations = 0,
                   glove_frames = 0;
     std::uint64_t failures = 0;
     std::string first;
-    std::uint64_t turned = 0;  // ticks in which the wheel felt the bolt
+    std::uint64_t turned = 0;  // ticks in which the wheel rendered a torque
     double longest_glove = 0.0;
-    std::uint64_t taken = 0, let_go = 0, lost_in_grasp = 0, opened_meanwhile = 0;
-    double longest_untold = 0.0;  // s of a lost glove with the wrench in the hand
+    std::uint64_t grasped = 0, released = 0, lost_in_grasp = 0, opened_meanwhile = 0;
+    double longest_unreported = 0.0;  // s without a message about a lost glove while the wrench is held
 
-    void must(bool so, const std::string& what, double now) {
-        if (so) return;
+    void require(bool ok, const std::string& what, double now) {
+        if (ok) return;
         if (failures++ == 0) first = fmt::format("at {:.3f} s: {}", now, what);
     }
 };
@@ -111,34 +112,35 @@ class Soak {
                  4 * seed + 1),
           random_(4 * seed + 2),
           glove_({.sensors = 22, .faults = {1e-4, 1e-4, 1e-4}, .seed = 4 * seed + 3}),
-          plan_(test::hand_at_bar()) {}
+          hand_setup_(test::hand_at_bar()) {}
 
-    Tally run(double seconds) {
+    SoakStatistics run(double seconds) {
         const auto ticks = static_cast<std::uint64_t>(seconds / dt);
         std::size_t used = 0;
         for (std::uint64_t i = 0; i < ticks; ++i) {
             now_ = static_cast<double>(i) * dt;
-            wish();
-            arm_.live(now_);
-            wheel_.live(now_);
-            if (i % 5 == 0) talk();
-            if (i % looks == 0) grip();
-            if (now_ >= hangs_until_) serve();
-            watch();
-            all_is_well_again();
+            update_controls();
+            arm_.advance(now_);
+            wheel_.advance(now_);
+            if (i % 5 == 0) update_glove();
+            if (i % hand_interval == 0) update_gloved_hand();
+            if (now_ >= hangs_until_) tick_station();
+            check_devices();
+            check_recovery();
             if (i == ticks / 4) used = mallinfo2().uordblks;
         }
         const std::size_t at_end = mallinfo2().uordblks;
-        tally_.must(at_end <= used + 65536, fmt::format("{} bytes at a quarter, {} at the end", used, at_end),
-                    now_);
-        return tally_;
+        statistics_.require(at_end <= used + 65536,
+                            fmt::format("{} bytes after a quarter of the time, {} at the end", used, at_end),
+                            now_);
+        return statistics_;
     }
 
-    Watched& arm() { return arm_; }
-    Watched& wheel() { return wheel_; }
+    MonitoredDevice& arm() { return arm_; }
+    MonitoredDevice& wheel() { return wheel_; }
 
   private:
-    // What the hand does: to the first nut, some seconds on it, away, over and over.
+    // Motion of the hand: to the first nut, some seconds on it, and away, repeatedly.
     device::Sample reach() {
         const servo::NutGeometry& nut = setup_.nuts[0];
         const double phase = std::fmod(now_, 20.0);
@@ -151,208 +153,216 @@ class Soak {
             state_.output.joint >= 0
                 ? Vec3(0.0)
                 : rotation_vector(glm::normalize(wanted.orientation * glm::conjugate(tool.orientation)));
-        device::Sample meant;
+        device::Sample sample;
         const Pose& hand = state_.hand;
-        meant.pose.position = hand.position + force::clamp_length(at - tool.position, 0.02);
-        meant.pose.orientation = glm::normalize(rotation(force::clamp_length(turn, 0.1)) * hand.orientation);
-        return meant;
+        sample.pose.position = hand.position + force::clamp_length(at - tool.position, 0.02);
+        sample.pose.orientation = glm::normalize(rotation(force::clamp_length(turn, 0.1)) * hand.orientation);
+        return sample;
     }
-    // Tightens to 120 N·m, loosens to nothing.
+    // Tightens to 120 N·m and loosens, repeatedly.
     device::Sample turn() {
         if (state_.output.wrench_torque > 120.0 && direction_ > 0.0) direction_ = -1.0;
         if (servo_.joints[0].nut.angle < 0.3 && direction_ < 0.0) direction_ = 1.0;
         if (now_ > turned_at_) wheel_at_ += direction_ * 1.0 * (now_ - turned_at_);
         turned_at_ = now_;
-        device::Sample meant;
-        meant.turn = wheel_at_;
-        return meant;
+        device::Sample sample;
+        sample.turn = wheel_at_;
+        return sample;
     }
 
-    void wish() {
+    void update_controls() {
         controls_.grip = servo::Grip::wrench;
         if (random_.chance(dt / 10.0)) {
             controls_.dead_man = !controls_.dead_man;
             if (!controls_.dead_man) released_ = now_;
-            tally_.releases += controls_.dead_man ? 0 : 1;
+            statistics_.releases += controls_.dead_man ? 0 : 1;
         }
         controls_.clutch =
             random_.chance(dt / 20.0) ? !controls_.clutch : controls_.clutch && !random_.chance(dt / 0.3);
         if (now_ > hangs_until_ + 1.0 && random_.chance(dt / 30.0)) {
-            ++tally_.hangs;
+            ++statistics_.hangs;
             hang_begins_ = now_;
             hangs_until_ = now_ + random_.uniform(0.001, 0.3);
         }
     }
 
-    void serve() {
-        StationInputs heard;
-        heard.mover = arm_.line.snapshot();
-        heard.wheel = wheel_.line.snapshot();
-        heard.controls = controls_;
-        heard.hand_grip = grip_of(hand_);
-        heard.missed = static_cast<std::uint64_t>((now_ - ticked_) / dt + 0.5) - (tally_.ticks > 0 ? 1 : 0);
+    void tick_station() {
+        StationInputs inputs;
+        inputs.mover = arm_.line.snapshot();
+        inputs.wheel = wheel_.line.snapshot();
+        inputs.controls = controls_;
+        inputs.hand_grip = grip_of(hand_);
+        inputs.missed =
+            static_cast<std::uint64_t>((now_ - ticked_) / dt + 0.5) - (statistics_.ticks > 0 ? 1 : 0);
         ticked_ = now_;
         const test::Forbidden forbidden =
-            test::forbidden_in([&] { answer_ = station::tick(layout_, setup_, state_, servo_, heard); });
-        tally_.allocations += static_cast<std::uint64_t>(forbidden.all());
-        arm_.line.command(answer_.mover);
-        wheel_.line.command(answer_.wheel);
-        ++tally_.ticks;
-        if (!nothing(answer_.mover)) ++tally_.forces;
-        if (!nothing(answer_.wheel)) ++tally_.turned;
-        if (state_.output.joint >= 0) ++tally_.engaged;
+            test::forbidden_in([&] { commands_ = station::tick(layout_, setup_, state_, servo_, inputs); });
+        statistics_.allocations += static_cast<std::uint64_t>(forbidden.all());
+        arm_.line.command(commands_.mover);
+        wheel_.line.command(commands_.wheel);
+        ++statistics_.ticks;
+        if (!is_zero(commands_.mover)) ++statistics_.forces;
+        if (!is_zero(commands_.wheel)) ++statistics_.turned;
+        if (state_.output.joint >= 0) ++statistics_.engaged;
     }
 
-    void talk() {
+    void update_glove() {
         if (now_ > glove_until_ && random_.chance(5e-3 / 10.0)) {
             glove_until_ = now_ + random_.uniform(0.01, 3.0);
             glove_cut_ = random_.chance(0.5);
         }
         const bool troubled = now_ < glove_until_;
         glove_.stalled = troubled && !glove_cut_;
-        std::vector<std::uint8_t> heard = glove_.advance(said_, now_);
-        if (troubled && glove_cut_) heard.clear();
-        const std::uint64_t before = tally_.glove_frames;
-        said_ = conversation_.update(heard, now_, [&](const hand::GloveFrame& frame) {
-            sample_ = {frame, ++tally_.glove_frames, now_};
+        std::vector<std::uint8_t> inputs = glove_.advance(to_glove_, now_);
+        if (troubled && glove_cut_) inputs.clear();
+        const std::uint64_t before = statistics_.glove_frames;
+        to_glove_ = session_.update(inputs, now_, [&](const hand::GloveFrame& frame) {
+            sample_ = {frame, ++statistics_.glove_frames, now_};
         });
-        if (troubled && glove_cut_) said_.clear();
-        if (troubled || before != tally_.glove_frames) glove_heard_ = now_;
-        tally_.longest_glove = std::max(tally_.longest_glove, now_ - glove_heard_);
+        if (troubled && glove_cut_) to_glove_.clear();
+        if (troubled || before != statistics_.glove_frames) glove_heard_ = now_;
+        statistics_.longest_glove = std::max(statistics_.longest_glove, now_ - glove_heard_);
     }
 
-    // The hand opens now and then, for as long as it takes to be seen; it does not know how the glove is.
-    void live_in_glove() {
+    // Opens and closes the hand at random times, independently of the glove's state.
+    void move_hand() {
         if (now_ > hand_until_) {
             open_ = !open_;
             hand_until_ = now_ + (open_ ? random_.uniform(0.5, 4.0) : random_.uniform(1.0, 20.0));
             moved_at_ = now_;
-            if (open_ && hand_.grip.held && hand_.grip.lost) ++tally_.opened_meanwhile;
+            if (open_ && hand_.grip.held && hand_.grip.lost) ++statistics_.opened_meanwhile;
         }
         glove_.raw = open_ ? raw_open_ : raw_closed_;
     }
 
-    void grip() {
-        live_in_glove();
+    void update_gloved_hand() {
+        move_hand();
         const bool held = hand_.grip.held, lost = hand_.grip.lost, fresh = sample_.number != hand_.number;
         const ToolPoses place{state_.workspace.tool, state_.output.tool};
-        hand::GraspEvent told{};
-        const test::Forbidden forbidden =
-            test::forbidden_in([&] { told = update_hand(plan_, hand_, sample_, place, looks * dt); });
-        tally_.allocations += static_cast<std::uint64_t>(forbidden.all());
-        tally_.taken += told == hand::GraspEvent::grasped ? 1 : 0;
-        tally_.let_go += told == hand::GraspEvent::released ? 1 : 0;
-        tally_.lost_in_grasp += told == hand::GraspEvent::glove_lost && held ? 1 : 0;
+        hand::GraspEvent event{};
+        const test::Forbidden forbidden = test::forbidden_in(
+            [&] { event = update_hand(hand_setup_, hand_, sample_, place, hand_interval * dt); });
+        statistics_.allocations += static_cast<std::uint64_t>(forbidden.all());
+        statistics_.grasped += event == hand::GraspEvent::grasped ? 1 : 0;
+        statistics_.released += event == hand::GraspEvent::released ? 1 : 0;
+        statistics_.lost_in_grasp += event == hand::GraspEvent::glove_lost && held ? 1 : 0;
 
         const hand::GraspState& now = hand_.grip;
         if (fresh) frame_at_ = now_;
         if (fresh && lost) back_at_ = now_;
         const bool dropped = held && !now.held;
-        tally_.must(!dropped || (fresh && !lost), "the wrench falls and the glove is lost", now_);
-        tally_.must(!dropped || now_ - back_at_ > thinks, "the wrench falls as the glove is back", now_);
-        // The newest frame may be of before it closed.
-        tally_.must(!dropped || open_ || now_ - moved_at_ < 0.1, "the wrench falls out of a closed hand",
-                    now_);
-        // A frame may come out of a line that is already lost.
+        statistics_.require(!dropped || (fresh && !lost), "the wrench is released while the glove is lost",
+                            now_);
+        statistics_.require(!dropped || now_ - back_at_ > no_release_time,
+                            "the wrench is released right after the glove's return", now_);
+        // The latest frame may precede the closing.
+        statistics_.require(!dropped || open_ || now_ - moved_at_ < 0.1, "a closed hand releases the wrench",
+                            now_);
+        // A frame may still arrive from a lost line.
         const double quiet = now_ - frame_at_;
         if (now.held) {
-            const auto told_now = messages({now.held, now.lost}, plan_.wearer.hand.side, {});
-            const bool so = !told_now.empty() && told_now[0].find("stays in your hand") != std::string::npos;
-            if (!so) tally_.longest_untold = std::max(tally_.longest_untold, quiet);
+            const auto current_messages = messages({now.held, now.lost}, hand_setup_.wearer.hand.side, {});
+            const bool ok = !current_messages.empty() &&
+                            current_messages[0].find("stays in your hand") != std::string::npos;
+            if (!ok) statistics_.longest_unreported = std::max(statistics_.longest_unreported, quiet);
         }
-        tally_.must(!now.has_frame || quiet <= said || now.lost, "the glove is lost and nobody says so",
-                    now_);
-        const double sound = now_ - std::max({moved_at_, back_at_, glove_until_ + usable_again});
-        tally_.must(sound <= 0.0 || !now.lost, "the glove is back and is said to be lost", now_);
-        if (sound > done)
-            tally_.must(now.held != open_, open_ ? "an open hand holds" : "a closed hand holds nothing",
-                        now_);
+        statistics_.require(!now.has_frame || quiet <= report_timeout || now.lost,
+                            "a lost glove is not reported", now_);
+        const double sound = now_ - std::max({moved_at_, back_at_, glove_until_ + recovery_timeout});
+        statistics_.require(sound <= 0.0 || !now.lost, "a returned glove is reported as lost", now_);
+        if (sound > grasp_timeout)
+            statistics_.require(
+                now.held != open_,
+                open_ ? "an open hand holds the wrench" : "a closed hand does not hold the wrench", now_);
     }
 
-    void watch() {
+    void check_devices() {
         const bool hangs = now_ < hangs_until_;
         const force::Fault fault = state_.output.fault;
         if (fault == force::Fault::none) faulty_since_ = now_;
-        if (fault == force::Fault::jumped && fault_ != fault) ++tally_.jumps;
+        if (fault == force::Fault::jumped && fault_ != fault) ++statistics_.jumps;
         fault_ = fault;
-        for (Watched* w : {&arm_, &wheel_}) {
+        for (MonitoredDevice* w : {&arm_, &wheel_}) {
             const char* who = w == &arm_ ? "arm" : "wheel";
             const device::FaultInterval& t = w->trouble;
-            const force::OutputCommand has = w->line.thing.rendered();
-            const force::OutputCommand& ordered = w == &arm_ ? answer_.mover : answer_.wheel;
+            const force::OutputCommand rendered = w->line.thing.rendered();
+            const force::OutputCommand& command = w == &arm_ ? commands_.mover : commands_.wheel;
             const auto is = [&](const char* what) { return fmt::format("{} {}", who, what); };
             const force::OutputLimits& limits = (w == &arm_ ? layout_.mover : layout_.wheel)->limits;
-            if (glm::length(has.force) > limits.force * 1.0001 ||
-                glm::length(has.torque) > limits.torque * 1.0001)
-                tally_.must(false, is("renders more than it can"), now_);
-            // A line may be a turn ahead of the servo.
+            if (glm::length(rendered.force) > limits.force * 1.0001 ||
+                glm::length(rendered.torque) > limits.torque * 1.0001)
+                statistics_.require(false, is("exceeds its limits"), now_);
+            // A line may be one step ahead of the servo.
             if (now_ < t.until && w->line.now() < t.until) {
                 const double since = now_ - t.from;
-                if (mutes(t.what) && !nothing(has)) w->longest_lost = std::max(w->longest_lost, since);
-                if (mutes(t.what) && since > gone && !nothing(has))
-                    tally_.must(false, is("is lost and has a force"), now_);
-                if (t.what == InjectedFault::stuck && since > gone && !hangs && !nothing(ordered))
-                    tally_.must(false, is("is stuck and a force is ordered"), now_);
-                if (mutes(t.what) && since > said && w->line.report().trouble.empty())
-                    tally_.must(false, is("is lost and nobody says so"), now_);
-                if (t.what == InjectedFault::stuck && since > said && w == &arm_ && !hangs &&
+                if (mutes(t.what) && !is_zero(rendered)) w->longest_lost = std::max(w->longest_lost, since);
+                if (mutes(t.what) && since > force_timeout && !is_zero(rendered))
+                    statistics_.require(false, is("is lost and renders a force"), now_);
+                if (t.what == InjectedFault::stuck && since > force_timeout && !hangs && !is_zero(command))
+                    statistics_.require(false, is("is stuck and gets a force command"), now_);
+                if (mutes(t.what) && since > report_timeout && w->line.report().trouble.empty())
+                    statistics_.require(false, is("is lost and not reported"), now_);
+                if (t.what == InjectedFault::stuck && since > report_timeout && w == &arm_ && !hangs &&
                     w->line.report().trouble.empty() && state_.output.fault == force::Fault::none &&
                     state_.output.joint < 0)
-                    tally_.must(false, is("is stuck and nobody says so"), now_);
-            } else if (!w->again) {
+                    statistics_.require(false, is("is stuck and not reported"), now_);
+            } else if (!w->recovered) {
                 if (w->line.report().state == device::DeviceState::usable && w->line.snapshot().usable) {
-                    w->again = true;
-                    w->longest_back = std::max(w->longest_back, now_ - t.until);
-                } else if (now_ - w->sound_since > usable_again) {
-                    tally_.must(false, is("is plugged in and not usable"), now_);
+                    w->recovered = true;
+                    w->longest_recovery = std::max(w->longest_recovery, now_ - t.until);
+                } else if (now_ - w->sound_since > recovery_timeout) {
+                    statistics_.require(false, is("is plugged in and not usable"), now_);
                 }
             }
             if (now_ > w->undisturbed) {
-                if (!controls_.dead_man && !hangs && !nothing(has))
-                    w->longest_let_go = std::max(w->longest_let_go, now_ - released_);
+                if (!controls_.dead_man && !hangs && !is_zero(rendered))
+                    w->longest_released = std::max(w->longest_released, now_ - released_);
                 const double hung = now_ - std::max(hang_begins_, w->undisturbed);
-                if (hangs && !nothing(has)) w->longest_hung = std::max(w->longest_hung, hung);
-                if (now_ - faulty_since_ > gone && !hangs && !nothing(has))
-                    tally_.must(false, is("has a force that is held off"), now_);
-                if (!controls_.dead_man && now_ - released_ > gone && !hangs && !nothing(has))
-                    tally_.must(false, is("has a force without the dead-man"), now_);
-                if (hangs && hung > gone && !nothing(has))
-                    tally_.must(false, is("has a force and the servo hangs"), now_);
+                if (hangs && !is_zero(rendered)) w->longest_hung = std::max(w->longest_hung, hung);
+                if (now_ - faulty_since_ > force_timeout && !hangs && !is_zero(rendered))
+                    statistics_.require(false, is("renders a force during a fault of the output"), now_);
+                if (!controls_.dead_man && now_ - released_ > force_timeout && !hangs && !is_zero(rendered))
+                    statistics_.require(false, is("renders a force without the dead-man switch"), now_);
+                if (hangs && hung > force_timeout && !is_zero(rendered))
+                    statistics_.require(false, is("renders a force while the servo hangs"), now_);
             }
         }
     }
-    void all_is_well_again() {
+    void check_recovery() {
         const double since = std::max({arm_.sound_since, wheel_.sound_since, hangs_until_});
-        if (now_ - since > usable_again && state_.output.fault != force::Fault::none)
-            tally_.must(false, fmt::format("all is well and \"{}\"", force::name(state_.output.fault)), now_);
+        if (now_ - since > recovery_timeout && state_.output.fault != force::Fault::none)
+            statistics_.require(false,
+                                fmt::format("no device has a fault, but the output has \"{}\"",
+                                            force::name(state_.output.fault)),
+                                now_);
     }
 
     double now_ = 0.0, ticked_ = 0.0, released_ = -1.0;
     double hangs_until_ = -1.0, hang_begins_ = -1.0, faulty_since_ = 0.0;
     force::Fault fault_ = force::Fault::none;
     double wheel_at_ = 0.0, turned_at_ = 0.0, direction_ = 1.0;
-    // Before the devices, whose hands look at them.
+    // Declared before the devices, whose hands use them.
     Layout layout_;
     servo::Setup setup_;
     servo::State servo_;
-    State state_;
-    Watched arm_, wheel_;
+    StationState state_;
+    MonitoredDevice arm_, wheel_;
     Random random_;
-    emulate::Glove glove_;
-    hand::GloveSession conversation_;
-    HandSetup plan_;
+    emulate::EmulatedGlove glove_;
+    hand::GloveSession session_;
+    HandSetup hand_setup_;
     HandState hand_;
     hand::GloveSample sample_;
     const hand::PerSensor<std::uint8_t> raw_open_ = test::raw_open(), raw_closed_ = test::raw_closed();
-    bool open_ = true;  // the hand in the glove
+    bool open_ = true;  // the hand
     double moved_at_ = 0.0, hand_until_ = 3.0;
-    double frame_at_ = 0.0, back_at_ = -1.0;  // of the glove, after it was lost
-    std::vector<std::uint8_t> said_;
+    double frame_at_ = 0.0, back_at_ = -1.0;  // s, of the latest frame, and of the glove's latest return
+    std::vector<std::uint8_t> to_glove_;
     double glove_until_ = -1.0, glove_heard_ = 0.0;
     bool glove_cut_ = false;
     StationControls controls_{.dead_man = true};
-    DeviceCommands answer_;
-    Tally tally_;
+    DeviceCommands commands_;
+    SoakStatistics statistics_;
 };
 
 std::uint64_t seed() {
@@ -369,39 +379,41 @@ double seconds() {
 
 TEST_CASE("Station: hours of faulty devices leave no force behind, and all devices recover") {
     Soak soak(seed());
-    const Tally tally = soak.run(seconds());
-    MESSAGE(
-        fmt::format("{} ticks, {} with a force, {} with a torque at the wheel, {} engaged; {} glove frames",
-                    tally.ticks, tally.forces, tally.turned, tally.engaged, tally.glove_frames));
-    for (Watched* w : {&soak.arm(), &soak.wheel()})
-        MESSAGE(fmt::format(
-            "mishaps {} {} {} {} {} {}; a force stayed {:.0f} ms when lost, {:.0f} ms when let go, {:.0f} ms "
-            "when "
-            "the servo hung; usable again after {:.3f} s",
-            w->counts[0], w->counts[1], w->counts[2], w->counts[3], w->counts[4], w->counts[5],
-            1e3 * w->longest_lost, 1e3 * w->longest_let_go, 1e3 * w->longest_hung, w->longest_back));
-    MESSAGE(fmt::format("{} releases, {} hangs; glove back after {:.3f} s at most", tally.releases,
-                        tally.hangs, tally.longest_glove));
+    const SoakStatistics statistics = soak.run(seconds());
     MESSAGE(fmt::format(
-        "the hand took {} times, let go {} times; glove lost in mid-grasp {} times ({} times it opened "
-        "meanwhile), told after {:.2f} s at most",
-        tally.taken, tally.let_go, tally.lost_in_grasp, tally.opened_meanwhile, tally.longest_untold));
-    CHECK_MESSAGE(tally.failures == 0, tally.failures << " times, first " << tally.first);
-    CHECK(tally.allocations == 0);
-    CHECK(tally.longest_glove <= usable_again);
-    // It was worth watching.
-    CHECK(tally.forces > tally.ticks / 20);
-    CHECK(tally.turned > tally.ticks / 50);
-    CHECK(tally.engaged > tally.ticks / 20);
-    CHECK(tally.releases > 2);
-    CHECK(tally.hangs > 2);
-    CHECK(tally.jumps >= soak.arm().counts[static_cast<std::size_t>(InjectedFault::jumped)] / 2);
-    for (Watched* w : {&soak.arm(), &soak.wheel()})
+        "{} ticks, {} with a force, {} with a torque at the wheel, {} engaged; {} glove frames",
+        statistics.ticks, statistics.forces, statistics.turned, statistics.engaged, statistics.glove_frames));
+    for (MonitoredDevice* w : {&soak.arm(), &soak.wheel()})
+        MESSAGE(fmt::format(
+            "faults {} {} {} {} {} {}; longest force {:.0f} ms after a loss, {:.0f} ms after a release, "
+            "{:.0f} ms "
+            "after a hang of the servo; usable again after {:.3f} s",
+            w->counts[0], w->counts[1], w->counts[2], w->counts[3], w->counts[4], w->counts[5],
+            1e3 * w->longest_lost, 1e3 * w->longest_released, 1e3 * w->longest_hung, w->longest_recovery));
+    MESSAGE(fmt::format("{} releases, {} hangs; glove usable again after at most {:.3f} s",
+                        statistics.releases, statistics.hangs, statistics.longest_glove));
+    MESSAGE(
+        fmt::format("the hand grasped {} times and released {} times; glove lost during a grasp {} times "
+                    "(opened meanwhile {} "
+                    "times), reported after at most {:.2f} s",
+                    statistics.grasped, statistics.released, statistics.lost_in_grasp,
+                    statistics.opened_meanwhile, statistics.longest_unreported));
+    CHECK_MESSAGE(statistics.failures == 0, statistics.failures << " failures, first " << statistics.first);
+    CHECK(statistics.allocations == 0);
+    CHECK(statistics.longest_glove <= recovery_timeout);
+    // Verifies that all situations occurred.
+    CHECK(statistics.forces > statistics.ticks / 20);
+    CHECK(statistics.turned > statistics.ticks / 50);
+    CHECK(statistics.engaged > statistics.ticks / 20);
+    CHECK(statistics.releases > 2);
+    CHECK(statistics.hangs > 2);
+    CHECK(statistics.jumps >= soak.arm().counts[static_cast<std::size_t>(InjectedFault::jumped)] / 2);
+    for (MonitoredDevice* w : {&soak.arm(), &soak.wheel()})
         for (const std::uint64_t count : w->counts) CHECK(count > 2);
-    CHECK(tally.glove_frames > tally.ticks / 50);
-    CHECK(tally.longest_untold <= said);
-    CHECK(tally.taken > 5);
-    CHECK(tally.let_go > 5);
-    CHECK(tally.lost_in_grasp > 5);
-    CHECK(tally.opened_meanwhile > 0);
+    CHECK(statistics.glove_frames > statistics.ticks / 50);
+    CHECK(statistics.longest_unreported <= report_timeout);
+    CHECK(statistics.grasped > 5);
+    CHECK(statistics.released > 5);
+    CHECK(statistics.lost_in_grasp > 5);
+    CHECK(statistics.opened_meanwhile > 0);
 }

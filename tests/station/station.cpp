@@ -1,5 +1,5 @@
-// A station with its threads on the real clock: order and counts, on a machine of any speed. How soon things
-// happen is tested in virtual time (soak.cpp).
+// A station with its threads on the real clock. The tests check order and counts, which do not depend on the
+// speed of the machine; soak.cpp tests delays in virtual time.
 #include "haptics/station/station.hpp"
 
 #include <doctest/doctest.h>
@@ -18,14 +18,14 @@ using bolt::test::eventually;
 
 namespace {
 
-// A cable to a device that a test pulls and puts back.
+// A cable to a device, which a test unplugs and plugs in.
 struct Cable {
     std::atomic<bool> plugged{true}, hangs{false};
 };
 
-class OnCable final : public device::Device {
+class OnCable final : public device::DeviceDriver {
   public:
-    OnCable(std::shared_ptr<Cable> cable, std::unique_ptr<device::Device> device)
+    OnCable(std::shared_ptr<Cable> cable, std::unique_ptr<device::DeviceDriver> device)
         : cable_(std::move(cable)), device_(std::move(device)) {}
     [[nodiscard]] const device::Description& describe() const override { return device_->describe(); }
     Result<std::optional<device::Sample>> read(double patience) override {
@@ -43,11 +43,12 @@ class OnCable final : public device::Device {
 
   private:
     std::shared_ptr<Cable> cable_;
-    std::unique_ptr<device::Device> device_;
+    std::unique_ptr<device::DeviceDriver> device_;
 };
 
 device::DeviceFactory on_cable(std::shared_ptr<Cable> cable, device::DeviceFactory open) {
-    return [cable = std::move(cable), open = std::move(open)]() -> Result<std::unique_ptr<device::Device>> {
+    return [cable = std::move(cable),
+            open = std::move(open)]() -> Result<std::unique_ptr<device::DeviceDriver>> {
         if (!cable->plugged) return OnCable::pulled();
         auto device = open();
         if (!device) return fail(device.error());
@@ -89,7 +90,7 @@ TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in ord
     float height = 0.0F;
     REQUIRE(eventually([&] {
         puck.set_input({Vec3(0, 1, 0), Vec3(0.0), 0});
-        for (TickRecord tick; station->next_tick(tick); ++ticks) {
+        for (StationTick tick; station->next_tick(tick); ++ticks) {
             in_order = in_order && tick.number > number;
             number = tick.number;
             height = tick.input.device.position[1];
@@ -100,8 +101,8 @@ TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in ord
     CHECK(in_order);
     CHECK(station->lost_ticks() == 0);
     station->stop();
-    for (TickRecord tick; station->next_tick(tick);) ++ticks;
-    CHECK(ticks == station->servo().timing().ticks - 1);  // the last turn only saw that it was to stop
+    for (StationTick tick; station->next_tick(tick);) ++ticks;
+    CHECK(ticks == station->servo().timing().ticks - 1);  // the last wake-up only found the request to stop
 }
 
 TEST_CASE("Station: every command reaches the servo once and in order; a full queue is an error") {
@@ -111,7 +112,7 @@ TEST_CASE("Station: every command reaches the servo once and in order; a full qu
     constexpr int rounds = 200;
     int saved = 0;
     const auto read_ticks = [&] {
-        for (TickRecord tick; station->next_tick(tick);)
+        for (StationTick tick; station->next_tick(tick);)
             saved += tick.input.undo == servo::save_checkpoint ? 1 : 0;
     };
     for (int i = 1; i <= rounds; ++i) {
@@ -200,7 +201,7 @@ TEST_CASE(
     "opening") {
     auto line = emulate::SerialGlove::start({.sensors = 22});
     REQUIRE(line);
-    line->show(test::raw_open());
+    line->set_raw(test::raw_open());
     device::VirtualPuck puck({}, device::steady_timer());
     StationOptions plan = plan_of(puck.open());
     plan.glove = line->port();
@@ -209,13 +210,13 @@ TEST_CASE(
     REQUIRE(station);
     CHECK(station->glove() == nullptr);
     StationControls controls;
-    controls.grip = servo::Grip::wrench;  // does not count: the hand is open
+    controls.grip = servo::Grip::wrench;  // overridden by the open hand
     station->set_controls(controls);
     const auto grip = [&] { return station->latest_tick().input.grip; };
     REQUIRE(eventually([&] { return station->hand()->has_frame && grip() == servo::Grip::none; }));
     const hand::Skeleton open = station->hand()->joints;
     station->set_controls({});
-    line->show(test::raw_closed());
+    line->set_raw(test::raw_closed());
     REQUIRE(eventually([&] { return grip() == servo::Grip::wrench; }));
     REQUIRE(eventually([&] {
         const DisplayedHand& hand = *station->hand();
@@ -226,20 +227,20 @@ TEST_CASE(
     line->stall(true);
     REQUIRE(eventually(
         [&] { return words(station->troubles()).find("stays in your hand") != std::string::npos; }));
-    line->show(test::raw_open());  // nobody sees that
+    line->set_raw(test::raw_open());  // not received: the glove is lost
     const std::uint64_t then = station->latest_tick().number;
     bool kept = true;
     REQUIRE(eventually([&] {
-        for (TickRecord tick; station->next_tick(tick);)
+        for (StationTick tick; station->next_tick(tick);)
             kept = kept && (tick.number < then || tick.input.grip == servo::Grip::wrench);
         return station->latest_tick().number > then + 300;
     }));
     CHECK(kept);
-    line->show(test::raw_closed());
+    line->set_raw(test::raw_closed());
     line->stall(false);
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
     CHECK(grip() == servo::Grip::wrench);
-    line->show(test::raw_open());
+    line->set_raw(test::raw_open());
     REQUIRE(eventually([&] { return grip() == servo::Grip::none; }));
     CHECK(!station->hand()->held);
 }

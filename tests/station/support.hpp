@@ -1,5 +1,4 @@
-// A whole station in virtual time: devices on lines that have clocks of their own, the servo's tick between
-// them. What threads do beside each other is done in turn, so every run is the same.
+// Devices of a station in virtual time. The work of all threads is done in turn, so every run is the same.
 #pragma once
 
 #include <optional>
@@ -11,7 +10,7 @@
 
 namespace bolt::test {
 
-// A device, its supervisor and their mailboxes, as far as their thread would have come.
+// A simulated device with its supervisor and mailboxes. until() does the work of its thread up to a time.
 class VirtualLine {
   public:
     explicit VirtualLine(device::SimulatedDeviceOptions design)

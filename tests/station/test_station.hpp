@@ -17,7 +17,7 @@ inline station::Layout with_arm() {
     return layout;
 }
 
-// A station whose devices say what a test wants, every millisecond.
+// A station whose devices send the samples set by a test, every millisecond.
 struct Rig {
     explicit Rig(const station::Layout& l)
         : layout(l),
@@ -35,7 +35,7 @@ struct Rig {
     station::Layout layout;
     servo::Setup setup;
     servo::State servo;
-    station::State state;
+    station::StationState state;
     station::StationInputs inputs;
     std::vector<station::StationCommand> commands;  // of the next tick
     bool mover_speaks = true, wheel_speaks = true;
@@ -57,7 +57,7 @@ struct Rig {
     [[nodiscard]] const Pose& tool() const { return state.workspace.tool; }
 };
 
-// The tool on the first nut, aligned; a puck moves it, if anything.
+// A station with the tool engaged on the first nut. Only a puck can move the tool.
 inline Rig on_nut(station::Layout layout) {
     const servo::Setup setup = two_joints(station::limits_of(layout));
     const servo::NutGeometry& nut = setup.nuts[0];
@@ -65,7 +65,7 @@ inline Rig on_nut(station::Layout layout) {
     const servo::ToolPose pose = servo::pose_of(at);
     layout.home = {pose.position, pose.orientation};
     Rig rig(layout);
-    rig.ticks(700);  // the ramp
+    rig.ticks(700);  // until the output is ramped up
     REQUIRE(rig.state.output.joint == 0);
     return rig;
 }

@@ -1,4 +1,4 @@
-// What becomes of devices' samples and of the servo's output, without threads and without devices.
+// The tick of a station, from device samples to device commands, without threads and devices.
 #include <cstring>
 
 #include "engine/base/random.hpp"
@@ -41,7 +41,7 @@ TEST_CASE("Station: after a clutch, a loss or a reconnection the tool stays and 
     rig.inputs.mover.sample.buttons = 0;
     rig.ticks(10);
     CHECK(glm::length(rig.tool().position - before.position) < 1e-12);
-    // Unplugged, and plugged in again with the hand a foot away and turned.
+    // Replugged, with the hand 0.3 m away and rotated.
     rig.inputs.mover.usable = false;
     rig.mover_speaks = false;
     rig.ticks(100);
@@ -98,7 +98,7 @@ TEST_CASE("Station: the gloved hand's grip overrides the controls") {
 TEST_CASE("Station: a silent device has zero force 18 ms after its last sample, and ramps up afterwards") {
     for (const bool lost : {false, true}) {
         Rig rig = on_nut(with_arm());
-        rig.hand().position.z += 2e-3;  // the nut draws it back
+        rig.hand().position.z += 2e-3;  // the nut pulls it back
         REQUIRE(glm::length(rig.ticks(50).mover.force) > 1.0);
         rig.mover_speaks = false;
         rig.inputs.mover.usable = !lost;

@@ -1,4 +1,4 @@
-// A lesson's station whose time stands until a test lets it pass: mouse and keyboard move the tool.
+// A lesson's station in virtual time, which a test advances. Mouse and keyboard move the tool.
 #pragma once
 
 #include <deque>
@@ -10,30 +10,29 @@
 
 namespace bolt::test {
 
-class VirtualBench final : public station_setup::Bench {
+class VirtualBench final : public station_setup::LessonStation {
   public:
-    VirtualBench(session::Prepared prepared, session::CourseOptions options)
+    VirtualBench(session::SessionSetup prepared, session::LessonOptions options)
         : puck_({}, device::virtual_timer(time_)), supervisor_(puck_.open(), device::virtual_timer(time_)) {
         while (!supervisor_.report().description) serve();
         layout_.mover = *supervisor_.report().description;
         layout_.mover_buttons = {1, 0, 0, 0};
         options.device = station::limits_of(layout_);
-        session::use_device(options, prepared);
+        session::set_device(options, prepared);
         setup_ = prepared.setup;
         servo_ = std::move(prepared.state);
         state_ = station::initial_state(layout_);
         controls_.pause = true;
     }
 
-    // A glove, its wrist there in the frame of the tool.
+    // Adds a gloved hand, with its wrist at `wrist` in the frame of the tool.
     void wear(const station::DisplayedHand& hand, const Pose& wrist) {
         hand_ = hand;
         layout_.wrist = wrist;
         state_ = station::initial_state(layout_);
     }
 
-    // Ticks for so long.
-
+    // Advances the time by `seconds`.
     void pass(double seconds) {
         owed_ += seconds;
         for (; owed_ >= setup_.dt; owed_ -= setup_.dt) tick();
@@ -44,14 +43,14 @@ class VirtualBench final : public station_setup::Bench {
         commands_.push_back(command);
         return {};
     }
-    void push(const device::PuckInput& push) override { puck_.set_input(push); }
-    bool next_tick(station::TickRecord& tick) override {
+    void set_puck_input(const device::PuckInput& input) override { puck_.set_input(input); }
+    bool next_tick(station::StationTick& tick) override {
         if (ticks_.empty()) return false;
         tick = ticks_.front();
         ticks_.pop_front();
         return true;
     }
-    const station::TickRecord& latest_tick() override { return newest_; }
+    const station::StationTick& latest_tick() override { return newest_; }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return lost_; }
     const station::DisplayedHand* hand() override { return hand_ ? &*hand_ : nullptr; }
     std::vector<std::string> troubles() override { return troubles_; }
@@ -62,12 +61,12 @@ class VirtualBench final : public station_setup::Bench {
         return nullptr;
     }
 
-    // A device that lies, in ways that a test wants.
+    // State of the station and its faults, set by tests.
     std::vector<std::string> troubles_;
     std::uint64_t lost_ = 0;
-    std::optional<station::DisplayedHand> hand_;  // in a glove
+    std::optional<station::DisplayedHand> hand_;  // of a gloved hand
     bool unplugged_ = false;
-    bool garbles_ = false;  // what it says of the next tick is not what it did
+    bool garbles_ = false;  // the record of the next tick deviates from the tick itself
 
   private:
     void serve() { device::run_once(supervisor_, mailboxes_, told_); }
@@ -102,11 +101,11 @@ class VirtualBench final : public station_setup::Bench {
     station::Layout layout_;
     servo::Setup setup_;
     servo::State servo_;
-    station::State state_;
+    station::StationState state_;
     station::StationControls controls_;
     std::vector<station::StationCommand> commands_;  // of the next tick
-    std::deque<station::TickRecord> ticks_;
-    station::TickRecord newest_;
+    std::deque<station::StationTick> ticks_;
+    station::StationTick newest_;
     double now_ = 0.0, owed_ = 0.0;  // s
     std::uint64_t number_ = 0, orders_ = 0;
     bool stopped_ = false;

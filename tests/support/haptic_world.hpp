@@ -29,9 +29,9 @@ class HapticWorld {
                               double room = std::numeric_limits<double>::infinity()) {
         world::write_joints(world_, joints, rounded);
         world::write_output(world_, output);
-        world::Hand& hand = world_.only<world::Hand>();
+        world::WorkingHand& hand = world_.only<world::WorkingHand>();
         hand.wrench = wrench;
-        hand.doing = world::Doing::holding;
+        hand.action = world::HandAction::holding;
         hand.room = room;
         return world_;
     }

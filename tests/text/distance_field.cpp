@@ -111,13 +111,13 @@ TEST_CASE("Atlas: glyphs do not overlap, changed rows are reported, and a full a
     const Result<Fonts> fonts = load_fonts();
     REQUIRE(fonts.has_value());
     Atlas atlas(256);
-    CHECK(atlas.take_changed().count == 256);  // at first all rows
-    CHECK(atlas.take_changed().count == 0);
+    CHECK(atlas.take_changed_rows().count == 256);  // at first all rows
+    CHECK(atlas.take_changed_rows().count == 0);
     std::vector<AtlasGlyph> made;
     const AtlasGlyph* space = atlas.glyph(*fonts, find_glyph(*fonts, U' '));
     REQUIRE(space != nullptr);
     CHECK(space->low == space->high);
-    CHECK(atlas.take_changed().count == 0);
+    CHECK(atlas.take_changed_rows().count == 0);
     char32_t point = U'A';
     for (;; ++point) {
         const AtlasGlyph* glyph = atlas.glyph(*fonts, find_glyph(*fonts, point));
@@ -126,7 +126,7 @@ TEST_CASE("Atlas: glyphs do not overlap, changed rows are reported, and a full a
         REQUIRE(point < U'z');
     }
     CHECK(made.size() > 8);
-    const Atlas::Rows rows = atlas.take_changed();
+    const Atlas::RowRange rows = atlas.take_changed_rows();
     CHECK(rows.first == 0);
     CHECK(rows.count <= 256);
     CHECK(rows.count > 128);

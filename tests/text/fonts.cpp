@@ -38,7 +38,7 @@ TEST_CASE("Fonts: the error for a missing font names its package") {
     std::ofstream(folder / "deep" / "Nobody.ttf") << "no font at all";
     const auto found = find_font(wanted, {folder / "nowhere", folder});
     REQUIRE(found.has_value());
-    const Result<Face> face = Face::read(*found);
+    const Result<FontFace> face = FontFace::read(*found);
     REQUIRE_FALSE(face.has_value());
     CHECK(face.error().file == found->string());
     std::filesystem::remove_all(folder);
@@ -47,7 +47,7 @@ TEST_CASE("Fonts: the error for a missing font names its package") {
 TEST_CASE("Text layout: line widths, line spacing and alignment") {
     const Result<Fonts> fonts = load_fonts();
     REQUIRE(fonts.has_value());
-    const Face& face = fonts->faces[0];
+    const FontFace& face = fonts->faces[0];
     const float line = face.ascent() + face.descent();
     CHECK(line == doctest::Approx(1.164).epsilon(0.01));  // DejaVu Sans: 1901 and 483 of 2048 units
     const TextLayout one = lay_out(*fonts, "nn");

@@ -1,5 +1,5 @@
-// A hand that pulls the wrench through the whole reducer, where no hand could go: the wrench stays outside,
-// slides on as far as it may, and is not caught where something nearer to the hand is free.
+// A hand that moves through the solid reducer with the wrench: the wrench stays outside, slides along the
+// surfaces, and is not caught while a free pose nearer to the hand exists.
 #include <algorithm>
 
 #include "engine/base/random.hpp"
@@ -12,9 +12,9 @@ using namespace bolt::servo;
 
 namespace {
 
-constexpr double still = 1e-6;      // m in a tick
-constexpr double clearance = 5e-3;  // m, where the hand begins and ends
-constexpr int patience = 150;       // ms
+constexpr double still = 1e-6;      // m and rad per tick
+constexpr double clearance = 5e-3;  // m, at the beginning and end of a motion
+constexpr int longest_stop = 150;   // ms
 
 struct Puller {
     test::Workbench bench{"zq350"};
@@ -47,7 +47,8 @@ struct Puller {
 
 TEST_CASE("Tool contact: a wrench pulled through the reducer is never caught for long and never penetrates") {
     Puller puller;
-    // Each of these was caught for a second or more once, by features that the finder saw from one side only.
+    // With these seeds the wrench was once caught for a second or more, at features that the contact query
+    // found from one side only.
     for (const std::uint64_t seed : {10U, 1U}) {
         if (test::sanitized && seed != 10) {
             test::skip_part("the second seed takes minutes under a sanitizer");
@@ -60,7 +61,7 @@ TEST_CASE("Tool contact: a wrench pulled through the reducer is never caught for
         int caught = 0, longest = 0;
         double deepest = 1.0;
         Pose before = here;
-        const auto look = [&](const Output& output) {
+        const auto check = [&](const Output& output) {
             const proxy::GodObjectStep& step = puller.touch().last_step;
             const bool stays = glm::length(output.tool.position - before.position) < still &&
                                glm::length(proxy::twist_between(before, output.tool).angular) < still;
@@ -71,11 +72,11 @@ TEST_CASE("Tool contact: a wrench pulled through the reducer is never caught for
         };
         for (int leg = 0; leg < 3; ++leg) {
             const Pose next = puller.anywhere();
-            test::sweep(puller.bench, here, next, 1.5, look);
-            for (int i = 0; i < 200; ++i) look(puller.bench.step(next));
+            test::sweep(puller.bench, here, next, 1.5, check);
+            for (int i = 0; i < 200; ++i) check(puller.bench.step(next));
             here = next;
         }
-        CHECK(longest < patience);
+        CHECK(longest < longest_stop);
         CHECK(deepest > -0.1e-3);
         MESSAGE("caught for " << longest << " ms at most, deepest " << 1e6 * deepest << " um");
     }

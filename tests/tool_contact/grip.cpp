@@ -1,5 +1,5 @@
-// The wrench on the nut as contact and corners have it: play, tilt, which ways it comes off, slipping and
-// taking hold again. On the M8 cover and the ZQ350 with their own wrenches.
+// Contact of the jaw with a nut: play, tilt, directions in which it comes off, slipping and engaging again.
+// On the M8 cover and the ZQ350 with their own wrenches.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -16,16 +16,17 @@ using namespace bolt::servo;
 
 namespace {
 
-// Less than the output stage's slew limit would make of a leap: what is below has no leap in it.
-constexpr double leap = 0.095;  // of the greatest force, in a tick
+// Share of the greatest force per tick. The output stage would limit a jump to 0.1, so a smaller change is
+// not a limited jump.
+constexpr double leap = 0.095;
 
-// True depth that contact lets the jaw into a hexagon for a tick, m: a turn within a tick is taken for
-// straight, and what is within the skin is not turned back before the next.
+// Depth, m, of the jaw in a hexagon that contact permits for one tick: the motion within a tick is
+// linearised, and a penetration within the skin is only corrected in the next tick.
 constexpr double deepest_allowed = 0.1e-3;
 
 struct Watch {
     double step = 0.0, torque_step = 0.0, greatest = 0.0, deepest = 1.0;
-    double contact_step = 0.0;  // N, of what contact gives, before the output stage
+    double contact_step = 0.0;  // N, change of the contact force before the output stage
     bool engaged = false, was_on = false;
     int slips = 0;
     Output last;
@@ -48,7 +49,7 @@ struct Watch {
         const ToolContact& t = *bench.state.tool_contact;
         for (std::size_t i = 0; i < t.hexagons.size() && t.in_hand; ++i) {
             Pose to_nut = inverse(t.nut_poses[i]) * t.god_object.tool;
-            if (static_cast<int>(i) == t.seated_joint) {  // its hexagon turns with the jaw beyond the play
+            if (static_cast<int>(i) == t.seated_joint) {  // beyond the play the hexagon turns with the jaw
                 const collision::Jaw& jaw = bench.setup.wrench.jaw;
                 const NutGeometry& nut = bench.setup.nuts[i];
                 const double play = joint::rounded_half_play(jaw.opening, nut.across_flats, 0.0);
@@ -63,26 +64,26 @@ struct Watch {
     }
 };
 
-void go(test::Workbench& bench, Watch& watch, const Pose& from, const Pose& to, double seconds) {
+void move(test::Workbench& bench, Watch& watch, const Pose& from, const Pose& to, double seconds) {
     test::sweep(bench, from, to, seconds, [&](const Output& o) { watch(bench, o); });
 }
 
-void stay(test::Workbench& bench, Watch& watch, const Pose& pose, int ticks) {
+void hold(test::Workbench& bench, Watch& watch, const Pose& pose, int ticks) {
     for (int i = 0; i < ticks; ++i) watch(bench, bench.step(pose));
 }
 
-// The wrench at the first nut, its handle where there is room for it.
+// The wrench at the first nut, with its handle where there is room.
 Pose at_nut(const test::Workbench& bench, double above, double misfit = 0.0, const Vec3& beside = Vec3(0.0)) {
     const Vec3 towards(0, 0, bench.assembly.name == "zq350" ? -1.0 : 1.0);
     return bench.wrench(0, above, misfit, beside, towards);
 }
 
-// A wrench in the hand over the nut, the output ramped up, then down on it.
-Pose put_on(test::Workbench& bench, Watch& watch, double above = 0.0) {
+// Holds the wrench above the nut until the output is ramped up, and lowers it onto the nut.
+Pose lower_onto_nut(test::Workbench& bench, Watch& watch, double above = 0.0) {
     const Pose high = at_nut(bench, 0.03), low = at_nut(bench, above);
     for (int i = 0; i < 600; ++i) bench.step(high);
-    go(bench, watch, high, low, 0.5);
-    stay(bench, watch, low, 50);
+    move(bench, watch, high, low, 0.5);
+    hold(bench, watch, low, 50);
     return low;
 }
 
@@ -90,7 +91,7 @@ Pose turned(const Pose& pose, const Vec3& about, double angle) {
     return {pose.position, glm::normalize(glm::angleAxis(angle, about) * pose.orientation)};
 }
 
-// In the assembly: along the jaw's slot to the throat, across it.
+// Direction of the jaw's slot to the throat, in the assembly's frame.
 Vec3 slot(const test::Workbench& bench, const Pose& pose) {
     const double head = bench.setup.wrench.head_angle;
     return pose.orientation * Vec3(std::cos(head), std::sin(head), 0.0);
@@ -103,7 +104,7 @@ TEST_CASE("Jaw grip: on reversal the nut follows after the whole backlash") {
         CAPTURE(name);
         test::Workbench bench(name);
         Watch watch;
-        const Pose on = put_on(bench, watch);
+        const Pose on = lower_onto_nut(bench, watch);
         REQUIRE(watch.engaged);
         const Vec3 axis = bench.setup.nuts[0].axis;
         const auto follows_at = [&](double from, double direction) {
@@ -116,15 +117,17 @@ TEST_CASE("Jaw grip: on reversal the nut follows after the whole backlash") {
             return angle;
         };
         double forth = follows_at(0.0, 1.0);
-        for (int i = 0; i < 200; ++i) {  // on a little, so that it stands at the edge of its play
+        for (int i = 0; i < 200; ++i) {  // on to the edge of the play
             forth += 2e-4;
             watch(bench, bench.step(turned(on, axis, -forth)));
         }
-        for (int i = 0; i < 200; ++i) watch(bench, bench.step(turned(on, axis, -forth)));  // till it stands
+        for (int i = 0; i < 200; ++i)
+            watch(bench, bench.step(turned(on, axis, -forth)));  // until the nut rests
         const double back = follows_at(forth, -1.0);
         const double play =
             joint::rounded_half_play(bench.setup.wrench.jaw.opening, bench.setup.nuts[0].across_flats, 0.0);
-        // And what the wrench gives under the free nut's own drag, and the steps of this test.
+        // The tolerance covers the wrench's deflection under the drag of the free nut, and the steps of this
+        // test.
         CHECK(forth - back == doctest::Approx(2.0 * play).epsilon(0.05));
         CHECK(watch.engaged);
         CHECK(watch.step < leap * bench.setup.limits.force);
@@ -142,8 +145,8 @@ TEST_CASE("Jaw grip: a jaw tilted by 10 degrees does not fit, at half of the pos
         for (int i = 0; i < 50; ++i) bench.step(high, Grip::none);
         for (int i = 0; i < 600; ++i) bench.step(high);
         Watch watch;
-        go(bench, watch, high, low, 0.6);
-        stay(bench, watch, low, 100);
+        move(bench, watch, high, low, 0.6);
+        hold(bench, watch, low, 100);
         CHECK(watch.engaged == (std::abs(degrees) < 1.0));
         CHECK(watch.deepest > -deepest_allowed);
         CHECK(watch.step < leap * bench.setup.limits.force);
@@ -154,14 +157,14 @@ TEST_CASE("Jaw grip: on the nut the jaw is free upwards and out of its mouth, co
     const auto pulled = [](const Vec3& local, double far) {  // along the slot, across it, along the bolt
         test::Workbench bench("cover-m8");
         Watch watch;
-        const Pose on = put_on(bench, watch);
+        const Pose on = lower_onto_nut(bench, watch);
         REQUIRE(watch.engaged);
         const Vec3 axis = bench.setup.nuts[0].axis, along = slot(bench, on), across = glm::cross(axis, along);
         Pose to = on;
         to.position += far * (local.x * along + local.y * across + local.z * axis);
         Watch way;
-        go(bench, way, on, to, 0.5);
-        stay(bench, way, to, 30);
+        move(bench, way, on, to, 0.5);
+        hold(bench, way, to, 30);
         CHECK(way.step < leap * bench.setup.limits.force);
         CHECK(way.deepest > -deepest_allowed);
         return std::pair{way, glm::dot(way.last.force, local.x * along + local.y * across + local.z * axis)};
@@ -169,14 +172,14 @@ TEST_CASE("Jaw grip: on the nut the jaw is free upwards and out of its mouth, co
     const auto [up, up_force] = pulled({0, 0, 1}, 0.02);
     CHECK_FALSE(up.engaged);
     CHECK(up.greatest < 0.5);
-    const auto [out, out_force] = pulled({1, 0, 0}, 0.04);  // the wrench goes where its handle points
+    const auto [out, out_force] = pulled({1, 0, 0}, 0.04);  // along the handle
     CHECK_FALSE(out.engaged);
     CHECK(out.greatest < 1.5);
     for (const Vec3& held : {Vec3(0, 1, 0), Vec3(0, -1, 0), Vec3(-1, 0, 0)}) {
         const auto [way, force] = pulled(held, 5e-3);
         CHECK(way.engaged);
         CHECK(force < -5.0);
-        // And no torque about the bolt comes of it.
+        // This causes no torque about the bolt.
         CHECK(way.last.wrench_torque == doctest::Approx(0.0).epsilon(0.05));
     }
 }
@@ -184,20 +187,20 @@ TEST_CASE("Jaw grip: on the nut the jaw is free upwards and out of its mouth, co
 TEST_CASE("Jaw grip: the nut resists tilting and releases the jaw square") {
     test::Workbench bench("zq350");
     Watch watch;
-    const Pose on = put_on(bench, watch);
+    const Pose on = lower_onto_nut(bench, watch);
     const Vec3 about = slot(bench, on);
     Watch way;
     for (const double side : {1.0, -1.0}) {
         const Pose over = turned(on, about, side * to_radians(3.0));
-        go(bench, way, on, over, 0.3);
+        move(bench, way, on, over, 0.3);
         CHECK(way.engaged);
         CHECK(glm::dot(way.last.torque, about) * side < -0.5);
         const double tilt =
             std::asin(glm::dot(bench.state.tool_contact->god_object.tool.orientation * Vec3(0, 0, 1),
                                glm::cross(bench.setup.nuts[0].axis, about)));
-        CHECK(std::abs(to_degrees(tilt)) < 1.2);  // 24.2 mm wide, 10.8 mm high on 24 mm
+        CHECK(std::abs(to_degrees(tilt)) < 1.2);  // a jaw 24.2 mm wide and 10.8 mm high on 24 mm
         CHECK(std::abs(to_degrees(tilt)) > 0.5);
-        go(bench, way, over, on, 0.3);
+        move(bench, way, over, on, 0.3);
     }
     CHECK(glm::length(way.last.torque) < 0.05);
     CHECK(way.torque_step < 0.95 * bench.setup.limits.torque_rate * bench.setup.dt);
@@ -210,21 +213,22 @@ TEST_CASE(
     REQUIRE(session::pretighten(bench.assembly, bench.setup, bench.state));
     const NutGeometry& nut = bench.setup.nuts[0];
     Watch watch;
-    // So high that it has less than half a millimetre of the flats.
-    const double top = 0.5 * nut.height - prism_of(nut).fall() + bench.setup.wrench.jaw.half_flat();
-    const Pose on = put_on(bench, watch, top - 0.4e-3);
+    // Less than half a millimetre of overlap with the flats.
+    const double top = 0.5 * nut.height - prism_of(nut).corner_drop() + bench.setup.wrench.jaw.half_flat();
+    const Pose on = lower_onto_nut(bench, watch, top - 0.4e-3);
     REQUIRE(watch.engaged);
     const double overlap = bench.state.engagement.seat.overlap;
     CHECK(overlap == doctest::Approx(0.4e-3).epsilon(0.1));
     const double side = prism_of(nut).half_side();
-    const double bears = joint::corner_torque(nut.corner_pressure, {overlap, side, side, 0.0, 1e-4, 0.0});
-    CHECK(bears > 3.0);
-    CHECK(bears < 12.0);
+    const double corner_torque =
+        joint::corner_torque(nut.corner_pressure, {overlap, side, side, 0.0, 1e-4, 0.0});
+    CHECK(corner_torque > 3.0);
+    CHECK(corner_torque < 12.0);
     const double stood = bench.state.joints[0].nut.angle;
     const int first = 900;
     double most = 0.0, lost = 0.0;
     lesson::Lesson lesson = lesson::begin(bench.assembly, lesson::Mode::guided, lesson::Task::tighten);
-    std::string said;
+    std::string message;
     int slipped_at = -1, again_at = -1;
     Watch way;
     for (int i = 1; i <= 2 * first; ++i) {  // 90 degrees at 50 degrees a second
@@ -232,8 +236,8 @@ TEST_CASE(
         const Output o = bench.step(turned(on, nut.axis, -angle));
         way(bench, o);
         lesson::observe(lesson, bench.state, o);
-        for (const lesson::Event& event : lesson.events)
-            if (event.text.find("slipped") != std::string::npos) said = event.text;
+        for (const lesson::LessonEvent& event : lesson.events)
+            if (event.text.find("slipped") != std::string::npos) message = event.text;
         lesson.events.clear();
         most = std::max(most, o.wrench_torque);
         if (o.slipped == 0) {
@@ -243,14 +247,14 @@ TEST_CASE(
         }
         if (slipped_at >= 0 && o.joint == 0 && again_at < 0 && i > slipped_at) again_at = i;
     }
-    CHECK(most == doctest::Approx(bears).epsilon(0.1));
+    CHECK(most == doctest::Approx(corner_torque).epsilon(0.1));
     REQUIRE(slipped_at > 0);
-    CHECK(said.find("B1: the wrench slipped, 0.") == 0);
+    CHECK(message.find("B1: the wrench slipped, 0.") == 0);
     CHECK(lost > 1e-6);
     CHECK(lost < side);
     CHECK(bench.state.rounded[0] >= lost);
     CHECK(bench.state.joints[0].nut.angle == doctest::Approx(stood).epsilon(1e-6));
-    // At the next flat, less the play on either side of it.
+    // At the next flat, 60 degrees on less the play.
     REQUIRE(again_at > slipped_at);
     CHECK(0.05 * again_at == doctest::Approx(60.0).epsilon(0.1));
     CHECK(way.torque_step < 0.95 * bench.setup.limits.torque_rate * bench.setup.dt);
@@ -261,7 +265,7 @@ TEST_CASE("Jaw grip: with full overlap it reaches the joint's torque and rounds 
     test::Workbench bench("cover-m8");
     REQUIRE(session::pretighten(bench.assembly, bench.setup, bench.state));
     Watch watch;
-    const Pose on = put_on(bench, watch);
+    const Pose on = lower_onto_nut(bench, watch);
     double most = 0.0;
     for (int i = 1; i <= 700; ++i) {
         const Output o = bench.step(turned(on, bench.setup.nuts[0].axis, -to_radians(0.01) * i));
@@ -279,10 +283,10 @@ TEST_CASE(
     test::Workbench bench("cover-m8");
     REQUIRE(session::pretighten(bench.assembly, bench.setup, bench.state));
     Watch watch;
-    const Pose on = put_on(bench, watch);
+    const Pose on = lower_onto_nut(bench, watch);
     const Vec3 axis = bench.setup.nuts[0].axis;
     const Pose loaded = turned(on, axis, -to_radians(5.0));
-    go(bench, watch, on, loaded, 0.5);
+    move(bench, watch, on, loaded, 0.5);
     REQUIRE(watch.last.wrench_torque > 10.0);
     Pose up = loaded;
     up.position += 2e-3 * axis;
@@ -290,7 +294,7 @@ TEST_CASE(
     double rubs = 0.0;
     for (int i = 1; i <= 200; ++i) {
         const Output o = bench.step({glm::mix(loaded.position, up.position, i / 200.0), loaded.orientation});
-        if (i > 60)  // off the washer, and what was felt of it has faded
+        if (i > 60)  // clear of the washer, and the force of its contact has faded
             rubs = std::max(rubs, std::abs(glm::dot(o.force, axis)));
     }
     MESSAGE("along the bolt " << rubs << " N");
@@ -299,7 +303,7 @@ TEST_CASE(
 
 namespace {
 
-// Somewhere around the nut, mostly near it, mostly fitting.
+// A random pose around the nut, mostly near it and mostly aligned.
 Pose anywhere(const test::Workbench& bench, Random& random) {
     const double angle =
         random.uniform(0.0, 1.0) < 0.6 ? random.uniform(-0.02, 0.02) : random.uniform(-0.5, 0.5);
@@ -311,23 +315,24 @@ Pose anywhere(const test::Workbench& bench, Random& random) {
                   tilt * random.normal());
 }
 
-Watch wander(std::uint64_t seed, int legs, std::vector<double>* trace = nullptr, bool forgets = false) {
+Watch wander(std::uint64_t seed, int legs, std::vector<double>* trace = nullptr,
+             bool invalidate_cache = false) {
     test::Workbench bench("cover-m8");
     Random random(seed);
     Pose at = bench.wrench(0, 0.03);
     for (int i = 0; i < 600; ++i) bench.step(at);
     Watch watch;
     for (int leg = 0; leg < legs; ++leg) {
-        // On the nut it is turned more often than not.
+        // An engaged wrench is mostly turned.
         const bool turns = watch.engaged && random.uniform(0.0, 1.0) < 0.6;
         const Pose to =
             turns ? turned(at, bench.setup.nuts[0].axis, random.uniform(-0.6, 0.6)) : anywhere(bench, random);
         const double way = glm::distance(at.position, to.position) + (turns ? 0.02 : 0.0);
-        // Minimum jerk is at its fastest 1.875 times its mean speed.
+        // The peak speed of a minimum-jerk motion is 1.875 times its mean.
         const double speed = random.uniform(0.05, 0.5), seconds = 1.875 * way / speed + 0.02;
         test::sweep(bench, at, to, seconds, [&](const Output& o) {
             watch(bench, o);
-            if (forgets)
+            if (invalidate_cache)
                 bench.state.tool_contact->cache.nuts_unchanged =
                     bench.state.tool_contact->cache.meshes_unchanged = false;
             if (trace != nullptr) trace->insert(trace->end(), {o.force.x, o.torque.y, o.nut_angle});
@@ -369,9 +374,9 @@ TEST_CASE("Jaw grip: the same random motion gives the same bits") {
 
 TEST_CASE("Contact cache: cached contacts are used only while they are valid") {
     std::vector<double> first, second;
-    const Watch usual = wander(5, 40, &first);
-    const Watch forgetful = wander(5, 40, &second, true);
-    CHECK(usual.was_on);
-    CHECK(forgetful.was_on);
+    const Watch cached = wander(5, 40, &first);
+    const Watch uncached = wander(5, 40, &second, true);
+    CHECK(cached.was_on);
+    CHECK(uncached.was_on);
     CHECK(first == second);
 }

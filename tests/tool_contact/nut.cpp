@@ -1,5 +1,5 @@
-// Jaw and hexagon as geometry: what slides on, what stands on top, what comes off. On the M8 cover with the
-// wrench that its lesson uses.
+// Geometry of jaw and nut: how the jaw slides on, rests on top and comes off. On the M8 cover with the wrench
+// of its lesson.
 #include <algorithm>
 
 #include "tests/support/forbidden.hpp"
@@ -10,10 +10,10 @@ using namespace bolt::servo;
 
 namespace {
 
-// A step of the force that no tick may make: a tenth of the greatest.
+// Share of the greatest force: a change in one tick that is a shock.
 constexpr double shock = 0.1;
 
-struct Felt {
+struct ForceRecord {
     double greatest = 0.0, step = 0.0;  // N
     int engaged_at = -1;                // ms
     Output last;
@@ -28,13 +28,13 @@ struct Felt {
     }
 };
 
-// From above down over the nut of joint 0, and on it for a while.
-Felt lowered(test::Workbench& bench, double misfit_deg, double beside) {
+// Lowers the wrench onto the nut of joint 0 and holds it there. `beside`: m along e1.
+ForceRecord lowered(test::Workbench& bench, double misfit_deg, double beside) {
     const Pose high = bench.wrench(0, 0.03, to_radians(misfit_deg), {beside, 0, 0});
     const Pose low = bench.wrench(0, 0.0, to_radians(misfit_deg), {beside, 0, 0});
     for (int i = 0; i < 50; ++i) bench.step(high, Grip::none);
     for (int i = 0; i < 600; ++i) bench.step(high);
-    Felt felt;
+    ForceRecord felt;
     test::sweep(bench, high, low, 0.6, felt);
     for (int i = 0; i < 100; ++i) felt(bench.step(low));
     return felt;
@@ -49,7 +49,7 @@ double height(const test::Workbench& bench, const Output& output) {
 
 TEST_CASE("Tool contact: a straight jaw slides onto the nut without force") {
     test::Workbench bench("cover-m8");
-    const Felt felt = lowered(bench, 0.0, 0.0);
+    const ForceRecord felt = lowered(bench, 0.0, 0.0);
     CHECK(felt.last.joint == 0);
     CHECK(felt.greatest < 0.05);
     CHECK(height(bench, felt.last) == doctest::Approx(0.0).epsilon(1e-4));
@@ -59,7 +59,7 @@ TEST_CASE("Tool contact: off centre the chamfer centres the jaw with a force and
     test::Workbench bench("cover-m8");
     for (const double misfit : {0.0, 0.6}) {
         CAPTURE(misfit);
-        const Felt felt = lowered(bench, misfit, 0.5e-3);
+        const ForceRecord felt = lowered(bench, misfit, 0.5e-3);
         CHECK(felt.last.joint == 0);
         CHECK(felt.greatest > 0.3);
         CHECK(felt.step < shock * bench.setup.limits.force);
@@ -68,14 +68,14 @@ TEST_CASE("Tool contact: off centre the chamfer centres the jaw with a force and
 
 TEST_CASE("Tool contact: a misaligned jaw rests on the nut, and slides on once lifted and aligned") {
     test::Workbench bench("cover-m8");
-    const Felt standing = lowered(bench, 8.0, 0.0);
+    const ForceRecord standing = lowered(bench, 8.0, 0.0);
     CHECK(standing.last.joint == -1);
     CHECK(standing.last.contacts > 0);
     CHECK(height(bench, standing.last) > 0.5 * bench.setup.nuts[0].height);
-    // Down through the nut with the hand, not with the wrench.
+    // The hand is in the nut, the wrench is not.
     CHECK(standing.greatest > 0.5 * bench.setup.limits.force);
-    // As a hand does it: a little up, round, down again.
-    Felt turning;
+    // Lift, turn and lower again.
+    ForceRecord turning;
     test::sweep(bench, bench.wrench(0, 0.0, to_radians(8.0)), bench.wrench(0, 0.012, to_radians(8.0)), 0.3,
                 turning);
     test::sweep(bench, bench.wrench(0, 0.012, to_radians(8.0)), bench.wrench(0, 0.0), 0.5, turning);
@@ -89,11 +89,11 @@ TEST_CASE(
     test::Workbench bench("cover-m8");
     lowered(bench, 0.0, 0.0);
     const Pose low = bench.wrench(0, 0.0), high = bench.wrench(0, 0.03);
-    Felt off;
+    ForceRecord off;
     test::sweep(bench, low, high, 0.4, off);
     CHECK(off.last.joint == -1);
     CHECK(off.greatest < 0.5);
-    Felt aside;  // turned by half a flat, down again
+    ForceRecord aside;  // turned by 30 degrees and lowered again
     test::sweep(bench, high, bench.wrench(0, 0.03, to_radians(30.0)), 0.2, aside);
     test::sweep(bench, bench.wrench(0, 0.03, to_radians(30.0)), bench.wrench(0, 0.0, to_radians(30.0)), 0.5,
                 aside);
@@ -104,10 +104,10 @@ TEST_CASE(
 TEST_CASE("Tool contact: the wrench stops at the cover however far the hand goes, and returns with it") {
     test::Workbench bench("cover-m8");
     const Pose high = bench.wrench(0, 0.03);
-    Pose through = high;  // beside the nut, into the plate
+    Pose through = high;  // beside the nut and inside the plate
     through.position += bench.setup.nuts[0].axis * -0.06 + bench.setup.nuts[0].e1 * 0.03;
     for (int i = 0; i < 600; ++i) bench.step(high);
-    Felt in;
+    ForceRecord in;
     double deepest = 1.0;
     test::sweep(bench, high, through, 0.5, [&](const Output& output) {
         in(output);
@@ -117,7 +117,7 @@ TEST_CASE("Tool contact: the wrench stops at the cover however far the hand goes
     CHECK(in.greatest > 0.5 * bench.setup.limits.force);
     CHECK(in.step < shock * bench.setup.limits.force);
     CHECK(glm::distance(in.last.tool.position, through.position) > 5e-3);
-    Felt back;
+    ForceRecord back;
     test::sweep(bench, through, high, 0.5, back);
     for (int i = 0; i < 100; ++i) back(bench.step(high));
     CHECK(glm::distance(back.last.tool.position, high.position) < 1e-4);

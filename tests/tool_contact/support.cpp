@@ -3,7 +3,7 @@
 namespace bolt::test {
 
 Workbench::Workbench(const char* name, const force::OutputLimits& limits) {
-    content::Loaded loaded = content::load_assembly(name);
+    content::LoadedAssembly loaded = content::load_assembly(name);
     REQUIRE(loaded.ok());
     assembly = std::move(loaded.assembly);
     setup = session::make_setup(assembly, joint::Law::mechanistic, limits, 1, 0.001);

@@ -1,4 +1,4 @@
-// The ZQ350 with everything that its wrench can bump into, and hands that move it.
+// An assembly with contact simulation, and motions of the hand that holds the wrench.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -17,21 +17,23 @@ struct Workbench {
 
     explicit Workbench(const char* name, const force::OutputLimits& limits = {});
 
-    // A wrench whose jaw is `above` the middle of a nut and `beside` its axis (m along e1 and e2), lying on
-    // its flats but for `misfit` rad; of the six ways round, the one whose handle is nearest to `towards`.
+    // Pose of a wrench whose jaw is `above` (m) the middle of a nut and `beside` its axis (m along e1 and
+    // e2), aligned with its flats except for `misfit` rad. Of the six possible angles, the one whose handle
+    // is nearest to `towards`.
     [[nodiscard]] Pose wrench(std::size_t joint, double above, double misfit = 0.0,
                               const Vec3& beside = Vec3(0.0), const Vec3& towards = Vec3(0, 0, 1)) const;
     servo::Output step(const Pose& hand, servo::Grip grip = servo::Grip::wrench);
 };
 
-// From one pose to another in a minimum-jerk motion; `look` sees every tick.
-template <class Look>
-void sweep(Workbench& bench, const Pose& from, const Pose& to, double seconds, Look&& look) {
+// Moves the hand from one pose to another in a minimum-jerk motion. Calls `visit` with the output of every
+// tick.
+template <class Visit>
+void sweep(Workbench& bench, const Pose& from, const Pose& to, double seconds, Visit&& visit) {
     const int ticks = static_cast<int>(seconds / bench.setup.dt);
     for (int i = 1; i <= ticks; ++i) {
         const double t = static_cast<double>(i) / ticks;
         const double s = minimum_jerk(t);
-        look(bench.step(
+        visit(bench.step(
             {glm::mix(from.position, to.position, s), glm::slerp(from.orientation, to.orientation, s)}));
     }
 }

@@ -1,5 +1,5 @@
-// No simulated hand pushes a wrench through something. The contact oracle measures the depth, not the contact
-// queries that hold the wrench back.
+// A simulated hand cannot push the wrench through an obstacle. The depth is measured by the contact oracle,
+// independently of the contact queries that constrain the wrench.
 #include <algorithm>
 
 #include "game/lesson/lesson.hpp"
@@ -14,9 +14,10 @@ using namespace bolt::servo;
 
 namespace {
 
-// The greatest depth of the wrench in what stands still (m). The jaw replaces contact with nuts
-// (jaw_grip.hpp).
-double depth_in_casing(const contact_validation::Scene& scene, const ToolContact& touch, const Pose& wrench) {
+// The greatest depth, m, of the wrench in static obstacles. Contact with nuts belongs to the jaw
+// (haptics/servo/engagement.hpp).
+double depth_in_casing(const contact_validation::ContactScene& scene, const ToolContact& touch,
+                       const Pose& wrench) {
     double most = 0.0;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
         if (scene.parts[i].body != 0) continue;
@@ -27,10 +28,10 @@ double depth_in_casing(const contact_validation::Scene& scene, const ToolContact
     return most;
 }
 
-// A corner of the wrench half a millimetre below the middle of the largest triangle of what stands still.
-Pose half_a_millimetre_in(const contact_validation::Scene& scene) {
+// Pose with a corner of the wrench 0.5 mm below the centre of the largest triangle of the static obstacles.
+Pose half_a_millimetre_in(const contact_validation::ContactScene& scene) {
     const auto part = std::find_if(scene.parts.begin(), scene.parts.end(),
-                                   [](const contact_validation::Part& p) { return p.body == 0; });
+                                   [](const contact_validation::ObstaclePart& p) { return p.body == 0; });
     const auto area = [](const geometry::Triangle& t) { return glm::length(geometry::normal_of(t)); };
     const std::vector<geometry::Triangle>& triangles = part->surface.tree.triangles();
     const geometry::Triangle& t = *std::max_element(
@@ -45,14 +46,14 @@ TEST_CASE("Tool contact: a clumsy hand never passes through the pipe flange, nor
     if (test::sanitized) return test::skip_rest("a round of the flange takes minutes under a sanitizer");
     test::Workbench bench("dn200-pn16");
     lesson::Lesson lesson = lesson::begin(bench.assembly, lesson::Mode::guided, lesson::Task::tighten);
-    trainees::Operator hand(trainees::find_profile("clumsy").value(), 1, bench.setup);
-    const contact_validation::Scene scene =
+    trainees::SimulatedTrainee hand(trainees::find_profile("clumsy").value(), 1, bench.setup);
+    const contact_validation::ContactScene scene =
         contact_validation::make_scene(bench.state.tool_contact->world, bench.state.tool_contact->wrench);
     double depth = 0.0, fastest = 0.0;
-    int asked = 0, faults = 0;
+    int samples = 0, faults = 0;
     Vec3 before(0.0);
-    // Into the first round with the wrench; the nuts are run down by hand before.
-    while (lesson.due() != nullptr && asked < 500) {
+    // Includes the first round with the wrench, after the nuts were run down by hand.
+    while (lesson.due() != nullptr && samples < 500) {
         const Input input = hand.act(bench.setup, bench.state, lesson);
         const Output output = tick(bench.setup, bench.state, input);
         lesson::observe(lesson, bench.state, output);
@@ -62,14 +63,14 @@ TEST_CASE("Tool contact: a clumsy hand never passes through the pipe flange, nor
         before = now;
         if (output.fault != force::Fault::none) ++faults;
         if (!bench.state.tool_contact->in_hand || bench.state.tick % 100 != 0) continue;
-        ++asked;
+        ++samples;
         depth = std::max(depth, depth_in_casing(scene, *bench.state.tool_contact, output.tool));
     }
     MESSAGE("deepest " << 1e6 * depth << " um, fastest " << fastest << " m/s");
-    CHECK(asked == 500);
+    CHECK(samples == 500);
     CHECK(depth < 0.1e-3);
     CHECK(depth_in_casing(scene, *bench.state.tool_contact, half_a_millimetre_in(scene)) >
-          0.4e-3);  // the check can fail
+          0.4e-3);  // verifies that the check can fail
     CHECK(fastest < 2.0);
     CHECK(faults == 0);
 }

@@ -77,7 +77,7 @@ TEST_CASE("GloveCalibrationFile: errors name file, line, column and what was exp
     CHECK(message("calibration 1", "calibration 7").find("ada.json:2:13: ") == 0);
     CHECK(message("\"right\"", "\"rihgt\"").find("ada.json:5:11: /hand: a hand cannot be \"rihgt\"") == 0);
     CHECK(message("\"sensors\": 18", "\"sensors\": 20").find("ada.json:6:14: ") == 0);
-    CHECK(message("2026-11-22", "2026-13-22").find("is no date") != std::string::npos);
+    CHECK(message("2026-11-22", "2026-13-22").find("is not a date") != std::string::npos);
     CHECK(message("\"offset\"", "\"ofset\"").find("did you mean \"offset\"") != std::string::npos);
     CHECK(message("\"thumb_roll\"", "\"thumb_rool\"").find("thumb_roll") != std::string::npos);
     CHECK(message("\"quality\": ", "\"quality\": 4").find("from 0 to 1") != std::string::npos);
@@ -85,7 +85,7 @@ TEST_CASE("GloveCalibrationFile: errors name file, line, column and what was exp
     CHECK(message("\"offset\": ", "\"offset\": 4e9, \"gain\": ").find("given twice") != std::string::npos);
     CHECK(message("  \"glove\": \"/dev/serial/by-id/usb-FTDI\",\n", "").find("\"glove\" is missing") !=
           std::string::npos);
-    // However it is cut, it is an error with a line, never half a calibration.
+    // A truncated file is an error with a line, never a partial calibration.
     for (std::size_t cut = 0; cut + 3 < good.size(); cut += 5) {
         const auto read = parse_glove_calibration(good.substr(0, cut), "ada.json");
         REQUIRE(!read);
@@ -105,7 +105,7 @@ TEST_CASE("GloveCalibrationFile: one file per trainee and hand, and a failed wri
     REQUIRE(save_glove_calibration(path, first));
     CHECK(same(load_glove_calibration(path)->calibration, first.calibration));
 
-    // A full disk: the process may write no more than some bytes to any file.
+    // Simulates a full disk with a limit on the file size.
     GloveCalibration second = example(2, 22);
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit before{};
@@ -122,7 +122,7 @@ TEST_CASE("GloveCalibrationFile: one file per trainee and hand, and a failed wri
     CHECK(same(kept->calibration, first.calibration));
     CHECK(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()) == 1);
 
-    // What could not be read back is not written.
+    // A calibration that could not be read back is not written.
     second.date = "yesterday";
     CHECK(!save_glove_calibration(path, second));
     CHECK(same(load_glove_calibration(path)->calibration, first.calibration));

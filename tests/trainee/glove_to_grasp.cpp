@@ -1,6 +1,6 @@
-// All of it in one: an emulated glove on a pseudo-terminal, the driver that reads it, the session that
-// calibrates it, the file that keeps that, and the hand that takes a wrench and keeps it while the glove is
-// gone. Waits are for things to happen, however long that takes.
+// The whole chain: an emulated glove on a pseudo-terminal, its driver, the calibration session, the
+// calibration file, and a hand that grasps a tool and keeps it while the glove is lost. The test waits for
+// events without time limits of its own.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ using hand::Sensor;
 
 namespace {
 
-// How this emulated glove's sensors bend: what the calibration is to find.
+// The fit of each emulated sensor, which the calibration must find.
 constexpr hand::LinearFit truth(std::size_t sensor) {
     const double gain = 0.0125 + 0.0002 * static_cast<double>(sensor % 7);
     return sensor % 5 == 3 ? hand::LinearFit{-gain, 220.0}
@@ -48,8 +48,8 @@ hand::PerSensor<std::uint8_t> raw_of(const hand::Angles& angles) {
     return emulate::raw_values(angles, lines);
 }
 
-// Whoever reads the driver: every new sample once.
-struct Reader {
+// Reads every new sample of the driver once.
+struct SampleReader {
     hand::GloveDriver driver;
     std::uint64_t last = 0;
     const hand::GloveSample* next() {
@@ -60,14 +60,14 @@ struct Reader {
     }
 };
 
-hand::CalibrationResult calibrated(emulate::SerialGlove& line, Reader& reader) {
+hand::CalibrationResult calibrated(emulate::SerialGlove& line, SampleReader& reader) {
     hand::CalibrationSession session;
-    session.options.hold = 0.4;  // nobody's hand here trembles
+    session.options.hold = 0.4;  // the emulated hand does not tremble
     session.options.settle = 0.1;
-    session.options.silence = 5.0;  // nor is a busy machine a silent glove
+    session.options.silence = 5.0;  // a busy machine must not look like a silent glove
     double now = 0.0;
     REQUIRE(test::eventually([&] {
-        line.show(raw_of(session.requested));
+        line.set_raw(raw_of(session.requested));
         const hand::GloveSample* sample = reader.next();
         if (sample != nullptr) now = sample->time;
         if (now > 0.0) update(session, sample == nullptr ? nullptr : &sample->frame, now);
@@ -84,24 +84,24 @@ TEST_CASE("Glove to grasp: from an emulated glove to a wrench in the hand") {
         auto line = emulate::SerialGlove::start(
             {.sensors = sensors, .hand = right ? hand::Side::right : hand::Side::left});
         REQUIRE(line);
-        Reader reader{hand::GloveDriver::start(line->port())};
+        SampleReader reader{hand::GloveDriver::start(line->port())};
         REQUIRE(test::eventually([&] { return reader.next() != nullptr; }));
         const hand::GloveIdentity identity = reader.driver.report().identity;
         REQUIRE(identity.sensors == sensors);
 
-        // Calibrated and kept, and read again.
+        // Calibration, written to a file and read back.
         const hand::CalibrationResult made = calibrated(*line, reader);
         CHECK(made.score > 0.5);
-        content::GloveCalibration kept;
-        kept.trainee = "Ada";
-        kept.hand = identity.hand;
-        kept.sensors = identity.sensors;
-        kept.date = "2026-11-22";
-        kept.quality = made.score;
-        kept.calibration = made.calibration;
+        content::GloveCalibration stored;
+        stored.trainee = "Ada";
+        stored.hand = identity.hand;
+        stored.sensors = identity.sensors;
+        stored.date = "2026-11-22";
+        stored.quality = made.score;
+        stored.calibration = made.calibration;
         const test::Folder folder;
-        const auto path = content::glove_calibration_path(folder.path(), kept.trainee, kept.hand);
-        REQUIRE(content::save_glove_calibration(path, kept));
+        const auto path = content::glove_calibration_path(folder.path(), stored.trainee, stored.hand);
+        REQUIRE(content::save_glove_calibration(path, stored));
         const auto loaded = content::load_glove_calibration(path);
         REQUIRE(loaded);
         for (const Sensor sensor : hand::sensors_of(sensors)) {
@@ -111,7 +111,7 @@ TEST_CASE("Glove to grasp: from an emulated glove to a wrench in the hand") {
             CHECK(found->gain == doctest::Approx(truth(hand::index(sensor)).gain).epsilon(0.05));
         }
 
-        // Worn: the hand closes on a bar, and the glove's cable is pulled.
+        // The hand closes on a bar, then the glove is lost.
         hand::GloveWearer wearer;
         wearer.calibration = loaded->calibration;
         wearer.hand = hand::make_hand(loaded->hand, loaded->hand_length);
@@ -119,31 +119,32 @@ TEST_CASE("Glove to grasp: from an emulated glove to a wrench in the hand") {
         hand::GraspState grip;
         const grasp_test::TestTool bar = grasp_test::bar();
         Pose wrist = grasp_test::across_the_palm();
-        if (!right) {  // the bar is the same mirrored
+        if (!right) {  // the bar is symmetric
             const Quat& q = wrist.orientation;
             wrist = {wrist.position * Vec3(-1.0, 1.0, 1.0), Quat(q.w, q.x, -q.y, -q.z)};
         }
-        hand::GraspEvent told = hand::GraspEvent::none;
+        hand::GraspEvent last_event = hand::GraspEvent::none;
         const auto turn = [&] {
             const hand::GloveSample* sample = reader.next();
             if (sample != nullptr) hand::update(worn, wearer, sample->frame, sample->time);
             const hand::GraspEvent now =
                 update_grasp(grip, {}, bar.tool, wearer.hand, {sample != nullptr, worn.angles, wrist}, 0.01);
-            if (now != hand::GraspEvent::none) told = now;
+            if (now != hand::GraspEvent::none) last_event = now;
         };
-        line->show(raw_of(hand::Angles{}));
+        line->set_raw(raw_of(hand::Angles{}));
         REQUIRE(test::eventually([&] {
             turn();
             return grip.has_frame && std::abs(worn.angles.fingers[1].pip) < 0.03;
         }));
         CHECK(!grip.held);
         const hand::Angles fist = grasp_test::closed(1.0);
-        line->show(raw_of(fist));
+        line->set_raw(raw_of(fist));
         REQUIRE(test::eventually([&] {
             turn();
             return grip.held && !grip.lost && worn.angles.fingers[1].pip > fist.fingers[1].pip - 0.05;
         }));
-        // What was measured is what the hand does, to the glove's own width; what is shown stops at the bar.
+        // The measured angles are those of the hand within the glove's resolution; the displayed fingers stop
+        // at the bar.
         CHECK(worn.angles.fingers[2].mcp == doctest::Approx(fist.fingers[2].mcp).epsilon(0.03));
         CHECK(worn.angles.thumb.roll == doctest::Approx(fist.thumb.roll).epsilon(0.03));
         for (std::size_t d = 1; d < hand::digit_count; ++d) {
@@ -157,14 +158,14 @@ TEST_CASE("Glove to grasp: from an emulated glove to a wrench in the hand") {
         }));
         for (int i = 0; i < 100; ++i) turn();
         CHECK(grip.held);
-        CHECK(told == hand::GraspEvent::glove_lost);
+        CHECK(last_event == hand::GraspEvent::glove_lost);
         line->stall(false);
         REQUIRE(test::eventually([&] {
             turn();
             return !grip.lost;
         }));
         CHECK(grip.held);
-        line->show(raw_of(hand::Angles{}));
+        line->set_raw(raw_of(hand::Angles{}));
         REQUIRE(test::eventually([&] {
             turn();
             return !grip.held;

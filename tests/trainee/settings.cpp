@@ -22,9 +22,9 @@ namespace {
 const SettingsVocabulary known{
     {"de", "en", "zh"}, {"hint", "pause", "tool"}, {"Escape", "F1", "H", "T"}, {{"Escape", "pause"}}};
 
-Settings example(std::uint64_t seed) {
+TraineeSettings example(std::uint64_t seed) {
     Random random(seed);
-    Settings s;
+    TraineeSettings s;
     s.trainee = "Ada Lovelace";
     s.language = seed % 2 == 0 ? "" : "zh";
     s.volume = random.uniform();
@@ -43,7 +43,7 @@ Settings example(std::uint64_t seed) {
 
 TEST_CASE("Settings: writing and reading round-trips to the last bit") {
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-        const Settings s = example(seed);
+        const TraineeSettings s = example(seed);
         const std::string text = settings_text(s);
         const auto read = parse_settings(text, "a.json", known);
         REQUIRE_MESSAGE(read, (read ? "" : read.error().message()));
@@ -62,7 +62,7 @@ TEST_CASE("Settings: writing and reading round-trips to the last bit") {
 }
 
 TEST_CASE("Settings: errors name file, line, column and what was expected") {
-    Settings s = example(1);
+    TraineeSettings s = example(1);
     s.volume = 0.5;
     s.captions = true;
     s.seated_height = 1.2;
@@ -81,7 +81,8 @@ TEST_CASE("Settings: errors name file, line, column and what was expected") {
     CHECK(message("\"keys\"", "\"law\": \"publishd\", \"keys\"")
               .find("/law: \"publishd\" is not a joint law; expected \"mechanistic\" or \"published\"") !=
           std::string::npos);
-    CHECK(message("\"zh\"", "\"zz\"").find("ada.json:4:15: /language: \"zz\" is no language") == 0);
+    CHECK(message("\"zh\"", "\"zz\"").find("ada.json:4:15: /language: \"zz\" is not a supported language") ==
+          0);
     CHECK(message("0.5", "1.5").find("ada.json:5:13: ") == 0);
     CHECK(message("\"captions\": true", "\"captions\": 1").find("expected true or false") !=
           std::string::npos);
@@ -92,10 +93,10 @@ TEST_CASE("Settings: errors name file, line, column and what was expected") {
     CHECK(message("1.2", "\"high\"").find("from 0.9 to 1.5") != std::string::npos);
     CHECK(message("\"palette\"", "\"pallete\"").find("did you mean \"palette\"") != std::string::npos);
     CHECK(message("\"tool\"", "\"tol\"").find("did you mean \"tool\"") != std::string::npos);
-    CHECK(message("\"T\"", "\"Q\"").find("is no key that could be used") != std::string::npos);
+    CHECK(message("\"T\"", "\"Q\"").find("is not a usable key") != std::string::npos);
     CHECK(message("\"T\"", "\"H\"").find("ada.json:13:13: /keys/tool: \"H\" is the key of two actions") == 0);
     CHECK(message("\"T\"", "\"Escape\"").find("is always the key of \"pause\"") != std::string::npos);
-    CHECK(message("\"T\"", "7").find("is no text") != std::string::npos);
+    CHECK(message("\"T\"", "7").find("is not a text") != std::string::npos);
     CHECK(message("  \"captions\": true,\n", "").find("\"captions\" is missing") != std::string::npos);
     CHECK(parse_settings(replaced(good, "\"tool\": \"T\"", "\"pause\": \"Escape\""), "x", known));
     for (std::size_t cut = 0; cut + 3 < good.size(); cut += 5) {
@@ -112,11 +113,11 @@ TEST_CASE("Settings: one file per trainee, and a failed write keeps the old one"
     const fs::path path = settings_path(folder.path() / "made" / "for it", "Ada");
     CHECK(path != settings_path(path.parent_path(), "ada"));
     CHECK(settings_path(folder.path(), "../../etc/x").parent_path() == folder.path());
-    Settings first = example(1);
+    TraineeSettings first = example(1);
     REQUIRE(save_settings(path, first, known));
     CHECK(settings_text(load_settings(path, known).value()) == settings_text(first));
 
-    // A full disk: the process may write no more than some bytes to any file.
+    // Simulates a full disk with a limit on the file size.
     std::signal(SIGXFSZ, SIG_IGN);
     rlimit before{};
     REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
@@ -129,7 +130,7 @@ TEST_CASE("Settings: one file per trainee, and a failed write keeps the old one"
     CHECK(failed.error().message().find(path.string()) == 0);
     CHECK(settings_text(load_settings(path, known).value()) == settings_text(first));
 
-    // What could not be read back is not written.
+    // Settings that could not be read back are not written.
     first.volume = 7.0;
     CHECK(!save_settings(path, first, known));
     CHECK(load_settings(path, known));
@@ -159,7 +160,7 @@ TEST_CASE("Settings: the data folder follows the XDG base directory specificatio
     const std::string kept = was != nullptr ? was : "";
     setenv("XDG_DATA_HOME", "/somewhere", 1);
     CHECK(data_folder().value() == "/somewhere/boltwright");
-    setenv("XDG_DATA_HOME", "not/absolute", 1);  // to be ignored, says the specification
+    setenv("XDG_DATA_HOME", "not/absolute", 1);  // the specification requires to ignore it
     setenv("HOME", "/home/ada", 1);
     CHECK(data_folder().value() == "/home/ada/.local/share/boltwright");
     if (was != nullptr)

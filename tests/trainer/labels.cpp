@@ -1,5 +1,4 @@
-// Figures at the wrench, as they are said in every language.
-
+// The label at the wrench in every language.
 #include "game/scene/annotations.hpp"
 
 #include <doctest/doctest.h>
@@ -14,7 +13,7 @@ using test::Script;
 namespace {
 
 std::string shown(const char* language, const Script& s, bool wrench) {
-    const words::Loaded loaded = words::load_words(words::words_folder(), language);
+    const words::LoadedWords loaded = words::load_words(words::words_folder(), language);
     REQUIRE(loaded.ok());
     servo::Setup setup;
     setup.nuts.resize(2);
@@ -26,7 +25,7 @@ std::string shown(const char* language, const Script& s, bool wrench) {
 
 }  // namespace
 
-TEST_CASE("figures at the wrench are in the language of who holds it") {
+TEST_CASE("Work label: its values and words are in the trainee's language") {
     Script s;
     s.seat_both();
     s.state.joints[0].nut.angle = 4.0 * pi;
@@ -40,7 +39,8 @@ TEST_CASE("figures at the wrench are in the language of who holds it") {
     CHECK(shown("zh", s, false) == "2.0 圈");
 }
 
-TEST_CASE("a torque is right or too much for the pass that is due, and breakaway is neither") {
+TEST_CASE(
+    "Work label: its sign rates the torque against the due pass, and breakaway never counts as too high") {
     Script s;
     s.seat_both();  // then to half of 70 N·m, 31.5 to 38.5
     const auto sign = [&](double torque, double speed) {
@@ -49,12 +49,12 @@ TEST_CASE("a torque is right or too much for the pass that is due, and breakaway
         return text.substr(0, text.find_first_of("0123456789"));
     };
     CHECK(sign(20.0, 1.0).empty());
-    CHECK(sign(35.0, 1.0) == std::string(view::sign_of(lesson::Verdict::ok)) + " ");
-    CHECK(sign(45.0, 0.0) == std::string(view::sign_of(lesson::Verdict::ok)) + " ");
-    CHECK(sign(45.0, 1.0) == std::string(view::sign_of(lesson::Verdict::high)) + " ");
+    CHECK(sign(35.0, 1.0) == std::string(view::symbol_of(lesson::Verdict::ok)) + " ");
+    CHECK(sign(45.0, 0.0) == std::string(view::symbol_of(lesson::Verdict::ok)) + " ");
+    CHECK(sign(45.0, 1.0) == std::string(view::symbol_of(lesson::Verdict::high)) + " ");
 }
 
-TEST_CASE("a nut out of its turn has no angle: it would count the turns on the thread") {
+TEST_CASE("Work label: a nut out of turn shows no angle, which would include the turns on the thread") {
     Script s;
     s.seat_both();
     s.state.joints[1].nut.angle = 40.0;
@@ -62,7 +62,7 @@ TEST_CASE("a nut out of its turn has no angle: it would count the turns on the t
     CHECK(shown("en", s, true) == "2 N·m   Seating");
 }
 
-TEST_CASE("a hand in the air has no figures") {
+TEST_CASE("Work label: a hand in the air has none") {
     Script s;
     s.idle();
     CHECK(shown("en", s, true).empty());

@@ -1,4 +1,4 @@
-// A left-handed trainee is a right-handed one in a mirror: hand, wrench's place and shoulder.
+// The left-handed layout mirrors the right-handed one: hand, resting place of the wrench, shoulder.
 #include <doctest/doctest.h>
 
 #include "game/scene/postures.hpp"
@@ -11,8 +11,8 @@ using namespace bolt::scene;
 
 namespace {
 
-// m and, of turns, a number between frames' axes: how far the left hand is from the right one's image in the
-// plane y = 0 of the tool.
+// Largest deviation of the left hand from the right hand's image in the plane y = 0 of the tool: of positions
+// in m, of rotations as the distance between axes.
 double off_mirror(const hand::Skeleton& left, const hand::Skeleton& right) {
     const glm::dmat3 across(1, 0, 0, 0, -1, 0, 0, 0, 1), own(-1, 0, 0, 0, 1, 0, 0, 0, 1);
     double most = 0.0;
@@ -38,7 +38,7 @@ Vec3 in_mirror(const Vec3& p) { return {2.0 * middle - p.x, p.y, p.z}; }
 
 }  // namespace
 
-TEST_CASE("a left hand's postures are the right one's in a mirror, around a handle too") {
+TEST_CASE("Left hand: its postures mirror the right hand's, around a handle too") {
     const Postures right = make_postures(nullptr, 0.15, hand::Side::right);
     const Postures left = make_postures(nullptr, 0.15, hand::Side::left);
     CHECK(off_mirror(left, right) < 1e-12);
@@ -50,43 +50,43 @@ TEST_CASE("a left hand's postures are the right one's in a mirror, around a hand
     const auto bar = collision::make_tool(parts);
     REQUIRE(bar);
     const Postures right_closed = make_postures(&*bar, 0.15, hand::Side::right);
-    // A digit stops somewhere within stop_tolerance of the bar, and bends by so much over half a bone.
+    // A digit stops within stop_tolerance of the bar, which bends it by that over half a bone.
     CHECK(off_mirror(make_postures(&*bar, 0.15, hand::Side::left), right_closed) <
           4.0 * hand::stop_tolerance / 0.02);
-    CHECK(off_mirror(right_closed, make_postures(nullptr, 0.15)) > 0.05);  // it did close on the bar
+    CHECK(off_mirror(right_closed, make_postures(nullptr, 0.15)) > 0.05);  // the hand did close on the bar
 }
 
-TEST_CASE("the grip that suits a left-handed trainee is the mirror image of the other's") {
+TEST_CASE("Left hand: the natural grip mirrors the right hand's") {
     const Postures right = make_postures(nullptr, 0.15, hand::Side::right);
     const Postures left = make_postures(nullptr, 0.15, hand::Side::left);
     const Vec3 shoulder(0.35, 0.4, 0.5), in_tools_mirror(0.35, -0.4, 0.5);
-    // Of a tool in its own frame: the mirror is that of the postures.
+    // In the tool's own frame the mirror plane is that of the postures.
     for (const Vec3& up : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0.3, 0, 0.95)})
         CHECK(natural_grip(left, Pose{}, up, in_tools_mirror) == natural_grip(right, Pose{}, up, shoulder));
 }
 
-TEST_CASE("the wrench lies, the hand waits and the shoulder is on the other side of the machine") {
+TEST_CASE("Left hand: wrench, waiting hand and shoulder are on the other side of the machine") {
     using hand::Side;
-    const Pose right = resting_place(machine, 0.01), left = resting_place(machine, 0.01, Side::left);
+    const Pose right = wrench_rest_pose(machine, 0.01), left = wrench_rest_pose(machine, 0.01, Side::left);
     for (const double along : {0.0, 0.1, 0.25})
         CHECK(glm::distance(left * Vec3(along, 0, 0), in_mirror(right * Vec3(along, 0, 0))) < 1e-12);
-    CHECK(glm::distance(left.orientation * Vec3(0, 0, 1), Vec3(0, 1, 0)) < 1e-12);  // its normal is up
+    CHECK(glm::distance(left.orientation * Vec3(0, 0, 1), Vec3(0, 1, 0)) < 1e-12);  // the normal points up
     const trainer::MouseHand r = trainer::make_hand(right), l = trainer::make_hand(left, Side::left);
     CHECK(glm::distance(l.pose.position, in_mirror(r.pose.position)) < 1e-12);
-    const Vec3 shoulder = shoulder_at(machine, {Side::left, std::nullopt});
-    CHECK(glm::distance(shoulder, in_mirror(shoulder_at(machine))) < 1e-6);
+    const Vec3 shoulder = shoulder_position(machine, {Side::left, std::nullopt});
+    CHECK(glm::distance(shoulder, in_mirror(shoulder_position(machine))) < 1e-6);
     CHECK(shoulder.x < machine.low.x);
 }
 
-TEST_CASE("whoever sits has the shoulder lower, never higher, and as low as the seat says") {
-    const double standing = shoulder_at(machine).y;
+TEST_CASE("Seated trainee: the shoulder follows the eye height and is never higher than when standing") {
+    const double standing = shoulder_position(machine).y;
     double before = -10.0;
     for (double eyes = 0.9; eyes <= 1.5; eyes += 0.1) {
-        const double y = shoulder_at(machine, {hand::Side::right, eyes}).y;
+        const double y = shoulder_position(machine, {hand::Side::right, eyes}).y;
         CHECK(y <= standing);
         CHECK(y >= before);
         before = y;
     }
     // 1.2 m of eyes, 0.85 m of bench, 0.2 m from the eyes to the shoulders, the foot at -0.1 m.
-    CHECK(shoulder_at(machine, {hand::Side::right, 1.2}).y == doctest::Approx(1.2 - 0.85 - 0.2 - 0.1));
+    CHECK(shoulder_position(machine, {hand::Side::right, 1.2}).y == doctest::Approx(1.2 - 0.85 - 0.2 - 0.1));
 }

@@ -1,5 +1,5 @@
-// An assembly of ours reduced to its first joint: run down, then tightened in full. Its last step is soon
-// due.
+// A shipped assembly reduced to its first joint, which is run down and then tightened to its full torque, so
+// that the last step comes soon.
 #pragma once
 
 #include "tests/support/folder.hpp"
@@ -9,9 +9,8 @@ namespace bolt::test {
 class OneJoint {
   public:
     explicit OneJoint(const char* assembly);
-    [[nodiscard]] std::string name() const {
-        return (folder_ / "one").string();
-    }  // as load_assembly takes it
+    // For content::load_assembly.
+    [[nodiscard]] std::string name() const { return (folder_ / "one").string(); }
     [[nodiscard]] const Folder& folder() const { return folder_; }
 
   private:

@@ -1,4 +1,4 @@
-// Somebody at a mouse who does what is due: presses, drags, watches the torque, lets go.
+// A simulated trainee at the mouse who completes the due steps: presses, drags, watches the torque, releases.
 #pragma once
 
 #include "game/session/lesson_session.hpp"
@@ -11,14 +11,14 @@ using namespace bolt;
 struct Player {
     trainer::MouseHand hand;
     bool held = false;
-    double waited = 0.0;  // s until the next press
-    double peak = 0.0;    // N·m of this step
+    double wait_left = 0.0;  // s that remain until the next press
+    double peak = 0.0;       // N·m, largest torque of this step
     std::size_t step = SIZE_MAX;
     int presses = 0;
 };
 
-// What it wishes in a frame of that length.
-trainer::Wish wish_of(Player& player, const session::Course& course, double seconds);
+// The trainee's input for a frame of `seconds`.
+trainer::MouseCommand next_command(Player& player, const session::LessonSession& session, double seconds);
 
 content::Assembly assembly(const char* name);
 

@@ -1,4 +1,4 @@
-// Keys that are bound, settings that are taken and kept, and what becomes of Escape.
+// Key bindings, the role of Escape, and loading and saving of settings.
 #include "game/trainer/preferences.hpp"
 
 #include <doctest/doctest.h>
@@ -25,15 +25,15 @@ Preferences in(const fs::path& folder) {
 }
 
 bool pauses(const KeyMap& keys) {
-    Controls controls;
-    controls.keys = keys;
-    const platform::Event escape[] = {platform::KeyEvent{Key::escape, true, false, {}}};
-    return apply(controls, escape, {}).wants(Action::pause);
+    InputState state;
+    state.keys = keys;
+    const platform::InputEvent escape[] = {platform::KeyEvent{Key::escape, true, false, {}}};
+    return apply_events(state, escape, {}).triggered(Action::pause);
 }
 
 }  // namespace
 
-TEST_CASE("every key has a name of its own, by which it is found again") {
+TEST_CASE("Key names: each key has a unique name that parses back to the key") {
     std::set<std::string> names;
     for (std::size_t i = 1; i < platform::key_count; ++i) {
         const Key key = static_cast<Key>(i);
@@ -44,33 +44,35 @@ TEST_CASE("every key has a name of its own, by which it is found again") {
     CHECK(platform::key_named("?") == Key::unknown);
 }
 
-TEST_CASE("a key that is free is taken; one that another action has is swapped, never held by two") {
+TEST_CASE("Key binding: a free key is bound; a key of another action is swapped") {
     KeyMap keys;
-    CHECK(bind(keys, Action::tool, Key::g).how == Bound::done);
+    CHECK(bind(keys, Action::tool, Key::g).outcome == BindOutcome::done);
     CHECK(keys.of(Action::tool) == Key::g);
-    const Binding swapped = bind(keys, Action::tool, Key::h);
-    CHECK(swapped.how == Bound::swapped);
-    CHECK(swapped.with == Action::hint);
+    const BindResult swapped = bind(keys, Action::tool, Key::h);
+    CHECK(swapped.outcome == BindOutcome::swapped);
+    CHECK(swapped.other == Action::hint);
     CHECK(keys.of(Action::tool) == Key::h);
     CHECK(keys.of(Action::hint) == Key::g);
-    CHECK(bind(keys, Action::tool, Key::h).how == Bound::done);  // its own
+    CHECK(bind(keys, Action::tool, Key::h).outcome == BindOutcome::done);  // no change
 }
 
-TEST_CASE("modifiers, unknown keys and Escape are refused, and Escape is never given away") {
+TEST_CASE(
+    "Key binding: modifiers, unknown keys and Escape are refused, and Escape never goes to another action") {
     const KeyMap usual;
     for (const Key key : {Key::unknown, Key::escape, Key::shift, Key::control, Key::alt, Key::super}) {
         KeyMap keys;
-        CHECK(bind(keys, Action::hint, key).how == Bound::refused);
+        CHECK(bind(keys, Action::hint, key).outcome == BindOutcome::refused);
         CHECK(keys.keys == usual.keys);
     }
     KeyMap keys;
-    CHECK(bind(keys, Action::pause, Key::t).how == Bound::refused);  // the wrench would get Escape
+    CHECK(bind(keys, Action::pause, Key::t).outcome ==
+          BindOutcome::refused);  // Escape would go to the wrench
     CHECK(keys.keys == usual.keys);
-    CHECK(bind(keys, Action::pause, Key::p).how == Bound::done);
+    CHECK(bind(keys, Action::pause, Key::p).outcome == BindOutcome::done);
     CHECK(pauses(keys));
 }
 
-TEST_CASE("whatever is pressed, each action keeps a key of its own, and Escape pauses") {
+TEST_CASE("Key binding: after any sequence each action has its own key, and Escape pauses") {
     Random random(5);
     KeyMap keys;
     for (int i = 0; i < 20000; ++i) {
@@ -78,112 +80,114 @@ TEST_CASE("whatever is pressed, each action keeps a key of its own, and Escape p
         const auto key = static_cast<Key>(random.bits() % platform::key_count);
         (void)bind(keys, action, key);
         const std::set<Key> distinct(keys.keys.begin(), keys.keys.end());
-        if (distinct.size() != action_count || distinct.count(Key::unknown) > 0) FAIL("a key is lost");
+        if (distinct.size() != action_count || distinct.count(Key::unknown) > 0)
+            FAIL("an action has no key of its own");
         for (std::size_t a = 0; a < action_count; ++a)
             if (keys.keys.at(a) == Key::escape && static_cast<Action>(a) != Action::pause)
-                FAIL("somebody else has Escape");
+                FAIL("an action other than pause has Escape");
         if (!pauses(keys)) FAIL("Escape does not pause");
         if (i % 100 == 0) CHECK(keys_of(names_of(keys)).keys == keys.keys);
     }
 }
 
-TEST_CASE("an action that a file does not name has its usual key, or none where that is taken") {
+TEST_CASE("Key map: an action missing in the file gets its default key, or none if another action has it") {
     const KeyMap keys = keys_of({{"hint", "T"}});
     CHECK(keys.of(Action::hint) == Key::t);
     CHECK(keys.of(Action::tool) == Key::unknown);
     CHECK(key_name(keys, Action::tool) == "–");
     CHECK(keys.of(Action::find_view) == Key::v);
-    Controls controls;
-    controls.keys = keys;
-    const platform::Event nameless[] = {platform::KeyEvent{Key::unknown, true, false, {}}};
-    CHECK_FALSE(apply(controls, nameless, {}).wants(Action::tool));
+    InputState state;
+    state.keys = keys;
+    const platform::InputEvent nameless[] = {platform::KeyEvent{Key::unknown, true, false, {}}};
+    CHECK_FALSE(apply_events(state, nameless, {}).triggered(Action::tool));
 }
 
-TEST_CASE("settings are a trainee's own: kept when changed, taken when the name is said again") {
+TEST_CASE("Preferences: each trainee's settings are saved when changed and loaded by name") {
     const Folder folder;
     Preferences p = in(folder / "new");
-    take(p, "Ada");
-    CHECK(keep(p));
+    load_preferences(p, "Ada");
+    CHECK(save_preferences(p));
     CHECK_FALSE(fs::exists(folder / "new"));  // nothing was changed
     p.settings.left_handed = true;
     p.settings.language = "de";
     (void)bind(p.keys, Action::tool, Key::g);
-    CHECK(keep(p));
-    CHECK(fs::exists(kept_in(p)));
-    take(p, "Bea");
+    CHECK(save_preferences(p));
+    CHECK(fs::exists(settings_file(p)));
+    load_preferences(p, "Bea");
     CHECK_FALSE(p.settings.left_handed);
     CHECK(p.keys.of(Action::tool) == Key::t);
-    take(p, "Ada");
+    load_preferences(p, "Ada");
     CHECK(p.settings.left_handed);
     CHECK(p.keys.of(Action::tool) == Key::g);
     Preferences later = in(folder / "new");
-    take(later, "Ada");
+    load_preferences(later, "Ada");
     CHECK(later.settings.language == "de");
     CHECK(later.keys.keys == p.keys.keys);
 }
 
-TEST_CASE("what was changed before a name was said becomes that of the name, unless it has its own") {
+TEST_CASE("Preferences: changes made before a name is entered go to a trainee who has no settings yet") {
     const Folder folder;
     Preferences p = in(folder.path());
-    take(p, "");
+    load_preferences(p, "");
     p.settings.captions = true;
-    CHECK(keep(p));
+    CHECK(save_preferences(p));
     CHECK(fs::is_empty(folder.path()));
-    take(p, "Ada");
+    load_preferences(p, "Ada");
     CHECK(p.settings.captions);
-    CHECK(keep(p));
+    CHECK(save_preferences(p));
     Preferences other = in(folder.path());
-    take(other, "");
+    load_preferences(other, "");
     other.settings.volume = 0.5;
-    take(other, "Ada");
+    load_preferences(other, "Ada");
     CHECK(other.settings.captions);
     CHECK(other.settings.volume == 1.0);
 }
 
-TEST_CASE("a file that cannot be read is told, and is not written over before something is changed") {
+TEST_CASE("Preferences: an unreadable file is reported and not overwritten until a setting changes") {
     const Folder folder;
     Preferences p = in(folder.path());
     const fs::path path = content::settings_path(folder.path(), "Ada");
     const std::string broken = "{\n  \"format\": \"boltwright settings 1\",\n  \"volum\": 1\n}\n";
     REQUIRE(write_file(path, broken));
-    take(p, "Ada");
+    load_preferences(p, "Ada");
     CHECK(p.trouble == Preferences::Trouble::unread);
     CHECK(p.why.find(path.string() + ":3:3: ") == 0);
-    CHECK(keep(p));
+    CHECK(save_preferences(p));
     CHECK(read_file(path, 1000, ErrorCode::failed).value() == broken);
     p.settings.captions = true;
-    CHECK(keep(p));
+    CHECK(save_preferences(p));
     CHECK(read_file(path.string() + ".unread", 1000, ErrorCode::failed).value() == broken);
-    take(p, "Ada");
+    load_preferences(p, "Ada");
     CHECK(p.trouble == Preferences::Trouble::none);
     CHECK(p.settings.captions);
 }
 
-TEST_CASE("a folder that cannot be written is told, nothing is lost, and it is tried again") {
+TEST_CASE(
+    "Preferences: an unwritable folder is reported, the settings stay in force, and saving is retried") {
     const Folder folder;
     Preferences p = in(folder / "taken");
     REQUIRE(write_file(folder / "taken", "a file"));
-    take(p, "Ada");
+    load_preferences(p, "Ada");
     p.settings.force_scale = 0.25;
-    CHECK_FALSE(keep(p));
+    CHECK_FALSE(save_preferences(p));
     CHECK(p.trouble == Preferences::Trouble::unwritten);
     CHECK(p.why.find("taken") != std::string::npos);
     CHECK(p.settings.force_scale == 0.25);
     fs::remove(folder / "taken");
-    CHECK(keep(p));
+    CHECK(save_preferences(p));
     CHECK(p.trouble == Preferences::Trouble::none);
-    take(p, "Ada");
+    load_preferences(p, "Ada");
     CHECK(p.settings.force_scale == 0.25);
 }
 
-TEST_CASE("a file that is named holds for whoever it is") {
+TEST_CASE("Preferences: a named file is used for every trainee") {
     const Folder folder;
     Preferences p = in({});
     p.file = folder / "bench.json";
-    take(p, "");
+    load_preferences(p, "");
     p.settings.volume = 0.25;
-    CHECK(keep(p));
-    take(p, "Ada");
+    CHECK(save_preferences(p));
+    load_preferences(p, "Ada");
     CHECK(p.settings.volume == 0.25);
-    CHECK(kept_in(p) == p.file);
+    CHECK(settings_file(p) == p.file);
 }

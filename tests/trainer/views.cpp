@@ -1,4 +1,4 @@
-// The view that is found shows nut, jaw and the hand that works there.
+// The view found for a nut shows the nut, the jaw and the hand at work.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -12,26 +12,25 @@
 
 using namespace bolt;
 
-TEST_CASE("a point is in the picture or not") {
+TEST_CASE("View: a point is inside or outside a part of the picture") {
     view::Orbit orbit;  // from +Z at 1 m
     const double up = std::tan(0.5 * orbit.fov);
-    CHECK(view::holds(orbit, {0.0, 0.85 * up, 0.0}, 2.0));
-    CHECK_FALSE(view::holds(orbit, {0.0, 0.9 * up, 0.0}, 2.0));
-    CHECK(view::holds(orbit, {1.7 * up, 0.0, 0.0}, 2.0));
-    CHECK_FALSE(view::holds(orbit, {1.7 * up, 0.0, 0.0}, 1.0));
-    CHECK_FALSE(view::holds(orbit, {0.0, 0.0, 1.5}, 1.0));  // behind the eye
-    CHECK(view::holds(orbit, {0.7 * up, 0.55 * up, 0.0}, 2.0, view::open_middle));
-    CHECK_FALSE(view::holds(orbit, {0.75 * up, 0.0, 0.0}, 2.0, view::open_middle));
-    CHECK_FALSE(view::holds(orbit, {0.0, 0.65 * up, 0.0}, 2.0, view::open_middle));
+    CHECK(view::is_in_picture(orbit, {0.0, 0.85 * up, 0.0}, 2.0));
+    CHECK_FALSE(view::is_in_picture(orbit, {0.0, 0.9 * up, 0.0}, 2.0));
+    CHECK(view::is_in_picture(orbit, {1.7 * up, 0.0, 0.0}, 2.0));
+    CHECK_FALSE(view::is_in_picture(orbit, {1.7 * up, 0.0, 0.0}, 1.0));
+    CHECK_FALSE(view::is_in_picture(orbit, {0.0, 0.0, 1.5}, 1.0));  // behind the eye
+    CHECK(view::is_in_picture(orbit, {0.7 * up, 0.55 * up, 0.0}, 2.0, view::open_middle));
+    CHECK_FALSE(view::is_in_picture(orbit, {0.75 * up, 0.0, 0.0}, 2.0, view::open_middle));
+    CHECK_FALSE(view::is_in_picture(orbit, {0.0, 0.65 * up, 0.0}, 2.0, view::open_middle));
 }
 
-TEST_CASE(
-    "the view of every nut of the reducer has the wrist in it, and loses nothing of what is seen for it") {
+TEST_CASE("View: for every nut of the reducer it contains the wrist and still shows nut and jaw well") {
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
-    session::CourseOptions options;
+    session::LessonOptions options;
     options.obstacles = session::Obstacles::required;
-    auto begun = session::Course::begin(trainer_test::assembly("zq350"), options, file);
+    auto begun = session::LessonSession::begin(trainer_test::assembly("zq350"), options, file);
     REQUIRE(begun);
     const servo::Setup& setup = (*begun)->setup();
     const servo::State& state = (*begun)->state();
@@ -39,30 +38,30 @@ TEST_CASE(
     const scene::Postures postures =
         scene::make_postures(&state.tool_contact->wrench, setup.wrench.handle_length);
     const Vec3 shoulder(0.6, 0.6, 0.7);
-    motion::Sight sight;
+    motion::VisibilityModel sight;
     int outside_before = 0;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         const Vec3 nut = servo::nut_centre(setup.nuts[i], state.joints[i].nut.angle);
-        view::ViewOf of{setup, &*state.tool_contact, i, nut,
-                        trainer::wrench_on(rest, setup, state, i, false)};
+        view::ViewTarget of{setup, &*state.tool_contact, i, nut,
+                            trainer::wrench_pose_on_nut(rest, setup, state, i, false)};
         const std::size_t grip = scene::natural_grip(postures, *of.wrench, Vec3(0, 1, 0), shoulder);
         const Vec3 wrist = *of.wrench * postures.on_handle.at(grip).position[hand::wrist];
         view::Orbit from;
         from.pitch = to_radians(30.0);
         const view::Orbit without = view::find_view(of, sight, from);
-        if (!view::holds(without, wrist, of.aspect)) ++outside_before;
+        if (!view::is_in_picture(without, wrist, of.aspect)) ++outside_before;
         of.wrist = wrist;
         const view::Orbit found = view::find_view(of, sight, from);
-        const double seen = view::seen_from(of, sight, Vec3(view::viewpoint_of(found).eye));
+        const double seen = view::visibility_from(of, sight, Vec3(view::viewpoint_of(found).eye));
         MESSAGE((*begun)->assembly().joints[i].design.id << " seen " << seen << " from " << found.distance
                                                          << " m");
-        CHECK(view::holds(found, nut, of.aspect, view::open_middle));
-        CHECK(view::holds(found, wrist, of.aspect));
-        CHECK(seen >= view::well_seen);
+        CHECK(view::is_in_picture(found, nut, of.aspect, view::open_middle));
+        CHECK(view::is_in_picture(found, wrist, of.aspect));
+        CHECK(seen >= view::sufficient_visibility);
         CHECK(found.distance < 0.8);
     }
-    CHECK(outside_before > 0);  // or this test shows nothing
-    MESSAGE(outside_before << " of 12 wrists were outside without it");
+    CHECK(outside_before > 0);  // otherwise this test proves nothing
+    MESSAGE(outside_before << " of 12 wrists were outside the view without this");
     begun->reset();
     std::filesystem::remove(file);
 }

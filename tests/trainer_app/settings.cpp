@@ -1,4 +1,4 @@
-// A trainee's settings at the window: changed by pointing and pressing alone, kept, and what they do.
+// The settings screen: changes by mouse and keyboard, saving, and the effect on a lesson.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "engine/base/file.hpp"
 #include "game/scene/workplace.hpp"
-#include "tests/trainer_app/desk.hpp"
+#include "tests/trainer_app/headless_trainer.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
@@ -29,42 +29,44 @@ AppOptions options(bool menu, const std::string& trainee = "Ada") {
     return o;
 }
 
-class Desk : public test::Desk {
+class SettingsTrainer : public test::HeadlessTrainer {
   public:
-    explicit Desk(AppOptions options) : test::Desk(std::move(options), {{480, 300}, 0.4F, 0.05}) {
+    explicit SettingsTrainer(AppOptions options)
+        : test::HeadlessTrainer(std::move(options), {{480, 300}, 0.4F, 0.05}) {
         wait(0.1);
     }
-    [[nodiscard]] const content::Settings& settings() const { return app().preferences().settings; }
+    [[nodiscard]] const content::TraineeSettings& settings() const { return app().preferences().settings; }
     [[nodiscard]] const KeyMap& keys() const { return app().preferences().keys; }
 };
 
-struct Fresh {
-    Fresh() { fs::remove_all(settings_folder); }
+struct EmptySettingsFolder {
+    EmptySettingsFolder() { fs::remove_all(settings_folder); }
 };
 
 }  // namespace
 
-TEST_CASE("all settings are changed by pointing, kept under the trainee's name, and there the next time") {
-    const Fresh fresh;
+TEST_CASE(
+    "Settings: all of them can be changed by mouse, are saved by trainee, and are loaded the next time") {
+    const EmptySettingsFolder empty_folder;
     {
-        Desk desk(options(true));
-        desk.push("menu.settings");
-        REQUIRE(desk.app().shows_settings());
-        desk.push("menu.captions");
-        desk.push("menu.left_handed");
-        desk.push("menu.seated");
-        desk.push("menu.palette.distinct", -0.8F);
-        desk.push("menu.sound", -0.8F);
-        desk.push("menu.force_scale", -0.8F);
-        desk.push("action.tool");
-        desk.key(Key::g);
-        desk.push("menu.back");
-        CHECK_FALSE(desk.app().shows_settings());
-        CHECK(desk.app().shows() == Shows::menu);
-        CHECK(desk.told().empty());
+        SettingsTrainer driver(options(true));
+        driver.press_button("menu.settings");
+        REQUIRE(driver.app().shows_settings());
+        driver.press_button("menu.captions");
+        driver.press_button("menu.left_handed");
+        driver.press_button("menu.seated");
+        driver.press_button("menu.palette.distinct", -0.8F);
+        driver.press_button("menu.sound", -0.8F);
+        driver.press_button("menu.force_scale", -0.8F);
+        driver.press_button("action.tool");
+        driver.key(Key::g);
+        driver.press_button("menu.back");
+        CHECK_FALSE(driver.app().shows_settings());
+        CHECK(driver.app().screen() == ShownScreen::menu);
+        CHECK(driver.log().empty());
     }
-    const Desk later(options(true));
-    const content::Settings& s = later.settings();
+    const SettingsTrainer later(options(true));
+    const content::TraineeSettings& s = later.settings();
     CHECK(s.trainee == "Ada");
     CHECK(s.captions);
     CHECK(s.left_handed);
@@ -74,96 +76,97 @@ TEST_CASE("all settings are changed by pointing, kept under the trainee's name, 
     CHECK(s.force_scale < 0.4);
     CHECK(s.force_scale >= content::least_force_scale);
     CHECK(later.keys().of(Action::tool) == Key::g);
-    const Desk another(options(true, "Bea"));
+    const SettingsTrainer another(options(true, "Bea"));
     CHECK_FALSE(another.settings().left_handed);
 }
 
-TEST_CASE("Menu: the joint law that is chosen is kept for the trainee and is in force in the lesson") {
-    const Fresh fresh;
+TEST_CASE("Menu: the chosen joint law is saved for the trainee and is in force in the lesson") {
+    const EmptySettingsFolder empty_folder;
     {
-        Desk desk(options(true));
-        CHECK(desk.settings().law.empty());
-        desk.push("menu.law.published");
-        CHECK(desk.settings().law == "published");
-        desk.push("menu.start");
-        desk.frame();
-        REQUIRE(desk.app().shows() == Shows::lesson);
-        CHECK(desk.playing().course->assembly().law == joint::Law::published);
-        const auto reader = session::Reader::open(desk.folder() / "session.boltwright");
+        SettingsTrainer driver(options(true));
+        CHECK(driver.settings().law.empty());
+        driver.press_button("menu.law.published");
+        CHECK(driver.settings().law == "published");
+        driver.press_button("menu.start");
+        driver.frame();
+        REQUIRE(driver.app().screen() == ShownScreen::lesson);
+        CHECK(driver.lesson().session->assembly().law == joint::Law::published);
+        const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
         REQUIRE(reader);
         CHECK(reader->header().law == "published");
     }
-    Desk later(options(true));
+    SettingsTrainer later(options(true));
     CHECK(later.settings().law == "published");
-    later.push("menu.law.mechanistic");
+    later.press_button("menu.law.mechanistic");
     CHECK(later.settings().law == "mechanistic");
     AppOptions by_command_line = options(false);
-    by_command_line.law = joint::Law::published;
-    Desk asked(std::move(by_command_line));
-    asked.frame();
-    REQUIRE(asked.app().shows() == Shows::lesson);
-    CHECK(asked.playing().course->assembly().law == joint::Law::published);
+    by_command_line.choice.law = joint::Law::published;
+    SettingsTrainer overridden(std::move(by_command_line));
+    overridden.frame();
+    REQUIRE(overridden.app().screen() == ShownScreen::lesson);
+    CHECK(overridden.lesson().session->assembly().law == joint::Law::published);
 }
 
-TEST_CASE("a key that is taken is swapped, Escape leaves question, screen and pause one after the other") {
-    const Fresh fresh;
-    Desk desk(options(false));
-    REQUIRE(desk.app().shows() == Shows::lesson);
-    desk.key(Key::escape);
-    REQUIRE(desk.playing().pace.paused);
-    desk.push("menu.settings");
-    desk.push("action.tool");
-    desk.key(Key::h);
-    CHECK(desk.keys().of(Action::tool) == Key::h);
-    CHECK(desk.keys().of(Action::hint) == Key::t);
-    desk.push("action.tool");
-    desk.key(Key::escape);  // the question
-    CHECK(desk.app().shows_settings());
-    CHECK(desk.keys().of(Action::tool) == Key::h);
-    desk.push("action.pause");
-    desk.key(Key::shift);  // refused: it still waits
-    desk.key(Key::p);
-    CHECK(desk.keys().of(Action::pause) == Key::p);
-    desk.key(Key::escape);  // the screen
-    CHECK_FALSE(desk.app().shows_settings());
-    CHECK(desk.playing().pace.paused);
-    desk.key(Key::escape);  // the pause
-    CHECK_FALSE(desk.playing().pace.paused);
-    desk.key(Key::p);
-    CHECK(desk.playing().pace.paused);
-    desk.key(Key::escape);
-    CHECK_FALSE(desk.playing().pace.paused);
+TEST_CASE(
+    "Settings: binding a used key swaps the two, and Escape leaves key prompt, screen and pause one by one") {
+    const EmptySettingsFolder empty_folder;
+    SettingsTrainer driver(options(false));
+    REQUIRE(driver.app().screen() == ShownScreen::lesson);
+    driver.key(Key::escape);
+    REQUIRE(driver.lesson().clock.paused);
+    driver.press_button("menu.settings");
+    driver.press_button("action.tool");
+    driver.key(Key::h);
+    CHECK(driver.keys().of(Action::tool) == Key::h);
+    CHECK(driver.keys().of(Action::hint) == Key::t);
+    driver.press_button("action.tool");
+    driver.key(Key::escape);  // leaves the key prompt
+    CHECK(driver.app().shows_settings());
+    CHECK(driver.keys().of(Action::tool) == Key::h);
+    driver.press_button("action.pause");
+    driver.key(Key::shift);  // refused: the prompt stays
+    driver.key(Key::p);
+    CHECK(driver.keys().of(Action::pause) == Key::p);
+    driver.key(Key::escape);  // leaves the screen
+    CHECK_FALSE(driver.app().shows_settings());
+    CHECK(driver.lesson().clock.paused);
+    driver.key(Key::escape);  // leaves the pause
+    CHECK_FALSE(driver.lesson().clock.paused);
+    driver.key(Key::p);
+    CHECK(driver.lesson().clock.paused);
+    driver.key(Key::escape);
+    CHECK_FALSE(driver.lesson().clock.paused);
     // The new key takes the wrench, the old one does not.
-    desk.key(Key::t);
-    CHECK(hand_of(desk.playing()).doing == Doing::resting);
-    desk.key(Key::h);
-    CHECK(hand_of(desk.playing()).doing == Doing::reaching);
+    driver.key(Key::t);
+    CHECK(hand_of(driver.lesson()).action == HandAction::resting);
+    driver.key(Key::h);
+    CHECK(hand_of(driver.lesson()).action == HandAction::reaching);
 }
 
-TEST_CASE("while a key is waited for, closing the window closes it, and no key starts or presses anything") {
-    const Fresh fresh;
-    Desk desk(options(true));
-    desk.push("menu.settings");
-    desk.key(Key::enter);  // starts no lesson behind the screen
-    CHECK(desk.app().shows() == Shows::menu);
-    CHECK(desk.app().shows_settings());
-    desk.push("action.hint");
-    desk.key(Key::enter);
-    CHECK(desk.keys().of(Action::hint) == Key::enter);
-    CHECK(desk.app().shows() == Shows::menu);
-    desk.key(Key::z);  // it has not pressed the button again: nothing is asked for any more
-    CHECK(desk.keys().of(Action::hint) == Key::enter);
-    desk.push("settings.usual_keys");
-    CHECK(desk.keys().keys == KeyMap{}.keys);
-    desk.push("action.hint");
-    desk.frame({platform::CloseEvent{}});
-    CHECK(desk.app().closed());
+TEST_CASE("Settings: during a key prompt keys trigger nothing else, and the window can still be closed") {
+    const EmptySettingsFolder empty_folder;
+    SettingsTrainer driver(options(true));
+    driver.press_button("menu.settings");
+    driver.key(Key::enter);  // starts no lesson behind the screen
+    CHECK(driver.app().screen() == ShownScreen::menu);
+    CHECK(driver.app().shows_settings());
+    driver.press_button("action.hint");
+    driver.key(Key::enter);
+    CHECK(driver.keys().of(Action::hint) == Key::enter);
+    CHECK(driver.app().screen() == ShownScreen::menu);
+    driver.key(Key::z);  // Enter has not pressed the button again: no prompt is open
+    CHECK(driver.keys().of(Action::hint) == Key::enter);
+    driver.press_button("settings.usual_keys");
+    CHECK(driver.keys().keys == KeyMap{}.keys);
+    driver.press_button("action.hint");
+    driver.frame({platform::CloseEvent{}});
+    CHECK(driver.app().closed());
 }
 
-TEST_CASE("left-handed: the wrench lies on the other side, and the force is the share that was asked for") {
-    const Fresh fresh;
+TEST_CASE("Settings: left hand, driver height, captions and force scale apply to the next lesson") {
+    const EmptySettingsFolder empty_folder;
     const auto lesson = [](bool left, double scale) {
-        content::Settings s;
+        content::TraineeSettings s;
         s.trainee = "Ada";
         s.left_handed = left;
         s.force_scale = scale;
@@ -173,12 +176,12 @@ TEST_CASE("left-handed: the wrench lies on the other side, and the force is the 
                                        settings_vocabulary({"en"})));
         AppOptions o = options(false);
         o.out /= left ? "left" : "right";
-        return std::make_unique<Desk>(std::move(o));
+        return std::make_unique<SettingsTrainer>(std::move(o));
     };
     const auto right = lesson(false, 1.0), left = lesson(true, 0.25);
-    const ActiveLesson &r = *right->app().playing(), &l = *left->app().playing();
-    const double middle = 0.5 * static_cast<double>(r.place.machine.low.x + r.place.machine.high.x);
-    const Vec3 grip(r.course->setup().wrench.handle_length, 0.0, 0.0);
+    const ActiveLesson &r = *right->app().lesson(), &l = *left->app().lesson();
+    const double middle = 0.5 * static_cast<double>(r.workplace.machine.low.x + r.workplace.machine.high.x);
+    const Vec3 grip(r.session->setup().wrench.handle_length, 0.0, 0.0);
     const double to_right = (hand_of(r).rest * grip).x - middle,
                  to_left = (hand_of(l).rest * grip).x - middle;
     CHECK(to_right > 0.1);
@@ -186,21 +189,21 @@ TEST_CASE("left-handed: the wrench lies on the other side, and the force is the 
     CHECK(l.shoulder.x - middle == doctest::Approx(middle - r.shoulder.x));
     CHECK(l.shoulder.y < r.shoulder.y);
     CHECK(l.view.camera.goal.pitch <= r.view.camera.goal.pitch);
-    CHECK(l.course->setup().limits.force == 0.25 * r.course->setup().limits.force);
+    CHECK(l.session->setup().limits.force == 0.25 * r.session->setup().limits.force);
     CHECK(l.sound.captions.has_value());
     CHECK_FALSE(r.sound.captions.has_value());
 }
 
-TEST_CASE("what cannot be read is told with its place, and a lesson can be played all the same") {
-    const Fresh fresh;
+TEST_CASE("Settings: an unreadable file is reported with its position, and lessons remain possible") {
+    const EmptySettingsFolder empty_folder;
     fs::create_directories(settings_folder);
     const fs::path path = content::settings_path(settings_folder, "Ada");
     REQUIRE(write_file(path, "{\n  \"format\": 7\n}\n"));
-    Desk desk(options(true));
-    CHECK(desk.app().preferences().trouble == Preferences::Trouble::unread);
-    REQUIRE(desk.told().size() == 1);
-    CHECK(desk.told().front().find(path.string() + ":2:13: ") == 0);
-    desk.push("menu.start");
-    CHECK(desk.app().shows() == Shows::lesson);
+    SettingsTrainer driver(options(true));
+    CHECK(driver.app().preferences().trouble == Preferences::Trouble::unread);
+    REQUIRE(driver.log().size() == 1);
+    CHECK(driver.log().front().find(path.string() + ":2:13: ") == 0);
+    driver.press_button("menu.start");
+    CHECK(driver.app().screen() == ShownScreen::lesson);
     CHECK(read_file(path, 100, ErrorCode::failed).value() == "{\n  \"format\": 7\n}\n");
 }

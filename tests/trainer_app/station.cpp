@@ -1,13 +1,13 @@
-// The program at a station: what it takes from devices, says of them, and leaves when they fail.
+// The trainer at a station: input from devices, messages about them, and the session after they fail.
 #include <doctest/doctest.h>
 
 #include "game/session/session_file.hpp"
 #include "tests/station/virtual_bench.hpp"
-#include "tests/trainer_app/desk.hpp"
+#include "tests/trainer_app/headless_trainer.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
-using test::Desk;
+using test::HeadlessTrainer;
 
 namespace {
 
@@ -19,14 +19,15 @@ struct AtBench {
 
     AppOptions options(bool menu) {
         AppOptions o = test::options("cover-m8", menu);
-        o.choice.with.keyboard = true;
-        o.station = [this](const content::Assembly& assembly, const session::CourseOptions& course,
-                           const Equipment&,
-                           const std::string&) -> Result<std::unique_ptr<station_setup::Bench>> {
+        o.choice.equipment.keyboard = true;
+        o.start_station = [this](
+                              const content::Assembly& assembly, const session::LessonOptions& lesson_options,
+                              const Equipment&,
+                              const std::string&) -> Result<std::unique_ptr<station_setup::LessonStation>> {
             if (refuses) return fail(*refuses);
-            auto prepared = session::prepare(assembly, course);
+            auto prepared = session::prepare(assembly, lesson_options);
             if (!prepared) return fail(prepared.error());
-            auto made = std::make_unique<test::VirtualBench>(std::move(*prepared), course);
+            auto made = std::make_unique<test::VirtualBench>(std::move(*prepared), lesson_options);
             bench = made.get();
             bench->hand_ = gloved;
 
@@ -34,106 +35,109 @@ struct AtBench {
         };
         return o;
     }
-    // A picture, and the time until the next.
-    void frame(Desk& desk, const std::vector<platform::Event>& events = {}) {
+    // Lets time pass until the next frame, then records it.
+    void frame(HeadlessTrainer& driver, const std::vector<platform::InputEvent>& events = {}) {
         bench->pass(0.1);
-        desk.frame(events);
+        driver.frame(events);
     }
 };
 
-platform::Event down(platform::Key key) { return platform::KeyEvent{key, true, false, {}}; }
-platform::Event up(platform::Key key) { return platform::KeyEvent{key, false, false, {}}; }
+platform::InputEvent down(platform::Key key) { return platform::KeyEvent{key, true, false, {}}; }
+platform::InputEvent up(platform::Key key) { return platform::KeyEvent{key, false, false, {}}; }
 
 }  // namespace
 
-TEST_CASE(
-    "a station's lesson: keys move the tool, a pause stops it, its end is kept with how it was played") {
+TEST_CASE("Trainer at a station: keys move the tool, a pause stops it, and the session records the servo") {
     AtBench at;
-    Desk desk(at.options(true));
-    desk.frame();
-    desk.push("menu.start");
+    HeadlessTrainer driver(at.options(true));
+    driver.frame();
+    driver.press_button("menu.start");
     REQUIRE(at.bench != nullptr);
-    for (int i = 0; i < 5; ++i) at.frame(desk);
-    REQUIRE(desk.app().shows() == Shows::lesson);
-    REQUIRE(desk.playing().station);
-    CHECK(desk.playing().course->time() > 0.3);
-    CHECK(desk.playing().coaching.hints.shown.has_value());
-    const Vec3 home = desk.playing().station->home.position;
-    CHECK(glm::distance(hand_of(desk.playing()).pose.position, home) < 0.05);
-    at.frame(desk, {down(platform::Key::e)});
-    for (int i = 0; i < 5; ++i) at.frame(desk);
-    at.frame(desk, {up(platform::Key::e)});
-    CHECK(hand_of(desk.playing()).pose.position.y > home.y + 0.05);
-    at.frame(desk, {down(platform::Key::escape)});
-    at.frame(desk, {up(platform::Key::escape)});
-    const double paused = desk.playing().course->time();
-    for (int i = 0; i < 3; ++i) at.frame(desk);
-    CHECK(desk.playing().course->time() == paused);
-    desk.push("menu.end");
-    desk.frame();
-    REQUIRE(desk.played());
-    const auto reader = session::Reader::open(desk.folder() / "session.boltwright");
+    for (int i = 0; i < 5; ++i) at.frame(driver);
+    REQUIRE(driver.app().screen() == ShownScreen::lesson);
+    REQUIRE(driver.lesson().station);
+    CHECK(driver.lesson().session->time() > 0.3);
+    CHECK(driver.lesson().coaching.hints.shown.has_value());
+    const Vec3 home = driver.lesson().station->home.position;
+    CHECK(glm::distance(hand_of(driver.lesson()).pose.position, home) < 0.05);
+    at.frame(driver, {down(platform::Key::e)});
+    for (int i = 0; i < 5; ++i) at.frame(driver);
+    at.frame(driver, {up(platform::Key::e)});
+    CHECK(hand_of(driver.lesson()).pose.position.y > home.y + 0.05);
+    at.frame(driver, {down(platform::Key::escape)});
+    at.frame(driver, {up(platform::Key::escape)});
+    const double paused = driver.lesson().session->time();
+    for (int i = 0; i < 3; ++i) at.frame(driver);
+    CHECK(driver.lesson().session->time() == paused);
+    driver.press_button("menu.end");
+    driver.frame();
+    REQUIRE(driver.outcome());
+    const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());
     CHECK(reader->header().servo == "1000 Hz");
     CHECK(reader->tick_count() == static_cast<std::uint64_t>(std::lround(paused * 1000.0)));
 }
 
-TEST_CASE("what is pressed at a station goes out with that frame, and the next picture shows it") {
+TEST_CASE("Trainer at a station: a key is sent with its frame, and the next picture shows the effect") {
     AtBench at;
-    Desk desk(at.options(false));
-    desk.frame();
-    for (int i = 0; i < 3; ++i) at.frame(desk);
-    const Vec3 before = hand_of(desk.playing()).pose.position;
-    desk.frame({down(platform::Key::e)});
+    HeadlessTrainer driver(at.options(false));
+    driver.frame();
+    for (int i = 0; i < 3; ++i) at.frame(driver);
+    const Vec3 before = hand_of(driver.lesson()).pose.position;
+    driver.frame({down(platform::Key::e)});
     at.bench->pass(0.02);
-    desk.frame();
-    CHECK(hand_of(desk.playing()).pose.position.y > before.y + 1e-3);
+    driver.frame();
+    CHECK(hand_of(driver.lesson()).pose.position.y > before.y + 1e-3);
 }
 
-TEST_CASE("a station that does not come up is told of in the menu, and the mouse is still there") {
+TEST_CASE("Trainer at a station: a station that fails to start is reported in the menu") {
     AtBench at;
     at.refuses.emplace();
     at.refuses->code = ErrorCode::no_device;
     at.refuses->what = "the arm is not plugged in";
-    Desk desk(at.options(true));
-    desk.frame();
-    desk.push("menu.start");
-    desk.frame();
-    CHECK(desk.app().shows() == Shows::menu);
-    REQUIRE(desk.app().trouble());
-    CHECK(desk.app().trouble()->what == "the arm is not plugged in");
+    HeadlessTrainer driver(at.options(true));
+    driver.frame();
+    driver.press_button("menu.start");
+    driver.frame();
+    CHECK(driver.app().screen() == ShownScreen::menu);
+    REQUIRE(driver.app().start_error());
+    CHECK(driver.app().start_error()->what == "the arm is not plugged in");
 }
 
-TEST_CASE("ticks that were lost end the lesson in words, and the session until then is whole") {
+TEST_CASE(
+    "Trainer at a station: dropped ticks end the lesson with an error, and the session up to there is "
+    "complete") {
     AtBench at;
-    Desk desk(at.options(false));
-    desk.frame();
-    for (int i = 0; i < 5; ++i) at.frame(desk);
+    HeadlessTrainer driver(at.options(false));
+    driver.frame();
+    for (int i = 0; i < 5; ++i) at.frame(driver);
     at.bench->lost_ = 3;
     at.bench->pass(0.1);
-    const Status status = desk.try_frame();
+    const Status status = driver.try_frame();
     REQUIRE_FALSE(status);
     CHECK(status.error().message().find("3 ticks") != std::string::npos);
-    REQUIRE(desk.app().end_lesson());
-    const auto reader = session::Reader::open(desk.folder() / "session.boltwright");
+    REQUIRE(driver.app().end_lesson());
+    const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());
     CHECK(reader->tick_count() >= 500);
 }
 
-TEST_CASE("a glove of the left hand: the wrench lies for that one, and the session says so") {
+TEST_CASE(
+    "Trainer at a station: a left glove puts the wrench on the left, and the session records the hand") {
     const auto rests_at = [](std::optional<station::DisplayedHand> gloved) {
         AtBench at;
         at.gloved = gloved;
-        Desk desk(at.options(false));
-        desk.frame();
-        const ActiveLesson& p = desk.playing();
-        const double middle = 0.5 * static_cast<double>(p.place.machine.low.x + p.place.machine.high.x);
-        const Vec3 grip(p.course->setup().wrench.handle_length, 0.0, 0.0);
+        HeadlessTrainer driver(at.options(false));
+        driver.frame();
+        const ActiveLesson& p = driver.lesson();
+        const double middle =
+            0.5 * static_cast<double>(p.workplace.machine.low.x + p.workplace.machine.high.x);
+        const Vec3 grip(p.session->setup().wrench.handle_length, 0.0, 0.0);
         const double aside = (p.station->rest * grip).x - middle;
-        REQUIRE(desk.app().end_lesson());
-        const auto reader = session::Reader::open(desk.folder() / "session.boltwright");
+        REQUIRE(driver.app().end_lesson());
+        const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
         REQUIRE(reader);
         CHECK(reader->header().hand == (gloved ? "left" : "right"));
         return aside;

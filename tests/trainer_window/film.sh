@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A film of a whole lesson, as somebody plays it in the window: film.sh BUILD FILM.mkv ASSEMBLY [MODE [TOOL]].
-# BOLT_FILM_OVERDO=1: one nut is pulled too far. The session stays in BUILD/trainer/lesson.
+# Records a film of a whole lesson played in the window: film.sh BUILD FILM.mkv ASSEMBLY [MODE [TOOL]].
+# BOLT_FILM_OVERDO=1: one nut is overtightened first. The session stays in BUILD/trainer/lesson.
 set -euo pipefail
 if [[ $# -lt 3 ]]; then
     sed -n 's/^# //p' "$0" >&2
@@ -14,7 +14,7 @@ record() {
     ffmpeg -loglevel error -y -f x11grab -framerate 10 -video_size "$BOLT_FILM_SIZE" -i "$DISPLAY" \
         -c:v libx264 -preset veryfast -pix_fmt yuv420p "$film" &
     local camera=$! rc=0
-    "$build/bin/test_trainer_window" -tc='a whole lesson*' || rc=$?
+    "$build/bin/test_trainer_window" -tc='Window: a whole lesson*' || rc=$?
     kill -INT $camera
     wait $camera || true
     return $rc

@@ -1,4 +1,4 @@
-// The trainer in a window of a test's screen, validated.
+// The trainer in a window on the test screen, with Vulkan validation.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ T need(Result<T> result) {
     return std::move(*result);
 }
 
-// What the program says, for another thread to wait for.
+// The program's log, which another thread can poll.
 class Log {
   public:
     void add(const std::string& line) {
@@ -47,7 +47,7 @@ struct Program {
     platform::Window window;
     std::optional<gpu::Instance> instance;
     std::optional<trainer::App> app;
-    std::optional<session::Played> played;
+    std::optional<session::LessonOutcome> played;
 
     Program(trainer::AppOptions options, platform::Size size)
         : out(options.out),
@@ -58,9 +58,9 @@ struct Program {
         validated.extensions = extensions;
         instance.emplace(need(gpu::Instance::create(validated)));
         std::filesystem::create_directories(out);
-        options.tell = [this](const std::string& line) { log.add(line); };
-        options.ended = [this](const content::Assembly&, const session::CourseOptions&,
-                               const session::Played& how) {
+        options.log = [this](const std::string& line) { log.add(line); };
+        options.on_end = [this](const content::Assembly&, const session::LessonOptions&,
+                                const session::LessonOutcome& how) {
             played = how;
             return Status{};
         };
@@ -69,7 +69,7 @@ struct Program {
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;
     ~Program() {
-        app->drop();
+        app->release();
         for (const std::string& message : instance->log().messages) FAIL_CHECK(message);
     }
 };

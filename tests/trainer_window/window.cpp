@@ -1,4 +1,4 @@
-// The trainer in a real window, with somebody at its keys and mouse.
+// The trainer in a real window, used by keyboard and mouse.
 #include <thread>
 
 #include "game/session/session_file.hpp"
@@ -15,21 +15,19 @@ constexpr std::uint32_t width = 320, height = 200;
 
 }  // namespace
 
-TEST_CASE(
-    "somebody who has read nothing: Enter begins, a press on the wrench takes it, closing keeps the "
-    "session") {
+TEST_CASE("Window: Enter starts a lesson, the tool key takes the wrench, closing keeps the session") {
     trainer::AppOptions options;
     options.choice.assembly = "cover-m8";
     options.out = std::filesystem::path(BOLT_TRAINER_OUT) / "window";
     test::Program program(std::move(options), {width, height});
     bool begun = false, taken = false, large = false;
-    std::thread somebody([&] {
+    std::thread user_thread([&] {
         test::WindowUser hand("boltwright");
         begun = test::eventually([&] {
             hand.key("Return");
             return program.log.has("lesson begun");
         });
-        // The key that is named in the help; pressed again if a slow frame has swallowed it.
+        // Press the key again if a slow frame has dropped it.
         taken = test::eventually([&] {
             if (!program.log.has("in the hand")) hand.key("t");
             std::this_thread::sleep_for(std::chrono::seconds(4));
@@ -41,12 +39,12 @@ TEST_CASE(
         hand.close();
     });
     const Status run = trainer::run_in_window(*program.app, program.window, *program.instance);
-    somebody.join();
+    user_thread.join();
     CHECK(begun);
     CHECK(taken);
     CHECK(large);
     CHECK_MESSAGE(run.has_value(), (run ? "" : run.error().message()));
-    const auto reader = session::Reader::open(program.out / "session.boltwright");
+    const auto reader = session::SessionReader::open(program.out / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());
     CHECK(reader->tick_count() > 500);

@@ -19,7 +19,7 @@ constexpr VkExtent2D extent{480, 160};
 struct Screen {
     test::Studio studio;
     std::unique_ptr<ui::Ui> ui = studio.gpu().need(ui::Ui::create(studio.gpu().device()));
-    ui::Input input;
+    ui::UiInput input;
     Scene scene;
 
     Screen() {
@@ -73,9 +73,9 @@ double astray(const std::vector<double>& made, const text::Fonts& fonts, const s
         std::vector<double> values(made.size());
         double ink = 0.0;
         for (const text::PlacedGlyph& placed : layout.glyphs) {
-            const text::Face& face = fonts.faces[static_cast<std::size_t>(placed.id.face)];
+            const text::FontFace& face = fonts.faces[static_cast<std::size_t>(placed.id.face)];
             const float x = placed.at.x * em_px;
-            const text::Face::Raster raster = face.raster(placed.id.glyph, em_px, x - std::floor(x));
+            const text::FontFace::Raster raster = face.raster(placed.id.glyph, em_px, x - std::floor(x));
             for (int row = 0; row < raster.height; ++row)
                 for (int column = 0; column < raster.width; ++column) {
                     const int px = 40 + static_cast<int>(std::floor(x)) + raster.left + column,
@@ -129,7 +129,7 @@ TEST_CASE("Text: Chinese characters are available after need()") {
     screen.input.scale = 2.0F;
     const std::string word = "预紧力";
     const Picture unknown = screen.written(word);
-    screen.ui->need(word);
+    screen.ui->add_characters(word);
     const Picture known = screen.written(word);
     CHECK(test::largest_difference(unknown, known) > 100);
     CHECK(astray(coverage(known), *fonts, word, 28.0F) < 0.1);
@@ -198,7 +198,7 @@ TEST_CASE("Input: buttons are pressed, also between two frames, and text is type
         ImGui::End();
         over = screen.ui->wants_pointer();
     };
-    screen.input.pointing = true;
+    screen.input.pointer_inside = true;
     screen.input.pointer = {60, 40};
     (void)screen.show(panel);
     (void)screen.show(panel);
@@ -222,16 +222,16 @@ TEST_CASE("Input: buttons are pressed, also between two frames, and text is type
     screen.input.text = "Größe 预x";
     (void)screen.show(panel);
     screen.input.text.clear();
-    screen.input.key(ui::Key::backspace) = true;
+    screen.input.key(ui::UiKey::backspace) = true;
     (void)screen.show(panel);
-    screen.input.key(ui::Key::backspace) = false;
+    screen.input.key(ui::UiKey::backspace) = false;
     (void)screen.show(panel);
     CHECK(std::string(typed) == "Größe 预");
     screen.input.pointer = {400, 140};
     (void)screen.show(panel);
     (void)screen.show(panel);
     CHECK_FALSE(over);
-    screen.input.pointing = false;
+    screen.input.pointer_inside = false;
     (void)screen.show(panel);
     CHECK_FALSE(over);
     CHECK(clicks == 2);

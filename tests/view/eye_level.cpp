@@ -8,7 +8,7 @@
 using namespace bolt;
 using namespace bolt::view;
 
-TEST_CASE("who sits sees from no higher than the eyes, from the same side and as far away") {
+TEST_CASE("Camera: limit_eye_height lowers the eye and keeps yaw, distance and target") {
     Random random(3);
     int lower = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -18,7 +18,7 @@ TEST_CASE("who sits sees from no higher than the eyes, from the same side and as
         orbit.pitch = random.uniform(0.1, 1.5);
         orbit.distance = random.uniform(0.2, 3.0);
         const double eye = random.uniform(-1.0, 3.0);
-        const Orbit seated = from_at_most(orbit, eye);
+        const Orbit seated = limit_eye_height(orbit, eye);
         const double before = orbit.target.y + orbit.distance * std::sin(orbit.pitch);
         const double now = viewpoint_of(seated).eye.y;
         const double least = orbit.target.y + orbit.distance * std::sin(to_radians(5.0));

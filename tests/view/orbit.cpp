@@ -24,15 +24,15 @@ Orbit some(Random& random) {
     return o;
 }
 
-// Where a point is on a picture 1.6 times as wide as high: in heights from the middle, y up.
-glm::dvec2 seen(const Orbit& o, const Vec3& point) {
+// Projects a point onto a picture of aspect 1.6; in picture heights from the middle, y up.
+glm::dvec2 projected(const Orbit& o, const Vec3& point) {
     const glm::vec4 clip = eye_of(o, box, 1.6F).clip_from_world * glm::vec4(glm::vec3(point), 1.0F);
     REQUIRE(clip.w > 0.0F);
     return {0.5 * 1.6 * static_cast<double>(clip.x / clip.w), -0.5 * static_cast<double>(clip.y / clip.w)};
 }
 
-// The point at the target's distance that is seen there.
-Vec3 under(const Orbit& o, const glm::dvec2& at) {
+// The point at the target's distance that projects to `at`.
+Vec3 unprojected(const Orbit& o, const glm::dvec2& at) {
     const Vec3 eye(viewpoint_of(o).eye);
     const Vec3 back = glm::normalize(eye - o.target);
     const Vec3 right(std::cos(o.yaw), 0.0, -std::sin(o.yaw)), up = glm::cross(back, right);
@@ -41,7 +41,7 @@ Vec3 under(const Orbit& o, const glm::dvec2& at) {
 
 }  // namespace
 
-TEST_CASE("a viewpoint becomes an orbit and a viewpoint again") {
+TEST_CASE("Camera: viewpoints convert to orbits and back") {
     Random random(3);
     for (int i = 0; i < 200; ++i) {
         const Orbit o = some(random);
@@ -53,7 +53,7 @@ TEST_CASE("a viewpoint becomes an orbit and a viewpoint again") {
     }
 }
 
-TEST_CASE("an orbit sees what render::make_eye sees, and from straight above too") {
+TEST_CASE("Camera: the eye of an orbit equals render::make_eye, and from straight above too") {
     for (const glm::vec3& eye :
          {glm::vec3(1, 0.5F, 2), {-1, -0.7F, -0.2F}, {0.1F, 3, 0.3F}, {0.1F, -3, 0.3F}}) {
         const Viewpoint view{"", eye, {0.1F, 0.0F, 0.3F}, 0.7F};
@@ -69,29 +69,30 @@ TEST_CASE("an orbit sees what render::make_eye sees, and from straight above too
     }
 }
 
-TEST_CASE("panning takes the point under the cursor along") {
+TEST_CASE("Camera: panning moves the point under the cursor with it") {
     Random random(5);
     for (int i = 0; i < 200; ++i) {
         Orbit o = some(random);
         const glm::dvec2 from(random.uniform(-0.7, 0.7), random.uniform(-0.5, 0.5));
         const glm::dvec2 to(random.uniform(-0.7, 0.7), random.uniform(-0.5, 0.5));
-        const Vec3 point = under(o, from);
-        CHECK(glm::distance(seen(o, point), from) < 1e-4);
+        const Vec3 point = unprojected(o, from);
+        CHECK(glm::distance(projected(o, point), from) < 1e-4);
         pan(o, to - from);
-        CHECK(glm::distance(seen(o, point), to) < 1e-4);
+        CHECK(glm::distance(projected(o, point), to) < 1e-4);
     }
 }
 
-TEST_CASE("zooming keeps the point under the cursor, all along the glide, and stays within reason") {
+TEST_CASE(
+    "Camera: zooming keeps the point under the cursor during the whole glide, and the distance is bounded") {
     Random random(7);
     for (int i = 0; i < 200; ++i) {
-        Glide camera;
+        CameraGlide camera;
         camera.jump(some(random));
         const glm::dvec2 at(random.uniform(-0.7, 0.7), random.uniform(-0.5, 0.5));
-        const Vec3 point = under(camera.shown, at);
+        const Vec3 point = unprojected(camera.shown, at);
         const double before = camera.shown.distance;
         zoom(camera.goal, 3.0, at, box);
-        while (camera.advance(0.013)) CHECK(glm::distance(seen(camera.shown, point), at) < 2e-4);
+        while (camera.advance(0.013)) CHECK(glm::distance(projected(camera.shown, point), at) < 2e-4);
         CHECK(camera.shown.distance == doctest::Approx(before * std::pow(0.88, 3.0)));
         zoom(camera.goal, -3.0, at, box);
         CHECK(camera.goal.distance == doctest::Approx(before));
@@ -104,36 +105,38 @@ TEST_CASE("zooming keeps the point under the cursor, all along the glide, and st
     CHECK(std::isfinite(o.target.x));
 }
 
-TEST_CASE("turning: half a turn a height, never over the top, and the target stays in the middle") {
+TEST_CASE(
+    "Camera: a picture height turns by half a turn, the pitch is bounded, the target stays in the middle") {
     Orbit o;
     o.target = {0.3, 0.2, 0.1};
     turn(o, {0.5, 0.0});
     CHECK(o.yaw == doctest::Approx(-0.5 * pi));
     turn(o, {0.0, -7.0});
     CHECK(o.pitch == doctest::Approx(0.5 * pi));
-    CHECK(glm::length(seen(o, o.target)) < 1e-5);
+    CHECK(glm::length(projected(o, o.target)) < 1e-5);
     turn(o, {0.0, 7.0});
     CHECK(o.pitch == doctest::Approx(-0.5 * pi));
-    CHECK(glm::length(seen(o, o.target)) < 1e-5);
-    // The model follows the cursor: what is in front goes right with it.
+    CHECK(glm::length(projected(o, o.target)) < 1e-5);
+    // The model follows the cursor: a point in front moves right with it.
     o = Orbit();
     const Vec3 front(0.0, 0.0, 0.2);
     turn(o, {0.05, 0.0});
-    CHECK(seen(o, front).x > 0.01);
+    CHECK(projected(o, front).x > 0.01);
     o = Orbit();
     turn(o, {0.0, 0.05});
-    CHECK(seen(o, front).y > 0.01);
+    CHECK(projected(o, front).y > 0.01);
 }
 
-TEST_CASE("framing shows every corner, from every side, and fills the picture") {
+TEST_CASE("Camera: frame_all shows every corner of the box from every direction, and fills the picture") {
     Random random(11);
     for (int i = 0; i < 100; ++i) {
-        const Orbit o = framing(some(random), box, 1.6F);
+        const Orbit o = frame_all(some(random), box, 1.6F);
         double most = 0.0;
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec2 at = seen(o, {static_cast<double>((corner & 1) != 0 ? box.high.x : box.low.x),
-                                           static_cast<double>((corner & 2) != 0 ? box.high.y : box.low.y),
-                                           static_cast<double>((corner & 4) != 0 ? box.high.z : box.low.z)});
+            const glm::dvec2 at =
+                projected(o, {static_cast<double>((corner & 1) != 0 ? box.high.x : box.low.x),
+                              static_cast<double>((corner & 2) != 0 ? box.high.y : box.low.y),
+                              static_cast<double>((corner & 4) != 0 ? box.high.z : box.low.z)});
             most = std::max({most, std::abs(at.x) / 0.8, std::abs(at.y) / 0.5});
         }
         CHECK(most <= 1.0);
@@ -141,10 +144,12 @@ TEST_CASE("framing shows every corner, from every side, and fills the picture") 
     }
 }
 
-TEST_CASE("the glide does not depend on how time is cut, ends exactly, and takes the short way around") {
+TEST_CASE(
+    "Camera: the glide is independent of the frame times, ends exactly at its goal, and yaw takes the short "
+    "way") {
     Random random(13);
     for (int i = 0; i < 50; ++i) {
-        Glide one, many;
+        CameraGlide one, many;
         one.jump(some(random));
         one.goal = some(random);
         many = one;
@@ -160,10 +165,10 @@ TEST_CASE("the glide does not depend on how time is cut, ends exactly, and takes
         CHECK(one.shown.target == one.goal.target);
         CHECK_FALSE(one.advance(1.0));
     }
-    Glide camera;
+    CameraGlide camera;
     camera.shown.yaw = camera.goal.yaw = 3.0 + 4.0 * pi;
     Orbit there;
     there.yaw = -3.0;
-    camera.go(there);
+    camera.glide_to(there);
     CHECK(camera.goal.yaw - camera.shown.yaw == doctest::Approx(2.0 * pi - 6.0));
 }

@@ -1,4 +1,4 @@
-// Colours that mean something stay apart for those who have no red or no green cones.
+// The colours of the palettes are distinguishable without red or green cones.
 #include "game/view/labels.hpp"
 
 #include <doctest/doctest.h>
@@ -34,24 +34,25 @@ glm::dvec3 lab(const glm::dvec3& rgb) {
     return {116.0 * f(t.y) - 16.0, 500.0 * (f(t.x) - f(t.y)), 200.0 * (f(t.y) - f(t.z))};
 }
 
-glm::dvec3 seen(const glm::vec4& color, const glm::dmat3& eyes) {
+glm::dvec3 perceived(const glm::vec4& color, const glm::dmat3& eyes) {
     const glm::dvec3 c(color);
     return lab(glm::clamp(eyes * glm::dvec3(linear(c.r), linear(c.g), linear(c.b)), 0.0, 1.0));
 }
 
-// The least difference (1976) between two colours that mean different things.
+// The least CIE 1976 difference between two colours of different meaning.
 double least_difference(const Palette& p, const glm::dmat3& eyes) {
     const std::array colors{p.due, p.low, p.ok, p.high};
-    double least = glm::distance(seen(p.right, eyes), seen(p.wrong, eyes));
+    double least = glm::distance(perceived(p.right, eyes), perceived(p.wrong, eyes));
     for (std::size_t i = 0; i < colors.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            least = std::min(least, glm::distance(seen(colors[i], eyes), seen(colors[j], eyes)));
+            least = std::min(least, glm::distance(perceived(colors[i], eyes), perceived(colors[j], eyes)));
     return least;
 }
 
 }  // namespace
 
-TEST_CASE("the distinct palette stays apart without red or green cones, and the usual one does not") {
+TEST_CASE(
+    "Palette: the distinct palette is distinguishable without red or green cones, the usual one is not") {
     const Palette distinct = palette_of(content::PaletteKind::distinct);
     const Palette usual = palette_of(content::PaletteKind::usual);
     for (const glm::dmat3& eyes : {all_cones, no_red, no_green})
@@ -60,15 +61,15 @@ TEST_CASE("the distinct palette stays apart without red or green cones, and the 
     CHECK(least_difference(usual, no_green) < 20.0);
 }
 
-TEST_CASE("whatever means something has a sign too, each its own") {
+TEST_CASE("Palette: each verdict has its own symbol") {
     using lesson::Verdict;
-    std::set<std::string> signs{std::string(due_sign)};
+    std::set<std::string> symbols{std::string(due_symbol)};
     for (const Verdict verdict : {Verdict::low, Verdict::ok, Verdict::high}) {
-        CHECK_FALSE(sign_of(verdict).empty());
-        CHECK(signs.insert(std::string(sign_of(verdict))).second);
+        CHECK_FALSE(symbol_of(verdict).empty());
+        CHECK(symbols.insert(std::string(symbol_of(verdict))).second);
         CHECK(color_of(palette_of(content::PaletteKind::usual), verdict).w == 1.0F);
     }
-    CHECK(sign_of(Verdict::none).empty());
+    CHECK(symbol_of(Verdict::none).empty());
     CHECK(color_of({}, Verdict::none).w == 0.0F);
     lesson::JointResult broken;
     broken.overall = Verdict::ok;

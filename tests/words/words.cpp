@@ -26,26 +26,27 @@ std::string text_of(std::string_view language) {
 }
 
 Words english() {
-    Loaded loaded = load_words(words_folder(), "en");
+    LoadedWords loaded = load_words(words_folder(), "en");
     REQUIRE(loaded.ok());
     return std::move(loaded.words);
 }
 
-// The English file with one thing changed, and what is then said of it.
+// Replaces one text in the English file and returns the error messages, one line each.
 std::string mistakes(const std::string& from, const std::string& to) {
     std::string text = text_of("en");
     const std::size_t at = text.find(from);
     REQUIRE(at != std::string::npos);
     text.replace(at, from.size(), to);
-    std::string said;
+    std::string messages;
     for (const Error& error : parse_words(text, "en.json").errors) {
         CHECK(error.code == ErrorCode::bad_content);
-        said += error.message() + "\n";
+        messages += error.message() + "\n";
     }
-    return said;
+    return messages;
 }
 
-// Whether a text has words that a translator would change; single ones and names may be the same.
+// Returns true for a text of several words, which a translation must change; single words and names may be
+// the same.
 bool is_sentence(std::string text) {
     const bool several = text.find(' ') != std::string::npos;
     for (std::size_t open = 0; (open = text.find('{')) != std::string::npos;)
@@ -53,8 +54,8 @@ bool is_sentence(std::string text) {
     return several && std::any_of(text.begin(), text.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
 
-bool letters_are_there(const text::Fonts& fonts, const std::string& said) {
-    const std::u32string points = text::decode(said);
+bool has_all_letters(const text::Fonts& fonts, const std::string& value) {
+    const std::u32string points = text::decode(value);
     return std::all_of(points.begin(), points.end(),
                        [&](char32_t point) { return find_glyph(fonts, point).glyph != 0; });
 }
@@ -62,12 +63,12 @@ bool letters_are_there(const text::Fonts& fonts, const std::string& said) {
 }  // namespace
 
 TEST_CASE("Words: English, German and Chinese exist, and each has every text with its placeholders") {
-    const std::vector<std::string> there = languages(words_folder());
+    const std::vector<std::string> existing = languages(words_folder());
     for (const char* language : {"en", "de", "zh"})
-        CHECK(std::find(there.begin(), there.end(), language) != there.end());
-    for (const std::string& language : there) {
+        CHECK(std::find(existing.begin(), existing.end(), language) != existing.end());
+    for (const std::string& language : existing) {
         CAPTURE(language);
-        const Loaded loaded = load_words(words_folder(), language);
+        const LoadedWords loaded = load_words(words_folder(), language);
         for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
         CHECK(loaded.words.language == language);
         CHECK_FALSE(loaded.words.name.empty());
@@ -79,14 +80,14 @@ TEST_CASE("Words: the fonts have every letter of every language") {
     REQUIRE(fonts.has_value());
     for (const std::string& language : languages(words_folder())) {
         CAPTURE(language);
-        const Loaded loaded = load_words(words_folder(), language);
-        CHECK(letters_are_there(*fonts, loaded.words.name));
-        for (const std::string& said : loaded.words.texts) {
-            CAPTURE(said);
-            CHECK(letters_are_there(*fonts, said));
+        const LoadedWords loaded = load_words(words_folder(), language);
+        CHECK(has_all_letters(*fonts, loaded.words.name));
+        for (const std::string& value : loaded.words.texts) {
+            CAPTURE(value);
+            CHECK(has_all_letters(*fonts, value));
         }
     }
-    CHECK_FALSE(letters_are_there(*fonts, "a\U000E0001b"));  // and it can fail
+    CHECK_FALSE(has_all_letters(*fonts, "a\U000E0001b"));  // the check can fail
 }
 
 TEST_CASE("Words: translations differ from English") {
@@ -96,7 +97,7 @@ TEST_CASE("Words: translations differ from English") {
         CAPTURE(language);
         const Words other = load_words(words_folder(), language).words;
         for (std::size_t i = 0; i < key_count; ++i) {
-            const Key key = Key::at(i);
+            const TextKey key = TextKey::at(i);
             CAPTURE(key.row().name);
             if (is_sentence(en[key])) CHECK(en[key] != other[key]);
         }
@@ -107,49 +108,51 @@ TEST_CASE("Words: files follow the order of the table") {
     for (const std::string& language : languages(words_folder())) {
         const auto file = nlohmann::ordered_json::parse(text_of(language));
         std::size_t i = 0;
-        for (const auto& [key, said] : file["words"].items()) CHECK(key == key_rows[i++].name);
+        for (const auto& [key, value] : file["words"].items()) CHECK(key == key_rows[i++].name);
     }
 }
 
 TEST_CASE("Words: placeholders are filled in, and numbers follow the language") {
     const Words en = english();
     const Words de = load_words(words_folder(), "de").words;
-    CHECK(say(en, "hint.next", {{"joint", "B7"}}) == "B7 is next.");
-    CHECK(say(de, "hint.next", {{"joint", "B7"}}) == "Als Nächstes kommt B7.");
-    const Place places[] = {{"joint", "B1"}, {"torque", torque_number(17.46)}, {"low", torque_number(18.0)}};
-    CHECK(say(en, "reason.torque_low", places) == "B1 has 17.5 N·m; 18 N·m are the least.");
-    CHECK(say(de, "reason.torque_low", places) == "B1 hat 17,5 N·m; mindestens 18 N·m sind nötig.");
-    // A place that nobody fills in is seen, and does no harm.
-    CHECK(say(en, "hint.next") == "{joint} is next.");
-    // What is put in is not looked at for places.
-    CHECK(say(en, "hint.next", {{"joint", "{joint}"}}) == "{joint} is next.");
-    CHECK(say(en, "hint.set_back", {{"joint", "B7"}}) == en["hint.set_back"]);
+    CHECK(format_text(en, "hint.next", {{"joint", "B7"}}) == "B7 is next.");
+    CHECK(format_text(de, "hint.next", {{"joint", "B7"}}) == "Als Nächstes kommt B7.");
+    const TextArgument arguments[] = {
+        {"joint", "B1"}, {"torque", torque_number(17.46)}, {"low", torque_number(18.0)}};
+    CHECK(format_text(en, "reason.torque_low", arguments) == "B1 has 17.5 N·m; 18 N·m are the least.");
+    CHECK(format_text(de, "reason.torque_low", arguments) ==
+          "B1 hat 17,5 N·m; mindestens 18 N·m sind nötig.");
+    // A placeholder without a value stays in the text.
+    CHECK(format_text(en, "hint.next") == "{joint} is next.");
+    // Placeholders in a value are not replaced.
+    CHECK(format_text(en, "hint.next", {{"joint", "{joint}"}}) == "{joint} is next.");
+    CHECK(format_text(en, "hint.set_back", {{"joint", "B7"}}) == en["hint.set_back"]);
 }
 
 TEST_CASE("Words: torques have as many decimals as a torque wrench shows") {
     const Words en = english();
-    for (const auto& [torque, said] : {std::pair{20.0, "20"},
-                                       {7.5, "7.5"},
-                                       {21.98, "22"},
-                                       {210.4, "210"},
-                                       {0.04, "0"},
-                                       {-0.04, "0"},
-                                       {-3.5, "-3.5"}})
-        CHECK(say(en, torque_number(torque)) == said);
+    for (const auto& [torque, expected] : {std::pair{20.0, "20"},
+                                           {7.5, "7.5"},
+                                           {21.98, "22"},
+                                           {210.4, "210"},
+                                           {0.04, "0"},
+                                           {-0.04, "0"},
+                                           {-3.5, "-3.5"}})
+        CHECK(format_number(en, torque_number(torque)) == expected);
 }
 
 TEST_CASE("Words: errors of a file name their position") {
     const std::string text = text_of("en");
     const auto line =
         std::count(text.begin(), text.begin() + static_cast<long>(text.find("\"hint.next\"")), '\n') + 1;
-    const std::string at = "en.json:" + std::to_string(line), there = at + ":18: /words/hint.next: ";
+    const std::string at = "en.json:" + std::to_string(line), position = at + ":18: /words/hint.next: ";
     const std::string next = "{joint} is next.";
     CHECK(mistakes(next, "{joint} is next now.").empty());
-    CHECK(mistakes(next, "The next is next.") == there + "{joint} is missing in the text\n");
-    CHECK(mistakes(next, "{jont} is next.") ==
-          there + "nothing is put into {jont} here; did you mean \"joint\"?\n" + there +
-              "{joint} is missing in the text\n");
-    const std::string alone = there + "a brace stands alone; expected places as {name}\n";
+    CHECK(mistakes(next, "The next is next.") == position + "{joint} is missing in the text\n");
+    CHECK(mistakes(next, "{jont} is next.") == position +
+                                                   "unknown placeholder {jont}; did you mean \"joint\"?\n" +
+                                                   position + "{joint} is missing in the text\n");
+    const std::string alone = position + "a brace is unmatched; expected placeholders of the form {name}\n";
     for (const char* to : {"{joint is next.", "joint} is next.", "{{joint}} is next.", "{joint} is next.{"})
         CHECK(mistakes(next, to) == alone);
     CHECK(mistakes("\"hint.next\"", "\"hint.nxt\"") ==
@@ -157,23 +160,23 @@ TEST_CASE("Words: errors of a file name their position") {
               ":5: /words/hint.nxt: \"hint.nxt\" is not known here; did you mean \"hint.next\"?\n");
     for (const char* to : {"7", "\"\""})
         CHECK(mistakes("\"" + next + "\"", to) ==
-              there + "\"hint.next\" says nothing; expected a text of at most 1000 bytes\n");
+              position + "\"hint.next\" is empty or not a text; expected a text of at most 1000 bytes\n");
     CHECK(mistakes("\"decimal\": \".\"", "\"decimal\": \";\"") ==
-          "en.json:5:14: /decimal: \";\" is no decimal sign; expected \".\" or \",\"\n");
+          "en.json:5:14: /decimal: \";\" is not a decimal sign; expected \".\" or \",\"\n");
     CHECK(mistakes("boltwright words 1", "boltwright words 9").find("en.json:2:13: /format") == 0);
     CHECK(mistakes("\"name\": \"English\",", "").find("\"name\" is missing") != std::string::npos);
     CHECK(mistakes("{\n  \"format\"", "{\n  \"forma\": 1,\n  \"format\"").find("en.json:2:3: /forma") == 0);
-    CHECK(mistakes("\"words\": {", "\"words\": [{").find("en.json:") == 0);  // no JSON
+    CHECK(mistakes("\"words\": {", "\"words\": [{").find("en.json:") == 0);  // not JSON
     CHECK(parse_words("[]", "x").errors.size() == 1);
     CHECK(parse_words("{}", "x").errors.size() == 5);
     CHECK(parse_words(R"({"words": 3})", "x").errors.size() == 5);
 }
 
 TEST_CASE("Words: an unknown language lists those that exist") {
-    const Loaded none = load_words(words_folder(), "ed");
+    const LoadedWords none = load_words(words_folder(), "ed");
     REQUIRE(none.errors.size() == 1);
     CHECK(none.errors[0].code == ErrorCode::usage);
-    CHECK(none.errors[0].what == "there are no words in the language \"ed\"");
+    CHECK(none.errors[0].what == "there is no words file for the language \"ed\"");
     CHECK_FALSE(load_words(words_folder(), "../words/en").ok());
     const test::Folder kept;
     const auto folder = kept / "words";

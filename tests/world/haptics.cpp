@@ -1,4 +1,4 @@
-// The components are the servo's snapshot, tick by tick.
+// The world's components follow the servo's snapshot.
 #include "game/world/world.hpp"
 
 #include <doctest/doctest.h>
@@ -24,7 +24,7 @@ struct Bench {
         world::write_snapshot(world, {state, input, output});
         return output;
     }
-    // The wrench on a nut, its handle at this angle.
+    // Puts the wrench on a nut, with the handle at this angle in rad.
     void put_on(std::size_t joint, double handle) {
         const servo::NutGeometry& nut = setup.nuts[joint];
         const Vec3 centre = servo::nut_centre(nut, state.joints[joint].nut.angle);
@@ -34,15 +34,15 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("World: after each tick the components are the servo's values to the bit") {
+TEST_CASE("World: after each tick the components equal the servo's values bit for bit") {
     Bench bench;
     bool engaged = false;
     for (int i = 0; i < 1600; ++i) {
         bench.put_on(1, to_radians(0.05 * i));
         const servo::Output output = bench.tick();
-        const world::ToolContact& contact = bench.world.only<world::ToolContact>();
+        const world::ContactState& contact = bench.world.only<world::ContactState>();
         REQUIRE(contact.joint == output.joint);
-        REQUIRE(bench.world.only<world::Tool>().pose.position == output.tool.position);
+        REQUIRE(bench.world.only<world::HeldTool>().pose.position == output.tool.position);
         REQUIRE(bench.world.only<world::DeviceForce>().torque == output.torque);
         for (std::size_t j = 0; j < bench.state.joints.size(); ++j) {
             const world::Joint& joint = world::joint_at(bench.world, j);
@@ -64,26 +64,26 @@ TEST_CASE("World: after each tick the components are the servo's values to the b
     CHECK(world::joint_at(bench.world, 0).torque == 0.0);
 }
 
-TEST_CASE("World: the hand is where the input has it and keeps the place of the wrench") {
+TEST_CASE("World: the hand has the input's pose and keeps the wrench's resting place") {
     Bench bench;
-    const world::Hand& hand = bench.world.only<world::Hand>();
-    for (int degrees = 0; degrees < 60 && hand.doing != world::Doing::holding; ++degrees) {
+    const world::WorkingHand& hand = bench.world.only<world::WorkingHand>();
+    for (int degrees = 0; degrees < 60 && hand.action != world::HandAction::holding; ++degrees) {
         bench.put_on(0, to_radians(static_cast<double>(degrees)));
         bench.tick();
     }
     CHECK(hand.wrench);
-    CHECK(hand.doing == world::Doing::holding);
+    CHECK(hand.action == world::HandAction::holding);
     CHECK(hand.nut == std::size_t{0});
     CHECK(hand.rest.position == Vec3(0.3, 0.0, 0.1));
-    CHECK(glm::distance(hand.pose.position, bench.world.only<world::Tool>().pose.position) < 1e-6);
+    CHECK(glm::distance(hand.pose.position, bench.world.only<world::HeldTool>().pose.position) < 1e-6);
     bench.input.grip = servo::Grip::none;
     bench.tick();
     CHECK_FALSE(hand.wrench);
-    CHECK(hand.doing == world::Doing::resting);
+    CHECK(hand.action == world::HandAction::resting);
     CHECK_FALSE(hand.nut);
 }
 
-TEST_CASE("World: the guiding force leads to its joint until a nut is held") {
+TEST_CASE("World: the guiding force is reported until a nut is held") {
     Bench bench;
     bench.input.device =
         servo::sample_of({bench.setup.nuts[0].seat + Vec3(0.02, 0.03, 0.0), Quat(1, 0, 0, 0)});

@@ -1,5 +1,5 @@
-// The subcommands of bolt-author. Each adds itself to the command line and leaves its exit code where main
-// finds it.
+// The subcommands of bolt-author. Each function adds a subcommand to `app`, which stores its exit code in
+// `exit_code`.
 #pragma once
 
 namespace CLI {
@@ -11,6 +11,7 @@ namespace bolt::author {
 void add_new(CLI::App& app, int& exit_code);
 void add_validate(CLI::App& app, int& exit_code);
 void add_preview(CLI::App& app, int& exit_code);
+void add_import_step(CLI::App& app, int& exit_code);
 void add_curve(CLI::App& app, int& exit_code);
 void add_torque(CLI::App& app, int& exit_code);
 void add_views(CLI::App& app, int& exit_code);

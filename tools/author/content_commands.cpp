@@ -1,3 +1,5 @@
+// The subcommands for content: new (a small assembly), words (check of the on-screen texts), views
+// (visibility of the nuts) and validate (all checks of an assembly).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -20,40 +22,29 @@
 #include "tools/author/commands.hpp"
 #include "tools/author/geometry/check.hpp"
 
-// The Khronos glTF validator, run as the program that it is (tools/install-node-tools.sh installs it).
-
 namespace bolt::author {
-
-// The script that runs it; empty if it is not installed. $BOLTWRIGHT_GLTF_VALIDATOR names its folder,
-// otherwise it is tools/gltf-validator beside content/.
-std::filesystem::path gltf_validator();
-
-// What it says of the files, warnings too: each an error with file and JSON pointer.
-Result<std::vector<Error>> run_gltf_validator(const std::filesystem::path& script,
-                                              const std::vector<std::string>& files);
 
 namespace {
 
-int run_new(const std::string& given, const std::string& title) {
-    const std::filesystem::path folder = std::filesystem::path(given).lexically_normal();
+int run_new(const std::string& target, const std::string& title) {
+    const std::filesystem::path folder = std::filesystem::path(target).lexically_normal();
     const std::filesystem::path last =
         folder.has_filename() ? folder.filename() : folder.parent_path().filename();
     const std::string name = title.empty() ? last.string() : title;
     if (Status made = content::create_assembly(folder, name); !made) return print_error(made.error());
-    const Status said = print(fmt::format("{}\nCheck it with: bolt-author validate {}\n",
-                                          (folder / "assembly.json").string(), given));
-    return said ? 0 : print_error(said.error());
+    const Status printed = print(fmt::format("{}\nCheck it with: bolt-author validate {}\n",
+                                             (folder / "assembly.json").string(), target));
+    return printed ? 0 : print_error(printed.error());
 }
 
 }  // namespace
 
 void add_new(CLI::App& app, int& exit_code) {
-    struct Options {
+    struct NewOptions {
         std::string folder, title;
     };
-    auto options = std::make_shared<Options>();
-    CLI::App* make =
-        app.add_subcommand("new", "Make a folder with a small assembly that is valid and ready to change");
+    auto options = std::make_shared<NewOptions>();
+    CLI::App* make = app.add_subcommand("new", "Make a folder with a small, valid assembly to start from");
     make->add_option("folder", options->folder, "Folder to make")->required();
     make->add_option("--title", options->title, "Title; the folder's name if not given");
     make->callback([options, &exit_code] { exit_code = run_new(options->folder, options->title); });
@@ -61,9 +52,9 @@ void add_new(CLI::App& app, int& exit_code) {
 
 namespace {
 
-// What no font has would be a box in the window.
-std::vector<Error> missing_letters(const words::Loaded& loaded, const std::string& file,
-                                   const text::Fonts& fonts) {
+// Reports each text with a letter that no font has; the window would show a box for it.
+std::vector<Error> check_letters(const words::LoadedWords& loaded, const std::string& file,
+                                 const text::Fonts& fonts) {
     std::vector<Error> errors;
     for (std::size_t i = 0; i < words::key_count; ++i)
         for (const char32_t point : text::decode(loaded.words.texts[i])) {
@@ -88,16 +79,16 @@ int run_words(std::vector<std::string> files) {
     if (!fonts) return print_error(fonts.error());
     int worst = 0;
     for (const std::string& file : files) {
-        const words::Loaded loaded = words::read_words(file);
+        const words::LoadedWords loaded = words::read_words(file);
         std::vector<Error> errors = loaded.errors;
-        if (errors.empty()) errors = missing_letters(loaded, file, *fonts);
+        if (errors.empty()) errors = check_letters(loaded, file, *fonts);
         if (!errors.empty()) {
             worst = std::max(worst, print_error(errors));
             continue;
         }
-        const Status said =
+        const Status printed =
             print(fmt::format("{}: {}, {} texts\n", file, loaded.words.name, words::key_count));
-        if (!said) return print_error(said.error());
+        if (!printed) return print_error(printed.error());
     }
     return worst;
 }
@@ -107,29 +98,28 @@ int run_words(std::vector<std::string> files) {
 void add_words(CLI::App& app, int& exit_code) {
     auto files = std::make_shared<std::vector<std::string>>();
     CLI::App* command = app.add_subcommand(
-        "words", "Check what the program says in a language: every text there, with its places and letters");
+        "words", "Check the on-screen texts of languages: completeness, placeholders and letters");
     command->add_option("files", *files, "Files LANGUAGE.json; those of content/words if not given");
     command->callback([files, &exit_code] { exit_code = run_words(*files); });
 }
 
-// bolt-author views: from which of its views each nut of an assembly can be seen.
-
 namespace {
 
-struct Row {
+// Visibility of one nut in each view of the assembly.
+struct NutVisibility {
     std::string joint;
-    std::vector<session::NutView> views;
-    std::optional<std::size_t> best;
+    std::vector<session::NutView> views;  // in the order of the assembly
+    std::optional<std::size_t> best;      // index of the best view; nullopt: no view shows the nut
 };
 
-std::string table_of(const content::Assembly& assembly, const std::vector<Row>& rows) {
-    std::size_t wide = 0;
-    for (const Row& row : rows) wide = std::max(wide, row.joint.size());
-    std::string text = fmt::format("{:{}}", "", wide);
-    for (const content::View& view : assembly.views) text += fmt::format("  {:>9}", view.name);
+std::string format_table(const content::Assembly& assembly, const std::vector<NutVisibility>& rows) {
+    std::size_t width = 0;
+    for (const NutVisibility& row : rows) width = std::max(width, row.joint.size());
+    std::string text = fmt::format("{:{}}", "", width);
+    for (const content::Viewpoint& view : assembly.views) text += fmt::format("  {:>9}", view.name);
     text += "  best\n";
-    for (const Row& row : rows) {
-        text += fmt::format("{:{}}", row.joint, wide);
+    for (const NutVisibility& row : rows) {
+        text += fmt::format("{:{}}", row.joint, width);
         for (std::size_t i = 0; i < row.views.size(); ++i)
             text += fmt::format(
                 "  {:>{}}", row.views[i].framed ? fmt::format("{:.0f} %", 100.0 * row.views[i].share) : "-",
@@ -138,13 +128,13 @@ std::string table_of(const content::Assembly& assembly, const std::vector<Row>& 
             fmt::format("  {}\n", row.best ? assembly.views[*row.best].name : "none: no view shows this nut");
     }
     return text +
-           "Share of each nut that nothing hides, before the wrench and the hand come; -: outside the "
-           "picture.\nBest: where most of it is seen, in the picture's size.\n";
+           "Visible share of each nut without wrench and hand; -: outside the picture.\n"
+           "Best: the view with the largest visible area of the nut in the picture.\n";
 }
 
-std::string json_of(const content::Assembly& assembly, const std::vector<Row>& rows) {
+std::string format_json(const content::Assembly& assembly, const std::vector<NutVisibility>& rows) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const Row& row : rows) {
+    for (const NutVisibility& row : rows) {
         nlohmann::ordered_json views = nlohmann::ordered_json::object();
         for (std::size_t i = 0; i < row.views.size(); ++i)
             views[assembly.views[i].name] = {{"share", row.views[i].share}, {"framed", row.views[i].framed}};
@@ -157,78 +147,79 @@ std::string json_of(const content::Assembly& assembly, const std::vector<Row>& r
     return json.dump(1) + "\n";
 }
 
-int run(const std::string& name, bool as_json) {
-    const content::Loaded loaded = content::load_assembly(name);
+int run_views(const std::string& name, bool as_json) {
+    const content::LoadedAssembly loaded = content::load_assembly(name);
     if (!loaded.ok()) return print_error(loaded.errors.front());
     const content::Assembly& assembly = loaded.assembly;
     const servo::Setup setup = session::make_setup(assembly, assembly.law, {}, 1, 1e-3);
-    Result<std::optional<servo::ToolContact>> touch = session::load_tool_contact(assembly, setup);
-    if (!touch) return print_error(touch.error());
-    if (!*touch)
+    Result<std::optional<servo::ToolContact>> contact = session::load_tool_contact(assembly, setup);
+    if (!contact) return print_error(contact.error());
+    if (!*contact)
         return print_error({ErrorCode::bad_content,
-                            fmt::format("{} has no contact model, so nothing tells what hides what", name),
+                            fmt::format("{} has no contact model, so visibility cannot be computed", name),
                             "\"contact\" under \"models\", and a wrench with a model"});
-    session::seat_nuts(setup, **touch);
-    std::vector<Row> rows;
+    session::seat_nuts(setup, **contact);
+    std::vector<NutVisibility> rows;
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
-        Row row{assembly.joints[i].design.id, session::views_of_nut(assembly, **touch, i), {}};
+        NutVisibility row{assembly.joints[i].design.id, session::nut_views(assembly, **contact, i), {}};
         row.best = session::best_view(row.views);
         rows.push_back(std::move(row));
     }
-    const Status said = print(as_json ? json_of(assembly, rows) : table_of(assembly, rows));
-    return said ? 0 : print_error(said.error());
+    const Status printed = print(as_json ? format_json(assembly, rows) : format_table(assembly, rows));
+    return printed ? 0 : print_error(printed.error());
 }
 
 }  // namespace
 
 void add_views(CLI::App& app, int& exit_code) {
-    struct Options {
+    struct ViewsOptions {
         std::string assembly = "zq350";
         bool json = false;
     };
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ViewsOptions>();
     CLI::App* command =
-        app.add_subcommand("views", "Say how much of each nut every view of an assembly shows");
+        app.add_subcommand("views", "Print the visible share of each nut in every view of an assembly");
     command->add_option("assembly", options->assembly, "Folder, file or name of an assembly");
     command->add_flag("--json", options->json, "As JSON");
-    command->callback([options, &exit_code] { exit_code = run(options->assembly, options->json); });
+    command->callback([options, &exit_code] { exit_code = run_views(options->assembly, options->json); });
 }
-
-namespace fs = std::filesystem;
-using nlohmann::json;
 
 namespace {
 
-tl::unexpected<Error> broken(std::string what) {
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> validator_error(std::string what) {
     return fail(ErrorCode::failed, "the Khronos glTF validator: " + std::move(what),
-                "expected it as tools/install-node-tools.sh installs it, and node on the path");
+                "the validator that tools/install-node-tools.sh installs, and node on the path");
 }
 
-}  // namespace
-
-fs::path gltf_validator() {
+// Returns the script that runs the Khronos glTF validator; empty if it is not installed.
+// $BOLTWRIGHT_GLTF_VALIDATOR names its folder; the default is tools/gltf-validator beside content/.
+fs::path find_gltf_validator() {
     const char* given =
         std::getenv("BOLTWRIGHT_GLTF_VALIDATOR");  // NOLINT(concurrency-mt-unsafe): nothing sets it
     const fs::path folder = given != nullptr && *given != '\0'
                                 ? fs::path(given)
                                 : content::content_folder().parent_path() / "tools" / "gltf-validator";
     std::error_code ignored;
-    const bool there = fs::is_regular_file(folder / "validate.mjs", ignored) &&
-                       fs::is_directory(folder / "node_modules" / "gltf-validator", ignored);
-    return there ? folder / "validate.mjs" : fs::path{};
+    const bool installed = fs::is_regular_file(folder / "validate.mjs", ignored) &&
+                           fs::is_directory(folder / "node_modules" / "gltf-validator", ignored);
+    return installed ? folder / "validate.mjs" : fs::path{};
 }
 
+// Returns the errors and warnings of the validator, each with its file and JSON pointer.
 Result<std::vector<Error>> run_gltf_validator(const fs::path& script, const std::vector<std::string>& files) {
     std::vector<std::string> command{"node", script.string()};
     for (const std::string& file : files) command.push_back(fs::absolute(file).string());
     const Result<ProgramResult> run = run_program(command, Capture::output);
-    if (!run) return broken(run.error().what);
-    if (run->exit_code != 0) return broken("it failed");
-    const json reports = json::parse(run->output, nullptr, false);
-    if (!reports.is_array() || reports.size() != files.size()) return broken("it said nothing that we know");
+    if (!run) return validator_error(run.error().what);
+    if (run->exit_code != 0) return validator_error("it failed");
+    const auto reports = nlohmann::json::parse(run->output, nullptr, false);
+    if (!reports.is_array() || reports.size() != files.size())
+        return validator_error("its output has an unknown format");
     std::vector<Error> errors;
     for (std::size_t i = 0; i < files.size(); ++i)
-        for (const json& message : reports[i].value("messages", json::array())) {
+        for (const nlohmann::json& message : reports[i].value("messages", nlohmann::json::array())) {
             Error error;
             error.code = ErrorCode::bad_content;
             error.file = files[i];
@@ -241,8 +232,6 @@ Result<std::vector<Error>> run_gltf_validator(const fs::path& script, const std:
     return errors;
 }
 
-namespace {
-
 std::vector<std::string> models_of(const content::Assembly& assembly) {
     std::vector<std::string> files;
     for (const std::string& file :
@@ -252,53 +241,53 @@ std::vector<std::string> models_of(const content::Assembly& assembly) {
     return files;
 }
 
-// What is said of an assembly that loads: its mistakes, and what an author should know although it is none.
-struct Verdict {
+struct ValidationResult {
     std::vector<Error> errors;
-    std::string remarks;  // a line each
+    std::string remarks;  // notes that are not errors, one line each
 };
 
-Verdict judge(const content::Assembly& assembly) {
-    Verdict verdict;
+// Checks an assembly that has loaded without errors.
+ValidationResult validate(const content::Assembly& assembly) {
+    ValidationResult result;
     geometry::Findings findings = geometry::check_geometry(assembly);
-    verdict.errors = std::move(findings.errors);
-    for (const Error& note : findings.notes) verdict.remarks += fmt::format("note: {}\n", note.message());
+    result.errors = std::move(findings.errors);
+    for (const Error& note : findings.notes) result.remarks += fmt::format("note: {}\n", note.message());
     const std::vector<std::string> files = models_of(assembly);
     if (assembly.models.model.empty())
-        verdict.remarks += fmt::format(
+        result.remarks += fmt::format(
             "note: {}: no model is named, so nodes and room for the wrench are not checked\n", assembly.file);
-    if (files.empty()) return verdict;
-    const std::filesystem::path script = gltf_validator();
+    if (files.empty()) return result;
+    const std::filesystem::path script = find_gltf_validator();
     if (script.empty()) {
-        verdict.remarks +=
+        result.remarks +=
             "note: the Khronos glTF validator is not installed, so its checks are left out "
             "(tools/install-node-tools.sh installs it)\n";
-        return verdict;
+        return result;
     }
-    auto said = run_gltf_validator(script, files);
-    if (said)
-        verdict.errors.insert(verdict.errors.end(), said->begin(), said->end());
+    auto found = run_gltf_validator(script, files);
+    if (found)
+        result.errors.insert(result.errors.end(), found->begin(), found->end());
     else
-        verdict.errors.push_back(said.error());
-    return verdict;
+        result.errors.push_back(found.error());
+    return result;
 }
 
 int run_validate(const std::vector<std::string>& assemblies, const std::string& variant) {
     int worst = 0;
     for (const std::string& where : assemblies) {
-        const content::Loaded loaded = content::load_assembly(where, variant);
+        const content::LoadedAssembly loaded = content::load_assembly(where, variant);
         if (!loaded.ok()) {
             worst = std::max(worst, print_error(loaded.errors));
             continue;
         }
-        const Verdict verdict = judge(loaded.assembly);
-        std::string text = verdict.remarks;
-        if (verdict.errors.empty())
+        const ValidationResult result = validate(loaded.assembly);
+        std::string text = result.remarks;
+        if (result.errors.empty())
             text += fmt::format("{}: {} joints, {} passes, variant {}: no mistakes\n", loaded.assembly.file,
                                 loaded.assembly.joints.size(), loaded.assembly.passes.size(),
                                 loaded.assembly.variant.empty() ? "-" : loaded.assembly.variant);
-        worst = std::max(worst, print_error(verdict.errors));
-        if (const Status said = print(text); !said) return print_error(said.error());
+        worst = std::max(worst, print_error(result.errors));
+        if (const Status printed = print(text); !printed) return print_error(printed.error());
     }
     return worst;
 }
@@ -306,16 +295,16 @@ int run_validate(const std::vector<std::string>& assemblies, const std::string& 
 }  // namespace
 
 void add_validate(CLI::App& app, int& exit_code) {
-    struct Options {
+    struct ValidateOptions {
         std::vector<std::string> assemblies;
         std::string variant;
     };
-    auto options = std::make_shared<Options>();
-    CLI::App* validate = app.add_subcommand("validate", "Say everything that is wrong with assemblies");
-    validate->add_option("assembly", options->assemblies, "Folders, files, or names under content/assemblies")
+    auto options = std::make_shared<ValidateOptions>();
+    CLI::App* command = app.add_subcommand("validate", "Report all errors of assemblies");
+    command->add_option("assembly", options->assemblies, "Folders, files, or names under content/assemblies")
         ->required();
-    validate->add_option("--variant", options->variant, "Material variant; the default if not given");
-    validate->callback(
+    command->add_option("--variant", options->variant, "Material variant; the default if not given");
+    command->callback(
         [options, &exit_code] { exit_code = run_validate(options->assemblies, options->variant); });
 }
 

@@ -1,5 +1,4 @@
-#include "tools/author/import_command.hpp"
-
+// bolt-author import-step: makes the models and a draft of an assembly from a STEP file.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -12,6 +11,7 @@
 #include <string>
 
 #include "engine/base/result.hpp"
+#include "tools/author/commands.hpp"
 #ifdef BOLT_WITH_STEP
 #include "tools/author/import/guard.hpp"
 #include "tools/author/import/import_step.hpp"
@@ -23,10 +23,10 @@ namespace bolt::author {
 
 namespace {
 
-// On a terminal one line that is written over; else a line every tenth.
-class ProgressLine {
+// Prints the progress to stderr: one line that is overwritten on a terminal, otherwise one line every 10 %.
+class ImportProgressLine {
   public:
-    ProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
+    ImportProgressLine() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
     void operator()(double fraction, const std::string& what) {
         const int percent = static_cast<int>(100.0 * fraction);
@@ -63,8 +63,8 @@ struct ImportCommand {
 
 // Runs in the child process.
 int import_into_channel(const step_import::ImportOptions& options, step_import::GuardChannel& channel) {
-    ProgressLine line;
-    const step_import::Imported imported =
+    ImportProgressLine line;
+    const step_import::ImportResult imported =
         step_import::import_step(options, [&](double fraction, const std::string& what) {
             channel.set_phase(what);
             line(fraction, what);
@@ -77,7 +77,7 @@ int import_into_channel(const step_import::ImportOptions& options, step_import::
     return print_error(error);
 }
 
-// Describes how the child process ended if it did not return from its work.
+// Describes the end of a child process that did not return from its work.
 Error describe_end(const ImportCommand& command, const step_import::GuardedRun& run) {
     using step_import::GuardOutcome;
     Error error;
@@ -170,7 +170,7 @@ void add_import_step(CLI::App& app, int& exit_code) {
     import->add_option("--far-triangles", options->far_triangles, "Triangles of the far level, all instances")
         ->check(CLI::Range(100, 10'000'000))
         ->capture_default_str();
-    import->add_flag("!--no-joints", options->joints, "Do not look for joints, and draft no assembly.json");
+    import->add_flag("!--no-joints", options->joints, "Find no joints and draft no assembly.json");
     import
         ->add_option("--time-limit", command->limits.processor_s,
                      "Processor time after which the import is given up, s; by the file's size if not given")
@@ -196,7 +196,7 @@ void add_import_step(CLI::App& app, int& exit_code) {
         Error error;
     error.code = ErrorCode::no_device;
     error.what = "this bolt-author was built without OpenCASCADE, which reads STEP files";
-    error.expected = "expected a build with libocct-data-exchange-dev installed";
+    error.expected = "a build with libocct-data-exchange-dev installed";
     exit_code = print_error(error);
 });
 }

@@ -1,3 +1,5 @@
+// The subcommands curve (torque–angle curve of a joint as CSV and SVG) and torque (preload and tightening
+// torque).
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -18,52 +20,45 @@
 #include "haptics/joint/group.hpp"
 #include "tools/author/commands.hpp"
 
-// A joint's torque–angle curve as a drawing: stages shaded, target window, clamp force beside it.
-
 namespace bolt::author {
-
-// A whole SVG file. Angles count from the first contact (tightening) or from where the run begins
-// (loosening).
-std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint::CurveSample> run,
-                      joint::Direction direction, std::string_view title);
 
 namespace {
 
-constexpr double lead_in = 20.0;  // degrees drawn before the first contact
+constexpr double lead_in = 20.0;  // degrees shown before the first contact
 
 std::size_t first_contact(std::span<const joint::CurveSample> run) {
     const auto touches = [](const joint::CurveSample& s) { return s.stage != joint::Stage::navigation; };
     return static_cast<std::size_t>(std::find_if(run.begin(), run.end(), touches) - run.begin());
 }
 
-}  // namespace
-
+// Draws a torque–angle curve as an SVG file: shaded stages, target window, clamp force on a second axis.
+// Angles are relative to the first contact (tightening) or to the start of the run (loosening).
 std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint::CurveSample> run,
                       joint::Direction direction, std::string_view title) {
-    const bool on = direction == joint::Direction::tighten;
-    const std::size_t contact = on ? std::min(first_contact(run), run.size() - 1) : 0;
+    const bool tighten = direction == joint::Direction::tighten;
+    const std::size_t contact = tighten ? std::min(first_contact(run), run.size() - 1) : 0;
     const double zero = to_degrees(run[contact].angle);
 
     plot::Plot plot;
     plot.width = 760.0;
     plot.height = 400.0;
     plot.title = std::string(title);
-    std::vector<plot::Point> torque, clamp;
+    std::vector<plot::SvgPoint> torque, clamp;
     double highest_torque = 0.0, highest_clamp = 0.0;
     for (const joint::CurveSample& s : run) {
         const double x = to_degrees(s.angle) - zero;
-        if (on && x < -lead_in) continue;
-        torque.push_back({x, on ? s.torque : -s.torque});
+        if (tighten && x < -lead_in) continue;
+        torque.push_back({x, tighten ? s.torque : -s.torque});
         clamp.push_back({x, s.clamp / 1e3});
         highest_torque = std::max(highest_torque, torque.back().y);
         highest_clamp = std::max(highest_clamp, s.clamp / 1e3);
     }
-    const plot::Range shown{torque.front().x, torque.back().x};
+    const plot::AxisRange shown{torque.front().x, torque.back().x};
     plot.x = {plot::degree_ticks(shown, 9),
-              on ? "nut angle from first contact, °" : "nut angle turned back, °"};
-    plot.y = {plot::covering_ticks(0.0, std::max(highest_torque, on ? joint.spec.torque.high : 0.0)),
+              tighten ? "nut angle from first contact, °" : "nut angle turned back, °"};
+    plot.y = {plot::covering_ticks(0.0, std::max(highest_torque, tighten ? joint.spec.torque.high : 0.0)),
               "torque, N·m"};
-    plot.y2 = plot::Axis{plot::covering_ticks(0.0, highest_clamp), "clamp, kN"};
+    plot.y2 = plot::PlotAxis{plot::covering_ticks(0.0, highest_clamp), "clamp, kN"};
 
     constexpr std::string_view stage_styles[] = {"s0", "s1", "s2", "s3"};
     for (std::size_t i = 0, begin = 0; i <= run.size(); ++i) {
@@ -76,9 +71,9 @@ std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint
                 {{low, high}, stage_styles[stage], std::string(name(run[begin].stage)), false, false});
         begin = i;
     }
-    if (on) {
+    if (tighten) {
         plot.bands.push_back({{joint.spec.torque.low, joint.spec.torque.high}, "win", {}, true, false});
-        plot.rules.push_back({joint.spec.torque.target, "tgt", "target", true});
+        plot.reference_lines.push_back({joint.spec.torque.target, "tgt", "target", true});
     }
     const double column = (shown.high - shown.low) / 1500.0;
     plot.lines.push_back({plot::decimate(clamp, column), "ln cl", true});
@@ -86,9 +81,7 @@ std::string curve_svg(const content::AssemblyJoint& joint, std::span<const joint
     return plot::standalone(plot::draw(plot), plot::style_sheet());
 }
 
-namespace {
-
-struct CurveOptions {
+struct CurveCommandOptions {
     std::string assembly, variant, joint, law, direction = "tighten", csv, svg;
 };
 
@@ -104,7 +97,7 @@ Result<std::size_t> find_joint(const content::Assembly& assembly, const std::str
                              : fmt::format("did you mean {}?", best));
 }
 
-int run_curve(const CurveOptions& options) {
+int run_curve(const CurveCommandOptions& options) {
     if (options.csv.empty() && options.svg.empty()) {
         Error error;
         error.code = ErrorCode::usage;
@@ -112,7 +105,7 @@ int run_curve(const CurveOptions& options) {
         error.expected = "--csv FILE or --svg FILE";
         return print_error(error);
     }
-    const content::Loaded loaded = content::load_assembly(options.assembly, options.variant);
+    const content::LoadedAssembly loaded = content::load_assembly(options.assembly, options.variant);
     if (!loaded.ok()) return print_error(loaded.errors);
     const content::Assembly& assembly = loaded.assembly;
     Result<std::size_t> joint = find_joint(assembly, options.joint);
@@ -134,9 +127,9 @@ int run_curve(const CurveOptions& options) {
     if (!options.svg.empty()) {
         const std::string title =
             fmt::format("{} {}, law {}, {}", assembly.name, options.joint, name(law), options.direction);
-        const Status kept =
+        const Status written =
             write_file(options.svg, curve_svg(assembly.joints[*joint], run, curve.direction, title));
-        if (!kept) return print_error(kept.error());
+        if (!written) return print_error(written.error());
     }
     if (options.csv.empty()) return 0;
     std::string text = "angle_deg,stage,torque_Nm,clamp_N\n";
@@ -144,17 +137,17 @@ int run_curve(const CurveOptions& options) {
         fmt::format_to(std::back_inserter(text), "{:.4f},{},{:.7g},{:.6g}\n", to_degrees(s.angle),
                        name(s.stage), s.torque, s.clamp);
     if (options.csv != "-") {
-        const Status kept = write_file(options.csv, text);
-        return kept ? 0 : print_error(kept.error());
+        const Status written = write_file(options.csv, text);
+        return written ? 0 : print_error(written.error());
     }
-    const Status said = print(text);
-    return said ? 0 : print_error(said.error());
+    const Status printed = print(text);
+    return printed ? 0 : print_error(printed.error());
 }
 
 }  // namespace
 
 void add_curve(CLI::App& app, int& exit_code) {
-    auto options = std::make_shared<CurveOptions>();
+    auto options = std::make_shared<CurveCommandOptions>();
     CLI::App* curve =
         app.add_subcommand("curve", "The torque-angle curve of a joint, turned at 30 degrees a second");
     curve->add_option("assembly", options->assembly, "Folder, file, or name under content/assemblies")
@@ -211,8 +204,8 @@ int run_torque(const TorqueOptions& options) {
                            bolt->name, options.mu, 100.0 * options.utilisation, preload.force / 1e3,
                            preload.torque);
     }
-    const Status said = print(text);
-    return said ? 0 : print_error(said.error());
+    const Status printed = print(text);
+    return printed ? 0 : print_error(printed.error());
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
-// bolt-author: the tool of those who make assemblies.
-
+// bolt-author: the command-line tool for authors of assemblies.
 #include "engine/base/program.hpp"
 #include "tools/author/commands.hpp"
-#include "tools/author/import_command.hpp"
 
 int main(int argc, char** argv) {
     CLI::App app("Makes and checks Boltwright assemblies.", "bolt-author");

@@ -1,3 +1,7 @@
+// Benchmarks of contact queries, tick by tick along a path of the shipped wrench near and on a casing. One
+// benchmark iteration is the whole path. The counters are microseconds of this thread's CPU time; for each
+// tick the least of three rounds counts. `touching_*`: only ticks with contacts; `after_load`: the first
+// tick.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -19,26 +23,7 @@
 #include "tools/bench/contact_peers.hpp"
 #include "tools/bench/harness.hpp"
 
-// What contact is measured with: a casing of as many triangles as wanted, the shipped wrench, and a way of
-// the wrench near and into the casing.
-
 namespace bolt::bench {
-
-// The meshes of a glTF file where their nodes are, one a node; of those nodes only whose name begins with one
-// of `prefixes`, if there are any.
-Result<std::vector<collision::ContactMesh>> load_contact(const std::filesystem::path& path,
-                                                         const std::vector<std::string>& prefixes = {});
-
-// Every edge longer than `longest` halved until there is none; new vertices lie on waves of 20 µm, so that
-// nothing stays flat.
-collision::ContactMesh refined(const collision::ContactMesh& mesh, double longest);
-
-// A pose a millisecond: the tool comes to a place on the casing with a point of its own, goes 4 mm before it
-// to 8 mm behind it, moves on along it, and goes on to the next, turned anyhow; minimum jerk, no point of it
-// faster than 0.3 m/s. Where that leads into the casing it is pushed out again but for `deepest`, as a
-// god-object would.
-std::vector<Pose> make_sweep(const collision::World& world, const collision::Solid& casing,
-                             const collision::ToolShape& tool, double deepest, double seconds);
 
 namespace {
 
@@ -58,6 +43,7 @@ Vec3 random_point(Random& random, const ContactMesh& mesh, const std::vector<dou
     return a * (1.0 - u) + b * (u * (1.0 - v)) + c * (u * v);
 }
 
+// Returns the running sums of twice the triangles' areas.
 std::vector<double> area_sums(const ContactMesh& mesh) {
     std::vector<double> sums;
     double area = 0.0;
@@ -68,10 +54,10 @@ std::vector<double> area_sums(const ContactMesh& mesh) {
     return sums;
 }
 
-}  // namespace
-
+// Returns one mesh, in the world frame, for each node with a mesh whose name begins with one of `prefixes`;
+// without prefixes for every node with a mesh.
 Result<std::vector<ContactMesh>> load_contact(const std::filesystem::path& path,
-                                              const std::vector<std::string>& prefixes) {
+                                              const std::vector<std::string>& prefixes = {}) {
     BOLT_TRY_ASSIGN(const auto model, assets::read_gltf(path));
     const std::vector<glm::mat4> world = assets::world_transforms(model);
     std::vector<ContactMesh> parts;
@@ -95,6 +81,8 @@ Result<std::vector<ContactMesh>> load_contact(const std::filesystem::path& path,
     return parts;
 }
 
+// Halves edges until none is longer than `longest` (m). New vertices are displaced by waves of 20 µm so that
+// no region stays flat.
 ContactMesh refined(const ContactMesh& mesh, double longest) {
     std::vector<glm::vec3> vertices = mesh.vertices;
     std::vector<glm::vec3> normals = mesh.vertex_normals;
@@ -157,13 +145,18 @@ ContactMesh refined(const ContactMesh& mesh, double longest) {
     return collision::make_contact_mesh(vertices, indices).value();
 }
 
-std::vector<Pose> make_sweep(const collision::World& world, const collision::Solid& casing,
+// Returns one pose per millisecond. The tool approaches a random point of the casing with a random point of
+// its own and orientation, moves to between 4 mm before and 8 mm behind the surface, slides along it, and
+// goes to the next point. The profile is minimum jerk; no point of the tool is faster than 0.3 m/s. Poses
+// that penetrate the casing by more than `deepest` (m) are pushed out, as a god-object would.
+std::vector<Pose> make_sweep(const collision::CollisionWorld& world, const collision::Solid& casing,
                              const collision::ToolShape& tool, double deepest, double seconds) {
     Random random(7);
     const std::vector<double> casing_sums = area_sums(casing.mesh);
     const std::vector<double> tool_sums = area_sums(tool.solid.mesh);
     collision::NarrowPhaseState state = collision::make_narrow_phase(world, tool);
-    // Pushes out along the deepest contact repeatedly and returns slowly: nearly the motion of a god-object.
+    // Push out along the deepest contact repeatedly and let the shift decay slowly: nearly the motion of a
+    // god-object.
     Vec3 shift(0.0);
     const auto put = [&](Pose pose) -> std::optional<Pose> {
         shift *= 0.98;
@@ -203,29 +196,31 @@ std::vector<Pose> make_sweep(const collision::World& world, const collision::Sol
         Vec3 tool_normal(0.0);
         const Vec3 at = random_point(random, casing.mesh, casing_sums, normal);
         const Vec3 on_tool = random_point(random, tool.solid.mesh, tool_sums, tool_normal);
-        Pose there{at + random.uniform(-8e-3, 4e-3) * normal, random_turn(random)};
-        there.position -= there.orientation * on_tool;
-        // There along the normal, a bit along the surface, and back.
-        const Pose before{there.position + 25e-3 * normal, there.orientation};
+        Pose target{at + random.uniform(-8e-3, 4e-3) * normal, random_turn(random)};
+        target.position -= target.orientation * on_tool;
+        // Approach along the normal, then slide along the surface.
+        const Pose before{target.position + 25e-3 * normal, target.orientation};
         const Vec3 along = glm::normalize(glm::cross(normal, Vec3(random.normal(), random.normal(), 0.3)));
-        const Pose after{there.position + 15e-3 * along, rotation(0.2 * normal) * there.orientation};
-        std::vector<Pose> way;
+        const Pose after{target.position + 15e-3 * along, rotation(0.2 * normal) * target.orientation};
+        std::vector<Pose> segment;
         shift = Vec3(0.0);
         bool allowed = true;
         for (const auto& [a, b] :
-             {std::pair(from, before), std::pair(before, there), std::pair(there, after)}) {
-            // Far ways are not the point: the tool is put there.
+             {std::pair(from, before), std::pair(before, target), std::pair(target, after)}) {
+            // Skip long transfers: place the tool at their end.
             if (glm::length(a.position - b.position) > 0.1) continue;
             const std::vector<Pose> part = leg(a, b);
             allowed = allowed && !part.empty();
-            way.insert(way.end(), part.begin(), part.end());
+            segment.insert(segment.end(), part.begin(), part.end());
         }
         if (!allowed) continue;
-        sweep.insert(sweep.end(), way.begin(), way.end());
+        sweep.insert(sweep.end(), segment.begin(), segment.end());
         from = after;
     }
     return sweep;
 }
+
+}  // namespace
 
 std::vector<PeerEntry> peers() {
     return {
@@ -240,15 +235,11 @@ std::vector<PeerEntry> peers() {
 
 }  // namespace bolt::bench
 
-// Contact queries, tick by tick along a path of the wrench near and on the casing. A benchmark iteration is
-// the whole path. The counters are microseconds of this thread's CPU time, the least of three rounds for each
-// tick. `touching_*`: only ticks with contacts; `after_load`: the first tick.
-
 namespace {
 
 using namespace bolt;
-using bench::guarded;
-using bench::need;
+using bench::run_or_skip;
+using bench::unwrap;
 
 std::string content() {
     const char* set = std::getenv("BOLTWRIGHT_CONTENT");
@@ -256,51 +247,52 @@ std::string content() {
 }
 
 constexpr double band = 0.6e-3;
-constexpr double longest_of_a_million = 8.5e-3;  // m: the longest edge for about a million triangles
+constexpr double edge_for_a_million_triangles = 8.5e-3;  // m: the longest edge for about a million triangles
 
-constexpr double seconds = 24.0;  // of the path
+constexpr double seconds = 24.0;  // s, duration of the path
 constexpr int rounds = 3;         // the least time of each tick counts
 
-// Arguments 0, 1: the casing as shipped (about 60,000 triangles) and refined.
-struct Ground {
+// The benchmark's argument selects the casing: 0 as shipped (about 60,000 triangles), 1 refined.
+struct ContactScenario {
     std::array<std::vector<collision::ContactMesh>, 2> casings;
-    std::array<collision::World, 2> worlds;
+    std::array<collision::CollisionWorld, 2> worlds;
     std::vector<collision::ContactMesh> wrench;
     collision::ToolShape tool;
     std::vector<Pose> sweep;
 
-    static const Ground& get() {
-        static const Ground ground;
-        return ground;
+    static const ContactScenario& get() {
+        static const ContactScenario scenario;
+        return scenario;
     }
-    [[nodiscard]] collision::World world(std::size_t casing, double cell) const {
+    [[nodiscard]] collision::CollisionWorld world(std::size_t casing, double cell) const {
         std::vector<collision::Obstacle> obstacles;
         for (const collision::ContactMesh& part : casings[casing])
             obstacles.push_back({collision::ObstacleId::fixed(obstacles.size()), &part, {}, false});
-        return need(collision::make_world(obstacles, {cell}));
+        return unwrap(collision::make_world(obstacles, {cell}));
     }
 
   private:
-    Ground() {
-        casings[0] = need(
+    ContactScenario() {
+        casings[0] = unwrap(
             bench::load_contact(content() + "/assemblies/zq350/zq350.contact.glb", {"casing_", "wheel_"}));
         for (const collision::ContactMesh& part : casings[0])
-            casings[1].push_back(bench::refined(part, longest_of_a_million));
+            casings[1].push_back(bench::refined(part, edge_for_a_million_triangles));
         for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i] = world(i, collision::WorldOptions{}.cell);
-        wrench = need(bench::load_contact(content() + "/tools/wrench-24.contact.glb"));
-        tool = need(collision::make_tool(wrench));
+        wrench = unwrap(bench::load_contact(content() + "/tools/wrench-24.contact.glb"));
+        tool = unwrap(collision::make_tool(wrench));
         sweep = bench::make_sweep(worlds[0], worlds[0].shapes[0].solid, tool, 0.1e-3, seconds);
     }
 };
 
-class Ticks {
+// Times of the ticks of a path, by whether the tool touches. The first tick after a jump counts apart.
+class TickTimes {
   public:
-    void add(double took, bool touches, bool follows) {
-        if (!follows) return first_.push_back(took);
+    void add(double took, bool touches, bool continues) {
+        if (!continues) return first_.push_back(took);
         all_.push_back(took);
         if (touches) touching_.push_back(took);
     }
-    void tell(benchmark::State& state) {
+    void report(benchmark::State& state) {
         state.counters["p50"] = bench::quantile(all_, 0.5);
         state.counters["p99"] = bench::quantile(all_, 0.99);
         state.counters["p99.9"] = bench::quantile(all_, 0.999);
@@ -318,8 +310,8 @@ class Ticks {
 // Measures every `every`-th pose. `make_step()` returns a step without cached state; `step(pose)` returns
 // whether the tool touches.
 template <class MakeStep>
-void along(benchmark::State& state, std::size_t every, const MakeStep& make_step) {
-    const std::vector<Pose>& sweep = Ground::get().sweep;
+void measure_path(benchmark::State& state, std::size_t every, const MakeStep& make_step) {
+    const std::vector<Pose>& sweep = ContactScenario::get().sweep;
     for (auto _ : state) {
         std::vector<double> least(sweep.size(), 1e9);
         std::vector<bool> touches(sweep.size());
@@ -331,30 +323,31 @@ void along(benchmark::State& state, std::size_t every, const MakeStep& make_step
                 least[i] = std::min(least[i], bench::thread_microseconds() - start);
             }
         }
-        Ticks ticks;
+        TickTimes times;
         for (std::size_t i = 0; i < sweep.size(); i += every) {
-            // Between two segments the tool is placed without a path.
-            const bool follows = i > 0 && glm::length(sweep[i].position - sweep[i - 1].position) < 2e-3;
-            ticks.add(least[i], touches[i], follows);
+            // The path jumps between two segments.
+            const bool continues = i > 0 && glm::length(sweep[i].position - sweep[i - 1].position) < 2e-3;
+            times.add(least[i], touches[i], continues);
         }
-        ticks.tell(state);
+        times.report(state);
         state.counters["after_load"] = least[0];
     }
 }
 
 std::string triangles(std::size_t casing) {
     std::size_t count = 0;
-    for (const collision::ContactMesh& part : Ground::get().casings[casing]) count += part.triangles.size();
+    for (const collision::ContactMesh& part : ContactScenario::get().casings[casing])
+        count += part.triangles.size();
     return std::to_string(count) + " triangles";
 }
 
-void proximity(benchmark::State& state, const collision::World& world, bool forgetful) {
-    guarded(state, [&] {
-        const collision::ToolShape& tool = Ground::get().tool;
-        along(state, forgetful ? 50 : 1, [&] {
+void measure_narrow_phase(benchmark::State& state, const collision::CollisionWorld& world, bool uncached) {
+    run_or_skip(state, [&] {
+        const collision::ToolShape& tool = ContactScenario::get().tool;
+        measure_path(state, uncached ? 50 : 1, [&] {
             return [&, known = collision::make_narrow_phase(world, tool)](const Pose& pose) mutable {
                 std::array<collision::Contact, 32> contacts;
-                if (forgetful) collision::clear_cache(known, world, tool);
+                if (uncached) collision::clear_cache(known, world, tool);
                 return find_contacts(world, tool, pose, band, known, contacts).count > 0;
             };
         });
@@ -363,26 +356,29 @@ void proximity(benchmark::State& state, const collision::World& world, bool forg
                        std::to_string(world.shapes[0].samples.samples.size()) + " on the casing");
     });
 }
-const collision::World& ground(const benchmark::State& state) {
-    return Ground::get().worlds[static_cast<std::size_t>(state.range(0))];
+const collision::CollisionWorld& scenario(const benchmark::State& state) {
+    return ContactScenario::get().worlds[static_cast<std::size_t>(state.range(0))];
 }
-void contact_proximity(benchmark::State& state) { proximity(state, ground(state), false); }
-BENCHMARK(contact_proximity)->Arg(0)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);
+void contact_narrow_phase(benchmark::State& state) { measure_narrow_phase(state, scenario(state), false); }
+BENCHMARK(contact_narrow_phase)->Arg(0)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);
 
-// Baselines of our own: nothing known from the tick before, and no octree.
-void contact_proximity_forgetful(benchmark::State& state) { proximity(state, ground(state), true); }
-BENCHMARK(contact_proximity_forgetful)->Arg(0)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);
+// Our own baselines: without the cache of the previous tick, and without the octree.
+void contact_narrow_phase_uncached(benchmark::State& state) {
+    measure_narrow_phase(state, scenario(state), true);
+}
+BENCHMARK(contact_narrow_phase_uncached)->Arg(0)->Arg(1)->Iterations(1)->Unit(benchmark::kMillisecond);
 void contact_narrow_phase_without_octree(benchmark::State& state) {
-    proximity(state, Ground::get().world(0, 0.0), false);
+    measure_narrow_phase(state, ContactScenario::get().world(0, 0.0), false);
 }
 BENCHMARK(contact_narrow_phase_without_octree)->Arg(0)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 // The peer libraries that were found at build time.
 void contact_peer(benchmark::State& state, bench::MakePeer make, std::size_t every) {
-    guarded(state, [&] {
+    run_or_skip(state, [&] {
         const auto casing = static_cast<std::size_t>(state.range(0));
-        const std::unique_ptr<bench::Peer> peer = make(Ground::get().casings[casing], Ground::get().wrench);
-        along(state, every, [&] { return [&](const Pose& pose) { return peer->touches(pose); }; });
+        const std::unique_ptr<bench::Peer> peer =
+            make(ContactScenario::get().casings[casing], ContactScenario::get().wrench);
+        measure_path(state, every, [&] { return [&](const Pose& pose) { return peer->touches(pose); }; });
         state.SetLabel(triangles(casing));
     });
 }

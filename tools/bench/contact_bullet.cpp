@@ -1,6 +1,6 @@
-// Bullet: the casing as a triangle tree, the tool as convex hulls, because Bullet needs convex moving bodies.
-// Each hull holds a slice across the tool's longest side, so the jaw is filled: the time is comparable, the
-// contacts are not.
+// Peer: Bullet. The casing is a triangle tree. The tool is a set of convex hulls, because Bullet needs convex
+// moving bodies; each hull holds a slice across the tool's longest side and fills the jaw. The time is
+// therefore comparable, the contacts are not.
 #include <btBulletCollisionCommon.h>
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 namespace bolt::bench {
 namespace {
 
-btVector3 at(const Vec3& p) {
+btVector3 to_bullet(const Vec3& p) {
     return {static_cast<btScalar>(p.x), static_cast<btScalar>(p.y), static_cast<btScalar>(p.z)};
 }
 
-struct Contacts : btCollisionWorld::ContactResultCallback {
+struct ContactCounter : btCollisionWorld::ContactResultCallback {
     int count = 0;
     btScalar addSingleResult(btManifoldPoint&, const btCollisionObjectWrapper*, int, int,
                              const btCollisionObjectWrapper*, int, int) override {
@@ -30,7 +30,7 @@ class Bullet final : public Peer {
         for (const collision::ContactMesh& part : casing)
             for (std::size_t t = 0; t < part.triangles.size(); ++t) {
                 const auto [a, b, c] = corners(part, t);
-                triangles_.addTriangle(at(a), at(b), at(c));
+                triangles_.addTriangle(to_bullet(a), to_bullet(b), to_bullet(c));
             }
         casing_shape_ = std::make_unique<btBvhTriangleMeshShape>(&triangles_, true);
         casing_.setCollisionShape(casing_shape_.get());
@@ -50,8 +50,8 @@ class Bullet final : public Peer {
         const Quat q(pose.orientation);
         const btQuaternion turn(static_cast<btScalar>(q.x), static_cast<btScalar>(q.y),
                                 static_cast<btScalar>(q.z), static_cast<btScalar>(q.w));
-        tool_.setWorldTransform(btTransform(turn, at(pose.position)));
-        Contacts contacts;
+        tool_.setWorldTransform(btTransform(turn, to_bullet(pose.position)));
+        ContactCounter contacts;
         world_.contactPairTest(&tool_, &casing_, contacts);
         return contacts.count > 0;
     }
@@ -79,7 +79,7 @@ class Bullet final : public Peer {
                 const auto face = corners(part, t);
                 const auto [first, last] = std::minmax({slice(face[0]), slice(face[1]), slice(face[2])});
                 for (std::size_t s = first; s <= last; ++s)
-                    for (const Vec3& p : face) hulls_[s]->addPoint(at(p), false);
+                    for (const Vec3& p : face) hulls_[s]->addPoint(to_bullet(p), false);
             }
         for (const auto& hull : hulls_) {
             hull->optimizeConvexHull();

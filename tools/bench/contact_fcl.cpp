@@ -1,4 +1,4 @@
-// The Flexible Collision Library: triangles against triangles, in trees of oriented boxes, up to 1,000
+// Peer: the Flexible Collision Library. Triangles against triangles in trees of oriented boxes, up to 1,000
 // contacts.
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/collision.h>
@@ -8,10 +8,10 @@
 namespace bolt::bench {
 namespace {
 
-using Model = fcl::BVHModel<fcl::OBBRSSd>;
+using FclModel = fcl::BVHModel<fcl::OBBRSSd>;
 
-std::shared_ptr<Model> make_model(Parts parts) {
-    auto model = std::make_shared<Model>();
+std::shared_ptr<FclModel> make_fcl_model(Parts parts) {
+    auto model = std::make_shared<FclModel>();
     model->beginModel();
     for (const collision::ContactMesh& part : parts)
         for (std::size_t t = 0; t < part.triangles.size(); ++t) {
@@ -26,8 +26,8 @@ std::shared_ptr<Model> make_model(Parts parts) {
 class Fcl final : public Peer {
   public:
     Fcl(Parts casing, Parts tool)
-        : casing_(make_model(casing), fcl::Transform3d::Identity()),
-          tool_(make_model(tool), fcl::Transform3d::Identity()) {}
+        : casing_(make_fcl_model(casing), fcl::Transform3d::Identity()),
+          tool_(make_fcl_model(tool), fcl::Transform3d::Identity()) {}
     bool touches(const Pose& pose) override {
         const Quat& q = pose.orientation;
         tool_.setTransform(fcl::Quaterniond(q.w, q.x, q.y, q.z),

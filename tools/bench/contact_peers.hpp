@@ -1,4 +1,4 @@
-// Other collision libraries with the same query: whether and where the wrench at a pose touches the casing.
+// Other collision libraries behind one interface: does the wrench at a pose touch the casing?
 #pragma once
 
 #include <memory>
@@ -29,10 +29,10 @@ std::unique_ptr<Peer> make_bullet(Parts casing, Parts tool);
 struct PeerEntry {
     std::string name;
     MakePeer make;
-    std::size_t every;  // the library is queried for one of this many poses
+    std::size_t every;  // the library is queried for one in this many poses
 };
 
-// The libraries that were found at build time.
+// Returns the libraries that were found at build time.
 std::vector<PeerEntry> peers();
 
 }  // namespace bolt::bench

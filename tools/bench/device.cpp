@@ -1,6 +1,6 @@
-// The cost of a device to the servo tick: publishing a command and reading the newest sample at 1 kHz, while
-// each write of the device takes 15 ms. In microseconds: wall_* of the clock, with interruptions; own_* of
-// the thread's CPU time. The baseline writes to the device directly.
+// Benchmark of the cost of a device to the servo tick: publishing a command and reading the newest sample at
+// 1 kHz while each write of the device takes 15 ms. The counters are microseconds: wall_* is elapsed time
+// with interruptions, own_* the thread's CPU time. The baseline writes to the device directly.
 #include <benchmark/benchmark.h>
 
 #include <thread>
@@ -11,16 +11,16 @@
 namespace {
 
 using namespace bolt;
-using bench::guarded;
-using bench::need;
+using bench::run_or_skip;
+using bench::unwrap;
 
-constexpr double stall = 0.015;  // s
+constexpr double write_duration = 0.015;  // s
 constexpr int ticks = 10'000;
 
-// A hidraw device with slow writes.
-class Slow final : public device::Device {
+// A device with slow writes.
+class SlowDevice final : public device::DeviceDriver {
   public:
-    Slow() {
+    SlowDevice() {
         description_.name = "slow";
         description_.renders.fill(true);
     }
@@ -30,7 +30,7 @@ class Slow final : public device::Device {
         return device::Sample{};
     }
     Status write(const force::OutputCommand& /*command*/) override {
-        timer_.wait(stall);
+        timer_.wait(write_duration);
         return {};
     }
 
@@ -56,10 +56,10 @@ template <class Work>
 void measure(benchmark::State& state, int count, const Work& work) {
     for (auto _ : state) {
         std::vector<double> wall, own;
-        auto next = bench::Clock::now();
+        auto next = bench::WallClock::now();
         for (int i = 0; i < count; ++i) {
             std::this_thread::sleep_until(next += std::chrono::milliseconds(1));
-            const auto start = bench::Clock::now();
+            const auto start = bench::WallClock::now();
             const double begun = bench::thread_microseconds();
             work(i);
             own.push_back(bench::thread_microseconds() - begun);
@@ -75,22 +75,24 @@ void measure(benchmark::State& state, int count, const Work& work) {
 }
 
 void device_through_a_mailbox(benchmark::State& state) {
-    guarded(state, [&] {
-        device::DeviceThread line = need(device::DeviceThread::start(
-            []() -> Result<std::unique_ptr<device::Device>> { return std::make_unique<Slow>(); }));
-        need(line.wait_until_open(10.0));
+    run_or_skip(state, [&] {
+        device::DeviceThread thread =
+            unwrap(device::DeviceThread::start([]() -> Result<std::unique_ptr<device::DeviceDriver>> {
+                return std::make_unique<SlowDevice>();
+            }));
+        unwrap(thread.wait_until_open(10.0));
         measure(state, ticks, [&](int i) {
-            line.command({Vec3(i, 0, 0), Vec3(0.0)}, true);
-            benchmark::DoNotOptimize(line.snapshot());
+            thread.command({Vec3(i, 0, 0), Vec3(0.0)}, true);
+            benchmark::DoNotOptimize(thread.snapshot());
         });
-        state.counters["writes"] = static_cast<double>(line.report().writes);
+        state.counters["writes"] = static_cast<double>(thread.report().writes);
     });
 }
 
 void device_written_directly(benchmark::State& state) {
-    guarded(state, [&] {
-        Slow slow;
-        measure(state, ticks / 20, [&](int i) { need(slow.write({Vec3(i, 0, 0), Vec3(0.0)})); });
+    run_or_skip(state, [&] {
+        SlowDevice slow;
+        measure(state, ticks / 20, [&](int i) { unwrap(slow.write({Vec3(i, 0, 0), Vec3(0.0)})); });
     });
 }
 

@@ -1,4 +1,5 @@
-// The registry against two plain arrays that do the same work. The ratio is the cost of entities.
+// Benchmarks of the registry. The baseline does the same work on two plain arrays; the ratio is the cost of
+// entities.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -11,15 +12,15 @@ namespace {
 
 using namespace bolt;
 
-struct Pose {
+struct Position {
     float x = 0.0F, y = 0.0F, z = 0.0F;
 };
 struct Velocity {
     float x = 0.0F, y = 0.0F, z = 0.0F;
 };
-using World = ecs::Registry<Pose, Velocity>;
+using BenchRegistry = ecs::Registry<Position, Velocity>;
 
-void move(Pose& pose, const Velocity& velocity) {
+void move(Position& pose, const Velocity& velocity) {
     pose.x += 1e-3F * velocity.x;
     pose.y += 1e-3F * velocity.y;
     pose.z += 1e-3F * velocity.z;
@@ -28,7 +29,7 @@ void move(Pose& pose, const Velocity& velocity) {
 constexpr std::int64_t million = 1'000'000;
 
 void iterate_plain_arrays(benchmark::State& state) {
-    std::vector<Pose> poses(static_cast<std::size_t>(state.range(0)));
+    std::vector<Position> poses(static_cast<std::size_t>(state.range(0)));
     std::vector<Velocity> velocities(poses.size(), Velocity{1.0F, 2.0F, 3.0F});
     for (auto _ : state) {
         for (std::size_t i = 0; i < poses.size(); ++i) move(poses[i], velocities[i]);
@@ -39,48 +40,49 @@ void iterate_plain_arrays(benchmark::State& state) {
 }
 BENCHMARK(iterate_plain_arrays)->Arg(million);
 
-World populated(std::int64_t count) {
-    World world;
+BenchRegistry make_registry(std::int64_t count) {
+    BenchRegistry registry;
     for (std::int64_t i = 0; i < count; ++i) {
-        const ecs::Entity entity = world.create();
-        world.add<Pose>(entity);
-        world.add<Velocity>(entity, 1.0F, 2.0F, 3.0F);
+        const ecs::Entity entity = registry.create();
+        registry.add<Position>(entity);
+        registry.add<Velocity>(entity, 1.0F, 2.0F, 3.0F);
     }
-    return world;
+    return registry;
 }
 
-void walk(benchmark::State& state, World& world) {
+void measure_iteration(benchmark::State& state, BenchRegistry& registry) {
     for (auto _ : state) {
-        world.view<Pose, const Velocity>().each([](Pose& pose, const Velocity& v) { move(pose, v); });
+        registry.view<Position, const Velocity>().each(
+            [](Position& pose, const Velocity& v) { move(pose, v); });
         benchmark::ClobberMemory();
     }
     state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-// Both pools in the same order, as after creating long-lived entities once.
+// Both pools have the same order, as after creating long-lived entities once.
 void iterate_two_components(benchmark::State& state) {
-    World world = populated(state.range(0));
-    walk(state, world);
+    BenchRegistry registry = make_registry(state.range(0));
+    measure_iteration(state, registry);
 }
 BENCHMARK(iterate_two_components)->Arg(million);
 
-// The pools in unrelated orders: the worst case of a sparse set.
+// The pools have unrelated orders, the worst case of a sparse set.
 void iterate_two_components_shuffled(benchmark::State& state) {
-    World world = populated(state.range(0));
-    std::vector<ecs::Entity> entities(world.pool<Pose>().entities().begin(),
-                                      world.pool<Pose>().entities().end());
+    BenchRegistry registry = make_registry(state.range(0));
+    std::vector<ecs::Entity> entities(registry.pool<Position>().entities().begin(),
+                                      registry.pool<Position>().entities().end());
     Random random(1);
     for (std::size_t i = entities.size(); i > 1; --i) std::swap(entities[i - 1], entities[random.bits() % i]);
-    for (const ecs::Entity entity : entities) world.remove<Velocity>(entity);
-    for (const ecs::Entity entity : entities) world.add<Velocity>(entity, 1.0F, 2.0F, 3.0F);
-    walk(state, world);
+    for (const ecs::Entity entity : entities) registry.remove<Velocity>(entity);
+    for (const ecs::Entity entity : entities) registry.add<Velocity>(entity, 1.0F, 2.0F, 3.0F);
+    measure_iteration(state, registry);
 }
 BENCHMARK(iterate_two_components_shuffled)->Arg(million);
 
-// The baseline of creation: the same numbers appended to two arrays; neither side reserves memory.
+// Baseline of creation: appends the same values to two arrays. Neither side reserves memory.
 void create_in_plain_arrays(benchmark::State& state) {
     for (auto _ : state) {
-        std::vector<Pose> poses;
+        std::vector<Position> poses;
         std::vector<Velocity> velocities;
         for (std::int64_t i = 0; i < state.range(0); ++i) {
             poses.emplace_back();
@@ -94,15 +96,15 @@ void create_in_plain_arrays(benchmark::State& state) {
 BENCHMARK(create_in_plain_arrays)->Arg(million);
 
 void create_and_destroy(benchmark::State& state) {
-    World world;
+    BenchRegistry registry;
     std::vector<ecs::Entity> entities(static_cast<std::size_t>(state.range(0)));
     for (auto _ : state) {
         for (ecs::Entity& entity : entities) {
-            entity = world.create();
-            world.add<Pose>(entity);
-            world.add<Velocity>(entity, 1.0F, 2.0F, 3.0F);
+            entity = registry.create();
+            registry.add<Position>(entity);
+            registry.add<Velocity>(entity, 1.0F, 2.0F, 3.0F);
         }
-        for (const ecs::Entity entity : entities) world.destroy(entity);
+        for (const ecs::Entity entity : entities) registry.destroy(entity);
     }
     state.SetItemsProcessed(state.iterations() * state.range(0));
 }

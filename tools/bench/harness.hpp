@@ -1,4 +1,4 @@
-// What benchmarks of the engine share: values or an end, and clocks.
+// Helpers of the benchmarks: errors, clocks and quantiles.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -13,32 +13,32 @@
 
 namespace bolt::bench {
 
-using Clock = std::chrono::steady_clock;
+using WallClock = std::chrono::steady_clock;
 
-inline double milliseconds_since(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+inline double milliseconds_since(WallClock::time_point start) {
+    return std::chrono::duration<double, std::milli>(WallClock::now() - start).count();
 }
 
-// What all threads of this program have computed so far: unlike time, no other program adds to it.
+// CPU time of all threads of this process. Other programs do not affect it.
 inline double cpu_milliseconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-// Thrown out of a benchmark, where guarded() catches it.
+// Returns the value, or throws the error, which guarded() catches.
 template <class T>
-T need(Result<T> result) {
+T unwrap(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().message());
     return std::move(*result);
 }
-inline void need(const Status& status) {
+inline void unwrap(const Status& status) {
     if (!status) throw std::runtime_error(status.error().message());
 }
 
-// What fails is said beside the benchmark's name; the others run on.
+// Runs a benchmark. An exception is reported beside its name, and the other benchmarks still run.
 template <class Run>
-void guarded(benchmark::State& state, const Run& run) {
+void run_or_skip(benchmark::State& state, const Run& run) {
     try {
         run();
     } catch (const std::exception& problem) {
@@ -46,16 +46,14 @@ void guarded(benchmark::State& state, const Run& run) {
     }
 }
 
-// What one thread has worked on something, and how such times are spread.
-
-// Of this thread's own work, whatever else runs.
+// CPU time of this thread.
 inline double thread_microseconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-// What `share` of the values are below.
+// Returns the value below which the fraction `share` of the values lies; 0 without values.
 inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0.0;
     const auto last = values.size() - 1;

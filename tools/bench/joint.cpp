@@ -1,3 +1,4 @@
+// Benchmarks of the joint model, and of the servo tick with 12 joints.
 #include <benchmark/benchmark.h>
 
 #include "haptics/joint/group.hpp"
@@ -19,8 +20,7 @@ JointDesign m16() {
     return d;
 }
 
-// The group's size is the argument; joints on a 60 mm grid, each tight, one nut turned on and off by its
-// handle.
+// The argument is the number of joints. All are tight, on a 60 mm grid; a handle turns one nut on and off.
 void group_tick(benchmark::State& state) {
     const auto n = static_cast<std::size_t>(state.range(0));
     std::vector<JointDesign> designs(n, m16());
@@ -30,9 +30,9 @@ void group_tick(benchmark::State& state) {
     const GroupParameters group = make_group(designs, n > 1 ? &plate : nullptr, 1);
     std::vector<JointState> joints = initial_state(group, n);
     for (std::size_t i = 0; i < n; ++i) {
-        joints[i].mechanistic.angle = joints[i].nut.angle = 0.3;  // some kilonewtons
+        joints[i].mechanistic.angle = joints[i].nut.angle = 0.3;  // a few kilonewtons
     }
-    Handle handle;
+    DriveHandle handle;
     handle.engaged = true;
     handle.stiffness = 2000.0;
     handle.half_play = 0.01;
@@ -49,7 +49,7 @@ void group_tick(benchmark::State& state) {
 }
 BENCHMARK(group_tick)->Arg(1)->Arg(12)->Arg(100)->Arg(1000)->Complexity(benchmark::oN);
 
-// The baseline: a direct solution of the same closure, twenty Newton steps on the implicit equation.
+// Baseline: a direct solution of the same closure by twenty Newton steps on the implicit equation.
 void seat_by_newton(benchmark::State& state) {
     const SeatSpring seat{5.5e-9, 6.5e-6, 31.4};
     double x = 0.0;
@@ -98,7 +98,7 @@ BENCHMARK(yielding_tick);
 void published_tick(benchmark::State& state) {
     const GroupParameters group = make_published_group(PublishedParameters{});
     std::vector<JointState> joints = initial_state(group, 1);
-    Handle handle;
+    DriveHandle handle;
     handle.engaged = true;
     handle.stiffness = 2000.0;
     double t = 0.0;

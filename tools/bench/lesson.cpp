@@ -1,3 +1,4 @@
+// Benchmarks of lessons: a headless lesson against real time, and the cost of a lesson per rendered frame.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,9 +14,9 @@ namespace {
 
 using namespace bolt;
 
-// The whole headless lesson, session file included; "x_real_time" is virtual seconds per second on one core.
+// A whole headless lesson with its session file. "x_real_time" is virtual seconds per second on one core.
 void headless_lesson(benchmark::State& state) {
-    const content::Loaded loaded = content::load_assembly("zq350");
+    const content::LoadedAssembly loaded = content::load_assembly("zq350");
     if (!loaded.ok()) {
         state.SkipWithError(loaded.errors.front().message().c_str());
         return;
@@ -25,8 +26,8 @@ void headless_lesson(benchmark::State& state) {
     options.trainee = trainees::find_profile("expert").value();
     double seconds = 0.0;
     for (auto _ : state) {
-        const auto result =
-            trainees::train(loaded.assembly, options, file, [](const trainees::Progress&) { return true; });
+        const auto result = trainees::train(loaded.assembly, options, file,
+                                            [](const trainees::TrainingProgress&) { return true; });
         if (!result) {
             state.SkipWithError(result.error().message().c_str());
             break;
@@ -42,7 +43,7 @@ BENCHMARK(headless_lesson)->Unit(benchmark::kMillisecond);
 
 // Baseline: the same lesson without recording.
 void headless_lesson_unrecorded(benchmark::State& state) {
-    const content::Loaded loaded = content::load_assembly("zq350");
+    const content::LoadedAssembly loaded = content::load_assembly("zq350");
     if (!loaded.ok()) {
         state.SkipWithError(loaded.errors.front().message().c_str());
         return;
@@ -52,7 +53,7 @@ void headless_lesson_unrecorded(benchmark::State& state) {
     for (auto _ : state) {
         servo::State servo = servo::initial_state(setup);
         lesson::Lesson lesson = lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
-        trainees::Operator trainee(trainees::find_profile("expert").value(), 1, setup);
+        trainees::SimulatedTrainee trainee(trainees::find_profile("expert").value(), 1, setup);
         while (lesson.due() != nullptr && servo.tick < 7'200'000) {
             const servo::Input input = trainee.act(setup, servo, lesson);
             const servo::Output output = servo::tick(setup, servo, input);
@@ -68,45 +69,47 @@ BENCHMARK(headless_lesson_unrecorded)->Unit(benchmark::kMillisecond);
 }  // namespace
 
 // The cost of a lesson per rendered frame: the servo ticks, the lesson that observes them and the session
-// that records them. A simulated expert works among obstacles. The counters are milliseconds of CPU time in a
+// that records them, with a simulated expert among obstacles. The counters are milliseconds of CPU time in a
 // frame of 1/60 s.
 
 namespace {
 
 using namespace bolt;
-using bench::guarded;
-using bench::need;
+using bench::run_or_skip;
+using bench::unwrap;
 
-constexpr double frame = 1.0 / 60.0, longest = 3600.0;  // s
+constexpr double frame = 1.0 / 60.0, time_limit = 3600.0;  // s
 
 void lesson_frames(benchmark::State& state, const char* name, session::Obstacles obstacles) {
-    guarded(state, [&] {
-        const content::Loaded loaded = content::load_assembly(name);
+    run_or_skip(state, [&] {
+        const content::LoadedAssembly loaded = content::load_assembly(name);
         if (!loaded.ok()) throw std::runtime_error(loaded.errors.front().message());
         const auto file = std::filesystem::temp_directory_path() / "bolt-bench-frames.boltwright";
-        session::CourseOptions options;
+        session::LessonOptions options;
         options.obstacles = obstacles;
         std::vector<double> frames, touching;
         for (auto _ : state) {
-            const auto begun = need(session::Course::begin(loaded.assembly, options, file));
-            session::Course& course = *begun;
-            trainees::Operator expert(trainees::find_profile("expert").value(), 1, course.setup());
-            double spent = 0.0;
+            const auto session = unwrap(session::LessonSession::begin(loaded.assembly, options, file));
+            session::LessonSession& lesson_session = *session;
+            trainees::SimulatedTrainee expert(trainees::find_profile("expert").value(), 1,
+                                              lesson_session.setup());
+            double frame_cost = 0.0;
             bool touches = false;
-            for (double shown = 0.0; !course.over() && course.time() < longest;) {
-                const servo::Input input = expert.act(course.setup(), course.state(), course.lesson());
+            for (double last_frame = 0.0; !lesson_session.finished() && lesson_session.time() < time_limit;) {
+                const servo::Input input =
+                    expert.act(lesson_session.setup(), lesson_session.state(), lesson_session.lesson());
                 const double start = bench::thread_microseconds();
-                const servo::Output output = need(course.step(input, expert.take_noticed()));
-                spent += 1e-3 * (bench::thread_microseconds() - start);
+                const servo::Output output = unwrap(lesson_session.step(input, expert.take_events()));
+                frame_cost += 1e-3 * (bench::thread_microseconds() - start);
                 touches = touches || !output.touched.is_none();
-                if (course.time() < shown + frame) continue;
-                shown += frame;
-                frames.push_back(spent);
-                if (touches) touching.push_back(spent);
-                spent = 0.0;
+                if (lesson_session.time() < last_frame + frame) continue;
+                last_frame += frame;
+                frames.push_back(frame_cost);
+                if (touches) touching.push_back(frame_cost);
+                frame_cost = 0.0;
                 touches = false;
             }
-            state.counters["s"] = course.time();
+            state.counters["s"] = lesson_session.time();
         }
         for (const auto& [share_name, share] :
              {std::pair("p50", 0.5), std::pair("p99", 0.99), std::pair("max", 1.0)}) {
@@ -114,7 +117,7 @@ void lesson_frames(benchmark::State& state, const char* name, session::Obstacles
             state.counters["touching_" + std::string(share_name)] = bench::quantile(touching, share);
         }
         double over = 0.0;
-        for (const double spent : frames) over += spent > 1.0 ? 1.0 : 0.0;
+        for (const double frame_cost : frames) over += frame_cost > 1.0 ? 1.0 : 0.0;
         state.counters["over_1_ms"] = over / static_cast<double>(frames.size());
         for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(file.string() + end);
     });

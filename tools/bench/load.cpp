@@ -1,6 +1,6 @@
-// Loads a model of a million triangles from its file to the GPU. Baseline: reading the file's bytes; the two
-// alternate, and `x_bytes` is the ratio. Peer: tinygltf alone, which leaves the numbers unchecked in the
-// file's buffers.
+// Benchmark of loading a model of a million triangles from its file to the GPU. Baseline: reading the file's
+// bytes; the two alternate, and `x_bytes` is the ratio. Peer: tinygltf alone, which leaves the data unchecked
+// in the file's buffers.
 #include <benchmark/benchmark.h>
 
 #include <filesystem>
@@ -15,15 +15,15 @@
 namespace {
 
 using namespace bolt;
-using bench::Clock;
-using bench::guarded;
 using bench::milliseconds_since;
-using bench::need;
+using bench::run_or_skip;
+using bench::unwrap;
+using bench::WallClock;
 
 constexpr bench::MachineSize million{115, 1'000'000};
 
-// Triangles that share nothing and have no normals, as plain exporters write them: the renderer makes the
-// normals.
+// Returns the model with unshared vertices and without normals, as simple exporters write it. The renderer
+// then computes the normals.
 assets::Model unshared(assets::Model model) {
     for (assets::Mesh& mesh : model.meshes) {
         assets::Primitive& part = mesh.primitives[0];
@@ -36,36 +36,36 @@ assets::Model unshared(assets::Model model) {
     return model;
 }
 
-// The machine in a temporary file.
-struct File {
+// A temporary file with the benchmark model.
+struct TemporaryModelFile {
     std::filesystem::path path = std::filesystem::temp_directory_path() / "bolt-bench-million.glb";
-    explicit File(bool shares) {
+    explicit TemporaryModelFile(bool shared) {
         const assets::Model model = bench::make_machine(million);
-        need(assets::write_glb(path, shares ? model : unshared(model)));
+        unwrap(assets::write_glb(path, shared ? model : unshared(model)));
     }
-    ~File() {
+    ~TemporaryModelFile() {
         std::error_code ignored;
         std::filesystem::remove(path, ignored);
     }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
+    TemporaryModelFile(const TemporaryModelFile&) = delete;
+    TemporaryModelFile& operator=(const TemporaryModelFile&) = delete;
 };
 
 double read_bytes(const std::filesystem::path& path) {
-    const Clock::time_point start = Clock::now();
-    const std::string bytes = need(read_file(path, std::size_t{1} << 30U, ErrorCode::failed));
+    const WallClock::time_point start = WallClock::now();
+    const std::string bytes = unwrap(read_file(path, std::size_t{1} << 30U, ErrorCode::failed));
     benchmark::DoNotOptimize(bytes.data());
     return milliseconds_since(start);
 }
 
 // Alternates `load` with the baseline.
 template <class Load>
-void load_file(benchmark::State& state, const Load& load, bool shares = true) {
-    const File file(shares);
+void load_file(benchmark::State& state, const Load& load, bool shared = true) {
+    const TemporaryModelFile file(shared);
     double baseline = 0.0, sum = 0.0;
     for (auto _ : state) {
         baseline += read_bytes(file.path);
-        const Clock::time_point start = Clock::now();
+        const WallClock::time_point start = WallClock::now();
         load(file.path);
         const double now = milliseconds_since(start);
         state.SetIterationTime(1e-3 * now);
@@ -76,7 +76,7 @@ void load_file(benchmark::State& state, const Load& load, bool shares = true) {
 }
 
 void load_million_tinygltf_alone(benchmark::State& state) {
-    guarded(state, [&] {
+    run_or_skip(state, [&] {
         load_file(state, [](const std::filesystem::path& path) {
             tinygltf::TinyGLTF parser;
             tinygltf::Model model;
@@ -90,32 +90,32 @@ void load_million_tinygltf_alone(benchmark::State& state) {
 BENCHMARK(load_million_tinygltf_alone)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 void load_million_read(benchmark::State& state) {
-    guarded(state, [&] {
+    run_or_skip(state, [&] {
         load_file(state, [](const std::filesystem::path& path) {
-            const assets::Model model = need(assets::read_gltf(path));
+            const assets::Model model = unwrap(assets::read_gltf(path));
             benchmark::DoNotOptimize(model.meshes.data());
         });
     });
 }
 BENCHMARK(load_million_read)->UseManualTime()->Unit(benchmark::kMillisecond);
 
-void load_million_read_and_upload(benchmark::State& state, bool shares) {
-    guarded(state, [&] {
-        const gpu::Instance instance = need(gpu::Instance::create({}));
-        const std::unique_ptr<gpu::Device> device = need(gpu::Device::create(instance, {}));
+void load_million_read_and_upload(benchmark::State& state, bool shared) {
+    run_or_skip(state, [&] {
+        const gpu::Instance instance = unwrap(gpu::Instance::create({}));
+        const std::unique_ptr<gpu::Device> device = unwrap(gpu::Device::create(instance, {}));
         double read = 0.0, upload = 0.0;
         load_file(
             state,
             [&](const std::filesystem::path& path) {
-                Clock::time_point start = Clock::now();
-                const assets::Model model = need(assets::read_gltf(path));
+                WallClock::time_point start = WallClock::now();
+                const assets::Model model = unwrap(assets::read_gltf(path));
                 read += milliseconds_since(start);
-                start = Clock::now();
-                const render::GpuModel gpu_model = need(render::upload_model(*device, model));
+                start = WallClock::now();
+                const render::GpuModel gpu_model = unwrap(render::upload_model(*device, model));
                 upload += milliseconds_since(start);
                 state.counters["triangles"] = static_cast<double>(gpu_model.triangles);
             },
-            shares);
+            shared);
         state.counters["read_ms"] = read / static_cast<double>(state.iterations());
         state.counters["upload_ms"] = upload / static_cast<double>(state.iterations());
     });

@@ -15,20 +15,20 @@ namespace {
 
 constexpr float turn = 2.0F * std::numbers::pi_v<float>;
 
-// The outline of a turned part, from its axis below to its axis above. Between two points lies a band of the
-// surface with an edge at either end.
-struct Point {
+// The profile of a turned part, from the axis at the bottom to the axis at the top (m). Each pair of points
+// spans a band of the surface with a sharp edge at either end.
+struct ProfilePoint {
     float radius = 0.0F, height = 0.0F;
 };
-using Profile = std::vector<Point>;
+using TurnedProfile = std::vector<ProfilePoint>;
 
-// What a part's cross-section makes of the radius: 1 everywhere is round.
-using Section = std::function<float(float angle)>;
+// The factor of the radius at an angle (rad); 1 everywhere is a circle.
+using CrossSection = std::function<float(float angle)>;
 
 float round_section(float) { return 1.0F; }
 
 // Teeth with straight flanks.
-Section toothed(int teeth) {
+CrossSection toothed_section(int teeth) {
     return [teeth](float angle) {
         const float phase = angle / turn * static_cast<float>(teeth);
         const float saw = std::abs(2.0F * (phase - std::floor(phase)) - 1.0F);
@@ -37,7 +37,7 @@ Section toothed(int teeth) {
 }
 
 // A regular polygon with slightly rounded corners; four sides make a housing, six a bolt.
-Section sided(int sides) {
+CrossSection polygon_section(int sides) {
     return [sides](float angle) {
         const float sector = turn / static_cast<float>(sides);
         const float within = std::fmod(angle, sector) - 0.5F * sector;
@@ -45,8 +45,8 @@ Section sided(int sides) {
     };
 }
 
-void add_band(assets::Primitive& to, const Point& from, const Point& until, const Section& section, int rows,
-              int around) {
+void add_band(assets::Primitive& to, const ProfilePoint& from, const ProfilePoint& until,
+              const CrossSection& section, int rows, int around) {
     const auto first = static_cast<std::uint32_t>(to.positions.size());
     const auto at = [&](float along, float angle) {
         const float radius = std::lerp(from.radius, until.radius, along) * section(angle);
@@ -58,8 +58,8 @@ void add_band(assets::Primitive& to, const Point& from, const Point& until, cons
         for (int j = 0; j <= around; ++j) {
             const float angle = turn * static_cast<float>(j) / static_cast<float>(around);
             const float step = 0.25F * turn / static_cast<float>(around);
-            // Across the band and around it; in the middle of the band, so that bands that end on the axis
-            // have normals there.
+            // Tangents across the band and around it, taken in its middle so that a band that ends on the
+            // axis has normals there.
             const glm::vec3 across = at(1.0F, angle) - at(0.0F, angle);
             const glm::vec3 aside = at(0.5F, angle + step) - at(0.5F, angle - step);
             to.positions.push_back(at(along, angle));
@@ -75,8 +75,8 @@ void add_band(assets::Primitive& to, const Point& from, const Point& until, cons
     }
 }
 
-// About `triangles` of them, spread over the bands by their length.
-assets::Primitive turned(const Profile& profile, const Section& section, int triangles) {
+// Returns a part with about `triangles` triangles, with the same number of rows in each band.
+assets::Primitive make_turned_part(const TurnedProfile& profile, const CrossSection& section, int triangles) {
     assets::Primitive part;
     const auto bands = static_cast<int>(profile.size()) - 1;
     const int rows_in_all = std::max(bands, static_cast<int>(std::lround(std::sqrt(triangles / 6.0))));
@@ -91,11 +91,11 @@ assets::Primitive turned(const Profile& profile, const Section& section, int tri
     return part;
 }
 
-struct Shape {
-    Profile profile;
-    Section section;
+struct TurnedShape {
+    TurnedProfile profile;
+    CrossSection section;
     int material = 0;
-    bool lies = false;  // its axis along x
+    bool lying = false;  // its axis is along x
 };
 
 enum : int { grey_paint, blue_paint, ground_steel, black_steel, zinc, brass, rubber };
@@ -121,13 +121,13 @@ std::vector<assets::Material> materials() {
             make("rubber", {0.03F, 0.03F, 0.03F}, 0.0F, 0.85F, 0.0F)};
 }
 
-Shape pick_shape(int index, Random& random) {
+TurnedShape pick_shape(int index, Random& random) {
     const auto size = [&](double low, double high) { return static_cast<float>(random.uniform(low, high)); };
     const float r = size(0.04, 0.09), h = size(0.05, 0.14);
     switch (index % 5) {
         case 0:  // housing
             return {{{0, 0}, {1.4F * r, 0}, {1.4F * r, h}, {1.1F * r, 1.3F * h}, {0, 1.3F * h}},
-                    sided(4),
+                    polygon_section(4),
                     index % 10 == 0 ? grey_paint : blue_paint,
                     false};
         case 1:  // stepped shaft
@@ -144,7 +144,7 @@ Shape pick_shape(int index, Random& random) {
                     true};
         case 2:  // gear
             return {{{0, 0}, {r, 0}, {r, 0.35F * h}, {0, 0.35F * h}},
-                    toothed(18 + index % 13),
+                    toothed_section(18 + index % 13),
                     index % 2 == 0 ? black_steel : brass,
                     true};
         case 3:  // flange with a hub
@@ -155,7 +155,7 @@ Shape pick_shape(int index, Random& random) {
                 false};
         default:  // bolt
             return {{{0, 0}, {0.3F * r, 0}, {0.3F * r, 0.2F * h}, {0.26F * r, 0.24F * h}, {0, 0.24F * h}},
-                    sided(6),
+                    polygon_section(6),
                     zinc,
                     false};
     }
@@ -171,8 +171,8 @@ assets::Model make_machine(const MachineSize& size) {
     const int columns = std::max(1, static_cast<int>(std::lround(std::sqrt(size.parts * 1.5))));
     int left = size.triangles;
     for (int i = 0; i < size.parts; ++i) {
-        const Shape shape = pick_shape(i, random);
-        assets::Primitive part = turned(shape.profile, shape.section, left / (size.parts - i));
+        const TurnedShape shape = pick_shape(i, random);
+        assets::Primitive part = make_turned_part(shape.profile, shape.section, left / (size.parts - i));
         left -= static_cast<int>(part.indices.size() / 3);
         part.material = shape.material;
         model.meshes.push_back({"part " + std::to_string(i), {std::move(part)}, {}});
@@ -186,7 +186,7 @@ assets::Model make_machine(const MachineSize& size) {
             pitch * (static_cast<float>(i / columns) - static_cast<float>(columns) / 3.0F)};
         const float angle = static_cast<float>(random.uniform(0.0, 6.28));
         node.rotation = glm::angleAxis(angle, glm::vec3(0, 1, 0));
-        if (shape.lies) node.rotation = node.rotation * glm::angleAxis(-0.25F * turn, glm::vec3(0, 0, 1));
+        if (shape.lying) node.rotation = node.rotation * glm::angleAxis(-0.25F * turn, glm::vec3(0, 0, 1));
         model.nodes.push_back(std::move(node));
         model.roots.push_back(i);
     }

@@ -1,7 +1,6 @@
 // bolt-bench: measures each part beside a named baseline in the same run. Ratios are comparable between
 // machines, nanoseconds are not. No benchmark is a test.
-//   bolt-bench --machine FILE.glb    writes the machine that frames are measured with, for others to draw
-//   (peer/)
+//   bolt-bench --machine FILE.glb    writes the benchmark model, for other renderers (peer/)
 
 #include <benchmark/benchmark.h>
 

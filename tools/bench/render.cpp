@@ -1,3 +1,5 @@
+// Benchmarks of the renderer: the cost of a frame, pass by pass, beside a minimal renderer of the same
+// triangles. The two alternate, so that other load slows both; `x_bare` is the ratio.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -13,11 +15,10 @@
 #include "tools/bench/harness.hpp"
 #include "tools/bench/machine.hpp"
 
-// A minimal renderer of a scene's triangles: one colour per object, 4 samples per pixel, no light, no culling
-// of objects, no sorting. The rest of the renderer's time is the cost of its light.
-
 namespace bolt::bench {
 
+// A minimal renderer: one colour per part, 4 samples per pixel, no light, no culling, no sorting. The
+// difference to it is the cost of the real renderer's lighting.
 class BareRenderer {
   public:
     static Result<BareRenderer> create(gpu::Device& device, VkExtent2D extent);
@@ -41,7 +42,7 @@ namespace {
 
 using gpu::ResourceUse;
 
-struct Push {
+struct BarePushConstants {
     glm::mat4 clip_from_object;
     glm::vec4 color;
 };
@@ -57,7 +58,7 @@ Result<gpu::Image> make_target(gpu::Device& device, VkExtent2D extent, VkFormat 
 }
 
 template <class T>
-Status take(T& to, Result<T> made) {
+Status assign(T& to, Result<T> made) {
     if (!made) return fail(made.error());
     to = std::move(*made);
     return {};
@@ -68,7 +69,7 @@ Status take(T& to, Result<T> made) {
 Result<BareRenderer> BareRenderer::create(gpu::Device& device, VkExtent2D extent) {
     BareRenderer bare;
     bare.extent_ = extent;
-    BOLT_TRY(take(bare.cache_, gpu::PipelineCache::open(device, {})));
+    BOLT_TRY(assign(bare.cache_, gpu::PipelineCache::open(device, {})));
     BOLT_TRY_ASSIGN(const auto vertex, gpu::make_shader("bare.vert", bench_shaders("bare.vert")));
     BOLT_TRY_ASSIGN(const auto fragment, gpu::make_shader("bare.frag", bench_shaders("bare.frag")));
     gpu::GraphicsInfo info;
@@ -79,16 +80,16 @@ Result<BareRenderer> BareRenderer::create(gpu::Device& device, VkExtent2D extent
     info.colors = {render::color_format};
     info.depth = render::depth_format;
     info.samples = VK_SAMPLE_COUNT_4_BIT;
-    BOLT_TRY(take(bare.pipeline_, gpu::make_graphics_pipeline(device, bare.cache_, info)));
-    Status s = take(bare.drawn_, make_target(device, extent, render::color_format, VK_SAMPLE_COUNT_4_BIT,
-                                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT));
+    BOLT_TRY(assign(bare.pipeline_, gpu::make_graphics_pipeline(device, bare.cache_, info)));
+    Status s = assign(bare.drawn_, make_target(device, extent, render::color_format, VK_SAMPLE_COUNT_4_BIT,
+                                               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT));
     if (s)
-        s = take(bare.depth_, make_target(device, extent, render::depth_format, VK_SAMPLE_COUNT_4_BIT,
-                                          VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
+        s = assign(bare.depth_, make_target(device, extent, render::depth_format, VK_SAMPLE_COUNT_4_BIT,
+                                            VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
     if (s)
-        s = take(bare.picture_,
-                 make_target(device, extent, render::color_format, VK_SAMPLE_COUNT_1_BIT,
-                             VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+        s = assign(bare.picture_,
+                   make_target(device, extent, render::color_format, VK_SAMPLE_COUNT_1_BIT,
+                               VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
     if (!s) return fail(s.error());
     return bare;
 }
@@ -136,8 +137,9 @@ Status BareRenderer::render(gpu::FrameContext& frame, const render::Scene& scene
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
             const render::MeshPart& part = object.model->parts[i];
             const render::LevelRange& all = part.levels.front();
-            const Push push{eye.clip_from_world * object.world,
-                            glm::vec4(glm::vec3(0.25F + 0.07F * static_cast<float>(i % 8)), 1.0F)};
+            const BarePushConstants push{
+                eye.clip_from_world * object.world,
+                glm::vec4(glm::vec3(0.25F + 0.07F * static_cast<float>(i % 8)), 1.0F)};
             vkCmdPushConstants(commands, pipeline_.layout.get(), pipeline_.push_stages, 0, sizeof push,
                                &push);
             vkCmdDrawIndexed(commands, all.index_count, 1, all.first_index, part.first_vertex, 0);
@@ -151,45 +153,42 @@ Status BareRenderer::render(gpu::FrameContext& frame, const render::Scene& scene
 
 }  // namespace bolt::bench
 
-// The cost of a frame, pass by pass, beside the minimal renderer of the same triangles (bare.hpp). The two
-// alternate, so that other load slows both. `x_bare` is the ratio.
-
 namespace {
 
 using namespace bolt;
-using bench::Clock;
 using bench::cpu_milliseconds;
-using bench::guarded;
 using bench::milliseconds_since;
-using bench::need;
+using bench::run_or_skip;
+using bench::unwrap;
+using bench::WallClock;
 
 constexpr VkExtent2D extent{1280, 720};
 
-// All objects that a frame needs, destroyed in reverse order.
-struct Studio {
-    gpu::Instance instance = need(gpu::Instance::create({}));
-    std::unique_ptr<gpu::Device> device = need(gpu::Device::create(instance, {}));
-    std::unique_ptr<gpu::Frames> frames = need(gpu::Frames::create(*device));
+// The objects that a frame needs, destroyed in reverse order.
+struct RenderContext {
+    gpu::Instance instance = unwrap(gpu::Instance::create({}));
+    std::unique_ptr<gpu::Device> device = unwrap(gpu::Device::create(instance, {}));
+    std::unique_ptr<gpu::Frames> frames = unwrap(gpu::Frames::create(*device));
     std::unique_ptr<render::Renderer> renderer;
 
-    explicit Studio(float level_error_px = 0.0F) {
+    explicit RenderContext(float level_error_px = 0.0F) {
         render::RendererOptions options;
         options.level_error_px = level_error_px;
-        renderer = need(render::Renderer::create(*device, options));
+        renderer = unwrap(render::Renderer::create(*device, options));
     }
 };
 
 // The scene of `boltwright render`: studio light, one lamp with a shadow, ambient occlusion.
-struct Subject {
+struct BenchScene {
     render::GpuModel gpu_model;
     render::EnvironmentLight light;
     render::Scene scene;
     render::Eye eye;
 
-    Subject(gpu::Device& device, const assets::Model& model, const glm::vec3& from, const glm::vec3& to,
-            bool levels = false)
-        : gpu_model(need(render::upload_model(device, model, {levels}))),
-          light(need(render::upload_environment(device, shading::studio()))) {
+    BenchScene(gpu::Device& device, const assets::Model& model, const glm::vec3& from, const glm::vec3& to,
+               bool levels = false)
+        : gpu_model(unwrap(render::upload_model(device, model, {levels}))),
+          light(unwrap(render::upload_environment(device, shading::studio()))) {
         render::add_model(scene, model, gpu_model);
         render::SceneLight key;
         key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);
@@ -207,51 +206,51 @@ struct Subject {
     }
 };
 
-struct Settings {
+struct FrameSettings {
     bool shadow_moves = false, occlusion = true;
     float level_error_px = 0.0F;  // 0: every triangle
 };
 
 void draw_frames(benchmark::State& state, const assets::Model& model, const glm::vec3& from,
-                 const glm::vec3& to, const Settings& settings) {
-    Studio studio(settings.level_error_px);
-    Subject subject(*studio.device, model, from, to, settings.level_error_px > 0.0F);
-    if (!settings.occlusion) subject.scene.occlusion_radius = 0.0F;
-    auto bare = need(bench::BareRenderer::create(*studio.device, extent));
+                 const glm::vec3& to, const FrameSettings& settings) {
+    RenderContext context(settings.level_error_px);
+    BenchScene target(*context.device, model, from, to, settings.level_error_px > 0.0F);
+    if (!settings.occlusion) target.scene.occlusion_radius = 0.0F;
+    auto bare = unwrap(bench::BareRenderer::create(*context.device, extent));
     std::map<std::string, double> passes;
-    struct Cost {
+    struct FrameCost {
         double time = 0.0, cpu = 0.0;  // ms
     };
     const auto timed = [&](const auto& record) {
         const double cpu = cpu_milliseconds();
-        const Clock::time_point start = Clock::now();
-        gpu::FrameContext& frame = *need(studio.frames->begin());
-        need(record(frame));
-        need(studio.frames->submit(frame));
-        need(studio.frames->finish());
-        return Cost{milliseconds_since(start), cpu_milliseconds() - cpu};
+        const WallClock::time_point start = WallClock::now();
+        gpu::FrameContext& frame = *unwrap(context.frames->begin());
+        unwrap(record(frame));
+        unwrap(context.frames->submit(frame));
+        unwrap(context.frames->finish());
+        return FrameCost{milliseconds_since(start), cpu_milliseconds() - cpu};
     };
     const auto full = [&](gpu::FrameContext& frame) {
-        return studio.renderer->render(frame, subject.scene, {&subject.eye, 1}, extent);
+        return context.renderer->render(frame, target.scene, {&target.eye, 1}, extent);
     };
-    const auto least = [&](gpu::FrameContext& frame) {
-        return bare.render(frame, subject.scene, subject.eye);
+    const auto minimal = [&](gpu::FrameContext& frame) {
+        return bare.render(frame, target.scene, target.eye);
     };
     timed(full);  // compiles the shaders
-    timed(least);
-    Cost ours, floor;
-    const auto add = [](Cost& sum, const Cost& cost) {
+    timed(minimal);
+    FrameCost ours, floor;
+    const auto add = [](FrameCost& sum, const FrameCost& cost) {
         sum.time += cost.time;
         sum.cpu += cost.cpu;
         return cost.time;
     };
     std::vector<double> all;
     for (auto _ : state) {
-        add(floor, timed(least));
-        if (settings.shadow_moves) subject.scene.lights[0].light.direction.x += 1e-5F;
+        add(floor, timed(minimal));
+        if (settings.shadow_moves) target.scene.lights[0].light.direction.x += 1e-5F;
         all.push_back(add(ours, timed(full)));
         state.SetIterationTime(1e-3 * all.back());
-        for (const gpu::PassTiming& pass : studio.frames->timings()) passes[pass.name] += pass.milliseconds;
+        for (const gpu::PassTiming& pass : context.frames->timings()) passes[pass.name] += pass.milliseconds;
     }
     const auto count = static_cast<double>(state.iterations());
     std::sort(all.begin(), all.end());
@@ -263,75 +262,79 @@ void draw_frames(benchmark::State& state, const assets::Model& model, const glm:
     state.counters["x_bare"] = ours.time / floor.time;
     state.counters["x_bare_cpu"] = ours.cpu / floor.cpu;
     for (const auto& [name, sum] : passes) state.counters["gpu_" + name + "_ms"] = sum / count;
-    const render::Statistics& statistics = studio.renderer->statistics();
+    const render::Statistics& statistics = context.renderer->statistics();
     state.counters["triangles"] = static_cast<double>(statistics.triangles);
     state.counters["draws"] = statistics.draws;
-    state.SetLabel(studio.device->name());
+    state.SetLabel(context.device->name());
 }
 
-void frame_machine(benchmark::State& state, const Settings& settings) {
-    guarded(state, [&] {
+void frame_machine(benchmark::State& state, const FrameSettings& settings) {
+    run_or_skip(state, [&] {
         draw_frames(state, bench::make_machine(), bench::machine_eye, bench::machine_target, settings);
     });
 }
-BENCHMARK_CAPTURE(frame_machine, shadow_kept, Settings{})->UseManualTime()->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame_machine, shadow_moves, Settings{true, true})
+BENCHMARK_CAPTURE(frame_machine, shadow_kept, FrameSettings{})
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-// What three.js draws: no ambient occlusion.
-BENCHMARK_CAPTURE(frame_machine, as_peer, Settings{false, false})
+BENCHMARK_CAPTURE(frame_machine, shadow_moves, FrameSettings{true, true})
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame_machine, as_peer_shadow_moves, Settings{true, false})
+// The same as three.js draws: no ambient occlusion.
+BENCHMARK_CAPTURE(frame_machine, as_peer, FrameSettings{false, false})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame_machine, as_peer_shadow_moves, FrameSettings{true, false})
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
 std::string model_of(const char* assembly) {
-    const content::Loaded loaded = content::load_assembly(assembly);
+    const content::LoadedAssembly loaded = content::load_assembly(assembly);
     if (!loaded.ok()) throw std::runtime_error(loaded.errors.front().message());
     return loaded.assembly.models.model;
 }
 
-void frame_zq350(benchmark::State& state, const Settings& settings) {
-    guarded(state, [&] {
-        const assets::Model model = need(assets::read_gltf(model_of("zq350")));
+void frame_zq350(benchmark::State& state, const FrameSettings& settings) {
+    run_or_skip(state, [&] {
+        const assets::Model model = unwrap(assets::read_gltf(model_of("zq350")));
         draw_frames(state, model, {0.175F, 0.62F, 0.9F}, {0.175F, 0.04F, 0.0F}, settings);
     });
 }
-BENCHMARK_CAPTURE(frame_zq350, every_triangle, Settings{})->UseManualTime()->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(frame_zq350, levels_within_a_pixel, Settings{false, true, 1.0F})
+BENCHMARK_CAPTURE(frame_zq350, every_triangle, FrameSettings{})
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(frame_zq350, levels_within_a_pixel, FrameSettings{false, true, 1.0F})
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
 
-// From program start to the first picture of the ZQ350. The baseline is the second picture.
+// From the start of loading to the first image of the ZQ350. Baseline: the second image.
 void first_picture(benchmark::State& state) {
-    guarded(state, [&] {
+    run_or_skip(state, [&] {
         const std::string file = model_of("zq350");
         std::map<std::string, double> parts;
         double first = 0.0, second = 0.0;
         for (auto _ : state) {
-            Clock::time_point since = Clock::now();
-            const Clock::time_point start = since;
+            WallClock::time_point since = WallClock::now();
+            const WallClock::time_point start = since;
             const auto lap = [&](const char* name) {
                 parts[name] += milliseconds_since(since);
-                since = Clock::now();
+                since = WallClock::now();
             };
-            const assets::Model model = need(assets::read_gltf(file));
+            const assets::Model model = unwrap(assets::read_gltf(file));
             lap("read_ms");
-            Studio studio;
+            RenderContext context;
             lap("device_and_renderer_ms");
-            Subject subject(*studio.device, model, {0.175F, 0.62F, 0.9F}, {0.175F, 0.04F, 0.0F});
+            BenchScene target(*context.device, model, {0.175F, 0.62F, 0.9F}, {0.175F, 0.04F, 0.0F});
             lap("upload_ms");
             const auto shoot = [&] {
-                (void)need(render::take_pictures(*studio.device, *studio.frames, *studio.renderer,
-                                                 subject.scene, {&subject.eye, 1}, extent));
+                (void)unwrap(render::take_pictures(*context.device, *context.frames, *context.renderer,
+                                                   target.scene, {&target.eye, 1}, extent));
             };
             shoot();
             lap("picture_ms");
             const double now = milliseconds_since(start);
             state.SetIterationTime(1e-3 * now);
             first += now;
-            since = Clock::now();
+            since = WallClock::now();
             shoot();
             second += milliseconds_since(since);
         }

@@ -1,3 +1,4 @@
+// Benchmarks of sound synthesis and event detection.
 #include <benchmark/benchmark.h>
 
 #include <array>
@@ -15,63 +16,63 @@ namespace {
 using namespace bolt;
 
 constexpr int rate = 48000;
-constexpr double piece = 0.02;  // s
-using Piece = std::array<float, static_cast<std::size_t>(piece* rate)>;
+constexpr double buffer_seconds = 0.02;  // s
+using SoundBuffer = std::array<float, static_cast<std::size_t>(buffer_seconds* rate)>;
 
-// "x_real_time" is seconds of sound per second on one core.
-void count(benchmark::State& state) {
-    state.counters["x_real_time"] =
-        benchmark::Counter(piece * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+// Sets "x_real_time": seconds of sound per second on one core.
+void report_real_time(benchmark::State& state) {
+    state.counters["x_real_time"] = benchmark::Counter(
+        buffer_seconds * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
-servo::Setup workplace() {
-    const content::Loaded loaded = content::load_assembly("cover-m8");
+servo::Setup make_setup() {
+    const content::LoadedAssembly loaded = content::load_assembly("cover-m8");
     return loaded.ok() ? session::make_setup(loaded.assembly, joint::Law::mechanistic, {}, 1, 1e-3)
                        : servo::Setup{};
 }
 
 // The worst case: all sounds at once.
 void sound_all(benchmark::State& state) {
-    sound::Synth synth = sound::make_synth(workplace(), rate);
-    sound::Heard heard;
-    heard.strike = heard.slide = 0.2F;
-    heard.press = 5.0F;
-    heard.run = 9.0F;
-    heard.creep = 0.5F;
-    heard.load = heard.slip = 0.8F;
-    heard.click = heard.done = heard.mistake = true;
-    Piece samples{};
+    sound::Synth synth = sound::make_synth(make_setup(), rate);
+    sound::SoundCues cues;
+    cues.strike_speed = cues.slide_speed = 0.2F;
+    cues.contact_force = 5.0F;
+    cues.run_speed = 9.0F;
+    cues.creep_speed = 0.5F;
+    cues.load = cues.slip = 0.8F;
+    cues.click = cues.done = cues.mistake = true;
+    SoundBuffer samples{};
     for (auto _ : state) {
         for (std::size_t i = 0; i < 20; ++i) {
-            sound::sound(synth, heard);
+            sound::apply_cues(synth, cues);
             sound::render(synth, std::span(samples).subspan(48 * i, 48));
         }
         benchmark::DoNotOptimize(samples);
     }
-    count(state);
+    report_real_time(state);
 }
 BENCHMARK(sound_all)->Unit(benchmark::kMicrosecond);
 
 // The usual case: silence.
 void sound_silence(benchmark::State& state) {
-    sound::Synth synth = sound::make_synth(workplace(), rate);
-    Piece samples{};
+    sound::Synth synth = sound::make_synth(make_setup(), rate);
+    SoundBuffer samples{};
     for (auto _ : state) {
         sound::render(synth, samples);
         benchmark::DoNotOptimize(samples);
     }
-    count(state);
+    report_real_time(state);
 }
 BENCHMARK(sound_silence)->Unit(benchmark::kMicrosecond);
 
-// The work of the frame's thread for 20 ms of ticks.
-void sound_ear(benchmark::State& state) {
-    const servo::Setup setup = workplace();
+// The event detection in the frame's thread for 20 ms of ticks.
+void sound_event_detection(benchmark::State& state) {
+    const servo::Setup setup = make_setup();
     if (setup.nuts.empty()) {
-        state.SkipWithError("cover-m8 does not load");
+        state.SkipWithError("cover-m8: cannot load");
         return;
     }
-    sound::Ear ear;
+    sound::EventDetector detector;
     world::World world;
     world::add_haptics(world, servo::initial_state(setup));
     servo::Output output;
@@ -82,16 +83,16 @@ void sound_ear(benchmark::State& state) {
             output.tool.position.x += 1e-4;
             output.nut_angle += 1e-3;
             world::write_output(world, output);
-            benchmark::DoNotOptimize(sound::hear(ear, setup, world));
+            benchmark::DoNotOptimize(sound::detect_events(detector, setup, world));
         }
-    count(state);
+    report_real_time(state);
 }
-BENCHMARK(sound_ear)->Unit(benchmark::kMicrosecond);
+BENCHMARK(sound_event_detection)->Unit(benchmark::kMicrosecond);
 
 // Baseline: eight plain sines, each by std::sin.
 void sound_sines(benchmark::State& state) {
     std::array<double, 8> phases{};
-    Piece samples{};
+    SoundBuffer samples{};
     for (auto _ : state) {
         for (float& sample : samples) {
             double sum = 0.0;
@@ -103,7 +104,7 @@ void sound_sines(benchmark::State& state) {
         }
         benchmark::DoNotOptimize(samples);
     }
-    count(state);
+    report_real_time(state);
 }
 BENCHMARK(sound_sines)->Unit(benchmark::kMicrosecond);
 

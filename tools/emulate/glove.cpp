@@ -22,11 +22,11 @@ namespace bolt::emulate {
 
 namespace {
 
-void add(std::vector<std::uint8_t>& out, std::string_view text) {
+void append(std::vector<std::uint8_t>& out, std::string_view text) {
     out.insert(out.end(), text.begin(), text.end());
 }
 
-void add_value(std::vector<std::uint8_t>& out, char letter, std::size_t value) {
+void append_value(std::vector<std::uint8_t>& out, char letter, std::size_t value) {
     out.insert(out.end(), {'?', static_cast<std::uint8_t>(letter), static_cast<std::uint8_t>(value), 0});
 }
 
@@ -73,7 +73,7 @@ hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::L
     return raw_values(hand, lines);
 }
 
-Glove::Glove(const GloveOptions& design)
+EmulatedGlove::EmulatedGlove(const EmulatedGloveOptions& design)
     : design_(design),
       random_(design.seed, 0x610e),
       streaming_(design.streaming),
@@ -83,41 +83,41 @@ Glove::Glove(const GloveOptions& design)
     raw.fill(120);
 }
 
-std::vector<std::uint8_t> Glove::advance(std::span<const std::uint8_t> received, double now) {
+std::vector<std::uint8_t> EmulatedGlove::advance(std::span<const std::uint8_t> received, double now) {
     Bytes out;
     if (stalled) {
         next_ = now;
         return out;
     }
-    for (const std::uint8_t byte : received) hear(byte, out);
+    for (const std::uint8_t byte : received) receive(byte, out);
     if (streaming_ && now - next_ > 1.0) next_ = now;
     for (; streaming_ && next_ <= now; next_ += 1.0 / rate_) {
-        frame('S', out);
+        append_frame('S', out);
         ++sent_;
     }
     if (!streaming_) next_ = now;
     return with_faults(out);
 }
 
-void Glove::hear(std::uint8_t byte, Bytes& out) {
+void EmulatedGlove::receive(std::uint8_t byte, Bytes& out) {
     if (byte == 0x03) {
         streaming_ = false;
-        heard_.clear();
+        received_.clear();
         return;
     }
-    heard_.push_back(byte);
-    if (answer(out)) heard_.clear();
+    received_.push_back(byte);
+    if (answer_command(out)) received_.clear();
 }
 
-// True: what was heard is answered.
-bool Glove::answer(Bytes& out) {
-    const auto unknown = [&] {
-        add(out, std::string_view("e?\r\n\0", 5));
+// Answers the command in the received bytes. Returns whether the command was complete.
+bool EmulatedGlove::answer_command(Bytes& out) {
+    const auto reject = [&] {
+        append(out, std::string_view("e?\r\n\0", 5));
         return true;
     };
     const bool modern = !design_.old_firmware;
-    const std::uint8_t first = heard_.front();
-    const std::size_t n = heard_.size();
+    const std::uint8_t first = received_.front();
+    const std::size_t n = received_.size();
     switch (first) {
         case '\r':
         case '\n':
@@ -126,60 +126,60 @@ bool Glove::answer(Bytes& out) {
             streaming_ = true;
             return true;
         case 'G':
-            frame('G', out);
+            append_frame('G', out);
             return true;
         case 'N':
             if (n < 2) return false;
-            samples_ = heard_[1];
+            samples_ = received_[1];
             out.insert(out.end(), {first, 0});
             return true;
         case 'U':
         case 'D':
             if (n < 2) return false;
-            if (!modern) return unknown();
-            (first == 'U' ? status_ : time_) = heard_[1] != 0;
+            if (!modern) return reject();
+            (first == 'U' ? status_ : time_) = received_[1] != 0;
             out.insert(out.end(), {first, 0});
             return true;
         case 't': {
-            if (heard_.back() != '\r') return n > 24 ? unknown() : false;
-            if (!modern) return unknown();
-            const std::string text(heard_.begin() + 1, heard_.end());
+            if (received_.back() != '\r') return n > 24 ? reject() : false;
+            if (!modern) return reject();
+            const std::string text(received_.begin() + 1, received_.end());
             const double ticks = std::atof(text.c_str());
-            if (!(ticks >= 200.0)) return unknown();
+            if (!(ticks >= 200.0)) return reject();
             rate_ = 115200.0 / ticks;
-            add(out, std::string_view("t\r\n\0", 4));
+            append(out, std::string_view("t\r\n\0", 4));
             return true;
         }
         case '?':
             if (n < 2) return false;
-            switch (heard_[1]) {
+            switch (received_[1]) {
                 case 'S':
-                    add_value(out, 'S', design_.sensors);
+                    append_value(out, 'S', design_.sensors);
                     return true;
                 case 'N':
-                    add_value(out, 'N', samples_);
+                    append_value(out, 'N', samples_);
                     return true;
                 case 'R':
-                    add_value(out, 'R', design_.hand == hand::Side::right ? 1 : 0);
+                    append_value(out, 'R', design_.hand == hand::Side::right ? 1 : 0);
                     return true;
                 case 'G':
-                    if (!modern) return unknown();
-                    add_value(out, 'G', design_.plugged ? 3 : 0);
+                    if (!modern) return reject();
+                    append_value(out, 'G', design_.plugged ? 3 : 0);
                     return true;
                 case 'V':
-                    if (!modern) return unknown();
-                    add(out, "?V" + design_.version);
+                    if (!modern) return reject();
+                    append(out, "?V" + design_.version);
                     out.push_back(0);
                     return true;
                 default:
-                    return unknown();
+                    return reject();
             }
         default:
-            return unknown();
+            return reject();
     }
 }
 
-void Glove::frame(std::uint8_t letter, Bytes& out) const {
+void EmulatedGlove::append_frame(std::uint8_t letter, Bytes& out) const {
     out.push_back(letter);
     const auto sensors = hand::sensors_of(design_.sensors);
     for (std::size_t i = 0; i < std::min(samples_, sensors.size()); ++i) {
@@ -188,11 +188,11 @@ void Glove::frame(std::uint8_t letter, Bytes& out) const {
     }
     if (time_) out.insert(out.end(), {12, 0, 34, 0, 5});
     if (status_) out.push_back(0x02);
-    if (!design_.plugged) add(out, "eg");
+    if (!design_.plugged) append(out, "eg");
     out.push_back(0);
 }
 
-std::vector<std::uint8_t> Glove::with_faults(const Bytes& bytes) {
+std::vector<std::uint8_t> EmulatedGlove::with_faults(const Bytes& bytes) {
     const ByteFaults& f = design_.faults;
     if (f.dropped + f.changed + f.added <= 0.0) return bytes;
     Bytes out;
@@ -206,21 +206,21 @@ std::vector<std::uint8_t> Glove::with_faults(const Bytes& bytes) {
 }
 
 struct SerialGlove::Shared {
-    explicit Shared(const GloveOptions& design) : glove(design) {}
+    explicit Shared(const EmulatedGloveOptions& design) : glove(design) {}
     ~Shared() {
-        thread = {};  // stopped and joined before the line goes
-        if (keep >= 0) close(keep);
+        thread = {};  // stop and join before closing the file descriptors
+        if (port_file >= 0) close(port_file);
         if (master >= 0) close(master);
     }
     Shared(const Shared&) = delete;
     Shared& operator=(const Shared&) = delete;
 
-    Glove glove;
+    EmulatedGlove glove;
     int master = -1;
-    int keep = -1;  // of the port: as long as it is open, a driver that closes it does not hang us up
+    int port_file = -1;  // the port, kept open so that a driver's close does not hang up the terminal
     std::filesystem::path port;
     std::atomic<bool> stalled{false};
-    TripleBuffer<hand::PerSensor<std::uint8_t>> shown;
+    TripleBuffer<hand::PerSensor<std::uint8_t>> requested_values;
     std::jthread thread;
 
     void run(const std::stop_token& stop, double period) {
@@ -228,43 +228,44 @@ struct SerialGlove::Shared {
         while (!stop.stop_requested()) {
             pollfd wait{master, POLLIN, 0};
             poll(&wait, 1, 2);
-            std::array<std::uint8_t, 256> heard{};
-            const ssize_t n = (wait.revents & POLLIN) != 0 ? read(master, heard.data(), heard.size()) : 0;
+            std::array<std::uint8_t, 256> received{};
+            const ssize_t n =
+                (wait.revents & POLLIN) != 0 ? read(master, received.data(), received.size()) : 0;
             const double now =
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             if (period > 0.0) {
-                const double bent = 0.5 - 0.5 * std::cos(2.0 * pi * now / period);
-                glove.raw.fill(static_cast<std::uint8_t>(60.0 + 120.0 * bent));
+                const double closure = 0.5 - 0.5 * std::cos(2.0 * pi * now / period);
+                glove.raw.fill(static_cast<std::uint8_t>(60.0 + 120.0 * closure));
             }
-            if (shown.update()) glove.raw = shown.latest();
+            if (requested_values.update()) glove.raw = requested_values.latest();
             glove.stalled = stalled;
-            const auto out =
-                glove.advance(std::span(heard).first(static_cast<std::size_t>(std::max<ssize_t>(n, 0))), now);
-            // Nobody reads: what does not fit is lost, as on a line.
+            const auto out = glove.advance(
+                std::span(received).first(static_cast<std::size_t>(std::max<ssize_t>(n, 0))), now);
+            // If nobody reads, bytes that do not fit are lost, as on a serial line.
             if (!out.empty()) [[maybe_unused]]
                 const ssize_t sent = write(master, out.data(), out.size());
         }
     }
 };
 
-Result<SerialGlove> SerialGlove::start(const GloveOptions& design, double period) {
+Result<SerialGlove> SerialGlove::start(const EmulatedGloveOptions& design, double period) {
     auto shared = std::make_unique<Shared>(design);
     const auto failed = [](const char* what) {
-        return fail(ErrorCode::failed, fmt::format("no pseudo-terminal: {}: {}", what, std::strerror(errno)));
+        return fail(ErrorCode::failed, fmt::format("pseudo-terminal: {}: {}", what, std::strerror(errno)));
     };
     shared->master = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    if (shared->master < 0) return failed("open");
+    if (shared->master < 0) return failed("cannot open");
     std::array<char, 128> name{};
     if (grantpt(shared->master) != 0 || unlockpt(shared->master) != 0 ||
         ptsname_r(shared->master, name.data(), name.size()) != 0)
-        return failed("grant");
+        return failed("cannot unlock the port");
     shared->port = name.data();
-    shared->keep = open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-    if (shared->keep < 0) return failed("port");
+    shared->port_file = open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+    if (shared->port_file < 0) return failed("cannot open the port");
     termios raw{};
-    if (tcgetattr(shared->keep, &raw) != 0) return failed("settings");
-    cfmakeraw(&raw);  // or it would echo what the glove says back to it
-    if (tcsetattr(shared->keep, TCSANOW, &raw) != 0) return failed("settings");
+    if (tcgetattr(shared->port_file, &raw) != 0) return failed("cannot read the settings");
+    cfmakeraw(&raw);  // otherwise the terminal echoes the glove's bytes back
+    if (tcsetattr(shared->port_file, TCSANOW, &raw) != 0) return failed("cannot change the settings");
     shared->thread =
         std::jthread([s = shared.get(), period](const std::stop_token& stop) { s->run(stop, period); });
     return SerialGlove(std::move(shared));
@@ -276,7 +277,7 @@ SerialGlove& SerialGlove::operator=(SerialGlove&&) noexcept = default;
 SerialGlove::~SerialGlove() = default;
 
 const std::filesystem::path& SerialGlove::port() const { return shared_->port; }
-void SerialGlove::show(const hand::PerSensor<std::uint8_t>& raw) { shared_->shown.write(raw); }
+void SerialGlove::set_raw(const hand::PerSensor<std::uint8_t>& raw) { shared_->requested_values.write(raw); }
 void SerialGlove::stall(bool stalled) { shared_->stalled = stalled; }
 
 }  // namespace bolt::emulate

@@ -1,5 +1,5 @@
-// A CyberGlove without a hand in it: answers and streams as the real one does, and as badly as is wished.
-// Pure: bytes and time in, bytes out; glove_line.hpp puts it on a pseudo-terminal.
+// An emulated CyberGlove with optional faults: the protocol without I/O, and a glove that runs on a
+// pseudo-terminal.
 #pragma once
 
 #include <filesystem>
@@ -13,41 +13,42 @@
 
 namespace bolt::emulate {
 
-// Shares of the bytes sent that something happens to.
+// Probabilities of faults in each byte that the glove sends.
 struct ByteFaults {
     double dropped = 0.0, changed = 0.0, added = 0.0;
 };
 
-struct GloveOptions {
+struct EmulatedGloveOptions {
     std::size_t sensors = 18;
     hand::Side hand = hand::Side::right;
     std::string version = "1.2";
     bool plugged = true;
-    bool status = false, time = false;  // as it was left by who used it last
-    bool streaming = false;             // the same
-    bool old_firmware = false;          // answers only to what it must
+    // Settings that the previous program has left.
+    bool status = false, time = false;
+    bool streaming = false;
+    bool old_firmware = false;  // rejects the optional commands
     ByteFaults faults{};
     std::uint64_t seed = 1;
 };
 
-// What its sensors give while the hand in it holds a posture: 50 counts flat, and 0.013 rad a count.
+// Returns the sensor values of a hand in a posture: 50 counts when flat, 0.013 rad per count.
 hand::PerSensor<std::uint8_t> raw_values(hand::Posture posture);
 constexpr hand::LinearFit sensor_fit{0.013, 50.0};
 
-// What sensors give while the hand is bent like this: 1 … 255 each.
+// Returns the sensor values, 1 … 255, at these joint angles.
 hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand,
                                          const hand::PerSensor<hand::LinearFit>& lines);
 hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::LinearFit& all = sensor_fit);
 
-class Glove {
+// The protocol of a CyberGlove without I/O: bytes and time in, bytes out.
+class EmulatedGlove {
   public:
-    explicit Glove(const GloveOptions& design);
+    explicit EmulatedGlove(const EmulatedGloveOptions& design);
 
-    // What the hand in it does; 1 … 255 each.
-    hand::PerSensor<std::uint8_t> raw{};
-    bool stalled = false;  // sends nothing and hears nothing
+    hand::PerSensor<std::uint8_t> raw{};  // sensor values, 1 … 255
+    bool stalled = false;                 // neither sends nor receives
 
-    // What came in since the last call, and the time now, s. What goes out.
+    // Takes the bytes received since the last call and the time (s). Returns the bytes to send.
     std::vector<std::uint8_t> advance(std::span<const std::uint8_t> received, double now);
 
     [[nodiscard]] bool streaming() const { return streaming_; }
@@ -56,37 +57,34 @@ class Glove {
 
   private:
     using Bytes = std::vector<std::uint8_t>;
-    void hear(std::uint8_t byte, Bytes& out);
-    bool answer(Bytes& out);
-    void frame(std::uint8_t letter, Bytes& out) const;
+    void receive(std::uint8_t byte, Bytes& out);
+    bool answer_command(Bytes& out);
+    void append_frame(std::uint8_t letter, Bytes& out) const;
     [[nodiscard]] Bytes with_faults(const Bytes& bytes);
 
-    GloveOptions design_;
+    EmulatedGloveOptions design_;
     Random random_;
-    Bytes heard_;
+    Bytes received_;
     bool streaming_, status_, time_;
     std::size_t samples_;
     double rate_ = 80.0, next_ = 0.0;
     std::uint64_t sent_ = 0;
 };
 
-// An emulated glove at one end of a pseudo-terminal; the other end is a port that any driver can open.
-
+// An emulated glove at one end of a pseudo-terminal. The other end is a port that any driver can open.
 class SerialGlove {
   public:
-    // A thread plays the glove from now on. The hand in it opens and closes once in `period` seconds; 0: it
-    // stays as it is.
-    static Result<SerialGlove> start(const GloveOptions& design, double period = 0.0);
+    // Starts a thread that runs the glove. The hand opens and closes with `period` (s); 0: no motion.
+    static Result<SerialGlove> start(const EmulatedGloveOptions& design, double period = 0.0);
 
     SerialGlove(SerialGlove&&) noexcept;
     SerialGlove& operator=(SerialGlove&&) noexcept;
-    ~SerialGlove();  // pulls the plug: the port is gone
+    ~SerialGlove();  // closes the pseudo-terminal: the port disappears
 
     [[nodiscard]] const std::filesystem::path& port() const;
-    // What the hand in it does from the next moment on, unless it opens and closes by itself. One thread at a
-    // time.
-    void show(const hand::PerSensor<std::uint8_t>& raw);
-    void stall(bool stalled);  // from the next moment on it neither sends nor hears
+    // Sets the sensor values. They are overwritten if the glove has a period. Call from one thread at a time.
+    void set_raw(const hand::PerSensor<std::uint8_t>& raw);
+    void stall(bool stalled);  // stops or resumes sending and receiving
 
   private:
     struct Shared;

@@ -20,9 +20,9 @@ namespace bolt::emulate {
 
 std::vector<Bytes> with_faults(std::vector<Bytes> reports, const HidFaults& faults, Random& random) {
     for (Bytes& report : reports) {
-        if (report.size() > 1 && random.chance(faults.cut))
+        if (report.size() > 1 && random.chance(faults.truncated))
             report.resize(1 + random.bits() % (report.size() - 1));
-        if (random.chance(faults.strange)) report[0] = 0x77;
+        if (random.chance(faults.unknown_id)) report[0] = 0x77;
         if (report.size() > 1 && random.chance(faults.changed))
             report[1 + random.bits() % (report.size() - 1)] = static_cast<std::uint8_t>(random.bits());
     }
@@ -31,10 +31,10 @@ std::vector<Bytes> with_faults(std::vector<Bytes> reports, const HidFaults& faul
 
 namespace {
 
-constexpr double step = 0.00025;          // s
-constexpr std::size_t most_waiting = 64;  // reports that the kernel keeps for a reader; later ones are lost
+constexpr double step = 0.00025;         // s
+constexpr std::size_t queue_limit = 64;  // reports that the kernel queues for a reader; later ones are lost
 
-tl::unexpected<Error> gone() {
+tl::unexpected<Error> unplugged_error() {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = "the emulated device was unplugged";
@@ -45,37 +45,37 @@ tl::unexpected<Error> gone() {
 }  // namespace
 
 Result<std::span<const std::uint8_t>> EmulatedTransport::read(double timeout) {
-    const double until = plug_.time + timeout;
+    const double until = link_.time + timeout;
     while (true) {
-        if (plug_.pulled) return gone();
-        for (Bytes& report : plug_.device->advance(plug_.time))
-            if (waiting_.size() < most_waiting) waiting_.push_back(std::move(report));
-        if (!waiting_.empty() || plug_.time >= until) break;
-        plug_.time = std::min(plug_.time + step, until);
+        if (link_.unplugged) return unplugged_error();
+        for (Bytes& report : link_.device->advance(link_.time))
+            if (queue_.size() < queue_limit) queue_.push_back(std::move(report));
+        if (!queue_.empty() || link_.time >= until) break;
+        link_.time = std::min(link_.time + step, until);
     }
-    if (waiting_.empty()) return std::span<const std::uint8_t>();
-    read_ = std::move(waiting_.front());
-    waiting_.pop_front();
+    if (queue_.empty()) return std::span<const std::uint8_t>();
+    read_ = std::move(queue_.front());
+    queue_.pop_front();
     return std::span<const std::uint8_t>(read_);
 }
 
 Status EmulatedTransport::write(std::span<const std::uint8_t> report) {
-    plug_.time += plug_.write_takes;
-    if (plug_.pulled) return gone();
-    plug_.device->output(report);
+    link_.time += link_.write_duration;
+    if (link_.unplugged) return unplugged_error();
+    link_.device->output(report);
     return {};
 }
 
 Status EmulatedTransport::send_feature(std::span<const std::uint8_t> report) {
-    if (plug_.pulled) return gone();
-    plug_.device->set_feature(report);
+    if (link_.unplugged) return unplugged_error();
+    link_.device->set_feature(report);
     return {};
 }
 
 Result<std::span<const std::uint8_t>> EmulatedTransport::get_feature(std::span<std::uint8_t> report) {
-    if (plug_.pulled) return gone();
-    const Bytes answer = plug_.device->get_feature(report[0]);
-    if (answer.empty()) return fail(ErrorCode::no_device, "the emulated device refuses");
+    if (link_.unplugged) return unplugged_error();
+    const Bytes answer = link_.device->get_feature(report[0]);
+    if (answer.empty()) return fail(ErrorCode::no_device, "the emulated device refuses the feature report");
     const std::size_t n = std::min(answer.size(), report.size());
     std::copy_n(answer.begin(), n, report.begin());
     return std::span<const std::uint8_t>(report.data(), n);
@@ -100,7 +100,7 @@ struct Uhid::Shared {
     ~Shared() {
         stop = true;
         if (thread.joinable()) thread.join();
-        if (file >= 0) close(file);  // the kernel takes the device away with it
+        if (file >= 0) close(file);  // the kernel then removes the device
     }
 
     [[nodiscard]] bool send(const uhid_event& event) const {
@@ -114,7 +114,7 @@ struct Uhid::Shared {
             const std::lock_guard lock(mutex);
             uhid_event event{};
             while (::read(file, &event, sizeof event) > 0) {
-                hear(event);
+                handle(event);
                 event = {};
             }
             for (const Bytes& report : device->advance(device::steady_seconds())) {
@@ -127,8 +127,8 @@ struct Uhid::Shared {
         }
     }
 
-    void hear(const uhid_event& event) const {
-        const auto took = [&](std::uint32_t id) {
+    void handle(const uhid_event& event) const {
+        const auto acknowledge = [&](std::uint32_t id) {
             uhid_event reply{};
             reply.type = UHID_SET_REPORT_REPLY;
             reply.u.set_report_reply.id = id;
@@ -142,7 +142,7 @@ struct Uhid::Shared {
             const auto& s = event.u.set_report;
             const std::span report(s.data, std::min<std::size_t>(s.size, UHID_DATA_MAX));
             s.rtype == UHID_FEATURE_REPORT ? device->set_feature(report) : device->output(report);
-            took(s.id);
+            acknowledge(s.id);
         } else if (event.type == UHID_GET_REPORT) {
             const Bytes answer = event.u.get_report.rtype == UHID_FEATURE_REPORT
                                      ? device->get_feature(event.u.get_report.rnum)
@@ -164,9 +164,9 @@ Uhid::Uhid(Uhid&&) noexcept = default;
 Uhid& Uhid::operator=(Uhid&&) noexcept = default;
 Uhid::~Uhid() = default;
 
-void Uhid::with(const std::function<void(HidDevice&)>& look) const {
+void Uhid::with(const std::function<void(HidDevice&)>& access) const {
     const std::lock_guard lock(shared_->mutex);
-    look(*shared_->device);
+    access(*shared_->device);
 }
 
 Result<Uhid> Uhid::plug_in(std::unique_ptr<HidDevice> device) {
@@ -174,8 +174,8 @@ Result<Uhid> Uhid::plug_in(std::unique_ptr<HidDevice> device) {
     shared->device = std::move(device);
     shared->file = ::open("/dev/uhid", O_RDWR | O_CLOEXEC | O_NONBLOCK);
     if (shared->file < 0)
-        return fail(ErrorCode::no_device, fmt::format("cannot open /dev/uhid: {}", std::strerror(errno)),
-                    "root, and the kernel's module uhid");
+        return fail(ErrorCode::no_device, fmt::format("/dev/uhid: cannot open: {}", std::strerror(errno)),
+                    "root rights and the kernel's module uhid");
     const HidDescription& design = shared->device->design();
     uhid_event create{};
     create.type = UHID_CREATE2;
@@ -183,7 +183,8 @@ Result<Uhid> Uhid::plug_in(std::unique_ptr<HidDevice> device) {
     copy_text(c.name, design.name);
     copy_text(c.uniq, design.serial);
     if (design.descriptor.size() > HID_MAX_DESCRIPTOR_SIZE)
-        return fail(ErrorCode::failed, "the kernel takes no report descriptor as long as that");
+        return fail(ErrorCode::failed, "the report descriptor is too long",
+                    fmt::format("at most {} bytes", HID_MAX_DESCRIPTOR_SIZE));
     c.rd_size = static_cast<std::uint16_t>(design.descriptor.size());
     std::copy(design.descriptor.begin(), design.descriptor.end(), c.rd_data);
     c.bus = BUS_USB;
@@ -191,7 +192,7 @@ Result<Uhid> Uhid::plug_in(std::unique_ptr<HidDevice> device) {
     c.product = design.product;
     if (!shared->send(create))
         return fail(ErrorCode::failed,
-                    fmt::format("the kernel takes no such device: {}", std::strerror(errno)));
+                    fmt::format("/dev/uhid: cannot create the device: {}", std::strerror(errno)));
     shared->thread = std::thread([s = shared.get()] { s->play(); });
     return Uhid(std::move(shared));
 }

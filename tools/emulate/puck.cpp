@@ -10,13 +10,13 @@ namespace bolt::emulate {
 namespace {
 
 constexpr double period = 0.008;  // s
-constexpr double counts = 350.0;  // either way
+constexpr double counts = 350.0;  // at full deflection
 
-Bytes descriptor(bool in_one) {
-    Items d;
+Bytes descriptor(bool single_report) {
+    DescriptorBuilder d;
     d.page(1).usage(8).begin(1);
     d.begin(0).id(1).range(-350, 350);
-    if (in_one) {
+    if (single_report) {
         d.usages(0x30, 0x35).fields(6, 16).input(2).end();
     } else {
         d.usages(0x30, 0x32).fields(3, 16).input(6).end();
@@ -28,25 +28,26 @@ Bytes descriptor(bool in_one) {
 
 }  // namespace
 
-Puck::Puck(const PuckOptions& design)
-    : in_one_(design.in_one), faults_(design.faults), random_(design.faults.seed) {
+EmulatedPuck::EmulatedPuck(const EmulatedPuckOptions& design)
+    : single_report_(design.single_report), faults_(design.faults), random_(design.faults.seed) {
     design_ =
-        in_one_ ? HidDescription{0x256f, 0xc62e, "Emulated SpaceMouse", design.serial, descriptor(true)}
-                : HidDescription{0x046d, 0xc626, "Emulated SpaceNavigator", design.serial, descriptor(false)};
+        single_report_
+            ? HidDescription{0x256f, 0xc62e, "Emulated SpaceMouse", design.serial, descriptor(true)}
+            : HidDescription{0x046d, 0xc626, "Emulated SpaceNavigator", design.serial, descriptor(false)};
 }
 
-std::vector<Bytes> Puck::advance(double now) {
+std::vector<Bytes> EmulatedPuck::advance(double now) {
     std::vector<Bytes> out;
     for (; next_ <= now; next_ += period) {
-        if (next_ < now - 1.0) next_ = now - 1.0;  // it was not asked for long: nobody wants all of it
+        if (next_ < now - 1.0) next_ = now - 1.0;  // drop reports older than 1 s
         if (stalled) continue;
-        const bool pushes = std::any_of(share.begin(), share.end(), [](double s) { return s != 0.0; });
-        if (pushes || pushed_) {
+        const bool deflected = std::any_of(share.begin(), share.end(), [](double s) { return s != 0.0; });
+        if (deflected || was_deflected_) {
             Bytes report{1};
             for (std::size_t i = 0; i < share.size(); ++i) {
                 const auto v =
                     static_cast<std::int16_t>(std::lround(std::clamp(share[i], -1.0, 1.0) * counts));
-                if (i == 3 && !in_one_) {
+                if (i == 3 && !single_report_) {
                     out.push_back(report);
                     report = {2};
                 }
@@ -55,9 +56,9 @@ std::vector<Bytes> Puck::advance(double now) {
             }
             out.push_back(report);
         }
-        pushed_ = pushes;
-        if (buttons != told_buttons_) out.push_back({3, static_cast<std::uint8_t>(buttons & 3U), 0});
-        told_buttons_ = buttons;
+        was_deflected_ = deflected;
+        if (buttons != last_buttons_) out.push_back({3, static_cast<std::uint8_t>(buttons & 3U), 0});
+        last_buttons_ = buttons;
     }
     return with_faults(std::move(out), faults_, random_);
 }

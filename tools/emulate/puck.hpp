@@ -1,5 +1,5 @@
-// A SpaceMouse without a hand at it. It sends every 8 ms while it is pushed, once more when it is let go, and
-// nothing while it rests.
+// An emulated SpaceMouse. It sends reports every 8 ms while it is deflected, once more when it is released,
+// and none at rest.
 #pragma once
 
 #include <array>
@@ -8,17 +8,18 @@
 
 namespace bolt::emulate {
 
-struct PuckOptions {
-    bool in_one = true;  // all axes in one report (256f:c62e), or pushes and turns in two (046d:c626)
+struct EmulatedPuckOptions {
+    // All axes in one report (256f:c62e), or translation and rotation in two (046d:c626).
+    bool single_report = true;
     std::string serial{};
     HidFaults faults{};
 };
 
-class Puck : public HidDevice {
+class EmulatedPuck : public HidDevice {
   public:
-    explicit Puck(const PuckOptions& design = {});
+    explicit EmulatedPuck(const EmulatedPuckOptions& design = {});
 
-    // What the hand does: −1 … 1 each, in 3Dconnexion's frame (x right, y towards the user, z down).
+    // Deflection of each axis, −1 … 1, in 3Dconnexion's frame (x right, y towards the user, z down).
     std::array<double, 6> share{};
     std::uint32_t buttons = 0;
     bool stalled = false;  // sends nothing
@@ -31,12 +32,12 @@ class Puck : public HidDevice {
 
   private:
     HidDescription design_;
-    bool in_one_;
+    bool single_report_;
     HidFaults faults_;
     Random random_;
     double next_ = 0.0;
-    bool pushed_ = false;
-    std::uint32_t told_buttons_ = 0;
+    bool was_deflected_ = false;
+    std::uint32_t last_buttons_ = 0;
 };
 
 }  // namespace bolt::emulate

@@ -13,12 +13,12 @@ namespace {
 constexpr int variable = 2, array = 0, padding = 3;
 constexpr int desktop = 1, simulation = 2, buttons = 9, pid = 0xf;
 
-Items& value(Items& d, int usage, std::int64_t low, std::int64_t high, int bits) {
+DescriptorBuilder& value(DescriptorBuilder& d, int usage, std::int64_t low, std::int64_t high, int bits) {
     return d.usage(usage).range(low, high).fields(1, bits).output(variable);
 }
 
-// Which axes pull, and from where: bits, then a slot of `bits` for two of them.
-void directions(Items& d, std::int64_t high, int bits) {
+// Adds the axes-enable bits and two direction fields of `bits` bits with the maximum `high`.
+void directions(DescriptorBuilder& d, std::int64_t high, int bits) {
     d.usage(0x55)
         .begin(2)
         .page(desktop)
@@ -36,7 +36,7 @@ void directions(Items& d, std::int64_t high, int bits) {
 }  // namespace
 
 Bytes board_descriptor() {
-    Items d;
+    DescriptorBuilder d;
     d.page(desktop).usage(4).begin(1).begin(0).id(1);
     d.page(buttons).usages(1, 64).range(0, 1).fields(64, 1).input(variable).page(desktop);
     for (const int axis : {0x30, 0x31, 0x32, 0x33, 0x34, 0x35, 0x37, 0x36}) d.usage(axis);
@@ -80,7 +80,7 @@ Bytes board_descriptor() {
     value(d, 0x22, 1, 40, 8).end();
 
     d.usage(0x95).begin(2).id(12).usage(0x96).begin(2);
-    for (int what = 0x97; what <= 0x9c; ++what) d.usage(what);
+    for (int command = 0x97; command <= 0x9c; ++command) d.usage(command);
     d.range(1, 6).fields(8, 1).output(variable).end().end();
 
     d.usage(0x7d).begin(2).id(13);
@@ -98,7 +98,7 @@ Bytes board_descriptor() {
 }
 
 Bytes other_wheel_descriptor() {
-    Items d;
+    DescriptorBuilder d;
     d.page(desktop).usage(4).begin(1).id(1);
     d.page(simulation).usage(0xc8).range(0, 65535).fields(1, 16).input(variable);
     d.page(buttons).usages(1, 8).range(0, 1).fields(8, 1).input(variable);
@@ -143,34 +143,36 @@ Bytes other_wheel_descriptor() {
 
 namespace {
 
-constexpr double step = 0.00025;     // s of its mechanics
-constexpr double period = 0.001;     // s of its reports
-constexpr double told_anyway = 0.1;  // s: a board's, without news
-constexpr std::uint8_t block = 1;    // where its one effect lies
+constexpr double step = 0.00025;       // s, time step of the mechanics
+constexpr double period = 0.001;       // s, between reports
+constexpr double repeat_period = 0.1;  // s, after which a board repeats an unchanged report
+constexpr std::uint8_t block = 1;      // index of the only effect block
 
-unsigned word(std::span<const std::uint8_t> report, std::size_t at) {
+unsigned read_u16(std::span<const std::uint8_t> report, std::size_t at) {
     return at + 1 < report.size() ? report[at] | static_cast<unsigned>(report[at + 1]) << 8U : 0U;
 }
 
 }  // namespace
 
-Wheel::Wheel(const WheelOptions& design) : design_(design), random_(design.faults.seed) {
-    shown_ = design.board
-                 ? HidDescription{0x1209, 0xffb0, "Emulated OpenFFBoard", design.serial, board_descriptor()}
-                 : HidDescription{0x1234, 0x5678, "Emulated wheel", design.serial, other_wheel_descriptor()};
+EmulatedWheel::EmulatedWheel(const EmulatedWheelOptions& design)
+    : design_(design), random_(design.faults.seed) {
+    description_ =
+        design.board
+            ? HidDescription{0x1209, 0xffb0, "Emulated OpenFFBoard", design.serial, board_descriptor()}
+            : HidDescription{0x1234, 0x5678, "Emulated wheel", design.serial, other_wheel_descriptor()};
     if (!design.board) design_.power = 1.0;
 }
 
-double Wheel::torque() const {
+double EmulatedWheel::torque() const {
     if (springs_ && design_.own_spring > 0.0) return -design_.own_spring * angle_;
     if (!enabled_ || !loaded_ || !set_ || !playing_ ||
         time_ - started_ > std::min(design_.effect_life, duration_))
         return 0.0;
-    // A force that comes from the right turns to the left.
+    // The direction is that from which the force comes: a force from the right turns to the left.
     return -magnitude_ * effect_gain_ * gain_ * design_.power * design_.full_torque;
 }
 
-std::vector<Bytes> Wheel::advance(double now) {
+std::vector<Bytes> EmulatedWheel::advance(double now) {
     std::vector<Bytes> out;
     if (now - time_ > 1.0) time_ = next_ = now - 1.0;
     for (; time_ + step <= now; time_ += step) {
@@ -181,12 +183,12 @@ std::vector<Bytes> Wheel::advance(double now) {
         next_ += period;
         if (stalled) continue;
         Bytes report = axis_report();
-        if (report != told_ || (design_.board && time_ - told_at_ >= told_anyway)) {
-            told_ = report;
-            told_at_ = time_;
+        if (report != last_report_ || (design_.board && time_ - last_report_time_ >= repeat_period)) {
+            last_report_ = report;
+            last_report_time_ = time_;
             out.push_back(std::move(report));
         }
-        // An endpoint carries one report in a millisecond.
+        // The endpoint carries one report per millisecond.
         if (!answers_.empty()) {
             out.push_back(std::move(answers_.front()));
             answers_.erase(answers_.begin());
@@ -195,7 +197,7 @@ std::vector<Bytes> Wheel::advance(double now) {
     return with_faults(std::move(out), design_.faults, random_);
 }
 
-Bytes Wheel::axis_report() const {
+Bytes EmulatedWheel::axis_report() const {
     const double share = std::clamp(angle_ / (0.5 * to_radians(design_.degrees)), -1.0, 1.0);
     if (design_.board) {
         Bytes report(1 + 8 + 16);
@@ -211,29 +213,29 @@ Bytes Wheel::axis_report() const {
             static_cast<std::uint8_t>(buttons)};
 }
 
-void Wheel::control(std::uint8_t what) {
-    if ((what & 0x01U) != 0) enabled_ = true;
-    if ((what & 0x02U) != 0) enabled_ = false;
-    if ((what & 0x0cU) != 0) playing_ = false;
-    if ((what & 0x0cU) != 0) springs_ = (what & 0x08U) != 0;
-    if ((what & 0x08U) != 0) {
+void EmulatedWheel::control(std::uint8_t bits) {
+    if ((bits & 0x01U) != 0) enabled_ = true;
+    if ((bits & 0x02U) != 0) enabled_ = false;
+    if ((bits & 0x0cU) != 0) playing_ = false;
+    if ((bits & 0x0cU) != 0) springs_ = (bits & 0x08U) != 0;
+    if ((bits & 0x08U) != 0) {
         enabled_ = false;
         loaded_ = set_ = false;
         magnitude_ = 0.0;
     }
 }
 
-void Wheel::answer(std::span<const std::uint8_t> question) {
-    if (question.size() < 25 || question[1] != 1) return;
-    Bytes reply(question.begin(), question.begin() + 25);
+void EmulatedWheel::answer_request(std::span<const std::uint8_t> request) {
+    if (request.size() < 25 || request[1] != 1) return;
+    Bytes reply(request.begin(), request.begin() + 25);
     std::int64_t value = 0;
-    if (word(question, 2) != 0xa01 || question[4] != 0 || question[6] != 0)
+    if (read_u16(request, 2) != 0xa01 || request[4] != 0 || request[6] != 0)
         reply[1] = 13;  // not found
-    else if (question[5] == 0)
+    else if (request[5] == 0)
         value = std::lround(design_.power * 32767.0);
-    else if (question[5] == 1)
+    else if (request[5] == 1)
         value = std::lround(design_.degrees);
-    else if (question[5] == 9)
+    else if (request[5] == 9)
         value = std::lround(angle_ / (2.0 * pi) * design_.counts_per_turn);
     else
         reply[1] = 13;
@@ -242,9 +244,9 @@ void Wheel::answer(std::span<const std::uint8_t> question) {
     answers_.push_back(std::move(reply));
 }
 
-void Wheel::output(std::span<const std::uint8_t> report) {
+void EmulatedWheel::output(std::span<const std::uint8_t> report) {
     if (stalled || report.empty()) return;
-    ++heard_;
+    ++reports_received_;
     const auto byte = [&](std::size_t at) { return at < report.size() ? report[at] : std::uint8_t{0}; };
     const auto start_or_stop = [&](bool start) {
         playing_ = start;
@@ -255,14 +257,14 @@ void Wheel::output(std::span<const std::uint8_t> report) {
         switch (report[0]) {
             case 0x01:
                 if (!ours || byte(2) != 1) return;
-                duration_ = word(report, 3) / 1000.0;
+                duration_ = read_u16(report, 3) / 1000.0;
                 effect_gain_ = byte(11) / 255.0;
-                // North is no direction for a wheel.
-                if ((byte(13) & 4U) != 0) effect_gain_ *= std::sin(word(report, 14) / 36000.0 * 2.0 * pi);
+                // Only the east–west component of the direction acts on a wheel.
+                if ((byte(13) & 4U) != 0) effect_gain_ *= std::sin(read_u16(report, 14) / 36000.0 * 2.0 * pi);
                 set_ = true;
                 return;
             case 0x05:
-                if (ours) magnitude_ = static_cast<std::int16_t>(word(report, 2)) / 32767.0;
+                if (ours) magnitude_ = static_cast<std::int16_t>(read_u16(report, 2)) / 32767.0;
                 return;
             case 0x0a:
                 if (ours && (byte(2) == 1 || byte(2) == 3)) start_or_stop(byte(2) == 1);
@@ -276,7 +278,7 @@ void Wheel::output(std::span<const std::uint8_t> report) {
                 gain_ = byte(1) / 255.0;
                 return;
             case 0xa1:
-                return answer(report);
+                return answer_request(report);
             default:
                 return;
         }
@@ -284,12 +286,12 @@ void Wheel::output(std::span<const std::uint8_t> report) {
     switch (report[0]) {
         case 0x11:
             if (byte(1) != block || byte(2) != 2) return;
-            duration_ = word(report, 3) / 1000.0;
+            duration_ = read_u16(report, 3) / 1000.0;
             effect_gain_ = byte(5) / 100.0 * std::sin(byte(7) / 256.0 * 2.0 * pi);
             set_ = true;
             return;
         case 0x15:
-            magnitude_ = static_cast<std::int16_t>(word(report, 1)) / 10000.0;
+            magnitude_ = static_cast<std::int16_t>(read_u16(report, 1)) / 10000.0;
             return;
         case 0x1a:
             if (byte(1) == block && (byte(2) == 1 || byte(2) == 2)) start_or_stop(byte(2) == 2);
@@ -297,7 +299,7 @@ void Wheel::output(std::span<const std::uint8_t> report) {
         case 0x1c: {
             constexpr std::uint8_t as_bits[] = {0, 0x08, 0x04, 0x01, 0x02};
             if (byte(1) < std::size(as_bits)) control(as_bits[byte(1)]);
-            loaded_ = true;  // its effect has a fixed place
+            loaded_ = true;  // its effect block always exists
             return;
         }
         case 0x1d:
@@ -308,13 +310,13 @@ void Wheel::output(std::span<const std::uint8_t> report) {
     }
 }
 
-void Wheel::set_feature(std::span<const std::uint8_t> report) {
+void EmulatedWheel::set_feature(std::span<const std::uint8_t> report) {
     if (stalled || !design_.board || report.size() < 2) return;
-    ++heard_;
+    ++reports_received_;
     if (report[0] == 17 && report[1] == 1) loaded_ = true;
 }
 
-Bytes Wheel::get_feature(std::uint8_t report) {
+Bytes EmulatedWheel::get_feature(std::uint8_t report) {
     if (stalled || !design_.board || report != 18) return {};
     return {18, loaded_ ? block : std::uint8_t{0}, loaded_ ? std::uint8_t{1} : std::uint8_t{2}, 39, 0};
 }

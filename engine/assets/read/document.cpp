@@ -21,8 +21,8 @@ std::uint32_t u32(std::string_view bytes, std::size_t offset) {
     return value;
 }
 
-// JSON parsers and consumers recurse, so limit the nesting depth before parsing.
-bool too_deep(std::string_view text) {
+// JSON parsers recurse, and so do users of the parsed values: the nesting depth is checked before parsing.
+bool exceeds_depth_limit(std::string_view text) {
     int depth = 0;
     bool quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -41,7 +41,7 @@ bool too_deep(std::string_view text) {
     return false;
 }
 
-// Splits a .glb; `json` becomes the text of its first chunk.
+// Splits a .glb into its chunks. `json`: the text of the first one.
 Status split_glb(Document& document, std::string_view& json) {
     const std::string_view bytes = document.bytes;
     if (bytes.size() < 20) return error_at(document, "", "ends within the header of a .glb");
@@ -49,23 +49,22 @@ Status split_glb(Document& document, std::string_view& json) {
         return error_at(document, "", "is a .glb of version " + std::to_string(u32(bytes, 4)), "version 2");
     const std::size_t length = u32(bytes, 8);
     if (length > bytes.size() || length < 20)
-        return error_at(
-            document, "",
-            "says that it has " + std::to_string(length) + " bytes and has " + std::to_string(bytes.size()));
-    std::size_t place = 12;
-    for (int chunk = 0; place + 8 <= length; ++chunk) {
-        const std::size_t size = u32(bytes, place);
-        const std::uint32_t type = u32(bytes, place + 4);
-        place += 8;
-        if (size > length - place) return error_at(document, "", "has a chunk that is longer than the file");
+        return error_at(document, "", "declares a length of " + std::to_string(length) + " bytes",
+                        "20 to " + std::to_string(bytes.size()) + " bytes");
+    std::size_t offset = 12;
+    for (int chunk = 0; offset + 8 <= length; ++chunk) {
+        const std::size_t size = u32(bytes, offset);
+        const std::uint32_t type = u32(bytes, offset + 4);
+        offset += 8;
+        if (size > length - offset) return error_at(document, "", "has a chunk that is longer than the file");
         if (chunk == 0 && type != json_chunk)
             return error_at(document, "", "does not begin with a JSON chunk");
-        if (chunk == 0) json = bytes.substr(place, size);
+        if (chunk == 0) json = bytes.substr(offset, size);
         if (chunk == 1 && type == binary_chunk)
-            document.chunk = {reinterpret_cast<const std::uint8_t*>(bytes.data()) + place, size};
-        place += size;
-        place = (place + 3U) & ~std::size_t{3U};
-        if (place > length) break;
+            document.chunk = {reinterpret_cast<const std::uint8_t*>(bytes.data()) + offset, size};
+        offset += size;
+        offset = (offset + 3U) & ~std::size_t{3U};
+        if (offset > length) break;
     }
     return {};
 }
@@ -90,13 +89,14 @@ Status parse_document(Document& document) {
         BOLT_TRY(split_glb(document, text));
     }
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    if (too_deep(text))
+    if (exceeds_depth_limit(text))
         return error_at(document, "", "nests deeper than " + std::to_string(depth_limit) + " levels");
     try {
         document.json = nlohmann::json::parse(text);
     } catch (const nlohmann::json::parse_error& error) {
-        // Replace the library's prefix; the byte position counts from the start of the JSON.
-        Error at = error_at(document, "", "is no valid JSON at byte " + std::to_string(error.byte)).value();
+        // The library's own message has a prefix that users do not understand. The byte position counts from
+        // the start of the JSON.
+        Error at = error_at(document, "", "is not valid JSON at byte " + std::to_string(error.byte)).value();
         if (!binary) {
             const std::string_view before = text.substr(0, std::min(error.byte, text.size()));
             at.line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
@@ -124,7 +124,7 @@ std::size_t component_size(int component) {
         case TINYGLTF_COMPONENT_TYPE_FLOAT:
             return 4;
         default:
-            return 0;  // not allowed in a file
+            return 0;  // not allowed in glTF
     }
 }
 
@@ -143,19 +143,20 @@ std::size_t element_size(const Accessor& accessor) {
 
 std::string accessor_pointer(std::size_t accessor) { return "/accessors/" + std::to_string(accessor); }
 
-// The location of `count` elements of `size` bytes, `stride` bytes apart.
-struct Range {
+// The location of elements in a buffer, `stride` bytes apart.
+struct StridedBytes {
     const std::uint8_t* first = nullptr;
     std::size_t stride = 0;
 };
 
-Range range(const Document& document, int view_index, std::size_t offset, std::size_t size) {
+StridedBytes locate(const Document& document, int view_index, std::size_t offset, std::size_t size) {
     const tinygltf::BufferView& view = document.gltf.bufferViews[static_cast<std::size_t>(view_index)];
     const auto buffer = document.buffers[static_cast<std::size_t>(view.buffer)];
     return {buffer.data() + view.byteOffset + offset, view.byteStride > 0 ? view.byteStride : size};
 }
 
-// Checks that the elements lie within a view, in 64 bits, so that products of three ints cannot overflow.
+// Returns whether `count` elements lie within a view. Computes in 64 bits, because products of ints could
+// overflow.
 bool fits(const Document& document, int view_index, std::size_t offset, std::size_t size, std::size_t count) {
     const tinygltf::BufferView& view = document.gltf.bufferViews[static_cast<std::size_t>(view_index)];
     const std::size_t stride = view.byteStride > 0 ? view.byteStride : size;
@@ -166,12 +167,12 @@ Status check_sparse(const Document& document, const Accessor& accessor, const st
     const auto& sparse = accessor.sparse;
     const auto count = static_cast<std::size_t>(sparse.count);
     const std::size_t index_size = component_size(sparse.indices.componentType);
-    const bool whole = sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                       sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                       sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (!whole)
+    const bool unsigned_type = sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                               sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                               sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    if (!unsigned_type)
         return error_at(document, pointer + "/sparse/indices/componentType",
-                        std::to_string(sparse.indices.componentType) + " is no type of indices",
+                        std::to_string(sparse.indices.componentType) + " is not a component type for indices",
                         "5121, 5123 or 5125");
     if (count > accessor.count)
         return error_at(document, pointer + "/sparse/count", "is larger than the accessor's count",
@@ -225,14 +226,14 @@ std::uint32_t as_integer(const std::uint8_t* bytes, int component) {
     }
 }
 
-// Unpacks `count` elements. `convert(bytes)` decodes a component; `put(i)` returns the destination of element
-// i.
-template <class T, class Convert, class Put>
-void unpack_elements(const Range& from, std::size_t count, std::size_t components, std::size_t size,
-                     Convert convert, Put put) {
+// Unpacks `count` elements. `convert(bytes)` decodes a component; `target(i)` returns where element i is
+// written.
+template <class T, class Convert, class Target>
+void unpack_elements(const StridedBytes& from, std::size_t count, std::size_t components, std::size_t size,
+                     Convert convert, Target target) {
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint8_t* bytes = from.first + i * from.stride;
-        T* to = put(i);
+        T* to = target(i);
         for (std::size_t c = 0; c < components; ++c) to[c] = convert(bytes + c * size);
     }
 }
@@ -243,13 +244,14 @@ Result<std::vector<T>> unpack(Document& document, std::size_t index, Convert con
     const std::size_t components = component_count(accessor.type);
     const std::size_t size = component_size(accessor.componentType);
     const std::size_t bytes = accessor.count * components * sizeof(T);
-    if (bytes > document.budget)
+    if (bytes > document.unpack_budget)
         return error_at(document, accessor_pointer(index) + "/count",
                         "needs more memory than a file of this size may use");
-    document.budget -= bytes;
+    document.unpack_budget -= bytes;
     std::vector<T> values(accessor.count * components);
     if (accessor.bufferView >= 0) {
-        const Range from = range(document, accessor.bufferView, accessor.byteOffset, element_size(accessor));
+        const StridedBytes from =
+            locate(document, accessor.bufferView, accessor.byteOffset, element_size(accessor));
         if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT && std::is_same_v<T, float> &&
             from.stride == components * size) {
             std::memcpy(values.data(), from.first, bytes);
@@ -262,9 +264,9 @@ Result<std::vector<T>> unpack(Document& document, std::size_t index, Convert con
 
     const auto& sparse = accessor.sparse;
     const auto count = static_cast<std::size_t>(sparse.count);
-    const Range indices =
-        range(document, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
-              component_size(sparse.indices.componentType));
+    const StridedBytes indices =
+        locate(document, sparse.indices.bufferView, static_cast<std::size_t>(sparse.indices.byteOffset),
+               component_size(sparse.indices.componentType));
     std::vector<std::uint32_t> targets(count);
     for (std::size_t i = 0; i < count; ++i) {
         targets[i] = as_integer(indices.first + i * indices.stride, sparse.indices.componentType);
@@ -273,26 +275,34 @@ Result<std::vector<T>> unpack(Document& document, std::size_t index, Convert con
                             fmt::format("has {} as its index {}", targets[i], i),
                             "rising indices below the accessor's count");
     }
-    const Range from = range(document, sparse.values.bufferView,
-                             static_cast<std::size_t>(sparse.values.byteOffset), element_size(accessor));
+    const StridedBytes from =
+        locate(document, sparse.values.bufferView, static_cast<std::size_t>(sparse.values.byteOffset),
+               element_size(accessor));
     unpack_elements<T>(from, count, components, size, convert,
                        [&](std::size_t i) { return values.data() + targets[i] * components; });
     return values;
 }
 
-bool admits(NumberFormats numbers, const Accessor& accessor) {
+bool allows(NumberFormats numbers, const Accessor& accessor) {
     if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return true;
     const bool small = accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
     if (numbers == NumberFormats::unit) return small && accessor.normalized;
     return numbers == NumberFormats::quantized && small;
 }
 
+std::string type_name(int type) {
+    constexpr const char* vectors[] = {"", "", "VEC2", "VEC3", "VEC4"};
+    if (type >= 2 && type <= 4) return vectors[type];
+    return type == TINYGLTF_TYPE_SCALAR ? "SCALAR"
+           : type == TINYGLTF_TYPE_MAT2 ? "MAT2"
+           : type == TINYGLTF_TYPE_MAT3 ? "MAT3"
+                                        : "MAT4";
+}
+
 Status check_type(const Document& document, const Accessor& accessor, int type, const std::string& pointer) {
-    constexpr const char* names[] = {"", "", "VEC2", "VEC3", "VEC4"};
     if (accessor.type == type) return {};
-    std::string expected = type == TINYGLTF_TYPE_SCALAR ? "SCALAR" : "MAT4";
-    if (type >= 2 && type <= 4) expected = names[type];
-    return error_at(document, pointer, "names an accessor of another type", expected);
+    return error_at(document, pointer, "refers to an accessor of type " + type_name(accessor.type),
+                    "type " + type_name(type));
 }
 
 }  // namespace
@@ -303,7 +313,7 @@ Status check_views(const Document& document) {
     for (std::size_t i = 0; i < views->size(); ++i) {
         const nlohmann::json& view = (*views)[i];
         if (view.value("byteStride", 0) % 4 != 0)
-            return error_at(document, fmt::format("/bufferViews/{}/byteStride", i), "is no multiple of 4");
+            return error_at(document, fmt::format("/bufferViews/{}/byteStride", i), "is not a multiple of 4");
         const std::size_t end =
             view.value("byteOffset", std::size_t{0}) + view["byteLength"].get<std::size_t>();
         const std::size_t length = document.buffers[view["buffer"].get<std::size_t>()].size();
@@ -319,7 +329,7 @@ Status check_accessors(const Document& document) {
         const Accessor& accessor = document.gltf.accessors[i];
         if (component_size(accessor.componentType) == 0)
             return error_at(document, accessor_pointer(i) + "/componentType",
-                            std::to_string(accessor.componentType) + " is no component type",
+                            std::to_string(accessor.componentType) + " is not a component type",
                             "5120, 5121, 5122, 5123, 5125 or 5126");
         const std::size_t size = element_size(accessor);
         if (accessor.bufferView >= 0) {
@@ -342,10 +352,10 @@ Result<std::vector<float>> unpack_floats(Document& document, int index, int type
     const auto accessor_index = static_cast<std::size_t>(index);
     const Accessor& accessor = document.gltf.accessors[accessor_index];
     BOLT_TRY(check_type(document, accessor, type, pointer));
-    if (!admits(numbers, accessor))
+    if (!allows(numbers, accessor))
         return error_at(
             document, pointer,
-            fmt::format("names an accessor of component type {}{}, which cannot stand here",
+            fmt::format("refers to an accessor of component type {}{}, which is not allowed here",
                         accessor.componentType, accessor.normalized ? " (normalised)" : ""),
             numbers == NumberFormats::real ? "5126 (float)" : "5126 (float) or normalised integers");
     BOLT_TRY_ASSIGN(auto values, unpack<float>(document, accessor_index, [&](const std::uint8_t* bytes) {
@@ -364,11 +374,11 @@ Result<std::vector<std::uint32_t>> unpack_integers(Document& document, int index
     const auto accessor_index = static_cast<std::size_t>(index);
     const Accessor& accessor = document.gltf.accessors[accessor_index];
     BOLT_TRY(check_type(document, accessor, type, pointer));
-    const bool whole = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                       accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                       accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (!whole || accessor.normalized)
-        return error_at(document, pointer, "names an accessor of numbers that are no indices",
+    const bool unsigned_type = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
+                               accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
+                               accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    if (!unsigned_type || accessor.normalized)
+        return error_at(document, pointer, "refers to an accessor whose numbers are not indices",
                         "5121, 5123 or 5125, not normalised");
     return unpack<std::uint32_t>(document, accessor_index, [&](const std::uint8_t* bytes) {
         return as_integer(bytes, accessor.componentType);

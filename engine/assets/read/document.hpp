@@ -1,6 +1,6 @@
-// A glTF file while it is converted to a Model: its JSON (validated by check_schema), the bytes of its
-// buffers and images, and tinygltf's typed form. tinygltf trusts its input, so it sees only validated
-// documents and opens no files: buffers and images are loaded here.
+// A glTF file while it is converted to a Model: its JSON, the bytes of its buffers and images, its accessors,
+// and the steps that fill the Model. tinygltf trusts its input, so it parses only JSON that check_schema has
+// validated, and opens no files: buffers and images are loaded here.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,16 @@
 namespace bolt::assets {
 
 struct Document {
-    std::string file;              // the name used in errors
+    std::string file;              // the name in errors
     std::filesystem::path folder;  // external files must lie in it or below
     std::string bytes;             // the whole file
     nlohmann::json json;
     std::span<const std::uint8_t> chunk;                 // the binary chunk of a .glb
-    std::vector<std::span<const std::uint8_t>> buffers;  // each of its byteLength
+    std::vector<std::span<const std::uint8_t>> buffers;  // each as long as its byteLength
     std::vector<std::vector<std::uint8_t>> images;       // encoded
-    std::vector<std::vector<std::uint8_t>> loaded;       // owns the external files that `buffers` refers to
+    std::vector<std::vector<std::uint8_t>> loaded;       // the external files that `buffers` refers to
     tinygltf::Model gltf;
-    std::size_t budget = std::size_t{64} << 20U;  // bytes that may still be unpacked; grows with the buffers
+    std::size_t unpack_budget = std::size_t{64} << 20U;  // bytes left for unpacking; grows with the buffers
 };
 
 // Returns an error about the value at a JSON pointer.
@@ -36,30 +36,29 @@ tl::unexpected<Error> error_at(const Document& document, std::string pointer, st
 // Finds the JSON and binary chunks in `bytes` and parses the JSON, at most 64 levels deep.
 Status parse_document(Document& document);
 
-// Checks the type, range and index of every value that the reader uses, and the required extensions.
+// Checks the type and the range of every value that the reader uses, every index, and the required
+// extensions.
 Status check_schema(Document& document);
 
-// Loads the bytes of the buffers, and those of images, which need the buffers.
+// Load the bytes of the buffers and of the images. Images may be stored in buffers: load those first.
 Status load_buffers(Document& document);
 Status load_images(Document& document);
 
-// Unpacks accessors of any component type, stride and offset, normalised or sparse, into floats or unsigned
-// integers. Every byte is bounds-checked before it is read.
-
-// Checks that every buffer view lies in its buffer, every accessor in its view, and that types and counts are
-// valid.
+// Check that every buffer view lies in its buffer and every accessor in its view, and that types and counts
+// are valid. After that, unpacking cannot read outside a buffer.
 Status check_views(const Document& document);
 Status check_accessors(const Document& document);
 
-// The component types that are allowed where an accessor is used.
+// The component types that a use of an accessor allows.
 enum class NumberFormats : std::uint8_t {
     real,       // float
     unit,       // float, or integers normalised to [0, 1] or [-1, 1]
     quantized,  // every type that KHR_mesh_quantization allows
 };
 
-// Returns the elements of an accessor as floats, one component after the other, all finite. `type` is
-// tinygltf's number (TINYGLTF_TYPE_VEC3), `pointer` the place where the accessor is used.
+// Unpacks the elements of an accessor of any component type, stride and offset, normalised or sparse. Returns
+// floats, one component after the other, all finite. `type`: the required element type (TINYGLTF_TYPE_VEC3).
+// `pointer`: where the accessor is used.
 Result<std::vector<float>> unpack_floats(Document& document, int accessor, int type, NumberFormats numbers,
                                          const std::string& pointer);
 
@@ -67,8 +66,7 @@ Result<std::vector<float>> unpack_floats(Document& document, int accessor, int t
 Result<std::vector<std::uint32_t>> unpack_integers(Document& document, int accessor, int type,
                                                    const std::string& pointer);
 
-// Converts the sections of a validated document to a Model.
-
+// Convert the sections of a validated document to a Model.
 Status read_meshes(Document& document, Model& model);
 Status read_materials(const Document& document, Model& model);
 Status read_textures(Document& document, Model& model);

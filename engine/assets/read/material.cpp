@@ -1,3 +1,4 @@
+// Reads materials, textures and the media types of images.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +32,7 @@ void set_transform(TextureRef& ref, const Value& transform) {
     set(ref.rotation, transform, "rotation");
 }
 
-// The texture references of the core material, which tinygltf stores in three similar structures.
+// Converts a texture reference of the core material, which tinygltf stores in three similar structures.
 template <class Info>
 TextureRef reference(const Info& info) {
     TextureRef ref;
@@ -42,7 +43,7 @@ TextureRef reference(const Info& info) {
     return ref;
 }
 
-// Texture references in extensions, which tinygltf keeps as values.
+// Converts a texture reference in an extension, which tinygltf stores as a generic value.
 void set(TextureRef& ref, const Value& owner, const char* key) {
     if (!owner.Has(key)) return;
     const Value& info = owner.Get(key);
@@ -54,31 +55,31 @@ void set(TextureRef& ref, const Value& owner, const char* key) {
 }
 
 void read_extensions(const ExtensionMap& extensions, Material& m) {
-    const auto each = [&](const char* name, auto read) {
+    const auto if_present = [&](const char* name, auto read) {
         const auto extension = extensions.find(name);
         if (extension != extensions.end()) read(extension->second);
     };
-    each("KHR_materials_clearcoat", [&](const Value& v) {
+    if_present("KHR_materials_clearcoat", [&](const Value& v) {
         set(m.clearcoat, v, "clearcoatFactor");
         set(m.clearcoat_texture, v, "clearcoatTexture");
         set(m.clearcoat_roughness, v, "clearcoatRoughnessFactor");
         set(m.clearcoat_roughness_texture, v, "clearcoatRoughnessTexture");
         set(m.clearcoat_normal_texture, v, "clearcoatNormalTexture");
     });
-    each("KHR_materials_anisotropy", [&](const Value& v) {
+    if_present("KHR_materials_anisotropy", [&](const Value& v) {
         set(m.anisotropy, v, "anisotropyStrength");
         set(m.anisotropy_rotation, v, "anisotropyRotation");
         set(m.anisotropy_texture, v, "anisotropyTexture");
     });
-    each("KHR_materials_ior", [&](const Value& v) { set(m.ior, v, "ior"); });
-    each("KHR_materials_specular", [&](const Value& v) {
+    if_present("KHR_materials_ior", [&](const Value& v) { set(m.ior, v, "ior"); });
+    if_present("KHR_materials_specular", [&](const Value& v) {
         set(m.specular, v, "specularFactor");
         set(m.specular_texture, v, "specularTexture");
         if (v.Has("specularColorFactor")) m.specular_color = vec3(v.Get("specularColorFactor"));
         set(m.specular_color_texture, v, "specularColorTexture");
     });
-    each("KHR_materials_emissive_strength",
-         [&](const Value& v) { set(m.emissive_strength, v, "emissiveStrength"); });
+    if_present("KHR_materials_emissive_strength",
+               [&](const Value& v) { set(m.emissive_strength, v, "emissiveStrength"); });
 }
 
 }  // namespace
@@ -113,7 +114,7 @@ Status read_materials(const Document& document, Model& model) {
         read_extensions(from.extensions, m);
         if (m.ior != 0.0F && m.ior < 1.0F)
             return error_at(document, fmt::format("/materials/{}/extensions/KHR_materials_ior/ior", i),
-                            "is less than that of a vacuum", "0 or at least 1");
+                            "is less than the index of a vacuum", "0 or at least 1");
         model.materials.push_back(std::move(m));
     }
     return {};
@@ -136,13 +137,13 @@ Status set_wrap(const Document& document, std::size_t sampler, const char* key, 
             break;
     }
     return error_at(document, fmt::format("/samplers/{}/{}", sampler, key),
-                    fmt::format("{} is no wrapping mode", value), "10497, 33071 or 33648");
+                    fmt::format("{} is not a wrapping mode", value), "10497, 33071 or 33648");
 }
 
 Status set_filters(const Document& document, std::size_t sampler, int mag, int min, Texture& texture) {
     const std::string pointer = fmt::format("/samplers/{}", sampler);
     if (mag != -1 && mag != TINYGLTF_TEXTURE_FILTER_NEAREST && mag != TINYGLTF_TEXTURE_FILTER_LINEAR)
-        return error_at(document, pointer + "/magFilter", fmt::format("{} is no filter", mag),
+        return error_at(document, pointer + "/magFilter", fmt::format("{} is not a filter", mag),
                         "9728 or 9729");
     texture.mag = mag == TINYGLTF_TEXTURE_FILTER_NEAREST ? Filter::nearest : Filter::linear;
     switch (min) {
@@ -157,7 +158,7 @@ Status set_filters(const Document& document, std::size_t sampler, int mag, int m
         case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR:
             break;
         default:
-            return error_at(document, pointer + "/minFilter", fmt::format("{} is no filter", min),
+            return error_at(document, pointer + "/minFilter", fmt::format("{} is not a filter", min),
                             "9728, 9729 or 9984 to 9987");
     }
     if (min == TINYGLTF_TEXTURE_FILTER_NEAREST || min == TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST ||
@@ -184,7 +185,7 @@ Status read_textures(Document& document, Model& model) {
         Image image;
         image.name = document.json["images"][i].value("name", "");
         const char* type = media_type(document.images[i]);
-        // Optional extensions add images of other types, which no core texture refers to.
+        // Optional extensions may add images of other types, to which no core texture refers.
         const bool used = std::any_of(document.gltf.textures.begin(), document.gltf.textures.end(),
                                       [i](const auto& t) { return t.source == static_cast<int>(i); });
         if (type == nullptr && used)
@@ -199,10 +200,10 @@ Status read_textures(Document& document, Model& model) {
         if (from.sampler >= 0) {
             const auto index = static_cast<std::size_t>(from.sampler);
             const tinygltf::Sampler& sampler = document.gltf.samplers[index];
-            Status set = set_filters(document, index, sampler.magFilter, sampler.minFilter, texture);
-            if (set) set = set_wrap(document, index, "wrapS", sampler.wrapS, texture.wrap_s);
-            if (set) set = set_wrap(document, index, "wrapT", sampler.wrapT, texture.wrap_t);
-            if (!set) return set;
+            Status status = set_filters(document, index, sampler.magFilter, sampler.minFilter, texture);
+            if (status) status = set_wrap(document, index, "wrapS", sampler.wrapS, texture.wrap_s);
+            if (status) status = set_wrap(document, index, "wrapT", sampler.wrapT, texture.wrap_t);
+            if (!status) return status;
         }
         model.textures.push_back(texture);
     }

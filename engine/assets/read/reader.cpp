@@ -1,3 +1,4 @@
+// read_gltf: the order of the reading steps, the loading of buffers and images, and tinygltf's parsing.
 #include <algorithm>
 
 #include "engine/assets/gltf.hpp"
@@ -17,7 +18,7 @@ int hex(char c) {
     return -1;
 }
 
-// RFC 3986, section 2.1.
+// Decodes percent-encoding (RFC 3986, section 2.1).
 std::string percent_decoded(const std::string& uri) {
     std::string text;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -33,22 +34,23 @@ std::string percent_decoded(const std::string& uri) {
     return text;
 }
 
-// Returns the file that a URI names: a relative path that stays in the folder after following symbolic links.
-Result<std::filesystem::path> inside(const Document& document, const std::string& uri,
-                                     const std::string& pointer) {
+// Returns the file that a URI refers to. Fails unless it is a relative path that, after following symbolic
+// links, stays in the document's folder.
+Result<std::filesystem::path> resolve_uri(const Document& document, const std::string& uri,
+                                          const std::string& pointer) {
     const std::string decoded = percent_decoded(uri);
     const std::filesystem::path relative(decoded);
-    const bool outside = relative.is_absolute() || decoded.empty() ||
-                         decoded.find('\0') != std::string::npos || decoded.find('\\') != std::string::npos ||
-                         decoded.find(':') != std::string::npos ||
-                         std::find(relative.begin(), relative.end(), "..") != relative.end();
-    std::error_code none;
-    const auto folder = std::filesystem::weakly_canonical(document.folder, none);
-    const auto path = std::filesystem::weakly_canonical(document.folder / relative, none);
-    if (outside || none ||
+    const bool forbidden =
+        relative.is_absolute() || decoded.empty() || decoded.find('\0') != std::string::npos ||
+        decoded.find('\\') != std::string::npos || decoded.find(':') != std::string::npos ||
+        std::find(relative.begin(), relative.end(), "..") != relative.end();
+    std::error_code failed;
+    const auto folder = std::filesystem::weakly_canonical(document.folder, failed);
+    const auto path = std::filesystem::weakly_canonical(document.folder / relative, failed);
+    if (forbidden || failed ||
         std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end())
-        return error_at(document, pointer, "names a file outside the folder of this one",
-                        "a relative path below it");
+        return error_at(document, pointer, "refers to a file outside the folder of this file",
+                        "a relative path within the folder");
     return path;
 }
 
@@ -58,11 +60,10 @@ Result<std::vector<std::uint8_t>> load_uri(const Document& document, const std::
         std::vector<std::uint8_t> bytes;
         std::string mime_type;
         if (!tinygltf::IsDataURI(uri) || !tinygltf::DecodeDataURI(&bytes, mime_type, uri, 0, false))
-            return error_at(document, pointer, "is no data that can be decoded",
-                            "base64 of a known media type");
+            return error_at(document, pointer, "cannot be decoded", "base64 data of a known media type");
         return bytes;
     }
-    BOLT_TRY_ASSIGN(const auto path, inside(document, uri, pointer));
+    BOLT_TRY_ASSIGN(const auto path, resolve_uri(document, uri, pointer));
     const auto text = read_file(path, file_limit, ErrorCode::bad_content);
     if (!text) return error_at(document, pointer, "'" + uri + "' " + text.error().what);
     return std::vector<std::uint8_t>(text->begin(), text->end());
@@ -86,11 +87,11 @@ Status load_buffers(Document& document) {
         } else if (i == 0 && !document.chunk.empty()) {
             bytes = document.chunk;
         } else {
-            return error_at(document, pointer, "has neither a 'uri' nor the binary chunk of the file");
+            return error_at(document, pointer, "has neither a 'uri' nor a binary chunk in this file");
         }
         if (bytes.size() < length)
             return error_at(document, pointer + "/byteLength", "is " + std::to_string(length),
-                            "at most the " + std::to_string(bytes.size()) + " bytes that are there");
+                            "at most the " + std::to_string(bytes.size()) + " bytes available");
         document.buffers.push_back(bytes.first(length));
     }
     return {};
@@ -103,13 +104,16 @@ Status load_images(Document& document) {
         const nlohmann::json& image = (*images)[i];
         const std::string pointer = "/images/" + std::to_string(i);
         if (image.contains("bufferView") == image.contains("uri"))
-            return error_at(document, pointer, "has not one of 'uri' and 'bufferView'");
+            return error_at(document, pointer,
+                            image.contains("uri") ? "has both 'uri' and 'bufferView'"
+                                                  : "has neither 'uri' nor 'bufferView'",
+                            "one of them");
         if (image.contains("uri")) {
             BOLT_TRY_ASSIGN(auto loaded, load_uri(document, image["uri"], pointer + "/uri"));
             document.images.push_back(std::move(loaded));
             continue;
         }
-        // check_views has validated the views before.
+        // check_views has validated the views.
         const nlohmann::json& view = document.json["bufferViews"][image["bufferView"].get<std::size_t>()];
         const auto bytes = document.buffers[view["buffer"].get<std::size_t>()].subspan(
             view.value("byteOffset", std::size_t{0}), view["byteLength"].get<std::size_t>());
@@ -120,12 +124,13 @@ Status load_images(Document& document) {
 
 namespace {
 
-// Accessors may share bytes, and sparse accessors expand to many zeros. A valid model may expand to this
-// multiple of the file size; more is treated as an attack on memory.
+// Accessors may share bytes, and sparse accessors may expand to many zeros. A model may expand to this
+// multiple of its buffers' size; more is treated as an attack on memory.
 constexpr std::size_t unpacking_factor = 32;
 
-// tinygltf parses only the part of the JSON that it handles safely. Removed are buffers and images, which are
-// loaded already, indices, for which it requires a buffer view, and animations, of which it drops some.
+// Lets tinygltf parse the part of the JSON that it handles correctly. This removes buffers and images, which
+// are already loaded; indices, for which tinygltf requires a buffer view; and animations, some of which it
+// drops.
 Status parse_typed(Document& document) {
     nlohmann::json json = document.json;
     json.erase("buffers");
@@ -162,26 +167,26 @@ Status parse_typed(Document& document) {
 }
 
 Result<Model> read(Document& document) {
-    Status done = parse_document(document);
-    if (done) done = check_schema(document);
-    if (done) done = load_buffers(document);
-    if (done) done = check_views(document);
-    if (done) done = load_images(document);
-    if (done) done = parse_typed(document);
-    if (done) done = check_accessors(document);
-    for (const auto buffer : document.buffers) document.budget += unpacking_factor * buffer.size();
+    Status status = parse_document(document);
+    if (status) status = check_schema(document);
+    if (status) status = load_buffers(document);
+    if (status) status = check_views(document);
+    if (status) status = load_images(document);
+    if (status) status = parse_typed(document);
+    if (status) status = check_accessors(document);
+    for (const auto buffer : document.buffers) document.unpack_budget += unpacking_factor * buffer.size();
     Model model;
     model.generator = document.gltf.asset.generator;
     model.copyright = document.gltf.asset.copyright;
-    if (done) done = read_meshes(document, model);
-    if (done) done = read_materials(document, model);
-    if (done) done = read_textures(document, model);
-    if (done) done = read_cameras(document, model);
-    if (done) done = read_lights(document, model);
-    if (done) done = read_skins(document, model);
-    if (done) done = read_nodes(document, model);
-    if (done) done = read_animations(document, model);
-    if (!done) return fail(done.error());
+    if (status) status = read_meshes(document, model);
+    if (status) status = read_materials(document, model);
+    if (status) status = read_textures(document, model);
+    if (status) status = read_cameras(document, model);
+    if (status) status = read_lights(document, model);
+    if (status) status = read_skins(document, model);
+    if (status) status = read_nodes(document, model);
+    if (status) status = read_animations(document, model);
+    if (!status) return fail(status.error());
     return model;
 }
 

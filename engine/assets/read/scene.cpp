@@ -1,3 +1,4 @@
+// Reads nodes, skins, animations, cameras and lights.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,22 +19,22 @@ constexpr int depth_limit = 256;
 
 glm::vec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
-// Decomposes an affine matrix without shear into translation, rotation and scale; a reflection gives a
-// negative x scale.
+// Decomposes an affine matrix without shear into translation, rotation and scale. The x scale of a reflection
+// is negative.
 Status decompose(const Document& document, const std::vector<double>& m, const std::string& pointer,
                  Node& node) {
     const glm::dvec3 columns[3] = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}};
     glm::dvec3 scale{glm::length(columns[0]), glm::length(columns[1]), glm::length(columns[2])};
     const bool affine = m[3] == 0.0 && m[7] == 0.0 && m[11] == 0.0 && std::abs(m[15] - 1.0) < 1e-6;
-    if (!affine) return error_at(document, pointer, "is no affine matrix", "0, 0, 0, 1 as its last row");
+    if (!affine) return error_at(document, pointer, "is not an affine matrix", "the last row 0, 0, 0, 1");
     if (std::min({scale.x, scale.y, scale.z}) < 1e-12)
-        return error_at(document, pointer, "flattens what it moves", "scales other than zero");
+        return error_at(document, pointer, "has a scale of zero", "scales other than zero");
     glm::dmat3 rotation(columns[0] / scale.x, columns[1] / scale.y, columns[2] / scale.z);
     const double shear =
         std::max({std::abs(glm::dot(rotation[0], rotation[1])), std::abs(glm::dot(rotation[1], rotation[2])),
                   std::abs(glm::dot(rotation[2], rotation[0]))});
     if (shear > 1e-3)
-        return error_at(document, pointer, "shears", "a product of translation, rotation and scale");
+        return error_at(document, pointer, "contains shear", "a product of translation, rotation and scale");
     if (glm::determinant(rotation) < 0.0) {
         scale.x = -scale.x;
         rotation[0] = -rotation[0];
@@ -60,8 +61,8 @@ Status read_node(const Document& document, std::size_t index, Node& node) {
         if (from.rotation.size() == 4) {
             const glm::dquat rotation(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
             if (std::abs(glm::length(rotation) - 1.0) > 1e-2)
-                return error_at(document, pointer + "/rotation", "is no unit quaternion");
-            // Normalize a nearly unit quaternion; keep the bits of one that is unit to float precision.
+                return error_at(document, pointer + "/rotation", "is not a unit quaternion");
+            // Keep the bits of a quaternion that has unit length to float precision; normalise others.
             const bool exact = std::abs(glm::length(rotation) - 1.0) < 1e-5;
             node.rotation = glm::quat(exact ? rotation : glm::normalize(rotation));
         }
@@ -83,7 +84,7 @@ Status check_tree(const Document& document, const Model& model) {
             if (parent >= 0)
                 return error_at(
                     document, fmt::format("/nodes/{}/children/{}", i, k),
-                    fmt::format("node {} is a child of node {} already", model.nodes[i].children[k], parent));
+                    fmt::format("node {} is already a child of node {}", model.nodes[i].children[k], parent));
             parent = static_cast<int>(i);
         }
     }
@@ -91,11 +92,12 @@ Status check_tree(const Document& document, const Model& model) {
         int depth = 0;
         for (int node = parents[i]; node >= 0; node = parents[static_cast<std::size_t>(node)]) {
             if (node == static_cast<int>(i))
-                return error_at(document, fmt::format("/nodes/{}", i), "is below itself", "a tree of nodes");
-            // A walk below a cycle never returns to its start: the depth limit ends it.
+                return error_at(document, fmt::format("/nodes/{}", i), "is its own descendant",
+                                "a tree of nodes");
+            // The ancestors of a node below a cycle never end; the depth limit stops the loop.
             if (++depth > depth_limit)
                 return error_at(document, fmt::format("/nodes/{}", i),
-                                fmt::format("lies deeper than {} nodes, or below a cycle", depth_limit));
+                                fmt::format("is more than {} levels deep, or below a cycle", depth_limit));
         }
     }
     return {};
@@ -116,7 +118,8 @@ Status read_roots(const Document& document, Model& model) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const auto node = static_cast<std::size_t>(nodes[i]);
         const std::string pointer = fmt::format("/scenes/{}/nodes/{}", scene, i);
-        if (is_child[node]) return error_at(document, pointer, fmt::format("node {} is no root", node));
+        if (is_child[node])
+            return error_at(document, pointer, fmt::format("node {} is not a root node", node));
         if (listed[node]) return error_at(document, pointer, fmt::format("node {} is listed twice", node));
         listed[node] = true;
         model.roots.push_back(nodes[i]);
@@ -124,8 +127,8 @@ Status read_roots(const Document& document, Model& model) {
     return {};
 }
 
-// Checks that meshes refer to joints of their node's skin, and that node weights match the morph targets.
-Status check_uses(const Document& document, const Model& model) {
+// Checks that meshes use only joints of their node's skin, and that node weights match the morph targets.
+Status check_skins_and_weights(const Document& document, const Model& model) {
     std::vector<int> highest(model.meshes.size(), -1);
     for (std::size_t i = 0; i < model.meshes.size(); ++i)
         for (const Primitive& primitive : model.meshes[i].primitives)
@@ -138,13 +141,14 @@ Status check_uses(const Document& document, const Model& model) {
         const auto mesh = static_cast<std::size_t>(node.mesh);
         if (!node.weights.empty() && node.weights.size() != model.meshes[mesh].primitives[0].targets.size())
             return error_at(document, fmt::format("/nodes/{}/weights", i),
-                            "has not one weight a morph target");
+                            fmt::format("has {} weights for {} morph targets", node.weights.size(),
+                                        model.meshes[mesh].primitives[0].targets.size()));
         if (node.skin < 0) continue;
         const std::size_t joints = model.skins[static_cast<std::size_t>(node.skin)].joints.size();
         if (highest[mesh] >= static_cast<int>(joints))
             return error_at(
                 document, fmt::format("/nodes/{}/skin", i),
-                fmt::format("mesh {} names joint {} of a skin of {}", mesh, highest[mesh], joints));
+                fmt::format("mesh {} uses joint {} of a skin with {} joints", mesh, highest[mesh], joints));
     }
     return {};
 }
@@ -153,22 +157,23 @@ Status check_uses(const Document& document, const Model& model) {
 
 Status read_nodes(const Document& document, Model& model) {
     model.nodes.resize(document.gltf.nodes.size());
-    Status done;
-    for (std::size_t i = 0; done && i < model.nodes.size(); ++i)
-        done = read_node(document, i, model.nodes[i]);
-    if (done) done = check_tree(document, model);
-    if (done) done = read_roots(document, model);
-    if (done) done = check_uses(document, model);
-    return done;
+    Status status;
+    for (std::size_t i = 0; status && i < model.nodes.size(); ++i)
+        status = read_node(document, i, model.nodes[i]);
+    if (status) status = check_tree(document, model);
+    if (status) status = read_roots(document, model);
+    if (status) status = check_skins_and_weights(document, model);
+    return status;
 }
 
 namespace {
 
-Status set_path(const Document& document, const std::string& name, const std::string& pointer, Path& path) {
-    constexpr std::pair<const char*, Path> names[] = {{"translation", Path::translation},
-                                                      {"rotation", Path::rotation},
-                                                      {"scale", Path::scale},
-                                                      {"weights", Path::weights}};
+Status set_path(const Document& document, const std::string& name, const std::string& pointer,
+                TargetPath& path) {
+    constexpr std::pair<const char*, TargetPath> names[] = {{"translation", TargetPath::translation},
+                                                            {"rotation", TargetPath::rotation},
+                                                            {"scale", TargetPath::scale},
+                                                            {"weights", TargetPath::weights}};
     for (const auto& [known, value] : names) {
         if (name == known) {
             path = value;
@@ -190,10 +195,10 @@ Status set_interpolation(const Document& document, const std::string& name, cons
     return {};
 }
 
-// Returns the number of floats per key for the animated property; 0: the node does not have it.
-std::size_t width(const Model& model, const Channel& channel) {
-    if (channel.path == Path::rotation) return 4;
-    if (channel.path != Path::weights) return 3;
+// Returns the number of floats per key of the animated property; 0: the node does not have the property.
+std::size_t floats_per_key(const Model& model, const Channel& channel) {
+    if (channel.path == TargetPath::rotation) return 4;
+    if (channel.path != TargetPath::weights) return 3;
     const int mesh = model.nodes[static_cast<std::size_t>(channel.node)].mesh;
     return mesh < 0 ? 0 : model.meshes[static_cast<std::size_t>(mesh)].primitives[0].targets.size();
 }
@@ -207,18 +212,18 @@ Status read_keys(Document& document, const Model& model, const nlohmann::json& s
     for (std::size_t i = 0; i < times.size(); ++i)
         if (times[i] < 0.0F || (i > 0 && times[i] <= times[i - 1]))
             return error_at(document, pointer + "/input", fmt::format("key {} is at {} s", i, times[i]),
-                            "times that rise from 0");
-    const int type = channel.path == Path::rotation  ? TINYGLTF_TYPE_VEC4
-                     : channel.path == Path::weights ? TINYGLTF_TYPE_SCALAR
-                                                     : TINYGLTF_TYPE_VEC3;
-    const bool whole = channel.path == Path::rotation || channel.path == Path::weights;
-    BOLT_TRY_ASSIGN(auto values,
-                    unpack_floats(document, sampler["output"], type,
-                                  whole ? NumberFormats::unit : NumberFormats::real, pointer + "/output"));
+                            "increasing times from 0 on");
+    const int type = channel.path == TargetPath::rotation  ? TINYGLTF_TYPE_VEC4
+                     : channel.path == TargetPath::weights ? TINYGLTF_TYPE_SCALAR
+                                                           : TINYGLTF_TYPE_VEC3;
+    const bool may_be_quantized = channel.path == TargetPath::rotation || channel.path == TargetPath::weights;
+    BOLT_TRY_ASSIGN(auto values, unpack_floats(document, sampler["output"], type,
+                                               may_be_quantized ? NumberFormats::unit : NumberFormats::real,
+                                               pointer + "/output"));
     if (channel.interpolation == Interpolation::cubic && times.size() < 2)
-        return error_at(document, pointer + "/input", "has one key", "two for a cubic spline");
+        return error_at(document, pointer + "/input", "has one key", "at least two for a cubic spline");
     const std::size_t tangents = channel.interpolation == Interpolation::cubic ? 3 : 1;
-    const std::size_t expected = times.size() * width(model, channel) * tangents;
+    const std::size_t expected = times.size() * floats_per_key(model, channel) * tangents;
     if (values.size() != expected || expected == 0)
         return error_at(document, pointer + "/output",
                         fmt::format("has {} numbers for {} keys", values.size(), times.size()),
@@ -289,8 +294,6 @@ Status read_animations(Document& document, Model& model) {
     return {};
 }
 
-// Cameras and lights.
-
 Status read_cameras(const Document& document, Model& model) {
     for (std::size_t i = 0; i < document.gltf.cameras.size(); ++i) {
         const tinygltf::Camera& from = document.gltf.cameras[i];
@@ -308,8 +311,8 @@ Status read_cameras(const Document& document, Model& model) {
             camera.znear = static_cast<float>(from.orthographic.znear);
             camera.zfar = static_cast<float>(from.orthographic.zfar);
             if (camera.xmag == 0.0F || camera.ymag == 0.0F)
-                return error_at(document, fmt::format("/cameras/{}/orthographic", i), "sees nothing",
-                                "xmag and ymag other than zero");
+                return error_at(document, fmt::format("/cameras/{}/orthographic", i),
+                                "has a width or height of zero", "xmag and ymag other than zero");
         }
         if (camera.zfar != 0.0F && camera.zfar <= camera.znear)
             return error_at(document, fmt::format("/cameras/{}/{}/zfar", i, from.type),
@@ -334,7 +337,7 @@ Status read_lights(const Document& document, Model& model) {
         light.outer_cone = static_cast<float>(from.spot.outerConeAngle);
         if (light.type == LightType::spot && light.inner_cone >= light.outer_cone)
             return error_at(document, pointer + "/spot",
-                            "has an inner cone that is not within the outer one");
+                            "has an inner cone that is not smaller than the outer one");
         model.lights.push_back(std::move(light));
     }
     return {};

@@ -14,15 +14,15 @@ namespace {
 
 using nlohmann::json;
 
-struct Checker {
+struct SchemaChecker {
     Document& document;
 
-    Status object(json& value, const ObjectSchema& schema, const std::string& pointer);
-    Status field(json& value, const Field& field, const std::string& pointer);
-    Status list(json& value, const Field& field, const std::string& pointer);
-    Status integer(json& value, const Field& field, const std::string& pointer);
-    Status number(json& value, const Field& field, const std::string& pointer);
-    Status index(json& value, const Field& field, const std::string& pointer);
+    Status check_object(json& value, const ObjectSchema& schema, const std::string& pointer);
+    Status check_property(json& value, const Property& property, const std::string& pointer);
+    Status check_list(json& value, const Property& property, const std::string& pointer);
+    Status check_integer(json& value, const Property& property, const std::string& pointer);
+    Status check_number(json& value, const Property& property, const std::string& pointer);
+    Status check_index(json& value, const Property& property, const std::string& pointer);
 };
 
 // Returns the number of entries in a section that an index may refer to.
@@ -33,6 +33,14 @@ std::size_t section_size(const json& root, const std::string& section) {
     return entries.is_array() ? entries.size() : 0;
 }
 
+// The type of a JSON value with its article: "an object".
+std::string type_phrase(const json& value) {
+    const std::string name = value.type_name();
+    if (value.is_null()) return name;
+    return (value.is_structured() ? "an " : "a ") + name;
+}
+
+// Escapes a key for a JSON pointer (RFC 6901).
 std::string escaped(const std::string& key) {
     std::string text;
     for (const char c : key) {
@@ -47,115 +55,115 @@ std::string escaped(const std::string& key) {
     return text;
 }
 
-Status Checker::integer(json& value, const Field& field, const std::string& pointer) {
-    // JSON and glTF accept 2.0 as an integer, but the libraries do not.
+Status SchemaChecker::check_integer(json& value, const Property& property, const std::string& pointer) {
+    // JSON and glTF accept 2.0 as an integer, but the libraries do not: convert it in the document.
     if (value.is_number_float() && std::trunc(value.get<double>()) == value.get<double>() &&
         std::abs(value.get<double>()) <= INT_MAX)
         value = static_cast<std::uint64_t>(std::abs(value.get<double>()));
-    const double low = std::max(field.low, 0.0);
-    const double high = std::min(field.high, static_cast<double>(INT_MAX));
+    const double low = std::max(property.low, 0.0);
+    const double high = std::min(property.high, static_cast<double>(INT_MAX));
     if (!value.is_number_unsigned() || static_cast<double>(value.get<std::uint64_t>()) > high ||
         static_cast<double>(value.get<std::uint64_t>()) < low)
-        return error_at(document, pointer, value.dump() + " is not a number that can stand here",
+        return error_at(document, pointer, value.dump() + " is not allowed here",
                         "an integer from " + std::to_string(static_cast<int>(low)) + " to " +
                             std::to_string(static_cast<int>(high)));
     return {};
 }
 
-Status Checker::number(json& value, const Field& field, const std::string& pointer) {
-    const double low = std::max(field.low, static_cast<double>(-FLT_MAX));
-    const double high = std::min(field.high, static_cast<double>(FLT_MAX));
-    if (!value.is_number())
-        return error_at(document, pointer, "is " + std::string(value.type_name()), "a number");
+Status SchemaChecker::check_number(json& value, const Property& property, const std::string& pointer) {
+    const double low = std::max(property.low, static_cast<double>(-FLT_MAX));
+    const double high = std::min(property.high, static_cast<double>(FLT_MAX));
+    if (!value.is_number()) return error_at(document, pointer, "is " + type_phrase(value), "a number");
     const double number = value.get<double>();
     if (number >= low && number <= high) return {};
     std::string expected = "a number that a float can hold";
-    if (field.low > -DBL_MAX || field.high < DBL_MAX) {
+    if (property.low > -DBL_MAX || property.high < DBL_MAX) {
         expected = "a number";
-        if (field.low > -DBL_MAX) expected += " from " + json(field.low).dump();
-        if (field.high < DBL_MAX) expected += " to " + json(field.high).dump();
+        if (property.low > -DBL_MAX) expected += " from " + json(property.low).dump();
+        if (property.high < DBL_MAX) expected += " to " + json(property.high).dump();
     }
     return error_at(document, pointer, value.dump() + " is out of range", expected);
 }
 
-Status Checker::index(json& value, const Field& field, const std::string& pointer) {
-    const std::size_t count = section_size(document.json, field.section);
-    BOLT_TRY(integer(value, {}, pointer));
+Status SchemaChecker::check_index(json& value, const Property& property, const std::string& pointer) {
+    const std::size_t count = section_size(document.json, property.section);
+    BOLT_TRY(check_integer(value, {}, pointer));
     if (value.get<std::uint64_t>() >= count)
-        return error_at(document, pointer, "there is no entry " + value.dump() + " in " + field.section,
+        return error_at(document, pointer, "there is no entry " + value.dump() + " in " + property.section,
                         "an index below " + std::to_string(count));
     return {};
 }
 
-Status Checker::list(json& value, const Field& field, const std::string& pointer) {
-    if (!value.is_array())
-        return error_at(document, pointer, "is " + std::string(value.type_name()), "an array");
-    if (field.length > 0 && value.size() != field.length)
+Status SchemaChecker::check_list(json& value, const Property& property, const std::string& pointer) {
+    if (!value.is_array()) return error_at(document, pointer, "is " + type_phrase(value), "an array");
+    if (property.length > 0 && value.size() != property.length)
         return error_at(document, pointer, "has " + std::to_string(value.size()) + " entries",
-                        std::to_string(field.length) + " entries");
+                        std::to_string(property.length) + " entries");
     for (std::size_t i = 0; i < value.size(); ++i) {
-        const std::string place = pointer + '/' + std::to_string(i);
+        const std::string entry_pointer = pointer + '/' + std::to_string(i);
         Status status;
-        if (field.kind == FieldType::numbers) {
-            status = number(value[i], field, place);
-        } else if (field.kind == FieldType::indices) {
-            status = index(value[i], field, place);
-        } else if (field.kind == FieldType::strings) {
-            if (!value[i].is_string()) status = error_at(document, place, "is no text", "a string");
-        } else if (field.schema != nullptr) {
-            status = object(value[i], *field.schema, place);
+        if (property.type == PropertyType::numbers) {
+            status = check_number(value[i], property, entry_pointer);
+        } else if (property.type == PropertyType::indices) {
+            status = check_index(value[i], property, entry_pointer);
+        } else if (property.type == PropertyType::strings) {
+            if (!value[i].is_string())
+                status = error_at(document, entry_pointer, "is " + type_phrase(value[i]), "a string");
+        } else if (property.schema != nullptr) {
+            status = check_object(value[i], *property.schema, entry_pointer);
         } else {  // a morph target: attributes by name
-            status = this->field(value[i],
-                                 {.name = "", .kind = FieldType::index_map, .section = field.section}, place);
+            status = check_property(
+                value[i], {.name = "", .type = PropertyType::index_map, .section = property.section},
+                entry_pointer);
         }
         if (!status) return status;
     }
     return {};
 }
 
-Status Checker::field(json& value, const Field& field, const std::string& pointer) {
-    switch (field.kind) {
-        case FieldType::boolean:
-            if (!value.is_boolean()) return error_at(document, pointer, "is no truth value", "true or false");
+Status SchemaChecker::check_property(json& value, const Property& property, const std::string& pointer) {
+    switch (property.type) {
+        case PropertyType::boolean:
+            if (!value.is_boolean())
+                return error_at(document, pointer, "is " + type_phrase(value), "true or false");
             return {};
-        case FieldType::string:
+        case PropertyType::string:
             if (!value.is_string())
-                return error_at(document, pointer, "is " + std::string(value.type_name()), "a string");
+                return error_at(document, pointer, "is " + type_phrase(value), "a string");
             return {};
-        case FieldType::integer:
-            return integer(value, field, pointer);
-        case FieldType::number:
-            return number(value, field, pointer);
-        case FieldType::index:
-            return index(value, field, pointer);
-        case FieldType::index_map:
+        case PropertyType::integer:
+            return check_integer(value, property, pointer);
+        case PropertyType::number:
+            return check_number(value, property, pointer);
+        case PropertyType::index:
+            return check_index(value, property, pointer);
+        case PropertyType::index_map:
             if (!value.is_object())
-                return error_at(document, pointer, "is " + std::string(value.type_name()), "an object");
+                return error_at(document, pointer, "is " + type_phrase(value), "an object");
             for (auto& [key, entry] : value.items())
-                BOLT_TRY(index(entry, field, pointer + '/' + escaped(key)));
+                BOLT_TRY(check_index(entry, property, pointer + '/' + escaped(key)));
             return {};
-        case FieldType::object:
-            return object(value, *field.schema, pointer);
-        case FieldType::numbers:
-        case FieldType::indices:
-        case FieldType::strings:
-        case FieldType::list:
-            return list(value, field, pointer);
+        case PropertyType::object:
+            return check_object(value, *property.schema, pointer);
+        case PropertyType::numbers:
+        case PropertyType::indices:
+        case PropertyType::strings:
+        case PropertyType::list:
+            return check_list(value, property, pointer);
     }
     return {};
 }
 
-Status Checker::object(json& value, const ObjectSchema& schema, const std::string& pointer) {
-    if (!value.is_object())
-        return error_at(document, pointer, "is " + std::string(value.type_name()), "an object");
-    for (const Field& field : schema) {
-        const auto entry = value.find(field.name);
+Status SchemaChecker::check_object(json& value, const ObjectSchema& schema, const std::string& pointer) {
+    if (!value.is_object()) return error_at(document, pointer, "is " + type_phrase(value), "an object");
+    for (const Property& property : schema) {
+        const auto entry = value.find(property.name);
         if (entry == value.end()) {
-            if (field.required)
-                return error_at(document, pointer, "has no '" + std::string(field.name) + "'");
+            if (property.required)
+                return error_at(document, pointer, "has no '" + std::string(property.name) + "'");
             continue;
         }
-        BOLT_TRY(this->field(*entry, field, pointer + '/' + field.name));
+        BOLT_TRY(check_property(*entry, property, pointer + '/' + property.name));
     }
     return {};
 }
@@ -166,7 +174,7 @@ Status check_version(const Document& document) {
     if (!version.starts_with("2."))
         return error_at(document, "/asset/version", "is glTF " + version, "glTF 2.0");
     if (asset.value("minVersion", "2.0") != "2.0")
-        return error_at(document, "/asset/minVersion", "needs glTF " + asset.value("minVersion", ""),
+        return error_at(document, "/asset/minVersion", "requires glTF " + asset.value("minVersion", ""),
                         "glTF 2.0");
     return {};
 }
@@ -184,17 +192,17 @@ Status check_extensions(const Document& document) {
         const std::string name = (*required)[i];
         if (std::find(std::begin(known), std::end(known), name) == std::end(known))
             return error_at(document, "/extensionsRequired/" + std::to_string(i),
-                            "needs the extension " + name + ", which is not read here");
+                            "requires the extension " + name + ", which is not supported");
     }
     return {};
 }
 
-Status check_word(const Document& document, const json& value, std::initializer_list<const char*> words,
-                  const std::string& pointer) {
+Status check_enumerator(const Document& document, const json& value,
+                        std::initializer_list<const char*> allowed, const std::string& pointer) {
     std::string expected;
-    for (const char* word : words) {
-        if (value == word) return {};
-        expected += (expected.empty() ? "" : ", ") + std::string(word);
+    for (const char* enumerator : allowed) {
+        if (value == enumerator) return {};
+        expected += (expected.empty() ? "" : ", ") + std::string(enumerator);
     }
     return error_at(document, pointer, "is " + value.dump(), "one of " + expected);
 }
@@ -210,20 +218,21 @@ Status check_types(const Document& document) {
             status = check(root.at(path)[i], section + '/' + std::to_string(i));
     };
     each("/accessors", [&](const json& accessor, const std::string& pointer) {
-        return check_word(document, accessor["type"],
-                          {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"}, pointer + "/type");
+        return check_enumerator(document, accessor["type"],
+                                {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"},
+                                pointer + "/type");
     });
     each("/cameras", [&](const json& camera, const std::string& pointer) -> Status {
-        Status word =
-            check_word(document, camera["type"], {"perspective", "orthographic"}, pointer + "/type");
-        if (!word || camera.contains(camera["type"])) return word;
+        Status type_status =
+            check_enumerator(document, camera["type"], {"perspective", "orthographic"}, pointer + "/type");
+        if (!type_status || camera.contains(camera["type"])) return type_status;
         return error_at(document, pointer, "has no '" + camera["type"].get<std::string>() + "'");
     });
     each("/extensions/KHR_lights_punctual/lights",
          [&](const json& light, const std::string& pointer) -> Status {
-             Status word =
-                 check_word(document, light["type"], {"directional", "point", "spot"}, pointer + "/type");
-             if (!word || light["type"] != "spot" || light.contains("spot")) return word;
+             Status type_status = check_enumerator(document, light["type"], {"directional", "point", "spot"},
+                                                   pointer + "/type");
+             if (!type_status || light["type"] != "spot" || light.contains("spot")) return type_status;
              return error_at(document, pointer, "has no 'spot'");
          });
     return status;
@@ -232,8 +241,8 @@ Status check_types(const Document& document) {
 }  // namespace
 
 Status check_schema(Document& document) {
-    Checker checker{document};
-    Status status = checker.object(document.json, root_schema(), "");
+    SchemaChecker checker{document};
+    Status status = checker.check_object(document.json, root_schema(), "");
     if (status) status = check_version(document);
     if (status) status = check_extensions(document);
     if (status) status = check_types(document);

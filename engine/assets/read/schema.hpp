@@ -1,4 +1,4 @@
-// The glTF objects and properties that the reader accepts, as a table.
+// The glTF objects and properties that the reader uses, as a table for check_schema.
 #pragma once
 
 #include <cfloat>
@@ -7,31 +7,31 @@
 
 namespace bolt::assets {
 
-enum class FieldType : std::uint8_t {
+enum class PropertyType : std::uint8_t {
     boolean,
     string,
     integer,  // not negative, at most the largest int
     number,   // finite as a float
     index,    // an index into `section`
-    object,
-    strings,
+    object,   // with `schema`
+    strings,  // this and the next two: arrays
     numbers,
     indices,
     index_map,  // an object whose values are indices
-    list        // an array of objects with `schema`; without one, of index maps
+    list        // an array of objects with `schema`; without a schema, of index maps
 };
 
-struct Field;
-using ObjectSchema = std::vector<Field>;
+struct Property;
+using ObjectSchema = std::vector<Property>;
 
-struct Field {
+struct Property {
     const char* name = "";
-    FieldType kind = FieldType::number;
-    const char* section = "";
+    PropertyType type = PropertyType::number;
+    const char* section = "";  // that indices refer to: "nodes", or a JSON pointer
     const ObjectSchema* schema = nullptr;
     std::size_t length = 0;  // of an array; 0: any
     bool required = false;
-    double low = -DBL_MAX, high = DBL_MAX;
+    double low = -DBL_MAX, high = DBL_MAX;  // inclusive
 };
 
 const ObjectSchema& root_schema();

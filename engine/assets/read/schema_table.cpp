@@ -8,82 +8,83 @@ namespace {
 
 constexpr double half_pi = 1.5707964;  // the next float above π/2
 
-Field text(const char* name, bool required = false) {
-    return {.name = name, .kind = FieldType::string, .required = required};
+Property string(const char* name, bool required = false) {
+    return {.name = name, .type = PropertyType::string, .required = required};
 }
-Field flag(const char* name) { return {.name = name, .kind = FieldType::boolean}; }
-Field whole(const char* name, double low = 0, bool required = false, double high = DBL_MAX) {
-    return {.name = name, .kind = FieldType::integer, .required = required, .low = low, .high = high};
+Property boolean(const char* name) { return {.name = name, .type = PropertyType::boolean}; }
+Property integer(const char* name, double low = 0, bool required = false, double high = DBL_MAX) {
+    return {.name = name, .type = PropertyType::integer, .required = required, .low = low, .high = high};
 }
-Field real(const char* name, double low = -DBL_MAX, double high = DBL_MAX, bool required = false) {
-    return {.name = name, .kind = FieldType::number, .required = required, .low = low, .high = high};
+Property number(const char* name, double low = -DBL_MAX, double high = DBL_MAX, bool required = false) {
+    return {.name = name, .type = PropertyType::number, .required = required, .low = low, .high = high};
 }
-Field reals(const char* name, std::size_t length, double low = -DBL_MAX, double high = DBL_MAX) {
-    return {.name = name, .kind = FieldType::numbers, .length = length, .low = low, .high = high};
+Property numbers(const char* name, std::size_t length, double low = -DBL_MAX, double high = DBL_MAX) {
+    return {.name = name, .type = PropertyType::numbers, .length = length, .low = low, .high = high};
 }
-Field index(const char* name, const char* section, bool required = false) {
-    return {.name = name, .kind = FieldType::index, .section = section, .required = required};
+Property index(const char* name, const char* section, bool required = false) {
+    return {.name = name, .type = PropertyType::index, .section = section, .required = required};
 }
-Field indices(const char* name, const char* section, bool required = false) {
-    return {.name = name, .kind = FieldType::indices, .section = section, .required = required};
+Property indices(const char* name, const char* section, bool required = false) {
+    return {.name = name, .type = PropertyType::indices, .section = section, .required = required};
 }
-Field object(const char* name, const ObjectSchema& schema, bool required = false) {
-    return {.name = name, .kind = FieldType::object, .schema = &schema, .required = required};
+Property object(const char* name, const ObjectSchema& schema, bool required = false) {
+    return {.name = name, .type = PropertyType::object, .schema = &schema, .required = required};
 }
-Field list(const char* name, const ObjectSchema& schema, bool required = false) {
-    return {.name = name, .kind = FieldType::list, .schema = &schema, .required = required};
+Property list(const char* name, const ObjectSchema& schema, bool required = false) {
+    return {.name = name, .type = PropertyType::list, .schema = &schema, .required = required};
 }
 
 const ObjectSchema& asset() {
-    static const ObjectSchema schema = {text("version", true), text("minVersion"), text("generator"),
-                                        text("copyright")};
+    static const ObjectSchema schema = {string("version", true), string("minVersion"), string("generator"),
+                                        string("copyright")};
     return schema;
 }
 
 const ObjectSchema& buffer() {
-    static const ObjectSchema schema = {text("uri"), whole("byteLength", 1, true), text("name")};
+    static const ObjectSchema schema = {string("uri"), integer("byteLength", 1, true), string("name")};
     return schema;
 }
 
 const ObjectSchema& buffer_view() {
-    static const ObjectSchema schema = {index("buffer", "buffers", true), whole("byteOffset"),
-                                        whole("byteLength", 1, true), whole("byteStride", 4, false, 252),
-                                        text("name")};
+    static const ObjectSchema schema = {index("buffer", "buffers", true), integer("byteOffset"),
+                                        integer("byteLength", 1, true), integer("byteStride", 4, false, 252),
+                                        string("name")};
     return schema;
 }
 
 const ObjectSchema& accessor() {
-    static const ObjectSchema sparse_indices = {index("bufferView", "bufferViews", true), whole("byteOffset"),
-                                                whole("componentType", 0, true)};
-    static const ObjectSchema sparse_values = {index("bufferView", "bufferViews", true), whole("byteOffset")};
-    static const ObjectSchema sparse = {whole("count", 1, true), object("indices", sparse_indices, true),
+    static const ObjectSchema sparse_indices = {index("bufferView", "bufferViews", true),
+                                                integer("byteOffset"), integer("componentType", 0, true)};
+    static const ObjectSchema sparse_values = {index("bufferView", "bufferViews", true),
+                                               integer("byteOffset")};
+    static const ObjectSchema sparse = {integer("count", 1, true), object("indices", sparse_indices, true),
                                         object("values", sparse_values, true)};
     static const ObjectSchema schema = {index("bufferView", "bufferViews"),
-                                        whole("byteOffset"),
-                                        whole("componentType", 5120, true, 5126),
-                                        flag("normalized"),
-                                        whole("count", 1, true),
-                                        text("type", true),
-                                        reals("min", 0),
-                                        reals("max", 0),
+                                        integer("byteOffset"),
+                                        integer("componentType", 5120, true, 5126),
+                                        boolean("normalized"),
+                                        integer("count", 1, true),
+                                        string("type", true),
+                                        numbers("min", 0),
+                                        numbers("max", 0),
                                         object("sparse", sparse),
-                                        text("name")};
+                                        string("name")};
     return schema;
 }
 
 const ObjectSchema& primitive() {
     static const ObjectSchema schema = {
-        {.name = "attributes", .kind = FieldType::index_map, .section = "accessors", .required = true},
+        {.name = "attributes", .type = PropertyType::index_map, .section = "accessors", .required = true},
         index("indices", "accessors"),
         index("material", "materials"),
-        whole("mode", 0, false, 6),
-        {.name = "targets", .kind = FieldType::list, .section = "accessors"}};
+        integer("mode", 0, false, 6),
+        {.name = "targets", .type = PropertyType::list, .section = "accessors"}};
     return schema;
 }
 
 const ObjectSchema& mesh() {
-    static const ObjectSchema schema = {list("primitives", primitive(), true), reals("weights", 0),
-                                        text("name")};
+    static const ObjectSchema schema = {list("primitives", primitive(), true), numbers("weights", 0),
+                                        string("name")};
     return schema;
 }
 
@@ -93,42 +94,42 @@ const ObjectSchema& node() {
     static const ObjectSchema schema = {index("camera", "cameras"),
                                         indices("children", "nodes"),
                                         index("skin", "skins"),
-                                        reals("matrix", 16),
+                                        numbers("matrix", 16),
                                         index("mesh", "meshes"),
-                                        reals("rotation", 4, -1.0, 1.0),
-                                        reals("scale", 3),
-                                        reals("translation", 3),
-                                        reals("weights", 0),
+                                        numbers("rotation", 4, -1.0, 1.0),
+                                        numbers("scale", 3),
+                                        numbers("translation", 3),
+                                        numbers("weights", 0),
                                         object("extensions", extensions),
-                                        text("name")};
+                                        string("name")};
     return schema;
 }
 
-// A reference to a texture, with the factor that comes along with it.
+// A reference to a texture. Normal maps have a scale, occlusion maps a strength.
 const ObjectSchema& texture_info() {
-    static const ObjectSchema transform = {reals("offset", 2), real("rotation"), reals("scale", 2),
-                                           whole("texCoord", 0, false, 1)};
+    static const ObjectSchema transform = {numbers("offset", 2), number("rotation"), numbers("scale", 2),
+                                           integer("texCoord", 0, false, 1)};
     static const ObjectSchema extensions = {object("KHR_texture_transform", transform)};
-    static const ObjectSchema schema = {index("index", "textures", true), whole("texCoord", 0, false, 1),
-                                        real("scale"), real("strength", 0.0, 1.0),
+    static const ObjectSchema schema = {index("index", "textures", true), integer("texCoord", 0, false, 1),
+                                        number("scale"), number("strength", 0.0, 1.0),
                                         object("extensions", extensions)};
     return schema;
 }
 
-Field texture_info(const char* name) { return object(name, texture_info()); }
+Property texture_info(const char* name) { return object(name, texture_info()); }
 
 const ObjectSchema& material_extensions() {
     static const ObjectSchema clearcoat = {
-        real("clearcoatFactor", 0.0, 1.0), texture_info("clearcoatTexture"),
-        real("clearcoatRoughnessFactor", 0.0, 1.0), texture_info("clearcoatRoughnessTexture"),
+        number("clearcoatFactor", 0.0, 1.0), texture_info("clearcoatTexture"),
+        number("clearcoatRoughnessFactor", 0.0, 1.0), texture_info("clearcoatRoughnessTexture"),
         texture_info("clearcoatNormalTexture")};
-    static const ObjectSchema anisotropy = {real("anisotropyStrength", 0.0, 1.0), real("anisotropyRotation"),
-                                            texture_info("anisotropyTexture")};
-    static const ObjectSchema ior = {real("ior", 0.0)};
-    static const ObjectSchema specular = {real("specularFactor", 0.0, 1.0), texture_info("specularTexture"),
-                                          reals("specularColorFactor", 3, 0.0),
+    static const ObjectSchema anisotropy = {number("anisotropyStrength", 0.0, 1.0),
+                                            number("anisotropyRotation"), texture_info("anisotropyTexture")};
+    static const ObjectSchema ior = {number("ior", 0.0)};
+    static const ObjectSchema specular = {number("specularFactor", 0.0, 1.0), texture_info("specularTexture"),
+                                          numbers("specularColorFactor", 3, 0.0),
                                           texture_info("specularColorTexture")};
-    static const ObjectSchema strength = {real("emissiveStrength", 0.0)};
+    static const ObjectSchema strength = {number("emissiveStrength", 0.0)};
     static const ObjectSchema schema = {
         object("KHR_materials_clearcoat", clearcoat), object("KHR_materials_anisotropy", anisotropy),
         object("KHR_materials_ior", ior), object("KHR_materials_specular", specular),
@@ -137,89 +138,92 @@ const ObjectSchema& material_extensions() {
 }
 
 const ObjectSchema& material() {
-    static const ObjectSchema pbr = {reals("baseColorFactor", 4, 0.0, 1.0), texture_info("baseColorTexture"),
-                                     real("metallicFactor", 0.0, 1.0), real("roughnessFactor", 0.0, 1.0),
+    static const ObjectSchema pbr = {numbers("baseColorFactor", 4, 0.0, 1.0),
+                                     texture_info("baseColorTexture"), number("metallicFactor", 0.0, 1.0),
+                                     number("roughnessFactor", 0.0, 1.0),
                                      texture_info("metallicRoughnessTexture")};
     static const ObjectSchema schema = {object("pbrMetallicRoughness", pbr),
                                         texture_info("normalTexture"),
                                         texture_info("occlusionTexture"),
                                         texture_info("emissiveTexture"),
-                                        reals("emissiveFactor", 3, 0.0, 1.0),
-                                        text("alphaMode"),
-                                        real("alphaCutoff", 0.0),
-                                        flag("doubleSided"),
+                                        numbers("emissiveFactor", 3, 0.0, 1.0),
+                                        string("alphaMode"),
+                                        number("alphaCutoff", 0.0),
+                                        boolean("doubleSided"),
                                         object("extensions", material_extensions()),
-                                        text("name")};
+                                        string("name")};
     return schema;
 }
 
 const ObjectSchema& image() {
-    static const ObjectSchema schema = {text("uri"), text("mimeType"), index("bufferView", "bufferViews"),
-                                        text("name")};
+    static const ObjectSchema schema = {string("uri"), string("mimeType"), index("bufferView", "bufferViews"),
+                                        string("name")};
     return schema;
 }
 
 const ObjectSchema& sampler() {
-    static const ObjectSchema schema = {whole("magFilter"), whole("minFilter"), whole("wrapS"),
-                                        whole("wrapT")};
+    static const ObjectSchema schema = {integer("magFilter"), integer("minFilter"), integer("wrapS"),
+                                        integer("wrapT")};
     return schema;
 }
 
 const ObjectSchema& texture() {
     static const ObjectSchema schema = {index("sampler", "samplers"), index("source", "images"),
-                                        text("name")};
+                                        string("name")};
     return schema;
 }
 
 const ObjectSchema& skin() {
     static const ObjectSchema schema = {index("inverseBindMatrices", "accessors"), index("skeleton", "nodes"),
-                                        indices("joints", "nodes", true), text("name")};
+                                        indices("joints", "nodes", true), string("name")};
     return schema;
 }
 
 const ObjectSchema& animation() {
-    static const ObjectSchema target = {index("node", "nodes"), text("path", true)};
-    static const ObjectSchema channel = {whole("sampler", 0, true), object("target", target, true)};
-    static const ObjectSchema key_frames = {index("input", "accessors", true), text("interpolation"),
+    static const ObjectSchema target = {index("node", "nodes"), string("path", true)};
+    static const ObjectSchema channel = {integer("sampler", 0, true), object("target", target, true)};
+    static const ObjectSchema key_frames = {index("input", "accessors", true), string("interpolation"),
                                             index("output", "accessors", true)};
     static const ObjectSchema schema = {list("channels", channel, true), list("samplers", key_frames, true),
-                                        text("name")};
+                                        string("name")};
     return schema;
 }
 
 const ObjectSchema& camera() {
-    static const ObjectSchema perspective = {real("aspectRatio", 1e-6), real("yfov", 1e-6, 3.14159265, true),
-                                             real("zfar", 1e-12), real("znear", 1e-12, DBL_MAX, true)};
+    static const ObjectSchema perspective = {number("aspectRatio", 1e-6),
+                                             number("yfov", 1e-6, 3.14159265, true), number("zfar", 1e-12),
+                                             number("znear", 1e-12, DBL_MAX, true)};
     static const ObjectSchema orthographic = {
-        real("xmag", -DBL_MAX, DBL_MAX, true), real("ymag", -DBL_MAX, DBL_MAX, true),
-        real("zfar", 1e-12, DBL_MAX, true), real("znear", 0.0, DBL_MAX, true)};
-    static const ObjectSchema schema = {text("type", true), object("perspective", perspective),
-                                        object("orthographic", orthographic), text("name")};
+        number("xmag", -DBL_MAX, DBL_MAX, true), number("ymag", -DBL_MAX, DBL_MAX, true),
+        number("zfar", 1e-12, DBL_MAX, true), number("znear", 0.0, DBL_MAX, true)};
+    static const ObjectSchema schema = {string("type", true), object("perspective", perspective),
+                                        object("orthographic", orthographic), string("name")};
     return schema;
 }
 
 const ObjectSchema& extensions() {
-    static const ObjectSchema spot = {real("innerConeAngle", 0.0, half_pi),
-                                      real("outerConeAngle", 0.0, half_pi)};
-    static const ObjectSchema light = {reals("color", 3, 0.0), real("intensity", 0.0), text("type", true),
-                                       real("range", 1e-12),   object("spot", spot),   text("name")};
+    static const ObjectSchema spot = {number("innerConeAngle", 0.0, half_pi),
+                                      number("outerConeAngle", 0.0, half_pi)};
+    static const ObjectSchema light = {numbers("color", 3, 0.0), number("intensity", 0.0),
+                                       string("type", true),     number("range", 1e-12),
+                                       object("spot", spot),     string("name")};
     static const ObjectSchema punctual = {list("lights", light, true)};
     static const ObjectSchema schema = {object("KHR_lights_punctual", punctual)};
     return schema;
 }
 
 const ObjectSchema& scene() {
-    static const ObjectSchema schema = {indices("nodes", "nodes"), text("name")};
+    static const ObjectSchema schema = {indices("nodes", "nodes"), string("name")};
     return schema;
 }
 
 }  // namespace
 
-// Sections come before what points into them, so that the first error names the cause.
+// A section comes before the sections that refer to it, so that the first error reported is the cause.
 const ObjectSchema& root_schema() {
     static const ObjectSchema schema = {object("asset", asset(), true),
-                                        {.name = "extensionsUsed", .kind = FieldType::strings},
-                                        {.name = "extensionsRequired", .kind = FieldType::strings},
+                                        {.name = "extensionsUsed", .type = PropertyType::strings},
+                                        {.name = "extensionsRequired", .type = PropertyType::strings},
                                         list("buffers", buffer()),
                                         list("bufferViews", buffer_view()),
                                         list("accessors", accessor()),

@@ -1,3 +1,4 @@
+// Writes materials with their texture references and extensions.
 #include "engine/assets/write/writer.hpp"
 
 namespace bolt::assets {
@@ -8,7 +9,7 @@ bool has_transform(const TextureRef& ref) {
     return ref.offset != glm::vec2(0.0F) || ref.rotation != 0.0F || ref.scale != glm::vec2(1.0F);
 }
 
-void set_texture(Writer& writer, Json& owner, const char* key, const TextureRef& ref) {
+void set_texture(GlbWriter& writer, Json& owner, const char* key, const TextureRef& ref) {
     if (ref.texture < 0) return;
     Json info = {{"index", ref.texture}};
     if (ref.texcoord != 0) info["texCoord"] = ref.texcoord;
@@ -18,17 +19,17 @@ void set_texture(Writer& writer, Json& owner, const char* key, const TextureRef&
         if (ref.rotation != 0.0F) transform["rotation"] = number(ref.rotation);
         if (ref.scale != glm::vec2(1.0F)) transform["scale"] = array(ref.scale);
         info["extensions"]["KHR_texture_transform"] = std::move(transform);
-        writer.used.insert("KHR_texture_transform");
+        writer.used_extensions.insert("KHR_texture_transform");
     }
     owner[key] = std::move(info);
 }
 
-void set(Json& owner, const char* key, float value, float standard) {
-    if (value != standard) owner[key] = number(value);
+// Sets a factor if it differs from glTF's default.
+void set(Json& owner, const char* key, float value, float default_value) {
+    if (value != default_value) owner[key] = number(value);
 }
 
-// Writes a factor of a texture if it differs from the reader's default.
-Json clearcoat(Writer& writer, const Material& m) {
+Json clearcoat(GlbWriter& writer, const Material& m) {
     Json json = Json::object();
     set(json, "clearcoatFactor", m.clearcoat, 0.0F);
     set_texture(writer, json, "clearcoatTexture", m.clearcoat_texture);
@@ -38,7 +39,7 @@ Json clearcoat(Writer& writer, const Material& m) {
     return json;
 }
 
-Json anisotropy(Writer& writer, const Material& m) {
+Json anisotropy(GlbWriter& writer, const Material& m) {
     Json json = Json::object();
     set(json, "anisotropyStrength", m.anisotropy, 0.0F);
     set(json, "anisotropyRotation", m.anisotropy_rotation, 0.0F);
@@ -46,7 +47,7 @@ Json anisotropy(Writer& writer, const Material& m) {
     return json;
 }
 
-Json specular(Writer& writer, const Material& m) {
+Json specular(GlbWriter& writer, const Material& m) {
     Json json = Json::object();
     set(json, "specularFactor", m.specular, 1.0F);
     set_texture(writer, json, "specularTexture", m.specular_texture);
@@ -55,13 +56,13 @@ Json specular(Writer& writer, const Material& m) {
     return json;
 }
 
-void set_extension(Writer& writer, Json& material, const char* name, Json extension) {
+void set_extension(GlbWriter& writer, Json& material, const char* name, Json extension) {
     if (extension.empty()) return;
     material["extensions"][name] = std::move(extension);
-    writer.used.insert(name);
+    writer.used_extensions.insert(name);
 }
 
-Json metallic_roughness(Writer& writer, const Material& m) {
+Json metallic_roughness(GlbWriter& writer, const Material& m) {
     Json pbr = Json::object();
     if (m.base_color != glm::vec4(1.0F)) pbr["baseColorFactor"] = array(m.base_color);
     set_texture(writer, pbr, "baseColorTexture", m.base_color_texture);
@@ -73,7 +74,7 @@ Json metallic_roughness(Writer& writer, const Material& m) {
 
 }  // namespace
 
-Json write_material(Writer& writer, const Material& m) {
+Json write_material(GlbWriter& writer, const Material& m) {
     Json json = Json::object();
     if (!m.name.empty()) json["name"] = m.name;
     if (Json pbr = metallic_roughness(writer, m); !pbr.empty()) json["pbrMetallicRoughness"] = std::move(pbr);

@@ -1,3 +1,4 @@
+// Writes meshes: vertex attributes, optionally quantised, indices and morph targets.
 #include <algorithm>
 #include <cmath>
 
@@ -26,7 +27,7 @@ std::uint16_t unorm16(float value) {
 
 glm::u16vec4 unorm16(const glm::vec4& v) { return {unorm16(v.x), unorm16(v.y), unorm16(v.z), unorm16(v.w)}; }
 
-// Rounds the weights so that they sum to exactly one: the largest takes the rounding remainder.
+// Rounds the weights so that they sum to exactly one: the rounding remainder is added to the largest.
 glm::u16vec4 unorm16_weights(const glm::vec4& v) {
     glm::u16vec4 rounded = unorm16(v);
     int largest = 0;
@@ -48,46 +49,47 @@ std::vector<To> map(const std::vector<From>& from, Function function) {
 }
 
 template <class T>
-int add_vertices(Writer& writer, const std::vector<T>& elements, const AccessorLayout& layout) {
+int add_vertices(GlbWriter& writer, const std::vector<T>& elements, const AccessorLayout& layout) {
     return writer.buffer.add(std::span<const T>(elements), BufferTarget::vertices, layout);
 }
 
-// SHORT VEC3 has 6 bytes, but vertex elements must start at multiples of 4: the fourth value is padding.
-int add_normals(Writer& writer, const std::vector<glm::vec3>& normals) {
+// A VEC3 of shorts has 6 bytes, but vertex elements must start at multiples of 4: the fourth value is
+// padding.
+int add_normals(GlbWriter& writer, const std::vector<glm::vec3>& normals) {
     if (!writer.options.quantize) return add_vertices(writer, normals, {.type = "VEC3"});
-    writer.required.insert("KHR_mesh_quantization");
+    writer.required_extensions.insert("KHR_mesh_quantization");
     const auto rounded = map<Short4>(normals, [](const glm::vec3& n) {
         return Short4{snorm16(n.x), snorm16(n.y), snorm16(n.z), 0};
     });
     return add_vertices(writer, rounded, {.type = "VEC3", .component = signed_short, .normalized = true});
 }
 
-int add_tangents(Writer& writer, const std::vector<glm::vec4>& tangents) {
+int add_tangents(GlbWriter& writer, const std::vector<glm::vec4>& tangents) {
     if (!writer.options.quantize) return add_vertices(writer, tangents, {.type = "VEC4"});
-    writer.required.insert("KHR_mesh_quantization");
+    writer.required_extensions.insert("KHR_mesh_quantization");
     const auto rounded = map<Short4>(tangents, [](const glm::vec4& t) {
         return Short4{snorm16(t.x), snorm16(t.y), snorm16(t.z), snorm16(t.w)};
     });
     return add_vertices(writer, rounded, {.type = "VEC4", .component = signed_short, .normalized = true});
 }
 
-int add_texcoords(Writer& writer, const std::vector<glm::vec2>& texcoords) {
-    const bool unit = std::all_of(texcoords.begin(), texcoords.end(), [](const glm::vec2& t) {
+int add_texcoords(GlbWriter& writer, const std::vector<glm::vec2>& texcoords) {
+    const bool in_unit_square = std::all_of(texcoords.begin(), texcoords.end(), [](const glm::vec2& t) {
         return t.x >= 0.0F && t.x <= 1.0F && t.y >= 0.0F && t.y <= 1.0F;
     });
-    if (!writer.options.quantize || !unit) return add_vertices(writer, texcoords, {.type = "VEC2"});
+    if (!writer.options.quantize || !in_unit_square) return add_vertices(writer, texcoords, {.type = "VEC2"});
     const auto rounded = map<glm::u16vec2>(
         texcoords, [](const glm::vec2& t) { return glm::u16vec2(unorm16(t.x), unorm16(t.y)); });
     return add_vertices(writer, rounded, {.type = "VEC2", .component = unsigned_short, .normalized = true});
 }
 
-int add_colors(Writer& writer, const std::vector<glm::vec4>& colors) {
+int add_colors(GlbWriter& writer, const std::vector<glm::vec4>& colors) {
     if (!writer.options.quantize) return add_vertices(writer, colors, {.type = "VEC4"});
     const auto rounded = map<glm::u16vec4>(colors, [](const glm::vec4& c) { return unorm16(c); });
     return add_vertices(writer, rounded, {.type = "VEC4", .component = unsigned_short, .normalized = true});
 }
 
-int add_joints(Writer& writer, const std::vector<glm::u16vec4>& joints) {
+int add_joints(GlbWriter& writer, const std::vector<glm::u16vec4>& joints) {
     const bool small = std::all_of(joints.begin(), joints.end(), [](const glm::u16vec4& j) {
         return std::max({j.x, j.y, j.z, j.w}) < 256;
     });
@@ -96,14 +98,14 @@ int add_joints(Writer& writer, const std::vector<glm::u16vec4>& joints) {
     return add_vertices(writer, bytes, {.type = "VEC4", .component = unsigned_byte});
 }
 
-int add_weights(Writer& writer, const std::vector<glm::vec4>& weights) {
+int add_weights(GlbWriter& writer, const std::vector<glm::vec4>& weights) {
     if (!writer.options.quantize) return add_vertices(writer, weights, {.type = "VEC4"});
     const auto rounded = map<glm::u16vec4>(weights, unorm16_weights);
     return add_vertices(writer, rounded, {.type = "VEC4", .component = unsigned_short, .normalized = true});
 }
 
 // The largest value of each index type is the primitive restart value and cannot be an index.
-int add_indices(Writer& writer, const std::vector<std::uint32_t>& indices) {
+int add_indices(GlbWriter& writer, const std::vector<std::uint32_t>& indices) {
     const std::uint32_t highest = *std::max_element(indices.begin(), indices.end());
     if (highest >= 65535U)
         return writer.buffer.add(std::span<const std::uint32_t>(indices), BufferTarget::indices,
@@ -123,27 +125,27 @@ bool finite(const std::vector<T>& elements) {
     });
 }
 
-// Returns why the primitive is invalid, or an empty string.
-std::string fault(const Primitive& p) {
+// Returns why the primitive is invalid; empty: it is valid.
+std::string invalid_reason(const Primitive& p) {
     const std::size_t count = p.positions.size();
     if (count == 0) return "has no positions";
     const auto fits = [count](const auto& stream) { return stream.empty() || stream.size() == count; };
-    bool all = fits(p.normals) && fits(p.tangents) && fits(p.texcoords[0]) && fits(p.texcoords[1]) &&
-               fits(p.colors) && fits(p.joints) && p.weights.size() == p.joints.size();
+    bool all_fit = fits(p.normals) && fits(p.tangents) && fits(p.texcoords[0]) && fits(p.texcoords[1]) &&
+                   fits(p.colors) && fits(p.joints) && p.weights.size() == p.joints.size();
     for (const MorphTarget& t : p.targets)
-        all = all && fits(t.positions) && fits(t.normals) && fits(t.tangents);
-    if (!all) return "has streams that are not as long as its positions";
+        all_fit = all_fit && fits(t.positions) && fits(t.normals) && fits(t.tangents);
+    if (!all_fit) return "has vertex streams that are not as long as its positions";
     if (!finite(p.positions) || !finite(p.normals) || !finite(p.tangents) || !finite(p.texcoords[0]) ||
         !finite(p.texcoords[1]) || !finite(p.colors) || !finite(p.weights))
         return "has numbers that are not finite";
     for (const std::uint32_t index : p.indices)
         if (index >= count) return "has an index past its last vertex";
     const std::size_t corners = p.indices.empty() ? count : p.indices.size();
-    if (p.topology == Topology::triangles && corners % 3 != 0) return "has a part of a triangle";
+    if (p.topology == Topology::triangles && corners % 3 != 0) return "has an incomplete triangle";
     return {};
 }
 
-Json write_targets(Writer& writer, const std::vector<MorphTarget>& targets) {
+Json write_targets(GlbWriter& writer, const std::vector<MorphTarget>& targets) {
     Json json = Json::array();
     for (const MorphTarget& target : targets) {
         Json entry = Json::object();
@@ -157,7 +159,7 @@ Json write_targets(Writer& writer, const std::vector<MorphTarget>& targets) {
     return json;
 }
 
-Json write_primitive(Writer& writer, const Primitive& p) {
+Json write_primitive(GlbWriter& writer, const Primitive& p) {
     Json attributes = {{"POSITION", add_vertices(writer, p.positions, {.type = "VEC3", .bounded = true})}};
     if (!p.normals.empty()) attributes["NORMAL"] = add_normals(writer, p.normals);
     if (!p.tangents.empty()) attributes["TANGENT"] = add_tangents(writer, p.tangents);
@@ -178,7 +180,7 @@ Json write_primitive(Writer& writer, const Primitive& p) {
 
 }  // namespace
 
-Result<Json> write_mesh(Writer& writer, std::size_t index) {
+Result<Json> write_mesh(GlbWriter& writer, std::size_t index) {
     const Mesh& mesh = writer.model.meshes[index];
     const std::string pointer = "/meshes/" + std::to_string(index);
     if (mesh.primitives.empty()) return fail(error_at(pointer, "mesh '" + mesh.name + "' has no primitives"));
@@ -187,7 +189,7 @@ Result<Json> write_mesh(Writer& writer, std::size_t index) {
     json["primitives"] = Json::array();
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
         const Primitive& primitive = mesh.primitives[i];
-        if (const std::string why = fault(primitive); !why.empty())
+        if (const std::string why = invalid_reason(primitive); !why.empty())
             return fail(error_at(pointer + "/primitives/" + std::to_string(i),
                                  "a primitive of mesh '" + mesh.name + "' " + why));
         if (primitive.material >= static_cast<int>(writer.model.materials.size()))

@@ -1,3 +1,4 @@
+// Writes nodes, skins, animations, cameras, lights, images and textures.
 #include <cmath>
 
 #include "engine/assets/image.hpp"
@@ -13,17 +14,18 @@ Json numbers(const std::vector<float>& values) {
     return json;
 }
 
+// Indices may be -1.
 bool in_range(int index, std::size_t count) { return index < static_cast<int>(count); }
 
-const char* name_of(Path path) {
+const char* name_of(TargetPath path) {
     switch (path) {
-        case Path::translation:
+        case TargetPath::translation:
             return "translation";
-        case Path::rotation:
+        case TargetPath::rotation:
             return "rotation";
-        case Path::scale:
+        case TargetPath::scale:
             return "scale";
-        case Path::weights:
+        case TargetPath::weights:
             break;
     }
     return "weights";
@@ -41,7 +43,7 @@ const char* name_of(Interpolation interpolation) {
     return "CUBICSPLINE";
 }
 
-int add_floats(Writer& writer, const std::vector<float>& values, Path path) {
+int add_floats(GlbWriter& writer, const std::vector<float>& values, TargetPath path) {
     const auto add = [&](auto element, const char* type) {
         using Element = decltype(element);
         const auto* first = reinterpret_cast<const Element*>(values.data());
@@ -49,8 +51,8 @@ int add_floats(Writer& writer, const std::vector<float>& values, Path path) {
             std::span<const Element>(first, values.size() * sizeof(float) / sizeof(Element)),
             BufferTarget::other, {.type = type});
     };
-    if (path == Path::weights) return add(float{}, "SCALAR");
-    if (path == Path::rotation) return add(std::array<float, 4>{}, "VEC4");
+    if (path == TargetPath::weights) return add(float{}, "SCALAR");
+    if (path == TargetPath::rotation) return add(std::array<float, 4>{}, "VEC4");
     return add(std::array<float, 3>{}, "VEC3");
 }
 
@@ -65,7 +67,7 @@ Error error_at(std::string pointer, std::string what, std::string expected) {
     return error;
 }
 
-Result<Json> write_node(Writer& writer, std::size_t index) {
+Result<Json> write_node(GlbWriter& writer, std::size_t index) {
     const Model& model = writer.model;
     const Node& node = model.nodes[index];
     const std::string pointer = "/nodes/" + std::to_string(index);
@@ -74,7 +76,7 @@ Result<Json> write_node(Writer& writer, std::size_t index) {
         return fail(error_at(pointer, "node '" + node.name + "' has an index that is out of range"));
     if (std::abs(glm::length(node.rotation) - 1.0F) > 1e-3F)
         return fail(
-            error_at(pointer + "/rotation", "the rotation of '" + node.name + "' has no unit length"));
+            error_at(pointer + "/rotation", "the rotation of '" + node.name + "' does not have unit length"));
     Json json = Json::object();
     if (!node.name.empty()) json["name"] = node.name;
     for (const int child : node.children) {
@@ -93,19 +95,19 @@ Result<Json> write_node(Writer& writer, std::size_t index) {
     if (!node.extras.empty()) {
         Json extras = Json::parse(node.extras, nullptr, false);
         if (extras.is_discarded())
-            return fail(error_at(pointer + "/extras", "the extras of '" + node.name + "' are no JSON"));
+            return fail(error_at(pointer + "/extras", "the extras of '" + node.name + "' are not JSON"));
         json["extras"] = std::move(extras);
     }
     return json;
 }
 
-Result<Json> write_skin(Writer& writer, std::size_t index) {
+Result<Json> write_skin(GlbWriter& writer, std::size_t index) {
     const Skin& skin = writer.model.skins[index];
     const std::string pointer = "/skins/" + std::to_string(index);
     if (skin.joints.empty()) return fail(error_at(pointer, "skin '" + skin.name + "' has no joints"));
     if (!skin.inverse_bind.empty() && skin.inverse_bind.size() != skin.joints.size())
         return fail(error_at(
-            pointer, "skin '" + skin.name + "' has another number of inverse bind matrices than joints"));
+            pointer, "skin '" + skin.name + "' does not have as many inverse bind matrices as joints"));
     Json json = Json::object();
     if (!skin.name.empty()) json["name"] = skin.name;
     if (!skin.inverse_bind.empty())
@@ -119,7 +121,7 @@ Result<Json> write_skin(Writer& writer, std::size_t index) {
     return json;
 }
 
-Result<Json> write_animation(Writer& writer, std::size_t index) {
+Result<Json> write_animation(GlbWriter& writer, std::size_t index) {
     const Animation& animation = writer.model.animations[index];
     const std::string pointer = "/animations/" + std::to_string(index);
     if (animation.channels.empty())
@@ -132,7 +134,8 @@ Result<Json> write_animation(Writer& writer, std::size_t index) {
     for (const Channel& channel : animation.channels) {
         if (channel.times.empty() || channel.values.size() % channel.times.size() != 0)
             return fail(error_at(
-                pointer, "a channel of '" + animation.name + "' has another number of values than keys"));
+                pointer, "a channel of '" + animation.name +
+                             "' has a number of values that is not a multiple of its number of keys"));
         if (channel.interpolation == Interpolation::cubic && channel.times.size() < 2)
             return fail(
                 error_at(pointer, "a cubic channel of '" + animation.name + "' has one key", "at least two"));
@@ -187,7 +190,7 @@ Json write_light(const Light& light) {
     return json;
 }
 
-Result<Json> write_image(Writer& writer, std::size_t index) {
+Result<Json> write_image(GlbWriter& writer, std::size_t index) {
     const Image& image = writer.model.images[index];
     const std::string pointer = "/images/" + std::to_string(index);
     Json json = Json::object();
@@ -205,7 +208,6 @@ Result<Json> write_image(Writer& writer, std::size_t index) {
     return json;
 }
 
-// Textures with the same sampling share a sampler.
 Json write_texture(const Texture& texture, Json& samplers) {
     constexpr int nearest = 9728;
     constexpr int linear = 9729;
@@ -219,10 +221,10 @@ Json write_texture(const Texture& texture, Json& samplers) {
                           {"minFilter", min},
                           {"wrapS", wrap(texture.wrap_s)},
                           {"wrapT", wrap(texture.wrap_t)}};
-    std::size_t place = 0;
-    while (place < samplers.size() && samplers[place] != sampler) ++place;
-    if (place == samplers.size()) samplers.push_back(sampler);
-    Json json = {{"sampler", place}};
+    std::size_t index = 0;
+    while (index < samplers.size() && samplers[index] != sampler) ++index;
+    if (index == samplers.size()) samplers.push_back(sampler);
+    Json json = {{"sampler", index}};
     if (texture.image >= 0) json["source"] = texture.image;
     return json;
 }

@@ -25,18 +25,18 @@ Json BufferBuilder::min_max(std::span<const float> floats, std::size_t width) {
 }
 
 int BufferBuilder::add_bytes(std::span<const std::byte> bytes, std::size_t stride, std::size_t count,
-                             BufferTarget use, const AccessorLayout& layout, const Json& bounds) {
-    const auto [place, fresh] = shared_.try_emplace({use, stride}, views_.size());
-    if (fresh) views_.push_back({use, stride, {}});
-    std::string& target = views_[place->second].bytes;
-    Json accessor = {{"bufferView", place->second}};
-    if (!target.empty()) accessor["byteOffset"] = target.size();
+                             BufferTarget target, const AccessorLayout& layout, const Json& bounds) {
+    const auto [view, is_new] = shared_.try_emplace({target, stride}, views_.size());
+    if (is_new) views_.push_back({target, stride, {}});
+    std::string& view_bytes = views_[view->second].bytes;
+    Json accessor = {{"bufferView", view->second}};
+    if (!view_bytes.empty()) accessor["byteOffset"] = view_bytes.size();
     accessor["componentType"] = layout.component;
     if (layout.normalized) accessor["normalized"] = true;
     accessor["count"] = count;
     accessor["type"] = layout.type;
     if (layout.bounded) accessor.update(bounds);
-    target.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    view_bytes.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     accessors_.push_back(std::move(accessor));
     return static_cast<int>(accessors_.size()) - 1;
 }
@@ -55,11 +55,11 @@ std::string BufferBuilder::finish(Json& root) {
         Json entry = {{"buffer", 0}};
         if (!chunk.empty()) entry["byteOffset"] = chunk.size();
         entry["byteLength"] = view.bytes.size();
-        if (view.use == BufferTarget::vertices) {
+        if (view.target == BufferTarget::vertices) {
             entry["byteStride"] = view.stride;
             entry["target"] = array_buffer;
         }
-        if (view.use == BufferTarget::indices) entry["target"] = element_array_buffer;
+        if (view.target == BufferTarget::indices) entry["target"] = element_array_buffer;
         views.push_back(std::move(entry));
         chunk += view.bytes;
         chunk.resize((chunk.size() + 3U) & ~std::size_t{3U}, '\0');
@@ -86,7 +86,7 @@ void append_chunk(std::string& bytes, const char (&type)[5], const std::string& 
 }
 
 // Concatenates the header, the JSON chunk padded with spaces, and the binary chunk, which is already padded.
-std::string container(std::string json, const std::string& chunk) {
+std::string glb_container(std::string json, const std::string& chunk) {
     json.resize((json.size() + 3U) & ~std::size_t{3U}, ' ');
     std::string bytes = "glTF";
     append_u32(bytes, 2);
@@ -96,9 +96,9 @@ std::string container(std::string json, const std::string& chunk) {
     return bytes;
 }
 
-// Writes one section of the file with `count` entries.
+// Writes a section with `count` entries; `write(i)` returns entry i.
 template <class Function>
-Status section(Json& root, const char* key, std::size_t count, Function write) {
+Status write_section(Json& root, const char* key, std::size_t count, Function write) {
     for (std::size_t i = 0; i < count; ++i) {
         BOLT_TRY_ASSIGN(auto entry, write(i));
         root[key].push_back(std::move(entry));
@@ -106,37 +106,43 @@ Status section(Json& root, const char* key, std::size_t count, Function write) {
     return {};
 }
 
-Status write_sections(Writer& w, Json& root) {
+Status write_sections(GlbWriter& w, Json& root) {
     const Model& model = w.model;
     Json samplers = Json::array();
     Json lights = Json::array();
     for (const Light& light : model.lights) lights.push_back(write_light(light));
     if (!lights.empty()) {
         root["extensions"]["KHR_lights_punctual"]["lights"] = std::move(lights);
-        w.used.insert("KHR_lights_punctual");
+        w.used_extensions.insert("KHR_lights_punctual");
     }
     if (!model.roots.empty()) {
         root["scene"] = 0;
         root["scenes"] = {{{"nodes", model.roots}}};
     }
-    Status done = section(root, "nodes", model.nodes.size(), [&](auto i) { return write_node(w, i); });
-    if (done) done = section(root, "meshes", model.meshes.size(), [&](auto i) { return write_mesh(w, i); });
-    if (done)
-        done = section(root, "materials", model.materials.size(),
-                       [&](auto i) -> Result<Json> { return write_material(w, model.materials[i]); });
-    if (done)
-        done = section(root, "textures", model.textures.size(),
-                       [&](auto i) -> Result<Json> { return write_texture(model.textures[i], samplers); });
+    Status status =
+        write_section(root, "nodes", model.nodes.size(), [&](auto i) { return write_node(w, i); });
+    if (status)
+        status = write_section(root, "meshes", model.meshes.size(), [&](auto i) { return write_mesh(w, i); });
+    if (status)
+        status = write_section(root, "materials", model.materials.size(),
+                               [&](auto i) -> Result<Json> { return write_material(w, model.materials[i]); });
+    if (status)
+        status = write_section(root, "textures", model.textures.size(), [&](auto i) -> Result<Json> {
+            return write_texture(model.textures[i], samplers);
+        });
     if (!samplers.empty()) root["samplers"] = std::move(samplers);
-    if (done) done = section(root, "images", model.images.size(), [&](auto i) { return write_image(w, i); });
-    if (done)
-        done = section(root, "cameras", model.cameras.size(),
-                       [&](auto i) -> Result<Json> { return write_camera(model.cameras[i]); });
-    if (done) done = section(root, "skins", model.skins.size(), [&](auto i) { return write_skin(w, i); });
-    if (done)
-        done = section(root, "animations", model.animations.size(),
-                       [&](auto i) { return write_animation(w, i); });
-    return done;
+    if (status)
+        status =
+            write_section(root, "images", model.images.size(), [&](auto i) { return write_image(w, i); });
+    if (status)
+        status = write_section(root, "cameras", model.cameras.size(),
+                               [&](auto i) -> Result<Json> { return write_camera(model.cameras[i]); });
+    if (status)
+        status = write_section(root, "skins", model.skins.size(), [&](auto i) { return write_skin(w, i); });
+    if (status)
+        status = write_section(root, "animations", model.animations.size(),
+                               [&](auto i) { return write_animation(w, i); });
+    return status;
 }
 
 }  // namespace
@@ -151,25 +157,25 @@ Status write_glb(const std::filesystem::path& path, const Model& model, const Wr
 }
 
 Result<std::string> encode_glb(const Model& model, const WriteOptions& options) {
-    Writer writer{model, options, {}, {}, {}};
+    GlbWriter writer{model, options, {}, {}, {}};
     Json root = Json::object();
     root["asset"] = {{"version", "2.0"},
                      {"generator", model.generator.empty() ? "Boltwright" : model.generator}};
     if (!model.copyright.empty()) root["asset"]["copyright"] = model.copyright;
-    if (Status done = write_sections(writer, root); !done) return fail(std::move(done.error()));
+    if (Status status = write_sections(writer, root); !status) return fail(std::move(status.error()));
     const std::string chunk = writer.buffer.finish(root);
-    writer.used.insert(writer.required.begin(), writer.required.end());
-    if (!writer.used.empty()) root["extensionsUsed"] = writer.used;
-    if (!writer.required.empty()) root["extensionsRequired"] = writer.required;
+    writer.used_extensions.insert(writer.required_extensions.begin(), writer.required_extensions.end());
+    if (!writer.used_extensions.empty()) root["extensionsUsed"] = writer.used_extensions;
+    if (!writer.required_extensions.empty()) root["extensionsRequired"] = writer.required_extensions;
     std::string json;
     try {
         json = root.dump();
     } catch (const nlohmann::json::exception&) {
-        return fail(error_at("", "a name or text of the model is not UTF-8"));
+        return fail(error_at("", "a name or another text of the model is not UTF-8"));
     }
     constexpr std::size_t limit = 0xFFFFFFFFU;
     if (json.size() + chunk.size() + 64 > limit) return fail(error_at("", "the .glb exceeds 4 GiB"));
-    return container(std::move(json), chunk);
+    return glb_container(std::move(json), chunk);
 }
 
 }  // namespace bolt::assets

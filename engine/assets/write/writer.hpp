@@ -1,4 +1,4 @@
-// JSON output: keys in insertion order, floats as the shortest text that reads back as the same float.
+// The .glb file being written: JSON values, the binary chunk, and the conversion of a Model's sections.
 #pragma once
 
 #include <bit>
@@ -22,9 +22,10 @@
 
 namespace bolt::assets {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  // keeps keys in insertion order
 
-// Returns the double whose shortest text is that of the float: 0.1F becomes 0.1, not 0.10000000149.
+// Returns the double whose shortest text equals the shortest text of the float: 0.1F becomes 0.1, not
+// 0.10000000149.
 inline double number(float value) {
     char text[32];
     const auto [end, status] = std::to_chars(text, text + sizeof text - 1, value);
@@ -38,9 +39,6 @@ inline Json array(const glm::vec3& v) { return {number(v.x), number(v.y), number
 inline Json array(const glm::vec4& v) { return {number(v.x), number(v.y), number(v.z), number(v.w)}; }
 inline Json array(const glm::quat& q) { return {number(q.x), number(q.y), number(q.z), number(q.w)}; }
 
-// Builds the binary chunk of a .glb. Accessors with the same stride and target share a buffer view, so that a
-// file with a thousand parts has only a few views.
-
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 
 enum class BufferTarget : std::uint8_t { indices, vertices, other };
@@ -48,26 +46,28 @@ enum class BufferTarget : std::uint8_t { indices, vertices, other };
 // The format of an accessor's elements.
 struct AccessorLayout {
     const char* type = "SCALAR";
-    int component = 5126;  // glTF's number: 5126 is float
+    int component = 5126;  // glTF's componentType; 5126: float
     bool normalized = false;
-    bool bounded = false;  // with min and max; only for float components
+    bool bounded = false;  // write min and max; only for float components
 };
 
+// Builds the binary chunk of a .glb. Accessors with the same stride and target share a buffer view, so that a
+// file with a thousand parts has only a few views.
 class BufferBuilder {
   public:
     // Appends the elements and returns the accessor's index.
     template <class T>
-    int add(std::span<const T> elements, BufferTarget use, const AccessorLayout& layout) {
+    int add(std::span<const T> elements, BufferTarget target, const AccessorLayout& layout) {
         static_assert(std::is_trivially_copyable_v<T>);
         Json bounds;
         if (layout.bounded) {
             const auto* floats = reinterpret_cast<const float*>(elements.data());
             bounds = min_max({floats, elements.size_bytes() / sizeof(float)}, sizeof(T) / sizeof(float));
         }
-        return add_bytes(std::as_bytes(elements), sizeof(T), elements.size(), use, layout, bounds);
+        return add_bytes(std::as_bytes(elements), sizeof(T), elements.size(), target, layout, bounds);
     }
 
-    // Adds a buffer view for an image file and returns its index.
+    // Adds a buffer view with the bytes of an image file and returns its index.
     int add_file(std::span<const std::uint8_t> bytes);
 
     // Writes "accessors", "bufferViews" and "buffers" to the root and returns the chunk.
@@ -75,40 +75,41 @@ class BufferBuilder {
 
   private:
     struct BufferView {
-        BufferTarget use = BufferTarget::other;
+        BufferTarget target = BufferTarget::other;
         std::size_t stride = 0;
         std::string bytes;
     };
 
     static Json min_max(std::span<const float> floats, std::size_t width);
-    int add_bytes(std::span<const std::byte> bytes, std::size_t stride, std::size_t count, BufferTarget use,
-                  const AccessorLayout& layout, const Json& bounds);
+    int add_bytes(std::span<const std::byte> bytes, std::size_t stride, std::size_t count,
+                  BufferTarget target, const AccessorLayout& layout, const Json& bounds);
 
     std::vector<BufferView> views_;
-    std::map<std::pair<BufferTarget, std::size_t>, std::size_t> shared_;
+    std::map<std::pair<BufferTarget, std::size_t>, std::size_t> shared_;  // (target, stride) → view
     Json accessors_ = Json::array();
 };
 
-// Converts the sections of a Model to JSON and adds their data to the buffer.
-
-struct Writer {
+// The state of a file being written.
+struct GlbWriter {
     const Model& model;
     WriteOptions options;
     BufferBuilder buffer;
-    std::set<std::string> used;      // extensions
-    std::set<std::string> required;  // extensions that a reader must support
+    std::set<std::string> used_extensions;
+    std::set<std::string> required_extensions;  // those that a reader must support
 };
 
 // Returns an error about the value at `pointer` of the resulting file.
 Error error_at(std::string pointer, std::string what, std::string expected = {});
 
-Result<Json> write_mesh(Writer& writer, std::size_t index);
-Json write_material(Writer& writer, const Material& material);
-Result<Json> write_image(Writer& writer, std::size_t index);
+// Convert one section, or one entry of a section, of the Model to JSON and add its data to the buffer.
+// write_texture appends the texture's sampler to `samplers` unless an equal one exists.
+Result<Json> write_mesh(GlbWriter& writer, std::size_t index);
+Json write_material(GlbWriter& writer, const Material& material);
+Result<Json> write_image(GlbWriter& writer, std::size_t index);
 Json write_texture(const Texture& texture, Json& samplers);
-Result<Json> write_node(Writer& writer, std::size_t index);
-Result<Json> write_skin(Writer& writer, std::size_t index);
-Result<Json> write_animation(Writer& writer, std::size_t index);
+Result<Json> write_node(GlbWriter& writer, std::size_t index);
+Result<Json> write_skin(GlbWriter& writer, std::size_t index);
+Result<Json> write_animation(GlbWriter& writer, std::size_t index);
 Json write_camera(const Camera& camera);
 Json write_light(const Light& light);
 

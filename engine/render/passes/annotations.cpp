@@ -11,28 +11,28 @@ namespace bolt::render {
 
 using gpu::ResourceUse;
 
-Result<OutlinePass> OutlinePass::create(const PassMaker& maker, std::uint32_t views) {
+Result<OutlinePass> OutlinePass::create(const PassSetup& setup, std::uint32_t views) {
     OutlinePass pass;
     gpu::GraphicsInfo info;
-    draw_views(info, views);
+    set_views(info, views);
     info.depth_test = info.depth_write = false;
     info.cull = VK_CULL_MODE_NONE;
     info.colors = {mark_format};
-    info.vertex = &maker.shaders.at("mark.vert");
-    info.fragment = &maker.shaders.at("mark.frag");
+    info.vertex = &setup.shaders.at("mark.vert");
+    info.fragment = &setup.shaders.at("mark.frag");
     info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0}};
     info.strides = {sizeof(glm::vec3)};
-    BOLT_TRY(assign(pass.marks_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)));
-    info.vertex = &maker.shaders.at("screen.vert");
-    info.fragment = &maker.shaders.at("outline.frag");
+    BOLT_TRY(assign(pass.marks_, gpu::make_graphics_pipeline(setup.device, setup.cache, info)));
+    info.vertex = &setup.shaders.at("screen.vert");
+    info.fragment = &setup.shaders.at("outline.frag");
     info.streams.clear();
     info.strides.clear();
     info.colors = {color_format};
     info.blend = true;
-    BOLT_TRY(assign(pass.lines_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)));
+    BOLT_TRY(assign(pass.lines_, gpu::make_graphics_pipeline(setup.device, setup.cache, info)));
     gpu::SamplerInfo clamped;
     clamped.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    BOLT_TRY(assign(pass.clamped_, gpu::make_sampler(maker.device, clamped)));
+    BOLT_TRY(assign(pass.clamped_, gpu::make_sampler(setup.device, clamped)));
     return pass;
 }
 
@@ -90,7 +90,7 @@ float linear(float encoded) {
     return encoded <= 0.04045F ? encoded / 12.92F : std::pow((encoded + 0.055F) / 1.055F, 2.4F);
 }
 
-// Alpha is not encoded.
+// The same for a colour; alpha is not encoded.
 glm::vec4 linear(const glm::vec4& encoded) {
     return {linear(encoded.r), linear(encoded.g), linear(encoded.b), encoded.a};
 }
@@ -98,31 +98,31 @@ glm::vec4 linear(const glm::vec4& encoded) {
 static_assert(sizeof(shared::LabelFrame) == 64 && sizeof(shared::LabelQuad) == 64);
 static_assert(offsetof(shared::LabelQuad, grow) == 48);
 
-// Margin of the background around the text, em.
-constexpr glm::vec2 margin(0.35F, 0.15F);
-constexpr float corner = 0.3F;
+constexpr glm::vec2 plate_margin(0.35F, 0.15F);  // of the background around the text, em
+constexpr float plate_corner_radius = 0.3F;      // em
 
 shared::LabelFrame frame_of(const Label& label) {
     shared::LabelFrame frame{};
-    const float stand = label.stand == LabelPlacement::fixed    ? LABEL_FIXED
-                        : label.stand == LabelPlacement::facing ? LABEL_FACING
-                                                                : LABEL_ON_SCREEN;
+    const float placement = label.placement == LabelPlacement::fixed    ? LABEL_FIXED
+                            : label.placement == LabelPlacement::facing ? LABEL_FACING
+                                                                        : LABEL_ON_SCREEN;
     frame.position = glm::vec4(label.position, label.height);
-    frame.right = glm::vec4(label.turn * glm::vec3(1, 0, 0), stand);
-    frame.up = glm::vec4(label.turn * glm::vec3(0, 1, 0), std::clamp(label.through, 0.0F, 1.0F));
-    frame.pixels = glm::vec4(label.moved_px, label.before, 0.0F);
+    frame.right = glm::vec4(label.orientation * glm::vec3(1, 0, 0), placement);
+    frame.up =
+        glm::vec4(label.orientation * glm::vec3(0, 1, 0), std::clamp(label.occluded_visibility, 0.0F, 1.0F));
+    frame.pixels = glm::vec4(label.offset_px, label.occlusion_margin, 0.0F);
     return frame;
 }
 
 shared::LabelQuad plate_of(const Label& label, const glm::vec2& low, const glm::vec2& size) {
     shared::LabelQuad quad{};
-    const glm::vec2 half = 0.5F * size + margin, middle = low + 0.5F * size;
-    // Enlarge the background slightly, because its edge is smoothed over one pixel.
-    const glm::vec2 room = half + static_cast<float>(text::Atlas::reach);
-    quad.rect = glm::vec4(middle - room, middle + room);
+    const glm::vec2 half = 0.5F * size + plate_margin, middle = low + 0.5F * size;
+    // The quad is slightly larger than the background, whose edge is smoothed over one pixel.
+    const glm::vec2 quad_half = half + static_cast<float>(text::Atlas::reach);
+    quad.rect = glm::vec4(middle - quad_half, middle + quad_half);
     quad.uv = glm::vec4(half, half);
     quad.color = linear(label.plate);
-    quad.grow = corner;
+    quad.grow = plate_corner_radius;
     quad.plate = 1;
     return quad;
 }
@@ -164,7 +164,7 @@ std::optional<LabelBatch> make_label_batch(std::span<const Label> labels, const 
             }
             return true;
         };
-        // Draw all outlines first, so that a glyph's outline does not cover the previous glyph.
+        // All outlines come first, so that a glyph's outline does not cover the previous glyph.
         if (label.outline.a > 0.0F && !add_glyphs(label.outline, std::clamp(label.outline_width, 0.0F, 0.1F)))
             return std::nullopt;
         if (!add_glyphs(label.color, 0.0F)) return std::nullopt;
@@ -175,11 +175,9 @@ std::optional<LabelBatch> make_label_batch(std::span<const Label> labels, const 
 
 namespace {
 
-using gpu::ResourceUse;
-
-// Room for about 700 Latin letters, or 300 Chinese characters and 100 Latin letters.
+// Texels a side: room for about 700 Latin letters, or 300 Chinese characters and 100 Latin letters.
 constexpr int atlas_size = 1024;
-constexpr int largest_atlas = 4096;
+constexpr int max_atlas_size = 4096;
 
 Result<gpu::Image> make_image(gpu::Device& device, int size) {
     gpu::ImageInfo info;
@@ -191,15 +189,15 @@ Result<gpu::Image> make_image(gpu::Device& device, int size) {
 
 }  // namespace
 
-Result<LabelPass> LabelPass::create(const PassMaker& maker) {
+Result<LabelPass> LabelPass::create(const PassSetup& setup) {
     LabelPass pass;
-    pass.cache_ = &maker.cache;
-    pass.shaders_ = &maker.shaders;
+    pass.cache_ = &setup.cache;
+    pass.shaders_ = &setup.shaders;
     gpu::SamplerInfo info;
     info.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    BOLT_TRY(assign(pass.smooth_, gpu::make_sampler(maker.device, info)));
+    BOLT_TRY(assign(pass.smooth_, gpu::make_sampler(setup.device, info)));
     info.filter = VK_FILTER_NEAREST;
-    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(maker.device, info)));
+    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(setup.device, info)));
     return pass;
 }
 
@@ -211,16 +209,16 @@ Status LabelPass::load(gpu::Device& device) {
     return {};
 }
 
-// If the atlas is full, restart it with this frame's glyphs only; if they do not fit, double its size.
+// If the atlas is full, restarts it with this frame's glyphs only; if they do not fit, doubles its size.
 Result<LabelBatch> LabelPass::batch(const Scene& scene, const Eye& eye) {
-    for (int size = atlas_->size(); size <= largest_atlas; size *= 2) {
-        if (std::optional<LabelBatch> made =
+    for (int size = atlas_->size(); size <= max_atlas_size; size *= 2) {
+        if (std::optional<LabelBatch> created =
                 make_label_batch(scene.labels, eye.clip_from_world, fonts_, *atlas_))
-            return std::move(*made);
+            return std::move(*created);
         atlas_ = std::make_unique<text::Atlas>(size);
-        if (std::optional<LabelBatch> made =
+        if (std::optional<LabelBatch> created =
                 make_label_batch(scene.labels, eye.clip_from_world, fonts_, *atlas_))
-            return std::move(*made);
+            return std::move(*created);
         atlas_ = std::make_unique<text::Atlas>(2 * size);
     }
     atlas_ = std::make_unique<text::Atlas>(atlas_size);  // a smaller one may suffice for the next picture
@@ -229,7 +227,7 @@ Result<LabelBatch> LabelPass::batch(const Scene& scene, const Eye& eye) {
 
 Status LabelPass::upload(PassContext& context) {
     const auto size = static_cast<std::uint32_t>(atlas_->size());
-    const text::Atlas::Rows rows = atlas_->take_changed();
+    const text::Atlas::RowRange rows = atlas_->take_changed_rows();
     const VkCommandBuffer commands = context.frame.commands();
     if (image_.info().extent.width != size) {
         BOLT_TRY_ASSIGN(auto larger, make_image(context.device, atlas_->size()));
@@ -238,16 +236,16 @@ Status LabelPass::upload(PassContext& context) {
     }
     if (rows.count == 0) return {};
     const auto first = static_cast<std::size_t>(rows.first), count = static_cast<std::size_t>(rows.count);
-    BOLT_TRY_ASSIGN(auto piece, upload_transient<std::uint16_t>(
+    BOLT_TRY_ASSIGN(auto range, upload_transient<std::uint16_t>(
                                     context.frame, atlas_->texels().subspan(first * size, count * size)));
     gpu::image_barrier(commands, image_.get(), fresh_ ? ResourceUse::undefined : ResourceUse::sampled,
                        ResourceUse::transfer_to);
     VkBufferImageCopy region{};
-    region.bufferOffset = piece.offset;
+    region.bufferOffset = range.offset;
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageOffset = {0, rows.first, 0};
     region.imageExtent = {size, static_cast<std::uint32_t>(rows.count), 1};
-    vkCmdCopyBufferToImage(commands, piece.buffer, image_.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+    vkCmdCopyBufferToImage(commands, range.buffer, image_.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
                            &region);
     gpu::image_barrier(commands, image_.get(), ResourceUse::transfer_to, ResourceUse::sampled);
     fresh_ = false;
@@ -258,12 +256,12 @@ Status LabelPass::prepare(PassContext& context, std::span<const Eye> eyes) {
     count_ = 0;
     if (context.scene.labels.empty()) return {};
     BOLT_TRY(load(context.device));
-    BOLT_TRY_ASSIGN(auto made, batch(context.scene, eyes.front()));
-    if (made.quads.empty()) return {};
+    BOLT_TRY_ASSIGN(auto created, batch(context.scene, eyes.front()));
+    if (created.quads.empty()) return {};
     BOLT_TRY(upload(context));
-    BOLT_TRY(assign(labels_, upload_transient<shared::LabelFrame>(context.frame, made.labels)));
-    BOLT_TRY(assign(quads_, upload_transient<shared::LabelQuad>(context.frame, made.quads)));
-    count_ = static_cast<std::uint32_t>(made.quads.size());
+    BOLT_TRY(assign(labels_, upload_transient<shared::LabelFrame>(context.frame, created.labels)));
+    BOLT_TRY(assign(quads_, upload_transient<shared::LabelQuad>(context.frame, created.quads)));
+    count_ = static_cast<std::uint32_t>(created.quads.size());
     return {};
 }
 
@@ -273,18 +271,18 @@ Result<const gpu::Pipeline*> LabelPass::pipeline(gpu::Device& device, std::uint3
     info.vertex = &shaders_->at("labels.vert");
     info.fragment = &shaders_->at("labels.frag");
     info.colors = {color_format};
-    draw_views(info, views);
+    set_views(info, views);
     info.cull = VK_CULL_MODE_NONE;
     info.depth_test = info.depth_write = false;
     info.blend = true;
-    BOLT_TRY_ASSIGN(auto made, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &pipelines_.emplace(views, std::move(made)).first->second;
+    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &pipelines_.emplace(views, std::move(created)).first->second;
 }
 
 Status LabelPass::draw(PassContext& context, const RenderTargets& targets) {
     if (count_ == 0) return {};
-    BOLT_TRY_ASSIGN(const auto made, pipeline(context.device, context.views));
-    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, *made, 0));
+    BOLT_TRY_ASSIGN(const auto created, pipeline(context.device, context.views));
+    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, *created, 0));
     BOLT_TRY_ASSIGN(const auto set, writer.range(0, context.frame_block)
                                         .range(1, labels_)
                                         .range(2, quads_)
@@ -301,7 +299,7 @@ Status LabelPass::draw(PassContext& context, const RenderTargets& targets) {
     const VkRenderingInfo rendering = rendering_info(context.extent, context.views, {&color, 1});
     vkCmdBeginRendering(commands, &rendering);
     set_area(commands, context.extent);
-    bind(commands, *made, set);
+    bind(commands, *created, set);
     vkCmdDraw(commands, 6 * count_, 1, 0, 0);
     vkCmdEndRendering(commands);
     context.frame.end_timing();

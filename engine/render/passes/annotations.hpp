@@ -1,5 +1,4 @@
-// Outlines of marked objects, visible through occluders: draws their shapes as flat marks, then searches a
-// ring around every pixel. Works only in the area that the marks cover.
+// The passes that draw annotations: outlines of objects, and labels.
 #pragma once
 
 #include <memory>
@@ -13,9 +12,11 @@
 
 namespace bolt::render {
 
+// Outlines of objects, visible through occluders. Draws the objects' shapes as flat marks, then searches
+// rings around every pixel for marks. Works only in the area that the marks may cover.
 class OutlinePass {
   public:
-    static Result<OutlinePass> create(const PassMaker& maker, std::uint32_t views);
+    static Result<OutlinePass> create(const PassSetup& setup, std::uint32_t views);
 
     // Blends the lines into `targets.picture`, a colour target before and after.
     Status draw(PassContext& context, RenderTargets& targets, const DrawList& list);
@@ -28,23 +29,21 @@ class OutlinePass {
 };
 
 // Labels prepared for the GPU: one quad per glyph, the farthest label first.
-
 struct LabelBatch {
     std::vector<shared::LabelFrame> labels;
     std::vector<shared::LabelQuad> quads;
 };
 
-// Returns nullopt if the atlas is full. Labels are sorted by depth for `clip_from_world`, the first eye.
+// Returns nullopt if the atlas is full. `clip_from_world`: the view by whose depth the labels are sorted.
 std::optional<LabelBatch> make_label_batch(std::span<const Label> labels, const glm::mat4& clip_from_world,
                                            const text::Fonts& fonts, text::Atlas& atlas);
 
 // Blends labels over the finished picture. The scene's depth determines where parts hide them.
-
 class LabelPass {
   public:
-    static Result<LabelPass> create(const PassMaker& maker);
+    static Result<LabelPass> create(const PassSetup& setup);
 
-    // Call it once per frame, before any view is drawn. Fonts are loaded for the first label.
+    // Call it once per frame, before any view is drawn. Loads the fonts when there is the first label.
     Status prepare(PassContext& context, std::span<const Eye> eyes);
 
     // Draws onto `targets.picture`, a colour target before and after; `targets.depth` is in use `depth_read`.

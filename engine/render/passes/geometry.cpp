@@ -6,35 +6,36 @@
 
 namespace bolt::render {
 
-namespace {
-
 using gpu::ResourceUse;
+
+namespace {
 
 constexpr std::uint32_t group_size = 64;  // see deform.comp
 constexpr std::uint32_t position_words = sizeof(glm::vec3) / 4;
 constexpr std::uint32_t attribute_words = sizeof(VertexAttributes) / 4;
-static_assert(attribute_words == 7, "deform.comp counts on it");
+static_assert(attribute_words == 7, "deform.comp has the same constant");
 
-shared::DeformPart numbers_of(const MeshPart& part, const Deformation& deformation) {
-    const Deformable& bends = part.bends;
-    shared::DeformPart numbers{};
-    numbers.vertices = bends.vertices;
-    numbers.first_vertex = static_cast<std::uint32_t>(part.first_vertex);
-    numbers.first_influence = bends.first_influence;
-    numbers.skinned = !bends.joints.empty() && !deformation.joints.empty() ? 1 : 0;
-    numbers.first_delta = bends.first_delta;
-    numbers.delta_floats = bends.delta_floats;
-    numbers.targets = static_cast<std::uint32_t>(std::min(bends.targets.size(), deformation.weights.size()));
-    numbers.own_normals = bends.own_normals ? 1 : 0;
-    return numbers;
+shared::DeformPart push_constants_of(const MeshPart& part, const Deformation& deformation) {
+    const Deformable& deformable = part.deformable;
+    shared::DeformPart constants{};
+    constants.vertices = deformable.vertices;
+    constants.first_vertex = static_cast<std::uint32_t>(part.first_vertex);
+    constants.first_influence = deformable.first_influence;
+    constants.skinned = !deformable.joints.empty() && !deformation.joints.empty() ? 1 : 0;
+    constants.first_delta = deformable.first_delta;
+    constants.delta_floats = deformable.delta_floats;
+    constants.targets =
+        static_cast<std::uint32_t>(std::min(deformable.targets.size(), deformation.weights.size()));
+    constants.own_normals = deformable.own_normals ? 1 : 0;
+    return constants;
 }
 
 }  // namespace
 
-Result<DeformPass> DeformPass::create(const PassMaker& maker) {
+Result<DeformPass> DeformPass::create(const PassSetup& setup) {
     DeformPass pass;
-    if (Status s = assign(pass.pipeline_, gpu::make_compute_pipeline(maker.device, maker.cache,
-                                                                     maker.shaders.at("deform.comp")));
+    if (Status s = assign(pass.pipeline_, gpu::make_compute_pipeline(setup.device, setup.cache,
+                                                                     setup.shaders.at("deform.comp")));
         !s)
         return fail(s.error());
     return pass;
@@ -50,15 +51,15 @@ Status DeformPass::plan(PassContext& context, std::vector<Job>& jobs) {
         const MeshRange range = object.model->meshes[object.mesh];
         for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
             const MeshPart& part = object.model->parts[i];
-            if (part.bends.vertices == 0 || !planned.insert({deformation, &part}).second) continue;
-            Job job{&object, &part, numbers_of(part, *deformation)};
-            if (job.numbers.skinned != 0 && part.bends.joints.size() > deformation->joints.size())
+            if (part.deformable.vertices == 0 || !planned.insert({deformation, &part}).second) continue;
+            Job job{&object, &part, push_constants_of(part, *deformation)};
+            if (job.constants.skinned != 0 && part.deformable.joints.size() > deformation->joints.size())
                 return fail(ErrorCode::failed,
                             fmt::format("a deformation has {} joints, but a part uses joint {}",
-                                        deformation->joints.size(), part.bends.joints.size() - 1));
-            job.numbers.positions = words;
-            job.numbers.attributes = words + position_words * part.bends.vertices;
-            words = job.numbers.attributes + attribute_words * part.bends.vertices;
+                                        deformation->joints.size(), part.deformable.joints.size() - 1));
+            job.constants.positions = words;
+            job.constants.attributes = words + position_words * part.deformable.vertices;
+            words = job.constants.attributes + attribute_words * part.deformable.vertices;
             jobs.push_back(job);
         }
     }
@@ -74,8 +75,8 @@ Status DeformPass::plan(PassContext& context, std::vector<Job>& jobs) {
     }
     for (const Job& job : jobs)
         parts_.insert_or_assign({job.object->deformation.get(), job.part},
-                                DeformedPart{vertices_.get(), VkDeviceSize{4} * job.numbers.positions,
-                                             VkDeviceSize{4} * job.numbers.attributes});
+                                DeformedPart{vertices_.get(), VkDeviceSize{4} * job.constants.positions,
+                                             VkDeviceSize{4} * job.constants.attributes});
     return {};
 }
 
@@ -84,10 +85,10 @@ Result<VkDescriptorSet> DeformPass::set_for(PassContext& context, const Object& 
     BOLT_TRY_ASSIGN(auto weights, upload_transient<float>(context.frame, object.deformation->weights));
     BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline_, 0));
     const GpuModel& model = *object.model;
-    // Buffers that a model lacks are not read, but something must be bound.
+    // The shader does not read buffers that a model lacks, but every binding needs a buffer.
     const auto bind_whole = [&](std::uint32_t binding, const gpu::Buffer& buffer) {
-        const gpu::Buffer& there = buffer.get() != VK_NULL_HANDLE ? buffer : model.positions;
-        writer.buffer(binding, there.get(), 0, there.size());
+        const gpu::Buffer& bound = buffer.get() != VK_NULL_HANDLE ? buffer : model.positions;
+        writer.buffer(binding, bound.get(), 0, bound.size());
     };
     bind_whole(0, model.positions);
     bind_whole(1, model.attributes);
@@ -113,31 +114,29 @@ Status DeformPass::draw(PassContext& context) {
             vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout.get(), 0, 1,
                                     &set, 0, nullptr);
         }
-        vkCmdPushConstants(commands, pipeline_.layout.get(), pipeline_.push_stages, 0, sizeof job.numbers,
-                           &job.numbers);
-        vkCmdDispatch(commands, (job.numbers.vertices + group_size - 1) / group_size, 1, 1);
+        vkCmdPushConstants(commands, pipeline_.layout.get(), pipeline_.push_stages, 0, sizeof job.constants,
+                           &job.constants);
+        vkCmdDispatch(commands, (job.constants.vertices + group_size - 1) / group_size, 1, 1);
     }
     gpu::memory_barrier(commands, ResourceUse::storage_write, ResourceUse::vertex_read);
     context.frame.end_timing();
     return {};
 }
 
-using gpu::ResourceUse;
-
 Result<const gpu::Pipeline*> SurfacePass::pipeline(gpu::Device& device, const PipelineKind& kind,
                                                    std::uint32_t views, bool wide) {
-    // Features that only lighting uses do not need another pipeline.
-    Variant variant{kind, views, wide};
-    variant.kind.features &= SCENE_ANY_MAP | SCENE_SECOND_UV | SCENE_VERTEX_COLORS | SCENE_TANGENTS |
-                             SCENE_ANISOTROPY | SCENE_MASK | SCENE_MARKED | SCENE_WIDE | SCENE_CUT;
-    const auto known = pipelines_.find(variant);
+    // Features that only lighting uses do not need a pipeline of their own.
+    PipelineKey key{kind, views, wide};
+    key.kind.features &= SCENE_ANY_MAP | SCENE_SECOND_UV | SCENE_VERTEX_COLORS | SCENE_TANGENTS |
+                         SCENE_ANISOTROPY | SCENE_MASK | SCENE_MARKED | SCENE_WIDE | SCENE_CUT;
+    const auto known = pipelines_.find(key);
     if (known != pipelines_.end()) return &known->second;
-    gpu::GraphicsInfo info = part_pipeline(*shaders_, variant.kind, views);
+    gpu::GraphicsInfo info = part_pipeline(*shaders_, key.kind, views);
     info.fragment = &shaders_->at("surface.frag");
     info.colors = {surface_format};
     if (wide) info.colors.insert(info.colors.end(), {wide_color_format, wide_rough_format});
-    BOLT_TRY_ASSIGN(auto made, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &pipelines_.emplace(variant, std::move(made)).first->second;
+    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &pipelines_.emplace(key, std::move(created)).first->second;
 }
 
 Status SurfacePass::draw(PassContext& context, RenderTargets& targets, const DrawList& list) {
@@ -161,8 +160,8 @@ Status SurfacePass::draw(PassContext& context, RenderTargets& targets, const Dra
     VkRenderingAttachmentInfo depth =
         attachment(targets.depth.view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
                    VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE);
-    const bool keeps = targets.kept_depth.get() != VK_NULL_HANDLE;
-    if (keeps) {
+    const bool keeps_depth = targets.kept_depth.get() != VK_NULL_HANDLE;
+    if (keeps_depth) {
         gpu::image_barrier_discarding(commands, targets.kept_depth.get(), ResourceUse::transfer_from,
                                       ResourceUse::depth_target, depth_range);
         depth.resolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT;
@@ -177,8 +176,9 @@ Status SurfacePass::draw(PassContext& context, RenderTargets& targets, const Dra
     drawing.pipeline = [&](const PipelineKind& kind) {
         return pipeline(context.device, kind, context.views, wide);
     };
-    drawing.frame_set = [&](const gpu::Pipeline& made) -> Result<VkDescriptorSet> {
-        BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, made, 0));
+    drawing.frame_set = [&](const gpu::Pipeline& created) -> Result<VkDescriptorSet> {
+        BOLT_TRY_ASSIGN(auto writer,
+                        gpu::DescriptorWriter::create(context.device, context.frame, created, 0));
         return writer.range(0, context.frame_block)
             .range(1, context.instances)
             .range(2, context.materials)
@@ -190,7 +190,7 @@ Status SurfacePass::draw(PassContext& context, RenderTargets& targets, const Dra
         gpu::image_barrier(commands, image->get(), ResourceUse::color_target, ResourceUse::sampled);
     gpu::image_barrier(commands, targets.depth.get(), ResourceUse::depth_target, ResourceUse::depth_read,
                        depth_range);
-    if (keeps)
+    if (keeps_depth)
         gpu::image_barrier(commands, targets.kept_depth.get(), ResourceUse::depth_target,
                            ResourceUse::transfer_from, depth_range);
     context.frame.end_timing();

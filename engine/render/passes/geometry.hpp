@@ -1,27 +1,28 @@
-// Skinning and morphing: a compute shader writes the deformed vertices once, and all other passes draw them
-// like static ones.
+// The passes that produce geometry: deformation of vertices, and the geometry buffer.
 #pragma once
 
 #include "engine/render/passes/pass.hpp"
 
 namespace bolt::render {
 
+// Skinning and morphing. A compute shader writes the deformed vertices once a frame; all other passes draw
+// them like static ones.
 class DeformPass {
   public:
     DeformPass() = default;
-    static Result<DeformPass> create(const PassMaker& maker);
+    static Result<DeformPass> create(const PassSetup& setup);
 
-    // Deforms all deformable parts of the scene; the results are in parts(), ready as vertex buffers.
+    // Deforms all deformable parts of the scene. parts() then returns the results, ready as vertex buffers.
     Status draw(PassContext& context);
     [[nodiscard]] const DeformedParts& parts() const { return parts_; }
-    // The buffer of the deformed vertices, which may be copied from.
+    // Returns the buffer with the deformed vertices, which may be a source of copies.
     [[nodiscard]] const gpu::Buffer& vertices() const { return vertices_; }
 
   private:
     struct Job {
         const Object* object = nullptr;
         const MeshPart* part = nullptr;
-        shared::DeformPart numbers{};
+        shared::DeformPart constants{};  // push constants
     };
     Status plan(PassContext& context, std::vector<Job>& jobs);
     Result<VkDescriptorSet> set_for(PassContext& context, const Object& object);
@@ -33,10 +34,9 @@ class DeformPass {
 
 // Draws depth and a geometry buffer of normal, material and grain, four samples per pixel. Maps and colours
 // that vary over a part are written to a second, wide buffer, which exists only if needed.
-
 class SurfacePass {
   public:
-    static Result<SurfacePass> create(const PassMaker& maker) { return SurfacePass(maker); }
+    static Result<SurfacePass> create(const PassSetup& setup) { return SurfacePass(setup); }
 
     // Leaves `targets.depth` in use `depth_read` and the geometry buffers in use `sampled`.
     Status draw(PassContext& context, RenderTargets& targets, const DrawList& list);
@@ -44,19 +44,19 @@ class SurfacePass {
     SurfacePass() = default;
 
   private:
-    explicit SurfacePass(const PassMaker& maker) : cache_(&maker.cache), shaders_(&maker.shaders) {}
+    explicit SurfacePass(const PassSetup& setup) : cache_(&setup.cache), shaders_(&setup.shaders) {}
     Result<const gpu::Pipeline*> pipeline(gpu::Device& device, const PipelineKind& kind, std::uint32_t views,
                                           bool wide);
 
-    struct Variant {
+    struct PipelineKey {
         PipelineKind kind;
         std::uint32_t views = 1;
         bool wide = false;
-        friend auto operator<=>(const Variant&, const Variant&) = default;
+        friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
     };
     const gpu::PipelineCache* cache_ = nullptr;
     const Shaders* shaders_ = nullptr;
-    std::map<Variant, gpu::Pipeline> pipelines_;
+    std::map<PipelineKey, gpu::Pipeline> pipelines_;
 };
 
 }  // namespace bolt::render

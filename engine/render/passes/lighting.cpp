@@ -7,28 +7,29 @@ namespace bolt::render {
 
 using gpu::ResourceUse;
 
-Result<LightPass> LightPass::create(const PassMaker& maker) {
+Result<LightPass> LightPass::create(const PassSetup& setup) {
     LightPass pass;
-    pass.cache_ = &maker.cache;
-    pass.shaders_ = &maker.shaders;
-    BOLT_TRY(assign(pass.albedo_table_, upload_albedo_table(maker.device)));
-    gpu::ImageInfo nothing;
-    nothing.format = wide_rough_format;
-    nothing.samples = samples;
-    nothing.array = true;
-    nothing.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    BOLT_TRY(assign(pass.nothing_, gpu::Image::create(maker.device, nothing)));
-    BOLT_TRY(gpu::submit_and_wait(maker.device, [&](VkCommandBuffer commands) {
-        gpu::image_barrier(commands, pass.nothing_.get(), ResourceUse::undefined, ResourceUse::sampled);
+    pass.cache_ = &setup.cache;
+    pass.shaders_ = &setup.shaders;
+    BOLT_TRY(assign(pass.albedo_table_, upload_albedo_table(setup.device)));
+    gpu::ImageInfo no_wide_buffer;
+    no_wide_buffer.format = wide_rough_format;
+    no_wide_buffer.samples = samples;
+    no_wide_buffer.array = true;
+    no_wide_buffer.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    BOLT_TRY(assign(pass.no_wide_buffer_, gpu::Image::create(setup.device, no_wide_buffer)));
+    BOLT_TRY(gpu::submit_and_wait(setup.device, [&](VkCommandBuffer commands) {
+        gpu::image_barrier(commands, pass.no_wide_buffer_.get(), ResourceUse::undefined,
+                           ResourceUse::sampled);
     }));
     gpu::SamplerInfo clamped;
     clamped.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    BOLT_TRY(assign(pass.clamped_, gpu::make_sampler(maker.device, clamped)));
+    BOLT_TRY(assign(pass.clamped_, gpu::make_sampler(setup.device, clamped)));
     gpu::SamplerInfo nearest = clamped;
     nearest.filter = VK_FILTER_NEAREST;
-    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(maker.device, nearest)));
+    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(setup.device, nearest)));
     clamped.compares = true;
-    BOLT_TRY(assign(pass.comparing_, gpu::make_sampler(maker.device, clamped)));
+    BOLT_TRY(assign(pass.comparing_, gpu::make_sampler(setup.device, clamped)));
     return pass;
 }
 
@@ -40,12 +41,12 @@ Result<const gpu::Pipeline*> LightPass::light_pipeline(gpu::Device& device, std:
     info.vertex = &shaders_->at("light.vert");
     info.fragment = &shaders_->at("light.frag");
     info.colors = {color_format};
-    draw_views(info, views);
+    set_views(info, views);
     info.cull = VK_CULL_MODE_NONE;
     info.depth_test = info.depth_write = false;
     info.constants |= features;
-    BOLT_TRY_ASSIGN(auto made, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &lights_.emplace(std::pair{features, views}, std::move(made)).first->second;
+    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &lights_.emplace(std::pair{features, views}, std::move(created)).first->second;
 }
 
 void LightPass::bind_inputs(PassContext& context, gpu::DescriptorWriter& writer,
@@ -67,16 +68,16 @@ Result<VkDescriptorSet> LightPass::light_set(PassContext& context, const RenderT
     const VkSampler nearest = nearest_.get();
     return writer.image(7, targets.depth.view(), nearest, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL)
         .image(8, targets.surfaces.view(), nearest)
-        .image(9, wide ? targets.wide_colors.view() : nothing_.view(), nearest)
-        .image(10, wide ? targets.wide_roughs.view() : nothing_.view(), nearest)
+        .image(9, wide ? targets.wide_colors.view() : no_wide_buffer_.view(), nearest)
+        .image(10, wide ? targets.wide_roughs.view() : no_wide_buffer_.view(), nearest)
         .finish();
 }
 
 Status LightPass::draw_surfaces(PassContext& context, const RenderTargets& targets, const DrawList& list,
                                 const LightInputs& inputs) {
-    constexpr std::uint32_t of_light =
+    constexpr std::uint32_t lighting_features =
         SCENE_TANGENTS | SCENE_COAT | SCENE_ANISOTROPY | SCENE_OCCLUSION_MAP | SCENE_WIDE;
-    const std::uint32_t features = (list.features & of_light) | features_of(context.scene) |
+    const std::uint32_t features = (list.features & lighting_features) | features_of(context.scene) |
                                    (context.scene.background.w > 0.5F ? SCENE_PLAIN : 0U);
     BOLT_TRY_ASSIGN(const auto pipeline, light_pipeline(context.device, features, context.views));
     BOLT_TRY_ASSIGN(const auto set,
@@ -104,25 +105,23 @@ Status LightPass::draw(PassContext& context, RenderTargets& targets, const DrawL
     return done;
 }
 
-using gpu::ResourceUse;
-
-Result<ForwardPass> ForwardPass::create(const PassMaker& maker, std::uint32_t views) {
+Result<ForwardPass> ForwardPass::create(const PassSetup& setup, std::uint32_t views) {
     ForwardPass pass;
-    pass.cache_ = &maker.cache;
-    pass.shaders_ = &maker.shaders;
+    pass.cache_ = &setup.cache;
+    pass.shaders_ = &setup.shaders;
     pass.views_ = views;
     gpu::GraphicsInfo info;
-    info.vertex = &maker.shaders.at("screen.vert");
-    info.fragment = &maker.shaders.at("over.frag");
+    info.vertex = &setup.shaders.at("screen.vert");
+    info.fragment = &setup.shaders.at("over.frag");
     info.colors = {color_format};
-    draw_views(info, views);
+    set_views(info, views);
     info.cull = VK_CULL_MODE_NONE;
     info.depth_test = info.depth_write = false;
     info.blend = true;
-    BOLT_TRY(assign(pass.over_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)));
+    BOLT_TRY(assign(pass.over_, gpu::make_graphics_pipeline(setup.device, setup.cache, info)));
     gpu::SamplerInfo nearest;
     nearest.filter = VK_FILTER_NEAREST;
-    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(maker.device, nearest)));
+    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(setup.device, nearest)));
     return pass;
 }
 
@@ -134,8 +133,8 @@ Result<const gpu::Pipeline*> ForwardPass::forward_pipeline(gpu::Device& device, 
     info.colors = {layer_format};
     info.blend = kind.blends;
     info.depth_write = !kind.blends;
-    BOLT_TRY_ASSIGN(auto made, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &forwards_.emplace(kind, std::move(made)).first->second;
+    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &forwards_.emplace(kind, std::move(created)).first->second;
 }
 
 Result<const gpu::Pipeline*> ForwardPass::ghost_pipeline(gpu::Device& device, const PipelineKind& kind) {
@@ -146,30 +145,32 @@ Result<const gpu::Pipeline*> ForwardPass::ghost_pipeline(gpu::Device& device, co
     gpu::GraphicsInfo info = part_pipeline(*shaders_, shape, views_);
     info.colors = {layer_format};
     info.color_write = false;
-    BOLT_TRY_ASSIGN(auto made, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &ghosts_.emplace(shape, std::move(made)).first->second;
+    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &ghosts_.emplace(shape, std::move(created)).first->second;
 }
 
 Status ForwardPass::draw_all_parts(PassContext& context, const DrawList& list, const LightPass& light,
                                    const LightInputs& inputs) {
     PartDrawing drawing;
-    drawing.frame_set = [&](const gpu::Pipeline& made) -> Result<VkDescriptorSet> {
-        BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, made, 0));
+    drawing.frame_set = [&](const gpu::Pipeline& created) -> Result<VkDescriptorSet> {
+        BOLT_TRY_ASSIGN(auto writer,
+                        gpu::DescriptorWriter::create(context.device, context.frame, created, 0));
         return writer.range(0, context.frame_block).range(1, context.instances).finish();
     };
-    // Only the nearest layer of a ghost is visible: draw its depth first.
+    // Draws the depth of ghosts first, so that only their nearest layer is visible.
     drawing.wanted = [](const PipelineKind& kind) { return kind.ghost; };
     drawing.pipeline = [&](const PipelineKind& kind) { return ghost_pipeline(context.device, kind); };
     BOLT_TRY(draw_parts(context, list, drawing));
-    const BoundingBox around = cone_end(context.scene.cut_away);
-    const VkRect2D all{{0, 0}, context.extent}, end = area_of(context, {&around, 1}, 1.0F);
+    const BoundingBox end_box = cone_end(context.scene.cut_away);
+    const VkRect2D all{{0, 0}, context.extent}, end = area_of(context, {&end_box, 1}, 1.0F);
     drawing.area = [&](const PipelineKind& kind) {
         return (kind.features & SCENE_CUT_REST) != 0 ? end : all;
     };
     drawing.wanted = [](const PipelineKind& kind) { return kind.forward; };
     drawing.pipeline = [&](const PipelineKind& kind) { return forward_pipeline(context.device, kind); };
-    drawing.frame_set = [&](const gpu::Pipeline& made) -> Result<VkDescriptorSet> {
-        BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, made, 0));
+    drawing.frame_set = [&](const gpu::Pipeline& created) -> Result<VkDescriptorSet> {
+        BOLT_TRY_ASSIGN(auto writer,
+                        gpu::DescriptorWriter::create(context.device, context.frame, created, 0));
         light.bind_inputs(context, writer, inputs);
         return writer.range(1, context.instances).finish();
     };

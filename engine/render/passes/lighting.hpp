@@ -1,5 +1,4 @@
-// Deferred lighting: shades the geometry buffer and the background. Reads four samples per pixel and writes
-// one.
+// The passes that shade: deferred lighting, and forward lighting of parts that it cannot shade.
 #pragma once
 
 #include "engine/render/passes/pass.hpp"
@@ -12,12 +11,14 @@ struct LightInputs {
     VkImageView occlusion = VK_NULL_HANDLE;  // null: none
 };
 
+// Deferred lighting: shades the geometry buffer and the background. Reads four samples per pixel and writes
+// one.
 class LightPass {
   public:
     LightPass() = default;
-    static Result<LightPass> create(const PassMaker& maker);
+    static Result<LightPass> create(const PassSetup& setup);
 
-    // Leaves `targets.picture` a colour target.
+    // Leaves `targets.picture` in use `color_target`.
     Status draw(PassContext& context, RenderTargets& targets, const DrawList& list,
                 const LightInputs& inputs);
 
@@ -36,17 +37,16 @@ class LightPass {
     const Shaders* shaders_ = nullptr;
     std::map<std::pair<std::uint32_t, std::uint32_t>, gpu::Pipeline> lights_;  // by features and views
     gpu::Image albedo_table_;
-    gpu::Image nothing_;  // bound if there is no wide buffer
+    gpu::Image no_wide_buffer_;  // bound if there is no wide buffer
     gpu::Sampler clamped_, nearest_, comparing_;
 };
 
-// Draws and shades parts that blend or that the geometry buffer cannot store: into a multisampled layer,
-// which is resolved and blended over the picture.
-
+// Draws and shades parts that blend or that the geometry buffer cannot store. Draws into a multisampled
+// layer, which is then resolved and blended over the picture.
 class ForwardPass {
   public:
     ForwardPass() = default;
-    static Result<ForwardPass> create(const PassMaker& maker, std::uint32_t views);
+    static Result<ForwardPass> create(const PassSetup& setup, std::uint32_t views);
 
     // Call it after the light pass; `targets.picture` is a colour target before and after.
     Status draw(PassContext& context, RenderTargets& targets, const DrawList& list, const LightPass& light,

@@ -10,13 +10,13 @@ namespace {
 using gpu::ResourceUse;
 
 // Must match shaders/overlay.vert.
-struct Push {
+struct OverlayPushConstants {
     glm::vec2 size{0.0F};
     float layer = 0.0F, kind = 0.0F;
 };
 
 // Returns the part of a scissor rectangle inside the picture.
-VkRect2D on_picture(const VkRect2D& wanted, VkExtent2D extent) {
+VkRect2D clipped(const VkRect2D& wanted, VkExtent2D extent) {
     const auto clip = [](std::int64_t at, std::uint32_t size) {
         return static_cast<std::uint32_t>(std::clamp<std::int64_t>(at, 0, size));
     };
@@ -27,15 +27,15 @@ VkRect2D on_picture(const VkRect2D& wanted, VkExtent2D extent) {
     return {{static_cast<std::int32_t>(left), static_cast<std::int32_t>(top)}, {right - left, bottom - top}};
 }
 
-// Transitions every image once, to be sampled or back to its previous use.
-void move_textures(VkCommandBuffer commands, const Overlay& overlay, bool to_sampled) {
-    std::vector<VkImage> moved;
+// Transitions every image once, to use `sampled` or back to its previous use.
+void transition_textures(VkCommandBuffer commands, const Overlay& overlay, bool to_sampled) {
+    std::vector<VkImage> transitioned;
     for (const OverlayTexture& texture : overlay.textures) {
         const VkImage image = texture.picture.image->get();
         if (texture.use == ResourceUse::sampled ||
-            std::find(moved.begin(), moved.end(), image) != moved.end())
+            std::find(transitioned.begin(), transitioned.end(), image) != transitioned.end())
             continue;
-        moved.push_back(image);
+        transitioned.push_back(image);
         gpu::image_barrier(commands, image, to_sampled ? texture.use : ResourceUse::sampled,
                            to_sampled ? ResourceUse::sampled : texture.use);
     }
@@ -43,11 +43,11 @@ void move_textures(VkCommandBuffer commands, const Overlay& overlay, bool to_sam
 
 }  // namespace
 
-Result<OverlayPass> OverlayPass::create(const PassMaker& maker) {
+Result<OverlayPass> OverlayPass::create(const PassSetup& setup) {
     OverlayPass pass;
     gpu::GraphicsInfo info;
-    info.vertex = &maker.shaders.at("overlay.vert");
-    info.fragment = &maker.shaders.at("overlay.frag");
+    info.vertex = &setup.shaders.at("overlay.vert");
+    info.fragment = &setup.shaders.at("overlay.frag");
     info.streams = {{0, VK_FORMAT_R32G32_SFLOAT, 0, offsetof(OverlayVertex, at)},
                     {1, VK_FORMAT_R32G32_SFLOAT, 0, offsetof(OverlayVertex, uv)},
                     {2, VK_FORMAT_R8G8B8A8_UNORM, 0, offsetof(OverlayVertex, rgba)}};
@@ -56,16 +56,17 @@ Result<OverlayPass> OverlayPass::create(const PassMaker& maker) {
     info.cull = VK_CULL_MODE_NONE;
     info.depth_test = info.depth_write = false;
     info.blend = true;
-    BOLT_TRY(assign(pass.pipeline_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)));
+    BOLT_TRY(assign(pass.pipeline_, gpu::make_graphics_pipeline(setup.device, setup.cache, info)));
     gpu::SamplerInfo clamped;
     clamped.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    BOLT_TRY(assign(pass.sampler_, gpu::make_sampler(maker.device, clamped)));
+    BOLT_TRY(assign(pass.sampler_, gpu::make_sampler(setup.device, clamped)));
     return pass;
 }
 
 // Returns one set per texture, and a last one for draws without a texture.
-Result<std::vector<VkDescriptorSet>> OverlayPass::sets_of(gpu::Device& device, gpu::FrameContext& frame,
-                                                          const Overlay& overlay, VkImageView white) {
+Result<std::vector<VkDescriptorSet>> OverlayPass::descriptor_sets(gpu::Device& device,
+                                                                  gpu::FrameContext& frame,
+                                                                  const Overlay& overlay, VkImageView white) {
     std::vector<VkDescriptorSet> sets;
     for (std::size_t i = 0; i <= overlay.textures.size(); ++i) {
         const VkImageView view =
@@ -82,16 +83,16 @@ Status OverlayPass::draw(gpu::Device& device, gpu::FrameContext& frame, const Ov
     if (overlay.draws.empty()) return {};
     for (const OverlayTexture& texture : overlay.textures)
         if (texture.picture.image == picture.image)
-            return fail(ErrorCode::failed, "an inset shows the picture that it is drawn on",
-                        "expected a picture of another group");
+            return fail(ErrorCode::failed, "an overlay contains the picture that it is drawn on",
+                        "a picture of another group");
     BOLT_TRY_ASSIGN(auto vertices, upload_transient<OverlayVertex>(frame, overlay.vertices));
     BOLT_TRY_ASSIGN(auto indices, upload_transient<std::uint32_t>(frame, overlay.indices));
-    BOLT_TRY_ASSIGN(auto sets, sets_of(device, frame, overlay, white));
+    BOLT_TRY_ASSIGN(auto sets, descriptor_sets(device, frame, overlay, white));
     BOLT_TRY_ASSIGN(auto target, picture.image->view(VK_IMAGE_VIEW_TYPE_2D, 0, 1, picture.layer, 1));
 
     const VkCommandBuffer commands = frame.commands();
     frame.begin_timing("overlay");
-    move_textures(commands, overlay, true);
+    transition_textures(commands, overlay, true);
     gpu::image_barrier(commands, picture.image->get(), ResourceUse::transfer_from, ResourceUse::color_target);
     const VkExtent2D extent = picture.image->info().extent;
     const VkRenderingAttachmentInfo color =
@@ -104,25 +105,25 @@ Status OverlayPass::draw(gpu::Device& device, gpu::FrameContext& frame, const Ov
     vkCmdBindIndexBuffer(commands, indices.buffer, indices.offset, VK_INDEX_TYPE_UINT32);
     int bound = -2;
     for (const OverlayDraw& d : overlay.draws) {
-        const VkRect2D scissor = on_picture(d.scissor, extent);
+        const VkRect2D scissor = clipped(d.scissor, extent);
         if (d.count == 0 || scissor.extent.width == 0 || scissor.extent.height == 0) continue;
         if (std::exchange(bound, d.texture) != d.texture) {
-            const bool has = d.texture >= 0;
-            const auto index = has ? static_cast<std::size_t>(d.texture) : overlay.textures.size();
+            const bool textured = d.texture >= 0;
+            const auto index = textured ? static_cast<std::size_t>(d.texture) : overlay.textures.size();
             bind(commands, pipeline_, sets.at(index));
-            Push push;
-            push.size = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
-            push.layer = has ? static_cast<float>(overlay.textures[index].picture.layer) : 0.0F;
-            push.kind = has && overlay.textures[index].coverage ? 1.0F : 0.0F;
-            vkCmdPushConstants(commands, pipeline_.layout.get(), pipeline_.push_stages, 0, sizeof push,
-                               &push);
+            OverlayPushConstants constants;
+            constants.size = {static_cast<float>(extent.width), static_cast<float>(extent.height)};
+            constants.layer = textured ? static_cast<float>(overlay.textures[index].picture.layer) : 0.0F;
+            constants.kind = textured && overlay.textures[index].coverage ? 1.0F : 0.0F;
+            vkCmdPushConstants(commands, pipeline_.layout.get(), pipeline_.push_stages, 0, sizeof constants,
+                               &constants);
         }
         vkCmdSetScissor(commands, 0, 1, &scissor);
         vkCmdDrawIndexed(commands, d.count, 1, d.first_index, d.first_vertex, 0);
     }
     vkCmdEndRendering(commands);
     gpu::image_barrier(commands, picture.image->get(), ResourceUse::color_target, ResourceUse::transfer_from);
-    move_textures(commands, overlay, false);
+    transition_textures(commands, overlay, false);
     frame.end_timing();
     frame.retire(std::move(target));
     return {};

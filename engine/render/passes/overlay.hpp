@@ -1,5 +1,4 @@
-// Draws an overlay onto a finished picture with one pipeline. Colours are decoded from sRGB and blended
-// linearly.
+// The pass that draws an overlay onto a finished picture. Colours are decoded from sRGB and blended linearly.
 #pragma once
 
 #include "engine/render/overlay.hpp"
@@ -9,15 +8,16 @@ namespace bolt::render {
 
 class OverlayPass {
   public:
-    static Result<OverlayPass> create(const PassMaker& maker);
+    static Result<OverlayPass> create(const PassSetup& setup);
 
-    // The picture is in use `transfer_from` before and after. `white` is an array of one texel.
+    // The picture is in use `transfer_from` before and after. `white`: an array
+    // image of one white texel, for draws without a texture.
     Status draw(gpu::Device& device, gpu::FrameContext& frame, const Overlay& overlay,
                 const ImageLayer& picture, VkImageView white);
 
   private:
-    Result<std::vector<VkDescriptorSet>> sets_of(gpu::Device& device, gpu::FrameContext& frame,
-                                                 const Overlay& overlay, VkImageView white);
+    Result<std::vector<VkDescriptorSet>> descriptor_sets(gpu::Device& device, gpu::FrameContext& frame,
+                                                         const Overlay& overlay, VkImageView white);
 
     gpu::Pipeline pipeline_;
     gpu::Sampler sampler_;

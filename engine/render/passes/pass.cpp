@@ -13,7 +13,7 @@ Status add(gpu::Device& device, const RenderTargets& targets, gpu::Image& to, Vk
     info.extent = {(targets.extent.width + divisor - 1) / divisor,
                    (targets.extent.height + divisor - 1) / divisor};
     info.layers = targets.layers;
-    info.array = true;  // shaders read the layer of their view
+    info.array = true;  // also with one layer, because shaders read the layer of their view
     info.format = format;
     info.samples = samples;
     info.usage = usage;
@@ -32,8 +32,8 @@ Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::
     t.layers = layers;
     BOLT_TRY(add(device, t, t.depth, depth_format, depth_and_read, samples));
     BOLT_TRY(add(device, t, t.surfaces, surface_format, drawn_and_read, samples));
-    const VkImageUsageFlags seen = drawn_and_read | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    BOLT_TRY(add(device, t, t.picture, color_format, seen, VK_SAMPLE_COUNT_1_BIT));
+    const VkImageUsageFlags picture_usage = drawn_and_read | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    BOLT_TRY(add(device, t, t.picture, color_format, picture_usage, VK_SAMPLE_COUNT_1_BIT));
     return t;
 }
 
@@ -66,7 +66,7 @@ Status add_kept_depth(gpu::Device& device, RenderTargets& t) {
 
 std::uint32_t view_mask(std::uint32_t views) { return views > 1 ? (1U << views) - 1U : 0U; }
 
-void draw_views(gpu::GraphicsInfo& info, std::uint32_t views) {
+void set_views(gpu::GraphicsInfo& info, std::uint32_t views) {
     info.view_mask = view_mask(views);
     if (views > 1) info.constants |= SCENE_VIEWS;
 }
@@ -92,7 +92,8 @@ void bind_geometry(VkCommandBuffer commands, const Draw& d) {
     VkBuffer buffers[] = {model.positions.get(), model.attributes.get(), model.second_uv.get()};
     VkDeviceSize offsets[] = {0, 0, 0};
     if (d.deformed.buffer != VK_NULL_HANDLE) {
-        // Deformed streams start at the part: draw from vertex 0 and offset the other streams instead.
+        // Deformed streams start at the part, so it is drawn from vertex 0, and the other streams get an
+        // offset.
         buffers[0] = buffers[1] = d.deformed.buffer;
         offsets[0] = d.deformed.positions;
         offsets[1] = d.deformed.attributes;
@@ -160,11 +161,11 @@ namespace {
 Result<VkDescriptorSet> maps_set(PassContext& context, const gpu::Pipeline& pipeline, const GpuModel& model,
                                  const MaterialMaps& maps) {
     BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline, 1));
-    for (const gpu::Binding& map : pipeline.bindings) {  // only those that this pass uses
+    for (const gpu::Binding& map : pipeline.bindings) {  // only the maps that this pipeline reads
         if (map.set != 1) continue;
-        const int which = maps.textures.at(map.binding);
+        const int index = maps.textures.at(map.binding);
         const GpuTexture& texture =
-            which >= 0 ? model.textures[static_cast<std::size_t>(which)] : context.white;
+            index >= 0 ? model.textures[static_cast<std::size_t>(index)] : context.white;
         writer.image(map.binding, texture.image.view(), texture.sampler.get());
     }
     return writer.finish();
@@ -188,7 +189,7 @@ gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const PipelineKind& kind
     }
     info.depth = depth_format;
     info.samples = samples;
-    draw_views(info, views);
+    set_views(info, views);
     info.cull = kind.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT;
     info.constants |= kind.features;
     return info;

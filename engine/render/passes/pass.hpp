@@ -1,4 +1,4 @@
-// Render targets of a picture's size, with one layer per view of a pass.
+// Shared by the passes: render targets, formats, the context of a frame, and commands that draw parts.
 #pragma once
 
 #include <cstring>
@@ -10,17 +10,18 @@
 
 namespace bolt::render {
 
+// Images of a picture's size with one layer per view of a pass. They have four samples per pixel unless the
+// comment says otherwise. Optional ones are created when a scene first needs them.
 struct RenderTargets {
-    // Four samples per pixel. The optional ones are created when a scene first needs them.
     gpu::Image depth;
     gpu::Image surfaces;                  // normal, material, grain (see shaders/surface.glsl)
     gpu::Image wide_colors, wide_roughs;  // optional: base colour and metallic; roughness and occlusion
     gpu::Image drawn;                     // optional: parts shaded while drawn
-    gpu::Image over;                      // the same, resolved
+    gpu::Image over;                      // optional: the same, resolved to one sample
     gpu::Image picture;                   // one sample
-    gpu::Image kept_depth;                // optional: depth of the first sample, for readback
-    gpu::Image marks;                     // optional: marks of outlined objects
-    gpu::Image small_depth, raw_occlusion, occlusion;  // optional, half size
+    gpu::Image kept_depth;                // optional, one sample: depth of the first sample, for readback
+    gpu::Image marks;                     // optional, one sample: shapes of outlined objects
+    gpu::Image small_depth, raw_occlusion, occlusion;  // optional, one sample, half size
     VkExtent2D extent{};
     std::uint32_t layers = 1;
 };
@@ -62,8 +63,6 @@ void each_image(RenderTargets& targets, const Visit& visit) {
         visit(*image);
 }
 
-// State and commands shared by the passes of a frame.
-
 // Pictures are 8-bit sRGB, one layer per view.
 inline constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
 // For layers that are blended over a picture; with 8 bits, premultiplied colours would show banding.
@@ -74,20 +73,21 @@ inline constexpr VkFormat wide_color_format = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat wide_rough_format = VK_FORMAT_R8G8_UNORM;
 inline constexpr VkFormat occlusion_format = VK_FORMAT_R8_UNORM;
 inline constexpr VkFormat mark_format = VK_FORMAT_R8G8B8A8_UNORM;
-// light.frag assumes this number.
+// light.frag depends on this number.
 inline constexpr VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_4_BIT;
 inline constexpr gpu::ImageRange depth_range{VK_IMAGE_ASPECT_DEPTH_BIT};
 
 // Compiled shaders by file name ("scene.frag").
 using Shaders = std::map<std::string, gpu::Shader, std::less<>>;
 
-// The inputs for creating a pass. The shaders outlive the pass.
-struct PassMaker {
+// The objects that a pass is created from. The cache and the shaders must outlive the pass.
+struct PassSetup {
     gpu::Device& device;
     const gpu::PipelineCache& cache;
     const Shaders& shaders;
 };
 
+// State shared by the passes of one frame and one group of views.
 struct PassContext {
     gpu::Device& device;
     gpu::FrameContext& frame;
@@ -95,15 +95,15 @@ struct PassContext {
     const EnvironmentLight& environment;
     shared::FrameData& shared;
     gpu::TransientRange frame_block;  // the uploaded copy of `shared`
-    std::uint32_t views;              // drawn in one pass
+    std::uint32_t views;              // that one pass draws
     VkExtent2D extent;
     gpu::TransientRange instances, materials;  // of the draw list
     const GpuTexture& white;                   // replaces missing maps of a material
-    VkImageView white_array;
+    VkImageView white_array;                   // the same texture, viewed as an array
     const DeformedParts& deformed;
 };
 
-// Uploads values for this frame's shaders; the range has room for at least one value, because empty ranges
+// Uploads values for this frame's shaders. The range is at least as large as one value, because empty ranges
 // cannot be bound.
 template <class T>
 Result<gpu::TransientRange> upload_transient(gpu::FrameContext& frame, std::span<const T> values) {
@@ -114,23 +114,24 @@ Result<gpu::TransientRange> upload_transient(gpu::FrameContext& frame, std::span
 
 // Moves the value of a result into `to`.
 template <class T>
-Status assign(T& to, Result<T> made) {
-    if (!made) return fail(made.error());
-    to = std::move(*made);
+Status assign(T& to, Result<T> created) {
+    if (!created) return fail(created.error());
+    to = std::move(*created);
     return {};
 }
 
-// The view mask for VkRenderingInfo: 0 without multiview.
+// Returns the view mask for VkRenderingInfo: 0 without multiview.
 std::uint32_t view_mask(std::uint32_t views);
 // Configures a pipeline for this number of views.
-void draw_views(gpu::GraphicsInfo& info, std::uint32_t views);
+void set_views(gpu::GraphicsInfo& info, std::uint32_t views);
 
 // Sets viewport and scissor to the whole extent.
 void set_area(VkCommandBuffer commands, VkExtent2D extent);
 
+// Binds a descriptor set; for set 0 also the pipeline.
 void bind(VkCommandBuffer commands, const gpu::Pipeline& pipeline, VkDescriptorSet set,
           std::uint32_t index = 0);
-// Whether two draws use the same vertex buffers; then they need to be bound only once.
+// Returns whether two draws use the same vertex buffers, which then need to be bound only once.
 bool same_geometry(const Draw& a, const Draw& b);
 void bind_geometry(VkCommandBuffer commands, const Draw& draw);
 void draw(VkCommandBuffer commands, const Draw& draw);
@@ -150,11 +151,11 @@ void draw_all(VkCommandBuffer commands, const DrawList& list, const Wanted& want
 VkRenderingAttachmentInfo attachment(VkImageView view, VkImageLayout layout, VkAttachmentLoadOp load,
                                      VkAttachmentStoreOp store);
 
-// The pixels that the boxes may cover in any of the context's views, widened by a margin and clamped to the
-// picture.
+// Returns the rectangle of pixels that the boxes may cover in any of the context's views, widened by a margin
+// and clamped to the picture.
 VkRect2D area_of(const PassContext& context, std::span<const BoundingBox> boxes, float margin_px);
 
-// Rendering info that covers the whole of the attached images.
+// Returns rendering info for the whole area of the attached images.
 VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
                                std::span<const VkRenderingAttachmentInfo> colors,
                                const VkRenderingAttachmentInfo* depth = nullptr);
@@ -163,20 +164,19 @@ VkRenderingInfo rendering_info(VkExtent2D extent, std::uint32_t views,
 // screen.vert.
 void draw_screen(VkCommandBuffer commands);
 
-// Draws parts with their materials; shared by several passes.
-
-// The vertex stage of every pipeline that draws parts with scene.vert.
+// Returns the vertex stage of a pipeline that draws parts with scene.vert.
 gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const PipelineKind& kind, std::uint32_t views);
 
-// Selects the pipeline of each kind of part. `frame_set` creates descriptor set 0.
+// How a pass draws parts.
 struct PartDrawing {
-    std::function<bool(const PipelineKind&)> wanted;
+    std::function<bool(const PipelineKind&)> wanted;  // false: the part is skipped
     std::function<Result<const gpu::Pipeline*>(const PipelineKind&)> pipeline;
-    std::function<Result<VkDescriptorSet>(const gpu::Pipeline&)> frame_set;
+    std::function<Result<VkDescriptorSet>(const gpu::Pipeline&)> frame_set;  // creates descriptor set 0
     std::function<VkRect2D(const PipelineKind&)> area;  // scissor rectangle; null: the whole picture
 };
 
-// Draws the list in its order. Set 1 holds a material's maps, the push constant its index.
+// Draws parts with their materials, in the order of the list. Set 1 holds a material's maps, the push
+// constant its index.
 Status draw_parts(PassContext& context, const DrawList& list, const PartDrawing& drawing);
 
 }  // namespace bolt::render

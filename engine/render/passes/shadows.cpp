@@ -8,12 +8,12 @@
 
 namespace bolt::render {
 
-namespace {
-
 using gpu::ResourceUse;
 
+namespace {
+
 // Hashes everything that determines the static shadow map; never 0, which stands for "no map yet".
-std::uint64_t static_map_key(const Scene& scene, const glm::mat4& shadow_from_world) {
+std::uint64_t make_static_map_key(const Scene& scene, const glm::mat4& shadow_from_world) {
     Fnv1a hash;
     const auto add = [&](const void* data, std::size_t size) {
         hash.add(std::span(static_cast<const std::byte*>(data), size));
@@ -25,18 +25,19 @@ std::uint64_t static_map_key(const Scene& scene, const glm::mat4& shadow_from_wo
         add(&object.mesh, sizeof object.mesh);
         add(glm::value_ptr(object.world), sizeof object.world);
         if (object.deformation == nullptr) continue;
-        const Deformation& bent = *object.deformation;
-        add(bent.joints.data(), bent.joints.size() * sizeof(glm::mat4));
-        add(bent.weights.data(), bent.weights.size() * sizeof(float));
+        const Deformation& deformation = *object.deformation;
+        add(deformation.joints.data(), deformation.joints.size() * sizeof(glm::mat4));
+        add(deformation.weights.data(), deformation.weights.size() * sizeof(float));
     }
     return hash.value() != 0 ? hash.value() : 1;
 }
 
-Scene casters(const Scene& scene, bool moving) {
-    Scene some;
+// Returns a scene with those objects that cast a shadow and move, or do not move.
+Scene shadow_casters(const Scene& scene, bool moving) {
+    Scene casters;
     for (const Object& object : scene.objects)
-        if (casts_shadow(object) && object.moves == moving) some.objects.push_back(object);
-    return some;
+        if (casts_shadow(object) && object.moves == moving) casters.objects.push_back(object);
+    return casters;
 }
 
 Result<gpu::Image> make_map(gpu::Device& device, std::uint32_t size) {
@@ -65,10 +66,10 @@ void copy_map(VkCommandBuffer commands, const gpu::Image& from, const gpu::Image
 
 }  // namespace
 
-Result<ShadowPass> ShadowPass::create(const PassMaker& maker, std::uint32_t size) {
+Result<ShadowPass> ShadowPass::create(const PassSetup& setup, std::uint32_t size) {
     ShadowPass pass;
     gpu::GraphicsInfo info;
-    info.vertex = &maker.shaders.at("shadow.vert");
+    info.vertex = &setup.shaders.at("shadow.vert");
     info.streams = {{0, VK_FORMAT_R32G32B32_SFLOAT, 0, 0}};
     info.strides = {sizeof(glm::vec3)};
     info.depth = depth_format;
@@ -76,10 +77,10 @@ Result<ShadowPass> ShadowPass::create(const PassMaker& maker, std::uint32_t size
     info.depth_compare = VK_COMPARE_OP_LESS;
     info.depth_clamp = true;
     info.depth_bias_slope = 1.5F;
-    BOLT_TRY(assign(pass.pipeline_, gpu::make_graphics_pipeline(maker.device, maker.cache, info)));
-    BOLT_TRY(assign(pass.still_, make_map(maker.device, size)));
-    BOLT_TRY(gpu::submit_and_wait(maker.device, [&](VkCommandBuffer commands) {
-        gpu::image_barrier(commands, pass.still_.get(), ResourceUse::undefined, ResourceUse::depth_read,
+    BOLT_TRY(assign(pass.pipeline_, gpu::make_graphics_pipeline(setup.device, setup.cache, info)));
+    BOLT_TRY(assign(pass.static_map_, make_map(setup.device, size)));
+    BOLT_TRY(gpu::submit_and_wait(setup.device, [&](VkCommandBuffer commands) {
+        gpu::image_barrier(commands, pass.static_map_.get(), ResourceUse::undefined, ResourceUse::depth_read,
                            depth_range);
     }));
     return pass;
@@ -87,9 +88,9 @@ Result<ShadowPass> ShadowPass::create(const PassMaker& maker, std::uint32_t size
 
 bool ShadowPass::describe(const Scene& scene, shared::FrameData& frame) {
     if (!casts_shadow(scene)) return false;
-    Scene still = casters(scene, false);
-    if (still.objects.empty()) still = casters(scene, true);
-    frame.shadow_from_world = shadow_view(bounds(still), glm::vec3(scene.lights.front().light.direction));
+    Scene casters = shadow_casters(scene, false);
+    if (casters.objects.empty()) casters = shadow_casters(scene, true);
+    frame.shadow_from_world = shadow_view(bounds(casters), glm::vec3(scene.lights.front().light.direction));
     return true;
 }
 
@@ -100,29 +101,30 @@ Status ShadowPass::draw(PassContext& context) {
     const glm::mat4& m = context.shared.shadow_from_world;
     DetailLimits detail;
     detail.allowed_m = 1.0F / (glm::length(glm::vec3(m[0].x, m[1].x, m[2].x)) * 0.5F *
-                               static_cast<float>(still_.info().extent.width));
-    const std::uint64_t key = static_map_key(context.scene, m);
-    const DrawList moving = make_draw_list(casters(context.scene, true), {}, detail, context.deformed);
+                               static_cast<float>(static_map_.info().extent.width));
+    const std::uint64_t key = make_static_map_key(context.scene, m);
+    const DrawList moving = make_draw_list(shadow_casters(context.scene, true), {}, detail, context.deformed);
     moving_ = !moving.draws.empty();
-    if (key == still_key_ && !moving_) return {};
+    if (key == static_map_key_ && !moving_) return {};
     context.frame.begin_timing("shadow");
-    if (key != still_key_) {
-        still_key_ = 0;
-        const DrawList list = make_draw_list(casters(context.scene, false), {}, detail, context.deformed);
-        gpu::image_barrier_discarding(context.frame.commands(), still_.get(), ResourceUse::depth_read,
+    if (key != static_map_key_) {
+        static_map_key_ = 0;
+        const DrawList list =
+            make_draw_list(shadow_casters(context.scene, false), {}, detail, context.deformed);
+        gpu::image_barrier_discarding(context.frame.commands(), static_map_.get(), ResourceUse::depth_read,
                                       ResourceUse::depth_target, depth_range);
-        BOLT_TRY(draw_into(context, still_, list, true));
-        still_key_ = key;
+        BOLT_TRY(draw_into(context, static_map_, list, true));
+        static_map_key_ = key;
         drawn_ = true;
     }
     if (moving_) {
-        if (all_.get() == VK_NULL_HANDLE) {
-            BOLT_TRY(assign(all_, make_map(context.device, still_.info().extent.width)));
-            gpu::image_barrier(context.frame.commands(), all_.get(), ResourceUse::undefined,
+        if (combined_map_.get() == VK_NULL_HANDLE) {
+            BOLT_TRY(assign(combined_map_, make_map(context.device, static_map_.info().extent.width)));
+            gpu::image_barrier(context.frame.commands(), combined_map_.get(), ResourceUse::undefined,
                                ResourceUse::depth_read, depth_range);
         }
-        copy_map(context.frame.commands(), still_, all_);
-        BOLT_TRY(draw_into(context, all_, moving, false));
+        copy_map(context.frame.commands(), static_map_, combined_map_);
+        BOLT_TRY(draw_into(context, combined_map_, moving, false));
     }
     context.frame.end_timing();
     return {};
@@ -149,8 +151,6 @@ Status ShadowPass::draw_into(PassContext& context, const gpu::Image& target, con
     return {};
 }
 
-using gpu::ResourceUse;
-
 namespace {
 
 template <class Bind>
@@ -162,16 +162,16 @@ Result<VkDescriptorSet> make_set(PassContext& context, const gpu::Pipeline& pipe
 
 }  // namespace
 
-Result<OcclusionPass> OcclusionPass::create(const PassMaker& maker, std::uint32_t views) {
+Result<OcclusionPass> OcclusionPass::create(const PassSetup& setup, std::uint32_t views) {
     OcclusionPass pass;
     gpu::GraphicsInfo info;
-    draw_views(info, views);
-    info.vertex = &maker.shaders.at("screen.vert");
+    set_views(info, views);
+    info.vertex = &setup.shaders.at("screen.vert");
     info.cull = VK_CULL_MODE_NONE;
     info.depth = depth_format;
     const auto make = [&](gpu::Pipeline& to, const char* fragment) {
-        info.fragment = &maker.shaders.at(fragment);
-        return assign(to, gpu::make_graphics_pipeline(maker.device, maker.cache, info));
+        info.fragment = &setup.shaders.at(fragment);
+        return assign(to, gpu::make_graphics_pipeline(setup.device, setup.cache, info));
     };
     info.depth_compare = VK_COMPARE_OP_ALWAYS;
     BOLT_TRY(make(pass.shrink_, "shrink.frag"));
@@ -183,7 +183,7 @@ Result<OcclusionPass> OcclusionPass::create(const PassMaker& maker, std::uint32_
     gpu::SamplerInfo nearest;
     nearest.address = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     nearest.filter = VK_FILTER_NEAREST;
-    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(maker.device, nearest)));
+    BOLT_TRY(assign(pass.nearest_, gpu::make_sampler(setup.device, nearest)));
     return pass;
 }
 
@@ -210,8 +210,8 @@ Status OcclusionPass::shrink(PassContext& context, const RenderTargets& targets)
     return {};
 }
 
-void OcclusionPass::fill(PassContext& context, const RenderTargets& targets, const gpu::Pipeline& pipeline,
-                         VkDescriptorSet set, const gpu::Image& target) {
+void OcclusionPass::draw_into(PassContext& context, const RenderTargets& targets,
+                              const gpu::Pipeline& pipeline, VkDescriptorSet set, const gpu::Image& target) {
     const VkCommandBuffer commands = context.frame.commands();
     gpu::image_barrier_discarding(commands, target.get(), ResourceUse::sampled, ResourceUse::color_target);
     VkRenderingAttachmentInfo color = attachment(target.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
@@ -248,8 +248,8 @@ Status OcclusionPass::draw(PassContext& context, RenderTargets& targets) {
 
     context.frame.begin_timing("occlusion");
     BOLT_TRY(shrink(context, targets));
-    fill(context, targets, slices_, slices_set, targets.raw_occlusion);
-    fill(context, targets, smooth_, smooth_set, targets.occlusion);
+    draw_into(context, targets, slices_, slices_set, targets.raw_occlusion);
+    draw_into(context, targets, smooth_, smooth_set, targets.occlusion);
     context.frame.end_timing();
     return {};
 }

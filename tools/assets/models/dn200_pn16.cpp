@@ -1,3 +1,4 @@
+// The pair of flanges DN200 PN16 on stands (shipped.hpp).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -32,7 +33,7 @@ gp_Pnt on_bolt_circle(int index, double x) {
 TopoDS_Shape flange() {
     const double bore = 0.5 * A - S, edge = 1.5,
                  land = 1.6;  // land: flat part of the welding end below its 30° bevel
-    Profile outline({bore, 0.0});
+    ProfileOutline outline({bore, 0.0});
     outline.line({0.5 * raised_face - 0.5, 0.0})
         .line({0.5 * raised_face, -0.5})
         .line({0.5 * raised_face, -raised})
@@ -75,7 +76,7 @@ TopoDS_Shape ring(double inner, double outer, double z0, double z1) {
 // The weld seam: a low bead over the bevels, with root and cap.
 TopoDS_Shape weld() {
     const double bore = 0.5 * A - S, r = 0.5 * A, half = 5.0;
-    Profile bead({bore + 0.3, -H - 0.5 * weld_gap - 1.5});
+    ProfileOutline bead({bore + 0.3, -H - 0.5 * weld_gap - 1.5});
     bead.line({bore + 0.3, -H - 0.5 * weld_gap + 1.5})
         .line({r - 0.3, -H - 0.5 * weld_gap + half})
         .arc({r + 1.8, -H - 0.5 * weld_gap}, {r - 0.3, -H - 0.5 * weld_gap - half});
@@ -136,20 +137,20 @@ gp_Trsf to_pipe(bool downstream, double offset) {
 
 }  // namespace
 
-Status add_dn200_pn16(Document& document) {
+Status add_dn200_pn16(CadDocument& document) {
     const TopoDS_Shape flange_shape = only_solid(flange());
     const TopoDS_Shape stand_shape = only_solid(stand());
     if (flange_shape.IsNull() || stand_shape.IsNull() || !is_valid_solid(flange_shape) ||
         !is_valid_solid(stand_shape))
-        return fail(ErrorCode::failed, "flange or stand did not become one closed, valid solid");
-    const Part flange_part = document.add_part("flange_DN200_PN16", flange_shape, finish::machined_steel);
-    const Part pipe_part = document.add_part("pipe_219x6", pipe(), finish::galvanised_sheet);
-    const Part weld_part = document.add_part("weld_seam", weld(), finish::gear_steel);
-    const Part gasket_part = document.add_part(
+        return fail(ErrorCode::failed, "dn200-pn16: flange or stand is not one closed, valid solid");
+    const CadPart flange_part = document.add_part("flange_DN200_PN16", flange_shape, finish::machined_steel);
+    const CadPart pipe_part = document.add_part("pipe_219x6", pipe(), finish::galvanised_sheet);
+    const CadPart weld_part = document.add_part("weld_seam", weld(), finish::gear_steel);
+    const CadPart gasket_part = document.add_part(
         "gasket_DN200_PN16",
         ring(0.5 * gasket_inner, 0.5 * gasket_outer, -0.5 * gasket_thickness, 0.5 * gasket_thickness),
         finish::gasket);
-    const Part stand_part = document.add_part("stand", stand_shape, finish::painted_cast_iron);
+    const CadPart stand_part = document.add_part("stand", stand_shape, finish::painted_cast_iron);
 
     for (const bool downstream : {false, true}) {
         const char* side = downstream ? "downstream" : "upstream";

@@ -53,13 +53,13 @@ void silence_progress() {
         printer.Value()->SetTraceLevel(Message_Fail);
 }
 
-using InstanceNames = std::map<std::string, std::vector<std::string>>;  // names of a group's children, in the
-                                                                        // order in which they were added
+// The names of each group's children, in the order in which they were added.
+using InstanceNames = std::map<std::string, std::vector<std::string>>;
 
 // Makes ids and names depend on the document alone. The writer's running numbers continue from file to file
 // within a process, and it loses some names of instances.
 void restore_names(const Handle(StepData_StepModel) & model, const InstanceNames& instances) {
-    std::map<std::string, std::size_t> seen;
+    std::map<std::string, std::size_t> used_names;
     int use = 0;
     for (int i = 1; i <= model->NbEntities(); ++i) {
         const Handle(Standard_Transient) entity = model->Value(i);
@@ -71,28 +71,28 @@ void restore_names(const Handle(StepData_StepModel) & model, const InstanceNames
             occurrence->RelatingProductDefinition()->Formation()->OfProduct()->Name()->ToCString();
         occurrence->SetId(text(std::to_string(++use)));
         const auto names = instances.find(parent);
-        if (names != instances.end() && seen[parent] < names->second.size())
-            occurrence->SetName(text(names->second[seen[parent]++]));
+        if (names != instances.end() && used_names[parent] < names->second.size())
+            occurrence->SetName(text(names->second[used_names[parent]++]));
     }
 }
 
-// The same entities in an order that does not depend on addresses. The writer appends the colours of the
-// parts in the order of a hash table; here they follow the order of the parts.
+// Returns the same entities in an order that does not depend on addresses. The writer appends the colours of
+// the parts in the order of a hash table; here they follow the order of the parts.
 Handle(StepData_StepModel)
     in_part_order(const Handle(StepData_StepModel) & model, const Interface_Protocol& protocol) {
-    using Looks = StepVisual_MechanicalDesignGeometricPresentationRepresentation;
+    using StyledRepresentation = StepVisual_MechanicalDesignGeometricPresentationRepresentation;
     Handle(StepData_StepModel) ordered = Handle(StepData_StepModel)::DownCast(model->NewEmptyModel());
-    std::map<int, Handle(Looks)> looks;
+    std::map<int, Handle(StyledRepresentation)> styles;
     for (int i = 1; i <= model->NbEntities(); ++i) {
-        const auto look = Handle(Looks)::DownCast(model->Value(i));
-        if (!look.IsNull()) {
-            const auto first = Handle(StepVisual_StyledItem)::DownCast(look->ItemsValue(1));
-            looks.emplace(first.IsNull() ? i : model->Number(first->Item()), look);
-        } else if (looks.empty()) {
+        const auto style = Handle(StyledRepresentation)::DownCast(model->Value(i));
+        if (!style.IsNull()) {
+            const auto first = Handle(StepVisual_StyledItem)::DownCast(style->ItemsValue(1));
+            styles.emplace(first.IsNull() ? i : model->Number(first->Item()), style);
+        } else if (styles.empty()) {
             ordered->AddEntity(model->Value(i));
         }
     }
-    for (const auto& [number, look] : looks) ordered->AddWithRefs(look, &protocol);
+    for (const auto& [number, style] : styles) ordered->AddWithRefs(style, &protocol);
     for (int i = 1; i <= model->NbEntities(); ++i)
         if (!ordered->Contains(model->Value(i))) ordered->AddEntity(model->Value(i));
     return ordered;
@@ -116,7 +116,7 @@ void set_header(const Handle(StepData_StepModel) & model, const std::string& nam
 
 }  // namespace
 
-struct Document::State {
+struct CadDocument::State {
     std::string name;
     Handle(TDocStd_Document) document = new TDocStd_Document("MDTV-XCAF");
     Handle(XCAFDoc_ShapeTool) shapes;
@@ -141,7 +141,8 @@ struct Document::State {
         return label;
     }
 
-    void place(Group parent, const TDF_Label& child, std::string_view instance, const gp_Trsf& placement) {
+    void add_component(CadGroup parent, const TDF_Label& child, std::string_view instance,
+                       const gp_Trsf& placement) {
         reserve(node_names, instance);
         instances[group_names[static_cast<std::size_t>(parent.id)]].emplace_back(instance);
         const TDF_Label component = shapes->AddComponent(groups[static_cast<std::size_t>(parent.id)], child,
@@ -150,7 +151,7 @@ struct Document::State {
     }
 };
 
-Document::Document(std::string_view name) : state_(std::make_unique<State>()) {
+CadDocument::CadDocument(std::string_view name) : state_(std::make_unique<State>()) {
     XCAFDoc_ShapeTool::SetAutoNaming(Standard_False);
     state_->name = name;
     state_->shapes = XCAFDoc_DocumentTool::ShapeTool(state_->document->Main());
@@ -159,12 +160,12 @@ Document::Document(std::string_view name) : state_(std::make_unique<State>()) {
     state_->new_group(name);
 }
 
-Document::~Document() = default;
-Document::Document(Document&&) noexcept = default;
-Document& Document::operator=(Document&&) noexcept = default;
+CadDocument::~CadDocument() = default;
+CadDocument::CadDocument(CadDocument&&) noexcept = default;
+CadDocument& CadDocument::operator=(CadDocument&&) noexcept = default;
 
-Part Document::add_part(std::string_view name, const TopoDS_Shape& shape, Finish finish,
-                        std::span<const FaceFinish> faces) {
+CadPart CadDocument::add_part(std::string_view name, const TopoDS_Shape& shape, Finish finish,
+                              std::span<const FaceFinish> faces) {
     state_->reserve(state_->part_names, name);
     const TDF_Label label = state_->shapes->AddShape(shape, Standard_False);
     TDataStd_Name::Set(label, std::string(name).c_str());
@@ -179,21 +180,22 @@ Part Document::add_part(std::string_view name, const TopoDS_Shape& shape, Finish
     return {static_cast<int>(state_->parts.size()) - 1};
 }
 
-Group Document::add_group(Group parent, std::string_view name, const gp_Trsf& placement) {
+CadGroup CadDocument::add_group(CadGroup parent, std::string_view name, const gp_Trsf& placement) {
     const TDF_Label label = state_->new_group(name);
-    state_->place(parent, label, name, placement);
+    state_->add_component(parent, label, name, placement);
     return {static_cast<int>(state_->groups.size()) - 1};
 }
 
-void Document::add_instance(Group parent, std::string_view name, Part part, const gp_Trsf& placement) {
-    state_->place(parent, state_->parts[static_cast<std::size_t>(part.id)], name, placement);
+void CadDocument::add_instance(CadGroup parent, std::string_view name, CadPart part,
+                               const gp_Trsf& placement) {
+    state_->add_component(parent, state_->parts[static_cast<std::size_t>(part.id)], name, placement);
 }
 
-const TopoDS_Shape& Document::shape(Part part) const {
+const TopoDS_Shape& CadDocument::shape(CadPart part) const {
     return state_->part_shapes[static_cast<std::size_t>(part.id)];
 }
 
-Status Document::write_step(const std::string& path) {
+Status CadDocument::write_step(const std::string& path) {
     if (!state_->duplicate_name.empty())
         return fail(ErrorCode::bad_content,
                     fmt::format("{}: the name \"{}\" is used twice", path, state_->duplicate_name),
@@ -220,7 +222,8 @@ Status Document::write_step(const std::string& path) {
     step.SendModel(protocol);
     std::ofstream file(path, std::ios::binary);
     if (!step.Print(file) || !file.flush())
-        return fail(ErrorCode::failed, fmt::format("{}: cannot be written", path), "a writable folder");
+        return fail(ErrorCode::failed, fmt::format("{}: cannot be written", path),
+                    "a path in a writable folder");
     return {};
 }
 

@@ -45,33 +45,33 @@ struct FaceFinish {
 };
 
 // A shape in the document, which add_instance places. Valid as long as its document.
-struct Part {
+struct CadPart {
     int id = -1;
 };
 
 // A node of the tree. It holds instances and further groups.
-struct Group {
+struct CadGroup {
     int id = -1;
 };
 
-class Document {
+class CadDocument {
   public:
-    explicit Document(std::string_view name);  // `name` becomes the name of the root group
-    ~Document();
-    Document(Document&&) noexcept;
-    Document& operator=(Document&&) noexcept;
+    explicit CadDocument(std::string_view name);  // `name` becomes the name of the root group
+    ~CadDocument();
+    CadDocument(CadDocument&&) noexcept;
+    CadDocument& operator=(CadDocument&&) noexcept;
 
-    [[nodiscard]] Group root() const { return {0}; }
+    [[nodiscard]] CadGroup root() const { return {0}; }
 
     // `faces` lists the faces whose finish differs from that of the rest of the part.
-    Part add_part(std::string_view name, const TopoDS_Shape& shape, Finish finish,
-                  std::span<const FaceFinish> faces = {});
+    CadPart add_part(std::string_view name, const TopoDS_Shape& shape, Finish finish,
+                     std::span<const FaceFinish> faces = {});
     // Names of groups and instances must be unique in the document: they become the node names of the glTF
     // file.
-    Group add_group(Group parent, std::string_view name, const gp_Trsf& placement = {});
-    void add_instance(Group parent, std::string_view name, Part part, const gp_Trsf& placement = {});
+    CadGroup add_group(CadGroup parent, std::string_view name, const gp_Trsf& placement = {});
+    void add_instance(CadGroup parent, std::string_view name, CadPart part, const gp_Trsf& placement = {});
 
-    [[nodiscard]] const TopoDS_Shape& shape(Part part) const;
+    [[nodiscard]] const TopoDS_Shape& shape(CadPart part) const;
 
     // Writes STEP AP214 with a fixed header. Fails if a name is used twice or the file cannot be written.
     Status write_step(const std::string& path);

@@ -57,7 +57,7 @@ TopoDS_Shape head_and_shank(const BoltSpec& s, double shank_end) {
         {{0.0, -k}, {top, -k}, {corner, -k + (corner - top) * slope}, {corner, -face}, {0.0, -face}});
     const TopoDS_Shape prism = BRepAlgoAPI_Common(hexagon(s.across_flats, -k, -face), turned);
     const double r = head_fillet(s.d), neck = 0.5 * s.d;
-    Profile stem({0.0, -face});
+    ProfileOutline stem({0.0, -face});
     stem.line({0.5 * s.head_bearing, -face})
         .line({0.5 * s.head_bearing, 0.0})
         .line({neck + r, 0.0})
@@ -76,7 +76,7 @@ TopoDS_Shape head_and_shank(const BoltSpec& s, double shank_end) {
 
 // The thread of a bolt from z0 to `length`. It has its full depth from `full_from` on.
 ThreadField outer_thread(double d, double pitch, double z0, double full_from, double length) {
-    const joint::Thread thread = joint::metric_thread(d * mm, pitch * mm);
+    const joint::ScrewThread thread = joint::metric_thread(d * mm, pitch * mm);
     ThreadField field;
     field.pitch = pitch;
     field.r_crest = 0.5 * d;
@@ -95,7 +95,7 @@ ThreadField outer_thread(double d, double pitch, double z0, double full_from, do
 Result<TopoDS_Shape> checked(const TopoDS_Shape& shape, std::string_view what) {
     TopoDS_Shape solid = only_solid(shape);
     if (solid.IsNull() || !is_valid_solid(solid))
-        return fail(ErrorCode::failed, fmt::format("{}: did not become one closed, valid solid", what));
+        return fail(ErrorCode::failed, fmt::format("{}: is not one closed, valid solid", what));
     return solid;
 }
 
@@ -128,13 +128,13 @@ Result<WasherSpec> iso_7089(std::string_view size) {
 }
 
 Result<SocketScrewSpec> iso_4762(std::string_view size, double length_mm) {
-    struct Row {
+    struct SocketScrewSize {
         double d, head, socket, thread_length;
     };
-    constexpr Row rows[] = {{4, 7, 3, 20},  {5, 8.5, 4, 22}, {6, 10, 5, 24},
-                            {8, 13, 6, 28}, {10, 16, 8, 32}, {12, 18, 10, 36}};
+    constexpr SocketScrewSize rows[] = {{4, 7, 3, 20},  {5, 8.5, 4, 22}, {6, 10, 5, 24},
+                                        {8, 13, 6, 28}, {10, 16, 8, 32}, {12, 18, 10, 36}};
     BOLT_TRY_ASSIGN(const auto found, joint::parse_thread(size));
-    for (const Row& row : rows)
+    for (const SocketScrewSize& row : rows)
         if (std::abs(row.d * mm - found.size.d) < 1e-9)
             return SocketScrewSpec{row.d,     found.thread.pitch / mm,
                                    length_mm, std::min(row.thread_length, length_mm),
@@ -208,7 +208,7 @@ Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec, ThreadDetail deta
     const double k = spec.head_height, ro = 0.5 * spec.head_diameter, round = 0.1 * spec.d;
     const double full_from = std::max(spec.length - spec.thread_length, 1.0);
     const double shank_end = std::max(full_from - 2.0 * spec.pitch, 0.5 * full_from);
-    Profile outline({0.0, -k});
+    ProfileOutline outline({0.0, -k});
     outline.line({ro - round, -k})
         .arc({ro - round * (1.0 - std::sqrt(0.5)), -k + round * (1.0 - std::sqrt(0.5))}, {ro, -k + round})
         .line({ro, 0.0})
@@ -240,7 +240,7 @@ Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec, ThreadDetail deta
     return checked(glued(head, rod), name);
 }
 
-Result<FastenerParts> add_fasteners(Document& document, std::string_view size, double length_mm,
+Result<FastenerParts> add_fasteners(CadDocument& document, std::string_view size, double length_mm,
                                     Finish finish, const FastenerParts* shared, std::string_view grade) {
     BOLT_TRY_ASSIGN(auto bolt_spec, iso_4014(size, length_mm));
     bolt_spec.grade = grade;
@@ -259,10 +259,10 @@ Result<FastenerParts> add_fasteners(Document& document, std::string_view size, d
     return parts;
 }
 
-Group add_joint(Document& document, Group parent, std::string_view id, const FastenerParts& parts,
-                double grip_mm, const gp_Trsf& placement) {
+CadGroup add_joint(CadDocument& document, CadGroup parent, std::string_view id, const FastenerParts& parts,
+                   double grip_mm, const gp_Trsf& placement) {
     const double h = parts.washer_spec.thickness;
-    const Group group = document.add_group(parent, fmt::format("joint_{}", id), placement);
+    const CadGroup group = document.add_group(parent, fmt::format("joint_{}", id), placement);
     document.add_instance(group, fmt::format("{}_bolt", id), parts.bolt, shift(0.0, 0.0, -grip_mm - h));
     document.add_instance(group, fmt::format("{}_washer_head", id), parts.washer,
                           shift(0.0, 0.0, -grip_mm - h));

@@ -69,7 +69,7 @@ Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec, ThreadDetail deta
 
 // Bolt, nut and washer as parts of a document. All joints of one type share them.
 struct FastenerParts {
-    Part bolt, nut, washer;
+    CadPart bolt, nut, washer;
     BoltSpec bolt_spec;
     NutSpec nut_spec;
     WasherSpec washer_spec;
@@ -77,15 +77,15 @@ struct FastenerParts {
 
 // Adds the parts bolt_M16x180, nut_M16 and washer_M16. With `shared`, a set of the same size, only the bolt
 // is added and nut and washer are taken from that set.
-Result<FastenerParts> add_fasteners(Document& document, std::string_view size, double length_mm,
+Result<FastenerParts> add_fasteners(CadDocument& document, std::string_view size, double length_mm,
                                     Finish finish, const FastenerParts* shared = nullptr,
                                     std::string_view grade = {});
 
 // Adds the group joint_ID with ID_bolt, ID_washer_head, ID_washer_nut and ID_nut, with the nut seated. The
 // origin of `placement` is in the middle of the hole on the face under the nut's washer, its +Z points to the
 // nut. grip_mm is the thickness of the clamped members without washers.
-Group add_joint(Document& document, Group parent, std::string_view id, const FastenerParts& parts,
-                double grip_mm, const gp_Trsf& placement);
+CadGroup add_joint(CadDocument& document, CadGroup parent, std::string_view id, const FastenerParts& parts,
+                   double grip_mm, const gp_Trsf& placement);
 
 // The angle (rad, about +Z) of a nut whose origin lies `dz` mm beyond the bolt's, so that the threads mesh.
 double nut_phase(double dz, double pitch);

@@ -179,9 +179,9 @@ std::vector<TopoDS_Shape> text_strokes(std::string_view text, double height, dou
                 const gp_Pnt a = at(i), b = at(i + 1);
                 const TopoDS_Shape bar =
                     box(gp_Pnt(0.0, -0.5 * stroke, 0.0), gp_Pnt(a.Distance(b), 0.5 * stroke, z1 - z0));
-                gp_Trsf place = shift(a.X(), a.Y(), a.Z());
-                place.Multiply(turn(gp::OZ(), std::atan2(b.Y() - a.Y(), b.X() - a.X())));
-                pieces.push_back(moved(bar, place));
+                gp_Trsf placement = shift(a.X(), a.Y(), a.Z());
+                placement.Multiply(turn(gp::OZ(), std::atan2(b.Y() - a.Y(), b.X() - a.X())));
+                pieces.push_back(moved(bar, placement));
             }
             result.push_back(fused(pieces));
         }

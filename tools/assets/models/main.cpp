@@ -14,12 +14,12 @@
 namespace {
 
 using bolt::Status;
-using bolt::models::Document;
+using bolt::models::CadDocument;
 
 struct ShippedModel {
     std::string name;  // argument that selects the model
     std::string file;  // path below the content folder
-    std::function<Status(Document&)> build;
+    std::function<Status(CadDocument&)> build;
 };
 
 Status write(const ShippedModel& model, const std::filesystem::path& content) {
@@ -29,7 +29,7 @@ Status write(const ShippedModel& model, const std::filesystem::path& content) {
     if (error)
         return bolt::fail(bolt::ErrorCode::failed, fmt::format("{}: cannot create the folder: {}",
                                                                path.parent_path().string(), error.message()));
-    Document document(path.stem().string());
+    CadDocument document(path.stem().string());
     BOLT_TRY(model.build(document));
     BOLT_TRY(document.write_step(path.string()));
     fmt::print("{}\n", path.string());
@@ -47,13 +47,13 @@ int main(int argc, char** argv) {
         {"dn200-pn16", "assemblies/dn200-pn16/dn200-pn16.step", bolt::models::add_dn200_pn16},
         {"cover-m8", "assemblies/cover-m8/cover-m8.step", bolt::models::add_cover_m8},
         {"tools", "tools/wrench-13.step",
-         [](Document& d) { return bolt::models::add_wrench(d, 13.0, 140.0); }},
+         [](CadDocument& d) { return bolt::models::add_wrench(d, 13.0, 140.0); }},
         {"tools", "tools/wrench-24.step",
-         [](Document& d) { return bolt::models::add_wrench(d, 24.0, 230.0); }},
+         [](CadDocument& d) { return bolt::models::add_wrench(d, 24.0, 230.0); }},
         {"tools", "tools/wrench-30.step",
-         [](Document& d) { return bolt::models::add_wrench(d, 30.0, 380.0); }},
+         [](CadDocument& d) { return bolt::models::add_wrench(d, 30.0, 380.0); }},
         {"tools", "tools/torque-wrench-24.step",
-         [](Document& d) { return bolt::models::add_torque_wrench(d, 24.0); }},
+         [](CadDocument& d) { return bolt::models::add_torque_wrench(d, 24.0); }},
     };
     std::vector<std::string> names = {"all"};
     for (const ShippedModel& model : models) names.push_back(model.name);

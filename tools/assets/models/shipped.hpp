@@ -8,7 +8,7 @@
 namespace bolt::models {
 
 // The two-stage helical gear reducer ZQ350 with its twelve joints. Its dimensions are in reducer/layout.hpp.
-Status add_zq350(Document& document);
+Status add_zq350(CadDocument& document);
 
 // A pair of weld-neck flanges DN200 PN16 with a flat gasket and 12 bolts M20.
 //
@@ -17,18 +17,18 @@ Status add_zq350(Document& document);
 // the standard. Pipe stubs and stands are plausible and follow no standard.
 //
 // The nuts are on the +X side. Seen from there, joints B1 to B12 run clockwise, with B1 first past the top.
-Status add_dn200_pn16(Document& document);
+Status add_dn200_pn16(CadDocument& document);
 
 // A small housing with a cover on four bolts M8: the template for a new assembly. All dimensions are
 // invented. The cover's upper face, under the nuts, lies at CAD z = 10 mm; the bolts stand at (±50, ±40) mm.
-Status add_cover_m8(Document& document);
+Status add_cover_m8(CadDocument& document);
 
 // An open-end wrench for a nut of `size` mm across flats, with `grip` mm from the middle of the jaw to the
 // middle of the grip (wrench.hpp describes its frame).
-Status add_wrench(Document& document, double size, double grip);
+Status add_wrench(CadDocument& document, double size, double grip);
 
 // A click torque wrench with an open-end insert, 40 to 200 N·m. Its proportions are plausible and follow no
 // standard. Its frame is that of the other wrenches, but the head is not turned: the mouth opens towards −X.
-Status add_torque_wrench(Document& document, double size);
+Status add_torque_wrench(CadDocument& document, double size);
 
 }  // namespace bolt::models

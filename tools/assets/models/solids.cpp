@@ -36,13 +36,13 @@ gp_Pnt in_half_plane(const gp_Pnt2d& p) { return {p.X(), 0.0, p.Y()}; }
 
 }  // namespace
 
-Profile& Profile::line(gp_Pnt2d to) {
+ProfileOutline& ProfileOutline::line(gp_Pnt2d to) {
     wire_.Add(BRepBuilderAPI_MakeEdge(in_half_plane(end_), in_half_plane(to)).Edge());
     end_ = to;
     return *this;
 }
 
-Profile& Profile::arc(gp_Pnt2d through, gp_Pnt2d to) {
+ProfileOutline& ProfileOutline::arc(gp_Pnt2d through, gp_Pnt2d to) {
     // The circle's axis is always +Y: revolved about Z, such an arc becomes a torus and not a general surface
     // of revolution.
     const GC_MakeArcOfCircle arc(in_half_plane(end_), in_half_plane(through), in_half_plane(to));
@@ -55,16 +55,18 @@ Profile& Profile::arc(gp_Pnt2d through, gp_Pnt2d to) {
     return *this;
 }
 
-TopoDS_Shape Profile::face() const {
+TopoDS_Shape ProfileOutline::face() const {
     if (end_.Distance(start_) > 1e-9)
         wire_.Add(BRepBuilderAPI_MakeEdge(in_half_plane(end_), in_half_plane(start_)).Edge());
     return BRepBuilderAPI_MakeFace(wire_.Wire(), Standard_True).Face();
 }
 
-TopoDS_Shape revolved(const Profile& profile) { return BRepPrimAPI_MakeRevol(profile.face(), gp::OZ()); }
+TopoDS_Shape revolved(const ProfileOutline& profile) {
+    return BRepPrimAPI_MakeRevol(profile.face(), gp::OZ());
+}
 
 TopoDS_Shape revolved(std::initializer_list<gp_Pnt2d> corners) {
-    Profile profile(*corners.begin());
+    ProfileOutline profile(*corners.begin());
     for (const gp_Pnt2d* corner = corners.begin() + 1; corner != corners.end(); ++corner)
         profile.line(*corner);
     return revolved(profile);

@@ -14,11 +14,11 @@
 namespace bolt::models {
 
 // An outline in the half plane (radius, z), drawn point by point. face() closes it.
-class Profile {
+class ProfileOutline {
   public:
-    explicit Profile(gp_Pnt2d start) : start_(start), end_(start) {}
-    Profile& line(gp_Pnt2d to);
-    Profile& arc(gp_Pnt2d through, gp_Pnt2d to);
+    explicit ProfileOutline(gp_Pnt2d start) : start_(start), end_(start) {}
+    ProfileOutline& line(gp_Pnt2d to);
+    ProfileOutline& arc(gp_Pnt2d through, gp_Pnt2d to);
     [[nodiscard]] TopoDS_Shape face() const;
 
   private:
@@ -27,7 +27,7 @@ class Profile {
 };
 
 // Solids of revolution: a full turn about the Z axis.
-TopoDS_Shape revolved(const Profile& profile);
+TopoDS_Shape revolved(const ProfileOutline& profile);
 TopoDS_Shape revolved(std::initializer_list<gp_Pnt2d> corners);
 
 // A box between two corners.

@@ -1,6 +1,6 @@
 // A screw thread as a height field over the unrolled cylinder, and the rod that it bounds. The radius r(θ, z)
 // is piecewise linear. Therefore the thread, its chamfered start and its run-out are plane polygons in (θ, z,
-// r), which straight lines bound: the solid is exact and needs no sweep. Millimetres.
+// r) with straight edges: the solid is exact and needs no sweep. Millimetres.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -23,7 +23,7 @@ struct ThreadField {
     double r_root = 0.0;
     double crest_half_width = 0.0;  // along the axis
     double half_angle = 0.0;        // of the profile, rad
-    double z0 = 0.0, z1 = 0.0;      // ends; there r must not depend on θ
+    double z0 = 0.0, z1 = 0.0;      // ends; r must not depend on θ there
     // Limits of r that do not depend on θ. Run-outs and countersinks are lower limits, chamfers are upper
     // limits.
     std::vector<FieldPlane> at_least, at_most;
@@ -42,18 +42,18 @@ struct FieldFace {
 
 struct FieldMesh {
     std::vector<FieldVertex> vertices;  // θ in [0, 2π)
-    std::vector<FieldFace>
-        faces;  // adjacent faces share vertices; two faces share every edge between the ends
+    // Adjacent faces share vertices. Each edge between the ends belongs to two faces.
+    std::vector<FieldFace> faces;
 };
 
 FieldMesh polygons(const ThreadField& field);
 
-// θ of a vertex as the sector sees it: sector 1 ends at 2π, not at 0.
+// Returns θ of a vertex within the range of a sector: sector 1 ends at 2π, not at 0.
 double theta_in_sector(const FieldVertex& vertex, int sector);
 
 // The round body under the field as a closed solid about the Z axis, from z0 to z1, with flat ends. Its faces
-// are exact cylinders and cones and ruled flanks; adjacent faces share their edges. An error if the solid is
-// not valid.
+// are exact cylinders and cones and ruled flanks; adjacent faces share their edges. Fails if the solid is not
+// valid.
 Result<TopoDS_Shape> threaded_rod(const ThreadField& field);
 
 }  // namespace bolt::models

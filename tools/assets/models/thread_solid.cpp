@@ -277,8 +277,8 @@ Result<TopoDS_Shape> threaded_rod(const ThreadField& field) {
     builder.build.MakeSolid(solid);
     builder.build.Add(solid, builder.shell);
     if (!BRepCheck_Analyzer(solid).IsValid())
-        return fail(ErrorCode::failed, "a thread did not become a valid solid",
-                    "a pitch and lengths that fit together");
+        return fail(ErrorCode::failed, "the thread is not a valid solid",
+                    "a pitch and lengths that are consistent");
     return TopoDS_Shape(solid);
 }
 

@@ -1,3 +1,4 @@
+// The click torque wrench (shipped.hpp).
 #include <fmt/format.h>
 
 #include <BRepAdaptor_Surface.hxx>
@@ -67,7 +68,7 @@ Result<TopoDS_Shape> insert(const WrenchSpec& s) {
     });
     body = only_solid(cut(with_jaw(body, s), size_stamps(s)));
     if (body.IsNull() || !is_valid_solid(body))
-        return fail(ErrorCode::failed, "torque wrench: the insert did not become one closed, valid solid");
+        return fail(ErrorCode::failed, "torque wrench insert: is not one closed, valid solid");
     return body;
 }
 
@@ -81,7 +82,7 @@ TopoDS_Shape holder() {
     square = rounded(square, 3.0, [](const gp_Pnt& p, const gp_Dir& along) {
         return std::abs(along.Z()) < 0.5 && std::abs(p.Z() - insert_end - 38.0) < 1e-6;
     });
-    Profile neck({0.0, insert_end + 30.0});
+    ProfileOutline neck({0.0, insert_end + 30.0});
     neck.line({12.9, insert_end + 30.0})
         .line({12.9, holder_end - 9.0})
         .line({14.0, holder_end - 7.0})
@@ -119,7 +120,7 @@ TopoDS_Shape tube() {
 
 TopoDS_Shape grip() {
     const double z0 = sleeve_end, z1 = grip_end, mid = 0.5 * (z0 + z1);
-    Profile outline({0.0, z0});
+    ProfileOutline outline({0.0, z0});
     outline.line({14.5, z0})
         .arc({15.6, z0 + 0.5}, {16.0, z0 + 1.6})
         .line({16.0, z0 + 10.0})
@@ -169,16 +170,16 @@ std::vector<FaceFinish> scale_marks(const TopoDS_Shape& shape) {
 
 }  // namespace
 
-Status add_torque_wrench(Document& document, double size) {
+Status add_torque_wrench(CadDocument& document, double size) {
     WrenchSpec spec = wrench_spec(size, 0.5 * (sleeve_end + grip_end));
     spec.head_angle = 0.0;
     BOLT_TRY_ASSIGN(const auto head, insert(spec));
-    struct Piece {
+    struct WrenchPart {
         std::string_view name;
         TopoDS_Shape shape;
         Finish finish;
     };
-    const Piece pieces[] = {
+    const WrenchPart wrench_parts[] = {
         {"insert", head, finish::chrome_vanadium},
         {"holder", holder(), finish::black_oxide},
         {"tube", tube(), finish::chrome_vanadium},
@@ -186,15 +187,15 @@ Status add_torque_wrench(Document& document, double size) {
         {"sleeve", along_x(knurled(15.2, 0.7, 48, ring_end, sleeve_end)), finish::chrome_vanadium},
         {"grip", grip(), finish::rubber},
         {"knob", knob(), finish::black_oxide}};
-    for (const Piece& piece : pieces) {
-        const TopoDS_Shape solid = only_solid(piece.shape);
+    for (const WrenchPart& part_to_add : wrench_parts) {
+        const TopoDS_Shape solid = only_solid(part_to_add.shape);
         if (solid.IsNull() || !is_valid_solid(solid))
             return fail(ErrorCode::failed,
-                        fmt::format("torque wrench: {} did not become one closed, valid solid", piece.name));
-        const Part part =
-            document.add_part(fmt::format("torque_wrench_{}", piece.name), solid, piece.finish,
-                              piece.name == "tube" ? scale_marks(solid) : std::vector<FaceFinish>{});
-        document.add_instance(document.root(), piece.name, part);
+                        fmt::format("torque wrench {}: is not one closed, valid solid", part_to_add.name));
+        const CadPart part =
+            document.add_part(fmt::format("torque_wrench_{}", part_to_add.name), solid, part_to_add.finish,
+                              part_to_add.name == "tube" ? scale_marks(solid) : std::vector<FaceFinish>{});
+        document.add_instance(document.root(), part_to_add.name, part);
     }
     return {};
 }

@@ -76,14 +76,14 @@ TopoDS_Shape with_jaw(const TopoDS_Shape& forging, const WrenchSpec& s) {
 std::vector<TopoDS_Shape> size_stamps(const WrenchSpec& s) {
     const HeadDimensions h = head_of(s);
     const gp_Trsf to_head = turn(gp::OZ(), s.head_angle);
-    const gp_Trsf place =
+    const gp_Trsf placement =
         to_head * shift(0.5 * (h.throat + h.middle + h.radius), 0.0, 0.0) * turn(gp::OZ(), -0.5 * pi);
     const gp_Trsf below = to_head * turn(gp::OX(), pi) * to_head.Inverted();
     const double face = 0.5 * s.head_thickness, height = 0.2 * s.size;
     std::vector<TopoDS_Shape> stamps;
     for (const TopoDS_Shape& stroke :
          text_strokes(fmt::format("{:g}", s.size), height, 0.17 * height, face - 0.35, face + 1.0)) {
-        stamps.push_back(moved(stroke, place));
+        stamps.push_back(moved(stroke, placement));
         stamps.push_back(moved(stamps.back(), below));
     }
     return stamps;
@@ -201,7 +201,7 @@ Result<TopoDS_Shape> open_end_wrench(const WrenchSpec& s) {
 
     body = with_jaw(body, s);
 
-    // Hollows on both sides of the handle leave an I section. The size stands raised in them.
+    // Hollows on both sides of the handle leave an I section. The size is raised in them.
     const double rim = 0.17 * s.handle_width, depth = 0.17 * s.handle_thickness;
     const double z = 0.5 * s.handle_thickness, from = 0.42 * s.head_width + 1.75 * s.size,
                  to = s.end - 1.9 * r_end;
@@ -240,12 +240,11 @@ Result<TopoDS_Shape> open_end_wrench(const WrenchSpec& s) {
     out.back() = moved(out.back(), shift(s.end - r_end, 0.0, 0.0));
     body = only_solid(cut(body, out));
     if (body.IsNull() || !is_valid_solid(body))
-        return fail(ErrorCode::failed,
-                    fmt::format("wrench {}: did not become one closed, valid solid", size));
+        return fail(ErrorCode::failed, fmt::format("wrench {}: is not one closed, valid solid", size));
     return body;
 }
 
-Status add_wrench(Document& document, double size, double grip) {
+Status add_wrench(CadDocument& document, double size, double grip) {
     BOLT_TRY_ASSIGN(const auto shape, open_end_wrench(wrench_spec(size, grip)));
     const std::string name = fmt::format("wrench_{:g}", size);
     document.add_instance(document.root(), name,

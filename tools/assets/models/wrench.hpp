@@ -1,4 +1,5 @@
-// Open-end wrenches that look forged. Their proportions follow common tools and no standard. Millimetres.
+// Open-end wrenches with a forged appearance. Their proportions follow common tools and no standard.
+// Millimetres.
 // Frame: origin in the middle of the jaw at mid thickness, +X along the handle, +Z normal to the flat. The
 // mouth opens towards −X turned by 15° about z.
 #pragma once

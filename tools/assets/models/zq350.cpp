@@ -1,3 +1,4 @@
+// Assembles the reducer ZQ350 from the parts in reducer/.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -23,32 +24,33 @@ gp_Trsf shifted(double x, double y, double z) {
 }
 
 // Adds a part without an instance; the caller places it once or many times.
-Result<Part> add(Document& document, std::string_view name, const Result<TopoDS_Shape>& shape,
-                 Finish finish) {
+Result<CadPart> add(CadDocument& document, std::string_view name, const Result<TopoDS_Shape>& shape,
+                    Finish finish) {
     if (!shape) return fail(shape.error());
     return document.add_part(name, *shape, finish);
 }
 
-Status add_single(Document& document, Group group, std::string_view name, const Result<TopoDS_Shape>& shape,
-                  Finish finish, const gp_Trsf& placement = {}) {
+Status add_single(CadDocument& document, CadGroup group, std::string_view name,
+                  const Result<TopoDS_Shape>& shape, Finish finish, const gp_Trsf& placement = {}) {
     BOLT_TRY_ASSIGN(const auto part, add(document, name, shape, finish));
     document.add_instance(group, name, part, placement);
     return {};
 }
 
-Status add_casing(Document& document, std::string_view name, const Result<Casting>& casting) {
+Status add_casing(CadDocument& document, std::string_view name, const Result<Casting>& casting) {
     if (!casting) return fail(casting.error());
-    const Part part = document.add_part(name, casting->shape, finish::painted_cast_iron, casting->machined);
+    const CadPart part =
+        document.add_part(name, casting->shape, finish::painted_cast_iron, casting->machined);
     document.add_instance(document.root(), name, part);
     return {};
 }
 
-void add_drive_part(Document& document, Group group, const DrivePart& part) {
+void add_drive_part(CadDocument& document, CadGroup group, const DrivePart& part) {
     document.add_instance(group, part.name,
                           document.add_part(part.name, part.shape, part.finish, part.faces));
 }
 
-Status add_bearings(Document& document, Group group) {
+Status add_bearings(CadDocument& document, CadGroup group) {
     constexpr std::array<std::string_view, 3> size{"NJ306", "NJ309", "NJ213"};
     constexpr std::array<std::string_view, 3> shaft_names{"input", "intermediate", "output"};
     for (std::size_t i = 0; i < shafts.size(); ++i) {
@@ -68,8 +70,8 @@ Status add_bearings(Document& document, Group group) {
     return {};
 }
 
-Status add_drive(Document& document) {
-    const Group group = document.add_group(document.root(), "drive");
+Status add_drive(CadDocument& document) {
+    const CadGroup group = document.add_group(document.root(), "drive");
     for (const Result<DrivePart>& part :
          {input_shaft(), intermediate_shaft(), output_shaft(), first_wheel(), second_wheel()}) {
         if (!part) return fail(part.error());
@@ -80,7 +82,7 @@ Status add_drive(Document& document) {
     return add_bearings(document, group);
 }
 
-Result<Part> add_screw(Document& document, double length) {
+Result<CadPart> add_screw(CadDocument& document, double length) {
     BOLT_TRY_ASSIGN(const auto spec, iso_4762("M8", length));
     return add(document, fmt::format("screw_M8x{}", length), socket_screw(spec), finish::black_oxide);
 }
@@ -107,10 +109,10 @@ constexpr std::array<CapLayout, 6> caps{{{"input_front", 0, true, 30.0, 47.0, 7.
                                          {"output_front", 2, true, 0.0, 0.0, 0.0},
                                          {"output_back", 2, false, 60.0, 80.0, 8.0}}};
 
-Status add_caps(Document& document) {
-    const Group group = document.add_group(document.root(), "end_caps");
+Status add_caps(CadDocument& document) {
+    const CadGroup group = document.add_group(document.root(), "end_caps");
     BOLT_TRY_ASSIGN(const auto screw, add_screw(document, 25.0));
-    Part cap;  // the two caps of the intermediate shaft share one part
+    CadPart cap;  // the two caps of the intermediate shaft share one part
     for (const CapLayout& layout : caps) {
         const ShaftLayout& shaft = shafts[layout.shaft];
         const CapSpec spec = cap_spec(shaft, layout.through, layout.seal_outer, layout.seal_width);
@@ -135,8 +137,8 @@ Status add_caps(Document& document) {
     return {};
 }
 
-Status add_hatch(Document& document) {
-    const Group group = document.add_group(document.root(), "inspection_cover", hatch_frame());
+Status add_hatch(CadDocument& document) {
+    const CadGroup group = document.add_group(document.root(), "inspection_cover", hatch_frame());
     const double top = hatch.gasket + hatch.cover;
     BOLT_TRY(add_single(document, group, "cover_gasket", hatch_gasket(), finish::gasket));
     BOLT_TRY(add_single(document, group, "cover_plate", hatch_cover(), finish::painted_cast_iron));
@@ -149,8 +151,8 @@ Status add_hatch(Document& document) {
     return {};
 }
 
-Status add_fittings(Document& document) {
-    const Group group = document.add_group(document.root(), "fittings");
+Status add_fittings(CadDocument& document) {
+    const CadGroup group = document.add_group(document.root(), "fittings");
     struct Fitting {
         std::string_view name;
         Result<TopoDS_Shape> shape;
@@ -174,7 +176,7 @@ Status add_fittings(Document& document) {
     return {};
 }
 
-Status add_joints(Document& document) {
+Status add_joints(CadDocument& document) {
     BOLT_TRY_ASSIGN(const auto long_bolts, add_fasteners(document, "M16", 180.0, finish::zinc_plated));
     BOLT_TRY_ASSIGN(const auto short_bolts,
                     add_fasteners(document, "M16", 75.0, finish::zinc_plated, &long_bolts));
@@ -186,7 +188,7 @@ Status add_joints(Document& document) {
 
 }  // namespace
 
-Status add_zq350(Document& document) {
+Status add_zq350(CadDocument& document) {
     BOLT_TRY(add_casing(document, "casing_lower", casing_lower()));
     BOLT_TRY(add_casing(document, "casing_upper", casing_upper()));
     for (const auto step : {add_drive, add_caps, add_hatch, add_fittings, add_joints})

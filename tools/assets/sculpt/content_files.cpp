@@ -16,7 +16,7 @@ Result<std::filesystem::path> folder(const std::filesystem::path& content, const
     std::filesystem::create_directories(path, error);
     if (!error) return path;
     Error out;
-    out.what = "cannot make the folder: " + error.message();
+    out.what = "cannot create the folder: " + error.message();
     out.file = path.string();
     return fail(out);
 }
@@ -26,7 +26,7 @@ Result<std::filesystem::path> folder(const std::filesystem::path& content, const
 Status write_hands(const std::filesystem::path& content) {
     const Result<std::filesystem::path> path = folder(content, "hands");
     if (!path) return tl::unexpected(path.error());
-    const Result<Hands> hands = make_hands();
+    const Result<HandModels> hands = make_hands();
     if (!hands) return tl::unexpected(hands.error());
     BOLT_TRY(assets::write_glb(*path / "hand_left.glb", hands->left));
     return assets::write_glb(*path / "hand_right.glb", hands->right);

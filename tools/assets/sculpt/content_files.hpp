@@ -1,4 +1,4 @@
-// The files below content/ that this program makes.
+// Writes the generated files into the content folder.
 #pragma once
 
 #include <filesystem>

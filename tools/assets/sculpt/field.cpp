@@ -12,7 +12,7 @@ double round_cone(const Vec3& p, const Vec3& a, const Vec3& b, double radius_a, 
     const double length2 = glm::dot(axis, axis);
     const double taper = radius_a - radius_b;
     const double side2 = length2 - taper * taper;
-    if (side2 <= 0.0) {  // one sphere holds the other
+    if (side2 <= 0.0) {  // one sphere contains the other
         return taper > 0.0 ? glm::length(from_a) - radius_a : glm::length(p - b) - radius_b;
     }
     const double along = glm::dot(from_a, axis);
@@ -57,7 +57,7 @@ double smooth_step(double low, double high, double x) {
     return t * t * (3.0 - 2.0 * t);
 }
 
-Vec3 gradient(const Field& field, const Vec3& p, double h) {
+Vec3 gradient(const SignedDistanceField& field, const Vec3& p, double h) {
     const Vec3 a(1, -1, -1);
     const Vec3 b(-1, -1, 1);
     const Vec3 c(-1, 1, -1);
@@ -66,7 +66,7 @@ Vec3 gradient(const Field& field, const Vec3& p, double h) {
            (4.0 * h);
 }
 
-Vec3 project(const Field& field, Vec3 p, double h, int steps) {
+Vec3 project(const SignedDistanceField& field, Vec3 p, double h, int steps) {
     for (int i = 0; i < steps; ++i) {
         const Vec3 g = gradient(field, p, h);
         const double g2 = glm::dot(g, g);
@@ -89,26 +89,26 @@ struct Grid {
     [[nodiscard]] std::size_t index(std::size_t x, std::size_t y, std::size_t z) const {
         return (z * size[1] + y) * size[0] + x;
     }
-    [[nodiscard]] Vec3 place(std::size_t x, std::size_t y, std::size_t z) const {
+    [[nodiscard]] Vec3 position(std::size_t x, std::size_t y, std::size_t z) const {
         return low + cell * Vec3(static_cast<double>(x), static_cast<double>(y), static_cast<double>(z));
     }
 };
 
-void fill_block(const Field& field, Grid& grid, const std::array<std::size_t, 3>& start) {
+void fill_block(const SignedDistanceField& field, Grid& grid, const std::array<std::size_t, 3>& start) {
     const double half = 0.5 * static_cast<double>(block) * grid.cell;
-    const double centre = field(grid.place(start[0], start[1], start[2]) + Vec3(half - 0.5 * grid.cell));
+    const double centre = field(grid.position(start[0], start[1], start[2]) + Vec3(half - 0.5 * grid.cell));
     const bool near = std::abs(centre) < 2.0 * std::sqrt(3.0) * half;
     for (std::size_t z = start[2]; z < start[2] + block; ++z) {
         for (std::size_t y = start[1]; y < start[1] + block; ++y) {
             for (std::size_t x = start[0]; x < start[0] + block; ++x) {
-                const double value = near ? field(grid.place(x, y, z)) : centre;
+                const double value = near ? field(grid.position(x, y, z)) : centre;
                 grid.values[grid.index(x, y, z)] = static_cast<float>(value);
             }
         }
     }
 }
 
-Grid sample(const Field& field, const Box& box, double cell) {
+Grid sample_field(const SignedDistanceField& field, const FieldBounds& box, double cell) {
     Grid grid;
     grid.low = box.low;
     grid.cell = cell;
@@ -128,7 +128,8 @@ Grid sample(const Field& field, const Box& box, double cell) {
 
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-// The mean of the crossings on the twelve edges of a cell; false: the surface does not pass.
+// Computes the mean of the crossings on the twelve edges of a cell. Returns false if the surface does not
+// cross the cell.
 bool crossing_point(const Grid& grid, std::size_t x, std::size_t y, std::size_t z, Vec3& point) {
     std::array<double, 8> corner{};
     int inside = 0;
@@ -152,7 +153,7 @@ bool crossing_point(const Grid& grid, std::size_t x, std::size_t y, std::size_t 
             count += 1.0;
         }
     }
-    point = grid.place(x, y, z) + grid.cell * (sum / count);
+    point = grid.position(x, y, z) + grid.cell * (sum / count);
     return true;
 }
 
@@ -171,8 +172,9 @@ void add_quad(TriMesh& mesh, std::array<std::uint32_t, 4> quad, bool flip) {
     }
 }
 
-// Around every edge of the grid that the surface crosses stand four cells: their vertices are a quad.
-TriMesh nets(const Grid& grid) {
+// Builds the surface net: each grid edge that the surface crosses gives a quad of the vertices of the four
+// cells around it.
+TriMesh surface_nets(const Grid& grid) {
     TriMesh mesh;
     std::vector<std::uint32_t> vertex(grid.values.size(), none);
     for (std::size_t z = 0; z + 1 < grid.size[2]; ++z) {
@@ -207,8 +209,8 @@ TriMesh nets(const Grid& grid) {
 
 }  // namespace
 
-TriMesh extract(const Field& field, const Box& box, double cell, int relaxations) {
-    TriMesh mesh = nets(sample(field, box, cell));
+TriMesh extract(const SignedDistanceField& field, const FieldBounds& box, double cell, int relaxations) {
+    TriMesh mesh = surface_nets(sample_field(field, box, cell));
     const double h = 0.1 * cell;
     for (int i = 0; i < relaxations; ++i) {
         relax_tangentially(mesh, 0.5);

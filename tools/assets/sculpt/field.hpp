@@ -1,5 +1,5 @@
-// Signed distance fields: what clay is to a sculptor. Negative inside; metres. The primitives are exact or
-// bounds that are exact at the surface, so that blends keep their stated width.
+// Signed distance fields and the extraction of their surface. Metres, negative inside. The primitives are
+// exact, or bounds that are exact at the surface, so that blends keep their stated width.
 #pragma once
 
 #include <functional>
@@ -12,15 +12,15 @@ namespace bolt::sculpt {
 
 inline constexpr double mm = 1e-3;
 
-using Field = std::function<double(const Vec3&)>;
+using SignedDistanceField = std::function<double(const Vec3&)>;
 
-// The convex hull of two spheres.
+// The distance to the convex hull of two spheres.
 double round_cone(const Vec3& p, const Vec3& a, const Vec3& b, double radius_a, double radius_b);
 
-// Axes along the coordinates, centre at the origin.
+// An ellipsoid centred at the origin with its axes along the coordinate axes.
 double ellipsoid(const Vec3& p, const Vec3& radii);
 
-// A box with rounded edges; half sizes include the rounding.
+// A box centred at the origin with rounded edges. The half sizes include the rounding.
 double rounded_box(const Vec3& p, const Vec3& half, double radius);
 
 // Polynomial blends: the result differs from min or max only where both are within k of each other.
@@ -28,23 +28,23 @@ double smooth_union(double a, double b, double k);
 double smooth_intersection(double a, double b, double k);
 double smooth_difference(double a, double b, double k);
 
+// The cubic step from 0 at `low` to 1 at `high`.
 double smooth_step(double low, double high, double x);
 
-// From four samples at the corners of a tetrahedron of size h.
-Vec3 gradient(const Field& field, const Vec3& p, double h);
+// Estimates the gradient from four samples at the corners of a tetrahedron of size h (m).
+Vec3 gradient(const SignedDistanceField& field, const Vec3& p, double h);
 
-// Newton steps onto the zero surface.
-Vec3 project(const Field& field, Vec3 p, double h, int steps);
+// Moves p towards the zero surface by Newton steps.
+Vec3 project(const SignedDistanceField& field, Vec3 p, double h, int steps);
 
-// The zero surface of a field as triangles: naive surface nets (S. F. Gibson, MERL TR99-24), each vertex then
-// brought onto the surface and spread evenly along it.
-
-struct Box {
+struct FieldBounds {
     Vec3 low, high;
 };
 
-// The surface must lie inside the box and the field must not fall faster than twice the distance: blocks of
-// cells are passed over on the word of their centre.
-TriMesh extract(const Field& field, const Box& box, double cell, int relaxations = 3);
+// Extracts the zero surface as triangles with cells of size `cell` (m): naive surface nets (S. F. Gibson,
+// MERL TR99-24). Each vertex is then projected onto the surface, and `relaxations` steps spread the vertices
+// evenly. The surface must lie inside the box. The field's slope must not exceed 2, because a block of cells
+// is skipped by the value at its centre.
+TriMesh extract(const SignedDistanceField& field, const FieldBounds& box, double cell, int relaxations = 3);
 
 }  // namespace bolt::sculpt

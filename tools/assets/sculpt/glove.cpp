@@ -10,12 +10,12 @@ namespace {
 constexpr int no_digit = 5;
 constexpr int around = 6;
 
-// The digit whose own flesh a point past the web belongs to; no_digit: the palm.
+// Returns the digit of a point past the web; no_digit for the palm.
 int digit_at(const HandShape& shape, const Vec3& p) {
     int best = no_digit;
     double depth = 1.0;
     for (std::size_t d = 0; d < 5; ++d) {
-        const Along at = shape.along(d, p);
+        const DigitPosition at = shape.locate(d, p);
         if (at.depth >= depth) continue;
         depth = at.depth;
         const double root = shape.travel(d, 1) + (d == 0 ? 2 * mm : 14 * mm);
@@ -32,14 +32,14 @@ glm::dmat3 axes_of(const HandShape& shape, int digit) {
 
 }  // namespace
 
-double dipped(const HandShape& shape, const Vec3& p) {
-    std::array<Along, 5> at{};
+double coating(const HandShape& shape, const Vec3& p) {
+    std::array<DigitPosition, 5> at{};
     double nearest = 1.0;
     for (std::size_t d = 0; d < 5; ++d) {
-        at[d] = shape.along(d, p);
+        at[d] = shape.locate(d, p);
         nearest = std::min(nearest, at[d].depth);
     }
-    // Weighted, so that the line does not jump from one digit to the next.
+    // Blend over the digits so that the edge of the coating is continuous.
     double sum = 0.0;
     double height = 0.0;
     double tip = 0.0;
@@ -60,10 +60,10 @@ double dipped(const HandShape& shape, const Vec3& p) {
 GlovePart glove_part(const HandShape& shape, const Vec3& p) {
     if (p.z > HandShape::cuff_end - HandShape::hem) return hem;
     if (p.z > cuff_begin) return cuff;
-    return dipped(shape, p) > 0.0 ? coat : knit;
+    return coating(shape, p) > 0.0 ? coat : knit;
 }
 
-Patch patch_of(const HandShape& shape, const Vec3& p, const Vec3& normal, GlovePart part) {
+TexturePatch patch_of(const HandShape& shape, const Vec3& p, const Vec3& normal, GlovePart part) {
     if (part == cuff || part == hem) return {around, 0};
     const int digit = digit_at(shape, p);
     const Vec3 local = glm::transpose(axes_of(shape, digit)) * normal;
@@ -73,7 +73,7 @@ Patch patch_of(const HandShape& shape, const Vec3& p, const Vec3& normal, GloveP
     return {digit, 2 * axis + (local[axis] < 0.0 ? 1 : 0)};
 }
 
-Laid lay(const HandShape& shape, const Patch& patch, const Vec3& p) {
+PatchPoint map_to_patch(const HandShape& shape, const TexturePatch& patch, const Vec3& p) {
     if (patch.digit == around) {
         const double angle = std::atan2(p.y, p.x);
         return {{angle / (2 * pi) * cuff_round, p.z},
@@ -82,7 +82,7 @@ Laid lay(const HandShape& shape, const Patch& patch, const Vec3& p) {
     }
     const glm::dmat3 axes = axes_of(shape, patch.digit);
     const Vec3 local = glm::transpose(axes) * p;
-    // Wales of the knit run along the finger: v along −Z wherever that is possible.
+    // The wales of the knit run along the finger: v runs along −Z where that is possible.
     switch (patch.face / 2) {
         case 0:
             return {{local.y, local.z}, axes[1], -axes[2]};
@@ -93,7 +93,7 @@ Laid lay(const HandShape& shape, const Patch& patch, const Vec3& p) {
     }
 }
 
-double shading(const HandShape& shape, const Vec3& p, const Vec3& normal) {
+double ambient_shade(const HandShape& shape, const Vec3& p, const Vec3& normal) {
     double hidden = 0.0;
     double weight = 1.0;
     for (const double reach : {2.0, 4.0, 8.0, 14.0, 22.0}) {
@@ -107,7 +107,7 @@ double shading(const HandShape& shape, const Vec3& p, const Vec3& normal) {
 
 namespace {
 
-// Thirteen-gauge jersey: eleven wales and fifteen courses in a tile of 18 mm, every stitch a V of two legs.
+// Thirteen-gauge jersey: eleven wales and fifteen courses in a tile of 18 mm; each stitch is a V of two legs.
 constexpr double wales = 11;
 constexpr double courses = 15;
 
@@ -126,7 +126,7 @@ double fibres(double u, double v) { return fractal2(u * 64, v * 64, 64, 2, 31); 
 
 double knit_height(double u, double v) { return 0.34 * mm * stitch(u, v) + 0.05 * mm * fibres(u, v); }
 
-// Foamed nitrile: fine pebbles, and shallow puckers where it shrank on the liner.
+// Foamed nitrile: fine pebbles and shallow puckers.
 double coat_height(double u, double v) {
     const double pebble = fractal2(u * 40, v * 40, 40, 2, 41);
     const double pucker = fractal2(u * 7, v * 7, 7, 3, 42);
@@ -140,7 +140,7 @@ double rib_height(double u, double v) {
 }
 
 Status textured(assets::Model& model, const std::string& name, const Vec3& colour, double roughness,
-                const Height& height, const Paint& paint, int size) {
+                const HeightFunction& height, const PaintFunction& paint, int size) {
     assets::Material material;
     material.name = "glove_" + name;
     material.base_color = glm::vec4(glm::vec3(colour), 1.0F);
@@ -175,7 +175,7 @@ Status add_glove_materials(assets::Model& model) {
     BOLT_TRY(textured(model, "knit", from_srgb(0xB4B8BA), 0.96, knit_height, melange, 256));
     BOLT_TRY(textured(model, "coat", from_srgb(0x565C63), 0.58, coat_height, coat_paint, 256));
     BOLT_TRY(textured(model, "cuff", from_srgb(0xB4B8BA), 0.97, rib_height, rib_paint, 256));
-    // The hem in the colour of the size, of the same knit as the cuff.
+    // The hem has the colour code of the glove size and the same knit as the cuff.
     assets::Material edge = model.materials.back();
     edge.name = "glove_hem";
     edge.base_color = glm::vec4(glm::vec3(from_srgb(0xD9601F)), 1.0F);

@@ -14,59 +14,57 @@
 #include "tools/assets/sculpt/mesh.hpp"
 #include "tools/assets/sculpt/quantise.hpp"
 
-// Which joints carry a point of the hand's skin, and how much.
-
 namespace bolt::sculpt {
 
-// At most four joints; weights are multiples of 1/256 and sum to one exactly. Joints without weight are 0.
-struct Influences {
+namespace {
+
+// Skinning weights: at most four joints; the weights are multiples of 1/256 and their sum is exactly one.
+// Joints without weight are 0.
+struct SkinWeights {
     std::array<std::uint16_t, 4> joints{};
     std::array<float, 4> weights{};
 };
 
-// Smooth over the hand, and bounded: past the web a finger answers to its own joints alone.
-Influences influences(const HandShape& shape, const Vec3& p);
-
-namespace {
-
-using Weights = std::array<double, joint_count>;
+using JointWeights = std::array<double, joint_count>;
 
 Vec3 forward(const Skeleton& hand, std::size_t joint) { return hand.rotation[joint] * Vec3(0.0, 0.0, -1.0); }
 
-// How far a point is past joint k of a digit, 0 to 1, across the plane that halves the angle between the
-// bones.
-double past(const HandShape& shape, std::size_t digit, std::size_t k, const Vec3& p) {
+// Returns 0 for points before joint k of a digit, 1 for points beyond it, with a smooth step across the plane
+// that bisects the angle between the bones.
+double fraction_past_joint(const HandShape& shape, std::size_t digit, std::size_t k, const Vec3& p) {
     const Skeleton& hand = shape.skeleton();
     const std::size_t joint = digits[digit].first + k;
     const Vec3 axis = glm::normalize(forward(hand, joint - 1) + forward(hand, joint));
-    double way = glm::dot(p - hand.position[joint], axis);
+    double distance = glm::dot(p - hand.position[joint], axis);
     const double height = glm::dot(p - hand.position[joint], hand.rotation[joint] * Vec3(0.0, 1.0, 0.0));
     double reach = k == 1 ? 13.5 * mm : (k == 2 ? 11.5 * mm : 8.5 * mm);
     if (digit == 0) reach = k == 1 ? 10 * mm : 8 * mm;
-    // In the palm the finger begins later than on the back: the skin of the web belongs to the palm.
-    if (digit != 0 && k == 1) way -= 6 * mm * smooth_step(2 * mm, -10 * mm, height);
-    return smooth_step(-reach, reach, way);
+    // The skin of the web moves with the palm, so on the palm side the finger begins further out than on the
+    // back.
+    if (digit != 0 && k == 1) distance -= 6 * mm * smooth_step(2 * mm, -10 * mm, height);
+    return smooth_step(-reach, reach, distance);
 }
 
-void add_digit(const HandShape& shape, std::size_t digit, const Vec3& p, double share, Weights& out) {
+void add_digit(const HandShape& shape, std::size_t digit, const Vec3& p, double share, JointWeights& out) {
     if (share <= 0.0) return;
-    double taken = 0.0;  // by the joints further out
+    double assigned = 0.0;  // weight of the joints further out
     for (std::size_t k = digits[digit].count - 2; k > 0; --k) {
-        const double own = std::max(0.0, share * past(shape, digit, k, p) - taken);
+        const double own = std::max(0.0, share * fraction_past_joint(shape, digit, k, p) - assigned);
         out[digits[digit].first + k] += own;
-        taken += own;
+        assigned += own;
     }
-    out[digits[digit].first] += share - taken;
+    out[digits[digit].first] += share - assigned;
 }
 
-Influences strongest(const Weights& weights) {
+// Keeps the four greatest weights and quantises them.
+SkinWeights quantise_weights(const JointWeights& weights) {
     std::array<std::size_t, joint_count> order{};
     std::iota(order.begin(), order.end(), 0U);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return weights[a] > weights[b]; });
     double sum = 0.0;
     for (std::size_t i = 0; i < 4; ++i) sum += weights[order[i]];
-    Influences out;
+    SkinWeights out;
     int left = 256;
     for (std::size_t i = 3; i > 0; --i) {
         const int part = static_cast<int>(std::lround(256.0 * weights[order[i]] / sum));
@@ -80,35 +78,36 @@ Influences strongest(const Weights& weights) {
     return out;
 }
 
-}  // namespace
-
-Influences influences(const HandShape& shape, const Vec3& p) {
+// Returns the skinning weights of a point. They are smooth over the hand; past the web only a finger's own
+// joints move it.
+SkinWeights skin_weights(const HandShape& shape, const Vec3& p) {
     const Skeleton& hand = shape.skeleton();
-    Weights weights{};
+    JointWeights weights{};
 
     std::array<double, 5> depth{};
     std::size_t nearest = 1;
     for (std::size_t d = 0; d < 5; ++d) {
-        depth[d] = shape.along(d, p).depth;
+        depth[d] = shape.locate(d, p).depth;
         if (d > 1 && depth[d] < depth[nearest]) nearest = d;
     }
-    // The thumb takes over where its flesh does.
-    const double thumb_way = glm::dot(p - hand.position[thumb_metacarpal], forward(hand, thumb_metacarpal));
-    const double thumb =
-        smooth_step(-10 * mm, 13 * mm, depth[nearest] - depth[0]) * smooth_step(-12 * mm, 18 * mm, thumb_way);
+    // The thumb's weight increases where the thumb is the nearest digit.
+    const double thumb_distance =
+        glm::dot(p - hand.position[thumb_metacarpal], forward(hand, thumb_metacarpal));
+    const double thumb = smooth_step(-10 * mm, 13 * mm, depth[nearest] - depth[0]) *
+                         smooth_step(-12 * mm, 18 * mm, thumb_distance);
     add_digit(shape, 0, p, thumb, weights);
 
     const double arm = smooth_step(-46 * mm, -12 * mm, p.z) * (1.0 - thumb);
     weights[wrist] += arm;
 
-    // Fingers share the palm and part at the web.
+    // In the palm all fingers contribute; past the web only the nearest finger does.
     const std::size_t knuckle = digits[nearest].first + 1;
-    const double way = glm::dot(p - hand.position[knuckle], forward(hand, knuckle));
-    const double parted = smooth_step(2 * mm, 19 * mm, way);
+    const double distance = glm::dot(p - hand.position[knuckle], forward(hand, knuckle));
+    const double parted = smooth_step(2 * mm, 19 * mm, distance);
     const double width = 14 * mm + parted * (0.3 * mm - 14 * mm);
     std::array<double, 5> key = depth;
     if (parted > 0.0) {
-        for (std::size_t d = 1; d < 5; ++d) key[d] += parted * (shape.finger(d, p) - key[d]);
+        for (std::size_t d = 1; d < 5; ++d) key[d] += parted * (shape.digit_distance(d, p) - key[d]);
     }
     const double first = *std::min_element(key.begin() + 1, key.end());
     std::array<double, 5> member{};
@@ -120,20 +119,18 @@ Influences influences(const HandShape& shape, const Vec3& p) {
     for (std::size_t d = 1; d < 5; ++d) {
         add_digit(shape, d, p, (1.0 - thumb - arm) * member[d] / total, weights);
     }
-    return strongest(weights);
+    return quantise_weights(weights);
 }
-
-namespace {
 
 LabelledMesh sculpt_glove(const HandShape& shape) {
     LabelledMesh hand;
-    hand.mesh = extract(std::cref(shape), shape.box(), 0.85 * mm);
+    hand.mesh = extract(std::cref(shape), shape.bounds(), 0.85 * mm);
     cut(hand.mesh, [](const Vec3& p) { return p.z - (HandShape::cuff_end - HandShape::hem); });
     cut(hand.mesh, [](const Vec3& p) { return p.z - cuff_begin; });
-    cut(hand.mesh, [&](const Vec3& p) { return p.z > cuff_begin ? -1.0 : dipped(shape, p); });
+    cut(hand.mesh, [&](const Vec3& p) { return p.z > cuff_begin ? -1.0 : coating(shape, p); });
     for (Vec3& p : hand.mesh.positions) p = rounded(project(std::cref(shape), p, 0.1 * mm, 1), micron);
     hand.mesh = weld(hand.mesh);
-    for (const Triangle& t : hand.mesh.triangles) {
+    for (const IndexTriangle& t : hand.mesh.triangles) {
         const Vec3 centre =
             (hand.mesh.positions[t[0]] + hand.mesh.positions[t[1]] + hand.mesh.positions[t[2]]) / 3.0;
         hand.labels.push_back(glove_part(shape, centre));
@@ -141,11 +138,12 @@ LabelledMesh sculpt_glove(const HandShape& shape) {
     return simplify(hand, hand_triangles);
 }
 
-// Patches follow the normals of single triangles; a triangle that stands alone joins its neighbours.
-std::vector<Patch> patches(const HandShape& shape, const LabelledMesh& hand) {
-    std::vector<Patch> out;
+// Assigns each triangle to a patch by its normal, then assigns isolated triangles to the patch of their
+// neighbours.
+std::vector<TexturePatch> patches(const HandShape& shape, const LabelledMesh& hand) {
+    std::vector<TexturePatch> out;
     for (std::size_t i = 0; i < hand.mesh.triangles.size(); ++i) {
-        const Triangle& t = hand.mesh.triangles[i];
+        const IndexTriangle& t = hand.mesh.triangles[i];
         const Vec3 centre =
             (hand.mesh.positions[t[0]] + hand.mesh.positions[t[1]] + hand.mesh.positions[t[2]]) / 3.0;
         out.push_back(patch_of(shape, centre, glm::normalize(area_vector(hand.mesh, t)),
@@ -153,13 +151,13 @@ std::vector<Patch> patches(const HandShape& shape, const LabelledMesh& hand) {
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> owner;
     for (std::size_t i = 0; i < hand.mesh.triangles.size(); ++i) {
-        const Triangle& t = hand.mesh.triangles[i];
+        const IndexTriangle& t = hand.mesh.triangles[i];
         for (std::size_t k = 0; k < 3; ++k) owner[{t[k], t[(k + 1) % 3]}] = i;
     }
     for (int round = 0; round < 3; ++round) {
         for (std::size_t i = 0; i < out.size(); ++i) {
-            const Triangle& t = hand.mesh.triangles[i];
-            std::array<const Patch*, 3> next{};
+            const IndexTriangle& t = hand.mesh.triangles[i];
+            std::array<const TexturePatch*, 3> next{};
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto other = owner.find({t[(k + 1) % 3], t[k]});
                 next[k] = other == owner.end() ? &out[i] : &out[other->second];
@@ -172,45 +170,46 @@ std::vector<Patch> patches(const HandShape& shape, const LabelledMesh& hand) {
     return out;
 }
 
-struct Corner {
+struct TriangleCorner {
     std::uint32_t vertex = 0;
-    Laid laid;
+    PatchPoint mapped;
 };
 
-// A triangle across the cuff's seam is laid on one side of it.
-void unwrap(std::array<Corner, 3>& corners) {
+// Moves the corners of a triangle that crosses the cuff's seam to one side of the seam.
+void unwrap(std::array<TriangleCorner, 3>& corners) {
     for (std::size_t k = 1; k < 3; ++k) {
-        double& u = corners[k].laid.uv.x;
-        if (u - corners[0].laid.uv.x > 0.5 * cuff_round) u -= cuff_round;
-        if (u - corners[0].laid.uv.x < -0.5 * cuff_round) u += cuff_round;
+        double& u = corners[k].mapped.uv.x;
+        if (u - corners[0].mapped.uv.x > 0.5 * cuff_round) u -= cuff_round;
+        if (u - corners[0].mapped.uv.x < -0.5 * cuff_round) u += cuff_round;
     }
 }
 
-struct Builder {
+struct HandMeshBuilder {
     const HandShape& shape;
     const TriMesh& mesh;
     std::vector<Vec3> normals;
     std::vector<float> shades;
-    std::vector<Influences> skin;
+    std::vector<SkinWeights> skin;
 
-    Builder(const HandShape& s, const TriMesh& m) : shape(s), mesh(m) {
+    HandMeshBuilder(const HandShape& s, const TriMesh& m) : shape(s), mesh(m) {
         for (const Vec3& p : mesh.positions) {
             normals.push_back(glm::normalize(gradient(std::cref(shape), p, 0.5 * mm)));
-            shades.push_back(static_cast<float>(rounded(shading(shape, p, normals.back()), 1.0 / 256.0)));
-            skin.push_back(influences(shape, p));
+            shades.push_back(
+                static_cast<float>(rounded(ambient_shade(shape, p, normals.back()), 1.0 / 256.0)));
+            skin.push_back(skin_weights(shape, p));
         }
     }
 
-    std::uint32_t add(assets::Primitive& out, const Corner& corner) const {
+    std::uint32_t add(assets::Primitive& out, const TriangleCorner& corner) const {
         const std::uint32_t v = corner.vertex;
         const Vec3& n = normals[v];
-        const Vec3 tangent = glm::normalize(corner.laid.along_u - n * glm::dot(n, corner.laid.along_u));
-        const bool straight = glm::dot(glm::cross(n, tangent), corner.laid.against_v) >= 0.0;
+        const Vec3 tangent = glm::normalize(corner.mapped.along_u - n * glm::dot(n, corner.mapped.along_u));
+        const bool straight = glm::dot(glm::cross(n, tangent), corner.mapped.against_v) >= 0.0;
         out.positions.emplace_back(mesh.positions[v]);
         out.normals.emplace_back(rounded(n, fine));
         out.tangents.emplace_back(glm::vec3(rounded(tangent, fine)), straight ? 1.0F : -1.0F);
-        out.texcoords[0].emplace_back(glm::dvec2(rounded(corner.laid.uv.x / tile_length, fine),
-                                                 rounded(corner.laid.uv.y / tile_length, fine)));
+        out.texcoords[0].emplace_back(glm::dvec2(rounded(corner.mapped.uv.x / tile_length, fine),
+                                                 rounded(corner.mapped.uv.y / tile_length, fine)));
         out.colors.emplace_back(shades[v], shades[v], shades[v], 1.0F);
         out.joints.emplace_back(skin[v].joints[0], skin[v].joints[1], skin[v].joints[2], skin[v].joints[3]);
         out.weights.emplace_back(skin[v].weights[0], skin[v].weights[1], skin[v].weights[2],
@@ -221,8 +220,8 @@ struct Builder {
 
 assets::Mesh right_mesh(const HandShape& shape) {
     const LabelledMesh hand = sculpt_glove(shape);
-    const std::vector<Patch> patch = patches(shape, hand);
-    const Builder builder(shape, hand.mesh);
+    const std::vector<TexturePatch> patch = patches(shape, hand);
+    const HandMeshBuilder builder(shape, hand.mesh);
     assets::Mesh out;
     out.name = "hand";
     for (int part = 0; part < glove_parts; ++part) {
@@ -231,17 +230,17 @@ assets::Mesh right_mesh(const HandShape& shape) {
         std::map<std::tuple<std::uint32_t, double, double, int>, std::uint32_t> known;
         for (std::size_t i = 0; i < hand.mesh.triangles.size(); ++i) {
             if (hand.labels[i] != part) continue;
-            std::array<Corner, 3> corners{};
+            std::array<TriangleCorner, 3> corners{};
             for (std::size_t k = 0; k < 3; ++k) {
                 corners[k].vertex = hand.mesh.triangles[i][k];
-                corners[k].laid = lay(shape, patch[i], hand.mesh.positions[corners[k].vertex]);
+                corners[k].mapped = map_to_patch(shape, patch[i], hand.mesh.positions[corners[k].vertex]);
             }
             if (part == cuff || part == hem) unwrap(corners);
-            for (const Corner& corner : corners) {
+            for (const TriangleCorner& corner : corners) {
                 const int name = patch[i].digit * 6 + patch[i].face;
-                const auto [entry, fresh] = known.try_emplace(
-                    {corner.vertex, corner.laid.uv.x, corner.laid.uv.y, name}, std::uint32_t{0});
-                if (fresh) entry->second = builder.add(primitive, corner);
+                const auto [entry, is_new] = known.try_emplace(
+                    {corner.vertex, corner.mapped.uv.x, corner.mapped.uv.y, name}, std::uint32_t{0});
+                if (is_new) entry->second = builder.add(primitive, corner);
                 primitive.indices.push_back(entry->second);
             }
         }
@@ -285,10 +284,10 @@ void add_skeleton(assets::Model& model, const Skeleton& hand) {
         model.nodes.push_back(node);
         skin.joints.push_back(first + static_cast<int>(i));
     }
-    // Global places from the very numbers that are written, so that skin and nodes agree.
+    // Compute the global transforms from the rounded values that are written, so that skin and nodes agree.
     std::array<glm::dmat4, joint_count> global{};
     std::array<bool, joint_count> known{};
-    const auto place = [&](const auto& self, std::size_t i) -> const glm::dmat4& {
+    const auto global_of = [&](const auto& self, std::size_t i) -> const glm::dmat4& {
         if (known[i]) return global[i];
         const assets::Node& node = model.nodes[static_cast<std::size_t>(first) + i];
         glm::dmat4 local = glm::mat4_cast(Quat(node.rotation));
@@ -298,7 +297,7 @@ void add_skeleton(assets::Model& model, const Skeleton& hand) {
         return global[i];
     };
     for (std::size_t i = 0; i < joint_count; ++i) {
-        glm::dmat4 inverse = glm::inverse(place(place, i));
+        glm::dmat4 inverse = glm::inverse(global_of(global_of, i));
         for (int c = 0; c < 4; ++c) {
             for (int r = 0; r < 4; ++r) inverse[c][r] = rounded(inverse[c][r], 1e-8);
         }
@@ -313,7 +312,8 @@ void add_skeleton(assets::Model& model, const Skeleton& hand) {
     model.skins.push_back(std::move(skin));
 }
 
-Result<assets::Model> dress(const Skeleton& skeleton, assets::Mesh mesh, const std::string& name) {
+// Assembles the glTF model of a hand from its mesh and skeleton.
+Result<assets::Model> make_hand_model(const Skeleton& skeleton, assets::Mesh mesh, const std::string& name) {
     assets::Model model;
     model.generator = "bolt-sculpt";
     mesh.name = name;
@@ -331,14 +331,14 @@ Result<assets::Model> dress(const Skeleton& skeleton, assets::Mesh mesh, const s
 
 }  // namespace
 
-Result<Hands> make_hands() {
+Result<HandModels> make_hands() {
     const HandShape shape;
     const assets::Mesh mesh = right_mesh(shape);
-    Hands hands;
-    Result<assets::Model> right = dress(shape.skeleton(), mesh, "hand_right");
+    HandModels hands;
+    Result<assets::Model> right = make_hand_model(shape.skeleton(), mesh, "hand_right");
     if (!right) return tl::unexpected(right.error());
     hands.right = std::move(*right);
-    Result<assets::Model> left = dress(mirrored(shape.skeleton()), mirrored(mesh), "hand_left");
+    Result<assets::Model> left = make_hand_model(mirrored(shape.skeleton()), mirrored(mesh), "hand_left");
     if (!left) return tl::unexpected(left.error());
     hands.left = std::move(*left);
     return hands;

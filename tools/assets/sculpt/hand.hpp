@@ -2,7 +2,7 @@
 //
 // Nodes: `hand_right` or `hand_left` (the mesh) and the joint `wrist` with all others below it, named as
 // XrHandJointEXT in lower case: wrist, palm, thumb_metacarpal … little_tip. The frame of the file is that of
-// the wrist joint: −Z to the finger tips, +Y out of the back of the hand. Joint i of the skin is
+// the wrist joint: −Z towards the finger tips, +Y out of the back of the hand. Joint i of the skin is
 // XrHandJointEXT i.
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace bolt::sculpt {
 
-// Triangles at most; meshoptimizer chooses where.
+// Maximum number of triangles of a hand.
 inline constexpr std::size_t hand_triangles = 12000;
 
-// The left hand is the right one mirrored in x = 0, number by number.
-struct Hands {
+// The left hand is the right hand mirrored in x = 0, exactly.
+struct HandModels {
     assets::Model left, right;
 };
-Result<Hands> make_hands();
+Result<HandModels> make_hands();
 
 }  // namespace bolt::sculpt

@@ -6,23 +6,24 @@
 namespace bolt::sculpt {
 namespace {
 
-constexpr double flatness = 0.92;  // depth of a finger over its breadth
+constexpr double flatness = 0.92;  // depth of a finger divided by its breadth
 
-// Elliptic tube along z: half axes at stations from the cuff's end to inside the palm.
-struct Station {
+// The arm is an elliptic tube along z, given by its half axes at stations from the cuff's end to inside the
+// palm.
+struct ArmStation {
     double z_mm, x_mm, y_mm, centre_x_mm, centre_y_mm;
 };
-constexpr std::array<Station, 6> arm{
-    Station{70, 38.5, 30.5, 0.0, 0.0},    Station{30, 35.5, 26.8, 0.0, 0.0},
-    Station{6, 31.6, 22.0, 0.0, -0.5},    Station{-8, 31.8, 19.8, -0.5, -2.0},
-    Station{-24, 34.0, 17.8, -1.0, -4.0}, Station{-46, 31.0, 12.0, 1.0, -3.0}};
+constexpr std::array<ArmStation, 6> arm{
+    ArmStation{70, 38.5, 30.5, 0.0, 0.0},    ArmStation{30, 35.5, 26.8, 0.0, 0.0},
+    ArmStation{6, 31.6, 22.0, 0.0, -0.5},    ArmStation{-8, 31.8, 19.8, -0.5, -2.0},
+    ArmStation{-24, 34.0, 17.8, -1.0, -4.0}, ArmStation{-46, 31.0, 12.0, 1.0, -3.0}};
 
-Station station(double z) {
+ArmStation arm_station(double z) {
     const double z_mm = std::clamp(z / mm, arm.back().z_mm, arm.front().z_mm);
     std::size_t i = 0;
     while (i + 2 < arm.size() && z_mm < arm[i + 1].z_mm) ++i;
-    const Station& a = arm[i];
-    const Station& b = arm[i + 1];
+    const ArmStation& a = arm[i];
+    const ArmStation& b = arm[i + 1];
     const double t = smooth_step(0.0, 1.0, (z_mm - a.z_mm) / (b.z_mm - a.z_mm));
     const auto mix = [t](double from, double to) { return from + t * (to - from); };
     return {z_mm, mix(a.x_mm, b.x_mm), mix(a.y_mm, b.y_mm), mix(a.centre_x_mm, b.centre_x_mm),
@@ -30,7 +31,7 @@ Station station(double z) {
 }
 
 double elliptic(const Vec3& p, double inset) {
-    const Station s = station(p.z);
+    const ArmStation s = arm_station(p.z);
     const double x = p.x - s.centre_x_mm * mm;
     const double y = p.y - s.centre_y_mm * mm;
     const double a = s.x_mm * mm - inset;
@@ -40,7 +41,7 @@ double elliptic(const Vec3& p, double inset) {
     return k1 < 1e-9 ? -b : k0 * (k0 - 1.0) / k1;
 }
 
-// A sleeve with a rolled hem, open to z = cuff_end, closed inside by a floor near the wrist.
+// A sleeve with a rolled hem, open at z = cuff_end and closed inside near the wrist.
 double cuff(const Vec3& p) {
     const double end = HandShape::cuff_end;
     const double bead =
@@ -52,7 +53,7 @@ double cuff(const Vec3& p) {
     return smooth_difference(d, inside, 1.2 * mm);
 }
 
-// A line of the palm, seen from below: a groove along a run of points (x, z in mm).
+// Returns the depth, 0 to 1, of a groove in the palm along a polyline of points (x, z in mm).
 template <std::size_t n>
 double groove(const Vec3& p, const std::array<glm::dvec2, n>& line_mm, double width_mm) {
     const glm::dvec2 at(p.x / mm, p.z / mm);
@@ -66,7 +67,7 @@ double groove(const Vec3& p, const std::array<glm::dvec2, n>& line_mm, double wi
     return std::exp(-nearest2 / (width_mm * width_mm));
 }
 
-// As a coated glove shows them: where it folds when the fingers bend, and around the thumb.
+// The grooves of a coated glove: where it folds when the fingers bend, and around the thumb.
 constexpr std::array<glm::dvec2, 6> finger_fold{
     {{40, -66}, {30, -71}, {18, -78}, {4, -85}, {-8, -90}, {-15, -97}}};
 constexpr std::array<glm::dvec2, 6> thumb_fold{
@@ -98,10 +99,10 @@ HandShape::HandShape() : skeleton_(right_skeleton()) {
     }
 }
 
-Box HandShape::box() const { return {Vec3(-96, -62, -200) * mm, Vec3(58, 40, 72) * mm}; }
+FieldBounds HandShape::bounds() const { return {Vec3(-96, -62, -200) * mm, Vec3(58, 40, 72) * mm}; }
 
-Along HandShape::along(std::size_t digit, const Vec3& p) const {
-    Along best;
+DigitPosition HandShape::locate(std::size_t digit, const Vec3& p) const {
+    DigitPosition best;
     best.depth = 1.0;
     for (std::size_t i = 0; i < bone_count_[digit]; ++i) {
         const Bone& bone = bones_[digit][i];
@@ -119,7 +120,7 @@ Along HandShape::along(std::size_t digit, const Vec3& p) const {
     return best;
 }
 
-double HandShape::finger(std::size_t digit, const Vec3& p) const {
+double HandShape::digit_distance(std::size_t digit, const Vec3& p) const {
     const std::size_t count = bone_count_[digit];
     const double far = round_cone(p, bones_[digit][1].a, bones_[digit][count - 1].b, 16 * mm, 16 * mm);
     if (far > 14 * mm) return far;
@@ -136,7 +137,7 @@ double HandShape::finger(std::size_t digit, const Vec3& p) const {
         const Vec3 half(0.0, 0.0, bone.length * (last ? 0.55 : 0.5));
         double cone = smooth_union(round_cone(local, Vec3(0.0), half, bone.radius_a, mid),
                                    round_cone(local, half, end, mid, bone.radius_b), 2 * mm);
-        // The pad on the side of the palm.
+        // The finger pad on the palm side.
         const Vec3 pad = Vec3(local.x, local.y * flat, local.z) - Vec3(0.0, -0.42 * mid, bone.length * 0.52);
         const double soft = ellipsoid(pad, Vec3(0.86 * mid, 0.66 * mid, bone.length * (last ? 0.62 : 0.44)));
         cone = smooth_union(cone, soft, 3 * mm);
@@ -155,7 +156,8 @@ double HandShape::palm_body(const Vec3& p) const {
             glm::length(p - bone.b - bone.up * (3.4 * mm)) - (bones_[digit][1].radius_a - 2.3 * mm);
         d = smooth_union(d, knuckle, 5 * mm);
     }
-    // The pad before the fingers: from head to head, on the side of the palm; the webs end it.
+    // The pad at the roots of the fingers, from one metacarpal head to the next on the palm side, up to the
+    // webs.
     for (std::size_t digit = 1; digit < 4; ++digit) {
         const Bone& one = bones_[digit][1];
         const Bone& two = bones_[digit + 1][1];
@@ -164,7 +166,8 @@ double HandShape::palm_body(const Vec3& p) const {
         const Vec3 b = two.a + two.forward * reach - two.up * (5.0 * mm);
         d = smooth_union(d, round_cone(p, a, b, 8.2 * mm, 8.2 * mm), 6 * mm);
     }
-    // Thenar: the thumb's metacarpal in its muscle, the mound in the palm, and the skin to the index finger.
+    // Thenar: the muscle around the thumb's metacarpal, the mound in the palm, and the skin to the index
+    // finger.
     const Bone& thumb = bones_[0][0];
     double thenar = round_cone(p, thumb.a, thumb.b, thumb.radius_a, thumb.radius_b);
     const Vec3 mound = 0.45 * thumb.a + 0.55 * thumb.b + Vec3(7.0, -1.0, 1.0) * mm;
@@ -183,32 +186,32 @@ double HandShape::palm_body(const Vec3& p) const {
     return d;
 }
 
-// What the glove adds or takes at joints and in the palm; positive is outward.
+// Returns the displacement of the surface by folds and grooves of the glove (m); positive is outward.
 double HandShape::folds(const Vec3& p) const {
     double out = 0.0;
     std::size_t nearest = 1;
-    Along at = along(1, p);
+    DigitPosition at = locate(1, p);
     double second = 1.0;
     for (const std::size_t digit : {0U, 2U, 3U, 4U}) {
-        const Along other = along(digit, p);
+        const DigitPosition other = locate(digit, p);
         second = std::min(second, std::max(other.depth, at.depth));
         if (other.depth < at.depth) {
             at = other;
             nearest = digit;
         }
     }
-    // Folds fade towards the next digit: a fold that stopped there would leave a step.
+    // Fade folds towards the next digit to avoid a step between digits.
     const double own = smooth_step(0.0, 3 * mm, second - at.depth);
     const double scale = own * (nearest == 4 ? 0.85 : 1.0);
     for (std::size_t k = nearest == 0 ? 1 : 2; k < bone_count_[nearest]; ++k) {
-        // Across the plane that halves the angle between the bones.
+        // Signed distance across the plane that bisects the angle between the bones.
         const Bone& after = bones_[nearest][k];
         const Vec3 axis = glm::normalize(bones_[nearest][k - 1].forward + after.forward);
         const double s = glm::dot(p - after.a, axis) / mm;
         const double height = glm::dot(p - after.a, after.up) / after.radius_a;
         const double back = smooth_step(-0.1, 0.6, height);
         const double front = smooth_step(0.1, -0.5, height);
-        // Knitted folds over the joint, one deep crease with its lips under it.
+        // On the back, folds of the knit over the joint; on the palm side, one deep crease with raised edges.
         const double slant = glm::dot(p - after.a, after.side) / mm;
         const double wave =
             s + 0.09 * slant + 0.8 * std::sin(0.35 * slant + static_cast<double>(nearest + 2 * k));
@@ -219,7 +222,7 @@ double HandShape::folds(const Vec3& p) const {
         const double face = smooth_step(2 * mm, -8 * mm, p.y) * mm;
         out -= face * (0.6 * groove(p, finger_fold, 2.6) + 0.8 * groove(p, thumb_fold, 3.0));
     }
-    // The knit gathers where the cuff draws it in.
+    // The knit gathers at the narrow start of the cuff.
     const double gather = std::exp(-square((p.z - 2 * mm) / (13 * mm)));
     out +=
         0.42 * mm * gather * std::cos(p.z / mm * (2 * pi / 6.2) + 1.2 * std::sin(std::atan2(p.y, p.x) * 3.0));
@@ -229,12 +232,12 @@ double HandShape::folds(const Vec3& p) const {
 double HandShape::operator()(const Vec3& p) const {
     double fingers = 1.0;
     for (std::size_t digit = 1; digit < 5; ++digit)
-        fingers = smooth_union(fingers, finger(digit, p), 1.5 * mm);
+        fingers = smooth_union(fingers, digit_distance(digit, p), 1.5 * mm);
     double d = palm_body(p);
     d = smooth_union(d, cuff(p), 12 * mm);
     if (p.z > 12 * mm) d = std::max(d, cuff(p));  // the blend must not fill the sleeve
     d = smooth_union(d, fingers, 6 * mm);
-    d = smooth_union(d, finger(0, p), 6 * mm);
+    d = smooth_union(d, digit_distance(0, p), 6 * mm);
     return std::abs(d) < 4 * mm ? d - folds(p) : d;
 }
 

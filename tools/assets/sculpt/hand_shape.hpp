@@ -1,5 +1,5 @@
-// The shape of a gloved right hand as a field: bones clothed in blended round cones, palm, mounds, webs and
-// cuff, and the folds of the glove where it bends.
+// The shape of a gloved right hand as a distance field in the wrist's frame (m): blended round cones around
+// the bones, palm, mounds, webs, cuff, and the folds of the glove where it bends.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace bolt::sculpt {
 
 using namespace hand;  // the joints and their names
 
-// Where a point lies along a digit.
-struct Along {
+// The position of a point relative to a digit.
+struct DigitPosition {
     double depth = 0.0;    // distance to the digit's skin, negative inside
     double travel = 0.0;   // m from the metacarpal joint of the chain, measured along the bones
     double height = 0.0;   // −1 on the side of the palm, +1 on the back
@@ -26,17 +26,17 @@ class HandShape {
 
     [[nodiscard]] double operator()(const Vec3& p) const;
     [[nodiscard]] const Skeleton& skeleton() const { return skeleton_; }
-    [[nodiscard]] Box box() const;
+    [[nodiscard]] FieldBounds bounds() const;
 
-    // Along digit 0 (thumb) to 4 (little finger).
-    [[nodiscard]] Along along(std::size_t digit, const Vec3& p) const;
-    // The digit alone, from its first knuckle on.
-    [[nodiscard]] double finger(std::size_t digit, const Vec3& p) const;
-    // Travel of joint k of the digit (0: metacarpal).
+    // Locates a point relative to digit 0 (thumb) to 4 (little finger).
+    [[nodiscard]] DigitPosition locate(std::size_t digit, const Vec3& p) const;
+    // Returns the signed distance (m) to the digit alone, from its first knuckle to its tip.
+    [[nodiscard]] double digit_distance(std::size_t digit, const Vec3& p) const;
+    // Returns the travel (m) of joint k of the digit (0: metacarpal).
     [[nodiscard]] double travel(std::size_t digit, std::size_t k) const { return travel_[digit][k]; }
 
     static constexpr double cuff_end = 64 * mm;
-    static constexpr double hem = 7 * mm;  // its height
+    static constexpr double hem = 7 * mm;  // height of the hem
 
   private:
     struct Bone {

@@ -13,14 +13,14 @@ namespace bolt::sculpt {
 
 double volume(const TriMesh& mesh) {
     double sum = 0.0;
-    for (const Triangle& t : mesh.triangles) {
+    for (const IndexTriangle& t : mesh.triangles) {
         const Vec3& a = mesh.positions[t[0]];
         sum += glm::dot(a, glm::cross(mesh.positions[t[1]], mesh.positions[t[2]]));
     }
     return sum / 6.0;
 }
 
-Vec3 area_vector(const TriMesh& mesh, const Triangle& triangle) {
+Vec3 area_vector(const TriMesh& mesh, const IndexTriangle& triangle) {
     const Vec3& a = mesh.positions[triangle[0]];
     return glm::cross(mesh.positions[triangle[1]] - a, mesh.positions[triangle[2]] - a);
 }
@@ -28,7 +28,7 @@ Vec3 area_vector(const TriMesh& mesh, const Triangle& triangle) {
 std::size_t open_edges(const TriMesh& mesh) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
     edges.reserve(mesh.triangles.size() * 3);
-    for (const Triangle& t : mesh.triangles) {
+    for (const IndexTriangle& t : mesh.triangles) {
         for (std::size_t i = 0; i < 3; ++i) edges.emplace_back(t[i], t[(i + 1) % 3]);
     }
     std::sort(edges.begin(), edges.end());
@@ -44,17 +44,17 @@ std::size_t open_edges(const TriMesh& mesh) {
 
 TriMesh weld(const TriMesh& mesh) {
     TriMesh out;
-    std::map<std::array<double, 3>, std::uint32_t> known;
-    std::vector<std::uint32_t> place(mesh.positions.size());
+    std::map<std::array<double, 3>, std::uint32_t> index_of;
+    std::vector<std::uint32_t> new_index(mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Vec3& p = mesh.positions[i];
         const auto next = static_cast<std::uint32_t>(out.positions.size());
-        const auto [entry, fresh] = known.try_emplace({p.x, p.y, p.z}, next);
-        if (fresh) out.positions.push_back(p);
-        place[i] = entry->second;
+        const auto [entry, is_new] = index_of.try_emplace({p.x, p.y, p.z}, next);
+        if (is_new) out.positions.push_back(p);
+        new_index[i] = entry->second;
     }
-    for (const Triangle& t : mesh.triangles) {
-        const Triangle welded{place[t[0]], place[t[1]], place[t[2]]};
+    for (const IndexTriangle& t : mesh.triangles) {
+        const IndexTriangle welded{new_index[t[0]], new_index[t[1]], new_index[t[2]]};
         if (welded[0] == welded[1] || welded[1] == welded[2] || welded[2] == welded[0]) continue;
         out.triangles.push_back(welded);
     }
@@ -66,7 +66,7 @@ void relax_tangentially(TriMesh& mesh, double strength) {
     std::vector<Vec3> normals(count, Vec3(0.0));
     std::vector<Vec3> sums(count, Vec3(0.0));
     std::vector<double> valence(count, 0.0);
-    for (const Triangle& t : mesh.triangles) {
+    for (const IndexTriangle& t : mesh.triangles) {
         const Vec3 area = area_vector(mesh, t);
         for (std::size_t i = 0; i < 3; ++i) {
             normals[t[i]] += area;
@@ -85,14 +85,14 @@ void relax_tangentially(TriMesh& mesh, double strength) {
 
 namespace {
 
-constexpr double snap = 0.25;  // of an edge
+constexpr double snap = 0.25;  // as a fraction of the edge
 
 bool opposite(double a, double b) { return (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0); }
 
 void snap_to_line(TriMesh& mesh, std::vector<double>& values) {
     std::vector<double> nearest(values.size(), snap);
     std::vector<Vec3> target = mesh.positions;
-    for (const Triangle& t : mesh.triangles) {
+    for (const IndexTriangle& t : mesh.triangles) {
         for (std::size_t i = 0; i < 3; ++i) {
             for (const auto& [a, b] : {std::pair(t[i], t[(i + 1) % 3]), std::pair(t[(i + 1) % 3], t[i])}) {
                 if (!opposite(values[a], values[b])) continue;
@@ -121,8 +121,8 @@ void cut(TriMesh& mesh, const std::function<double(const Vec3&)>& value) {
     const auto split = [&](std::uint32_t a, std::uint32_t b) {
         const auto key = std::minmax(a, b);
         const auto next = static_cast<std::uint32_t>(mesh.positions.size());
-        const auto [entry, fresh] = middle.try_emplace(std::pair(key.first, key.second), next);
-        if (fresh) {
+        const auto [entry, is_new] = middle.try_emplace(std::pair(key.first, key.second), next);
+        if (is_new) {
             const double part = values[key.first] / (values[key.first] - values[key.second]);
             mesh.positions.push_back(mesh.positions[key.first] +
                                      part * (mesh.positions[key.second] - mesh.positions[key.first]));
@@ -130,11 +130,11 @@ void cut(TriMesh& mesh, const std::function<double(const Vec3&)>& value) {
         }
         return entry->second;
     };
-    std::vector<Triangle> out;
+    std::vector<IndexTriangle> out;
     out.reserve(mesh.triangles.size());
-    for (const Triangle& t : mesh.triangles) {
+    for (const IndexTriangle& t : mesh.triangles) {
         int crossed = 0;
-        std::size_t whole = 0;  // the edge that is not crossed, when two are
+        std::size_t whole = 0;  // the edge that is not crossed if the other two are
         for (std::size_t i = 0; i < 3; ++i) {
             if (opposite(values[t[i]], values[t[(i + 1) % 3]])) {
                 ++crossed;
@@ -169,15 +169,15 @@ void cut(TriMesh& mesh, const std::function<double(const Vec3&)>& value) {
 
 namespace {
 
-// Now and then a collapse folds the surface flat: two triangles back to back on the same three vertices, and
-// an edge with four. Without the pair the surface is whole again.
+// Removes pairs of triangles back to back on the same three vertices. An edge collapse may fold the surface
+// so; without the pair the surface is closed again.
 void drop_folds(LabelledMesh& mesh) {
-    const auto key = [](Triangle t) {
+    const auto key = [](IndexTriangle t) {
         std::sort(t.begin(), t.end());
         return t;
     };
-    std::map<Triangle, int> count;
-    for (const Triangle& t : mesh.mesh.triangles) ++count[key(t)];
+    std::map<IndexTriangle, int> count;
+    for (const IndexTriangle& t : mesh.mesh.triangles) ++count[key(t)];
     LabelledMesh out;
     out.mesh.positions = std::move(mesh.mesh.positions);
     for (std::size_t i = 0; i < mesh.mesh.triangles.size(); ++i) {
@@ -191,9 +191,9 @@ void drop_folds(LabelledMesh& mesh) {
 }  // namespace
 
 LabelledMesh simplify(const LabelledMesh& fine, std::size_t target) {
-    // A vertex on the line between two labels stands once for each: the simplifier takes that for a seam and
-    // collapses it only along itself.
-    std::map<std::pair<int, std::uint32_t>, unsigned> known;
+    // Duplicate a vertex on the line between two labels for each label: the simplifier treats the line as a
+    // seam and collapses it only along itself.
+    std::map<std::pair<int, std::uint32_t>, unsigned> index_of;
     std::vector<std::uint32_t> origin;
     std::vector<int> label_of;
     std::vector<glm::vec3> positions;
@@ -201,8 +201,8 @@ LabelledMesh simplify(const LabelledMesh& fine, std::size_t target) {
     for (std::size_t t = 0; t < fine.mesh.triangles.size(); ++t) {
         for (const std::uint32_t v : fine.mesh.triangles[t]) {
             const auto next = static_cast<unsigned>(origin.size());
-            const auto [entry, fresh] = known.try_emplace({fine.labels[t], v}, next);
-            if (fresh) {
+            const auto [entry, is_new] = index_of.try_emplace({fine.labels[t], v}, next);
+            if (is_new) {
                 origin.push_back(v);
                 label_of.push_back(fine.labels[t]);
                 positions.emplace_back(fine.mesh.positions[v]);
@@ -216,14 +216,14 @@ LabelledMesh simplify(const LabelledMesh& fine, std::size_t target) {
     meshopt_optimizeVertexCache(kept.data(), kept.data(), kept.size(), positions.size());
 
     LabelledMesh out;
-    std::map<std::uint32_t, std::uint32_t> place;
+    std::map<std::uint32_t, std::uint32_t> new_index;
     for (std::size_t i = 0; i < kept.size(); i += 3) {
-        Triangle triangle{};
+        IndexTriangle triangle{};
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t from = origin[kept[i + k]];
             const auto next = static_cast<std::uint32_t>(out.mesh.positions.size());
-            const auto [entry, fresh] = place.try_emplace(from, next);
-            if (fresh) out.mesh.positions.push_back(fine.mesh.positions[from]);
+            const auto [entry, is_new] = new_index.try_emplace(from, next);
+            if (is_new) out.mesh.positions.push_back(fine.mesh.positions[from]);
             triangle[k] = entry->second;
         }
         out.mesh.triangles.push_back(triangle);

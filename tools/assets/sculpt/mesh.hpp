@@ -1,4 +1,4 @@
-// Triangles in double precision, and what can be said about them.
+// Triangle meshes in double precision: measures, welding, relaxation, cutting and simplification.
 #pragma once
 
 #include <array>
@@ -10,44 +10,41 @@
 
 namespace bolt::sculpt {
 
-using Triangle = std::array<std::uint32_t, 3>;
+using IndexTriangle = std::array<std::uint32_t, 3>;
 
 struct TriMesh {
     std::vector<Vec3> positions;
-    std::vector<Triangle> triangles;
+    std::vector<IndexTriangle> triangles;
 };
 
-// Signed; positive when the triangles of a closed mesh look outward (counter-clockwise).
+// Returns the signed volume; positive if the triangles of a closed mesh face outward (counter-clockwise).
 double volume(const TriMesh& mesh);
 
-// Twice the area times the unit normal.
-Vec3 area_vector(const TriMesh& mesh, const Triangle& triangle);
+// Returns twice the area times the unit normal.
+Vec3 area_vector(const TriMesh& mesh, const IndexTriangle& triangle);
 
-// Directed edges without exactly one opposite: none in a closed, oriented two-manifold.
+// Counts the directed edges without exactly one opposite edge; 0 for a closed, oriented two-manifold.
 std::size_t open_edges(const TriMesh& mesh);
 
-// Vertices at the same place (bit for bit) become one; triangles that collapse are dropped.
+// Merges vertices with identical coordinates and drops triangles that become degenerate.
 TriMesh weld(const TriMesh& mesh);
 
-// Moves vertices towards the centre of their neighbours, in the tangent plane given by the area-weighted
-// normals.
+// Moves vertices towards the centre of their neighbours within the tangent plane of their area-weighted
+// normal. `strength` 1 moves all the way.
 void relax_tangentially(TriMesh& mesh, double strength);
 
-// Cutting a mesh along the zero line of a value at its vertices, so that the border between two materials is
-// a smooth curve and not a saw.
-
-// Afterwards no triangle has the line inside. Vertices close to the line move onto it instead of leaving
-// slivers.
+// Splits triangles along the zero line of `value`, so that the border between two materials is a smooth
+// curve. Afterwards no triangle contains the line in its interior. Vertices close to the line are moved onto
+// it to avoid slivers.
 void cut(TriMesh& mesh, const std::function<double(const Vec3&)>& value);
-
-// Fewer triangles where the surface is flat (meshoptimizer's quadrics), keeping the lines between labels.
 
 struct LabelledMesh {
     TriMesh mesh;
-    std::vector<int> labels;  // one a triangle
+    std::vector<int> labels;  // one per triangle
 };
 
-// Vertices of the result are vertices of the input. `target` triangles at most, unless topology forbids.
+// Simplifies a mesh to at most `target` triangles, unless topology prevents that, and keeps the lines between
+// labels (meshoptimizer's quadrics). The result uses vertices of the input.
 LabelledMesh simplify(const LabelledMesh& fine, std::size_t target);
 
 }  // namespace bolt::sculpt

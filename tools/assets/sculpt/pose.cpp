@@ -44,7 +44,7 @@ HandPosture pinch() {
     return pose;
 }
 
-// Around the handle of a wrench, some 25 mm by 10 mm.
+// Around the handle of a wrench of about 25 mm by 10 mm.
 HandPosture grip() {
     HandPosture pose;
     bend(pose, 1, {62, 76, 40, -8});
@@ -63,24 +63,25 @@ HandPosture open() {
     return pose;
 }
 
-struct Joints {
+struct JointTransforms {
     std::array<glm::dmat4, joint_count> global{};
 };
 
-Result<Joints> pose_joints(const assets::Model& hand, const HandPosture& pose) {
-    const auto malformed = [](const std::string& what) {
+Result<JointTransforms> pose_joints(const assets::Model& hand, const HandPosture& pose) {
+    const auto invalid_hand = [](const std::string& what) {
         return fail(ErrorCode::bad_content, what, "a hand with the joints of XR_EXT_hand_tracking");
     };
-    Joints joints;
+    JointTransforms joints;
     std::array<std::size_t, joint_count> nodes{};
     for (std::size_t i = 0; i < joint_count; ++i) {
         const auto node = std::find_if(hand.nodes.begin(), hand.nodes.end(),
                                        [&](const assets::Node& n) { return n.name == joint_names[i]; });
-        if (node == hand.nodes.end()) return malformed("no joint '" + std::string(joint_names[i]) + "'");
+        if (node == hand.nodes.end())
+            return invalid_hand("has no joint '" + std::string(joint_names[i]) + "'");
         nodes[i] = static_cast<std::size_t>(node - hand.nodes.begin());
     }
     std::array<bool, joint_count> known{};
-    const std::function<void(std::size_t)> place = [&](std::size_t i) {
+    const std::function<void(std::size_t)> compute_global = [&](std::size_t i) {
         if (known[i]) return;
         const assets::Node& node = hand.nodes[nodes[i]];
         glm::dmat4 local = glm::mat4_cast(Quat(node.rotation) * pose.turn[i]);
@@ -88,24 +89,26 @@ Result<Joints> pose_joints(const assets::Model& hand, const HandPosture& pose) {
         if (parent_of(i) == joint_count) {
             joints.global[i] = local;
         } else {
-            place(parent_of(i));
+            compute_global(parent_of(i));
             joints.global[i] = joints.global[parent_of(i)] * local;
         }
         known[i] = true;
     };
-    for (std::size_t i = 0; i < joint_count; ++i) place(i);
+    for (std::size_t i = 0; i < joint_count; ++i) compute_global(i);
     return joints;
 }
 
-Result<assets::Model> skinned(const assets::Model& hand, const Joints& joints) {
+Result<assets::Model> skinned(const assets::Model& hand, const JointTransforms& joints) {
     if (hand.skins.empty() || hand.skins[0].joints.size() != joint_count || hand.meshes.empty()) {
-        return fail(ErrorCode::bad_content, "no skinned mesh", "a hand made by bolt-sculpt");
+        return fail(ErrorCode::bad_content, "has no skinned mesh", "a hand made by bolt-sculpt");
     }
     std::vector<glm::dmat4> bones;
     for (std::size_t i = 0; i < joint_count; ++i) {
         const auto node = static_cast<std::size_t>(hand.skins[0].joints[i]);
         const auto joint = std::find(joint_names.begin(), joint_names.end(), hand.nodes[node].name);
-        if (joint == joint_names.end()) return fail(ErrorCode::bad_content, "a joint of another skeleton");
+        if (joint == joint_names.end())
+            return fail(ErrorCode::bad_content, "the skin has a joint of another skeleton",
+                        "the joints of XR_EXT_hand_tracking");
         bones.push_back(joints.global[static_cast<std::size_t>(joint - joint_names.begin())] *
                         glm::dmat4(hand.skins[0].inverse_bind[i]));
     }
@@ -164,7 +167,7 @@ HandPosture mirrored(const HandPosture& pose) {
 }
 
 Result<Skeleton> posed_joints(const assets::Model& hand, const HandPosture& pose) {
-    const Result<Joints> joints = pose_joints(hand, pose);
+    const Result<JointTransforms> joints = pose_joints(hand, pose);
     if (!joints) return tl::unexpected(joints.error());
     Skeleton out;
     for (std::size_t i = 0; i < joint_count; ++i) {
@@ -175,13 +178,13 @@ Result<Skeleton> posed_joints(const assets::Model& hand, const HandPosture& pose
 }
 
 Result<assets::Model> posed(const assets::Model& hand, const HandPosture& pose) {
-    const Result<Joints> joints = pose_joints(hand, pose);
+    const Result<JointTransforms> joints = pose_joints(hand, pose);
     if (!joints) return tl::unexpected(joints.error());
     return skinned(hand, *joints);
 }
 
 Result<assets::Model> posed(const assets::Model& hand, const Skeleton& joints) {
-    Joints at;
+    JointTransforms at;
     for (std::size_t i = 0; i < joint_count; ++i) {
         at.global[i] = glm::mat4_cast(joints.rotation[i]);
         at.global[i][3] = glm::dvec4(joints.position[i], 1.0);

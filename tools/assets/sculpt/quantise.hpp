@@ -1,5 +1,5 @@
-// Numbers that are written are rounded first, so that the last bit of a compiler's or a library's sine
-// changes no file; and zero has one sign.
+// Rounds numbers before they are written, so that differences in the last bit between compilers or math
+// libraries do not change a file. Negative zero becomes zero.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace bolt::sculpt {
 
 inline constexpr double micron = 1e-6;
-inline constexpr double fine = 1.0 / 65536.0;  // of directions and texture coordinates
+inline constexpr double fine = 1.0 / 65536.0;  // for directions and texture coordinates
 
 inline double rounded(double x, double step) { return std::round(x / step) * step + 0.0; }
 

@@ -9,17 +9,17 @@
 namespace bolt::sculpt {
 namespace {
 
-int widest(const Vec3& n) {
+int dominant_axis(const Vec3& n) {
     const Vec3 a = glm::abs(n);
     if (a.y >= a.x && a.y >= a.z) return 1;
     return a.x >= a.z ? 0 : 2;
 }
 
-// The axes along which a face's texture runs: u, and the direction in which v falls.
-struct Laying {
+// The texture axes of a box face: u, and the direction of decreasing v.
+struct TextureAxes {
     Vec3 u, up;
 };
-Laying laying(int face) {
+TextureAxes texture_axes(int face) {
     if (face == 0) return {Vec3(0, 0, -1), Vec3(0, 1, 0)};
     if (face == 1) return {Vec3(1, 0, 0), Vec3(0, 0, -1)};
     return {Vec3(1, 0, 0), Vec3(0, 1, 0)};
@@ -27,43 +27,43 @@ Laying laying(int face) {
 
 }  // namespace
 
-std::uint32_t Solid::vertex(int material, const Vec3& p, const Vec3& n, int face) {
+std::uint32_t SolidBuilder::vertex(int material, const Vec3& p, const Vec3& n, int face) {
     assets::Primitive& part = parts_[material];
     part.material = material;
-    const Laying lay = laying(face);
+    const TextureAxes axes = texture_axes(face);
     const double repeats = repeats_[static_cast<std::size_t>(material)];
-    Vec3 tangent = lay.u - n * glm::dot(n, lay.u);
-    if (glm::dot(tangent, tangent) < 1e-6) tangent = lay.up - n * glm::dot(n, lay.up);
+    Vec3 tangent = axes.u - n * glm::dot(n, axes.u);
+    if (glm::dot(tangent, tangent) < 1e-6) tangent = axes.up - n * glm::dot(n, axes.up);
     tangent = glm::normalize(tangent);
-    const bool straight = glm::dot(glm::cross(n, tangent), lay.up) >= 0.0;
+    const bool straight = glm::dot(glm::cross(n, tangent), axes.up) >= 0.0;
     part.positions.emplace_back(rounded(p, micron));
     part.normals.emplace_back(rounded(n, fine));
     part.tangents.emplace_back(glm::vec3(rounded(tangent, fine)), straight ? 1.0F : -1.0F);
-    part.texcoords[0].emplace_back(glm::dvec2(rounded(glm::dot(p, lay.u) * repeats, fine),
-                                              rounded(-glm::dot(p, lay.up) * repeats, fine)));
+    part.texcoords[0].emplace_back(glm::dvec2(rounded(glm::dot(p, axes.u) * repeats, fine),
+                                              rounded(-glm::dot(p, axes.up) * repeats, fine)));
     return static_cast<std::uint32_t>(part.positions.size()) - 1;
 }
 
-void Solid::box(int material, const Vec3& centre, const Vec3& size, const Rounding& rounding) {
+void SolidBuilder::add_box(int material, const Vec3& centre, const Vec3& size, const Rounding& rounding) {
     const Vec3 half = 0.5 * size;
     const double radius = std::min({rounding.radius, half.x, half.y, half.z});
     const int n = rounding.segments;
     const Vec3 inner = half - Vec3(radius);
-    // Along each direction of a face: the rounding in steps of angle, the flat, the rounding again.
-    struct Step {
+    // The grid lines in each direction of a face: the rounding in steps of angle, the flat, the rounding.
+    struct GridLine {
         double side, slope;
     };
-    std::vector<Step> steps;
-    for (int i = 0; i <= n; ++i) steps.push_back({-1.0, std::tan(to_radians(-45.0 * (n - i) / n))});
-    for (int i = 0; i <= n; ++i) steps.push_back({1.0, std::tan(to_radians(45.0 * i / n))});
-    const std::size_t count = steps.size();
+    std::vector<GridLine> lines;
+    for (int i = 0; i <= n; ++i) lines.push_back({-1.0, std::tan(to_radians(-45.0 * (n - i) / n))});
+    for (int i = 0; i <= n; ++i) lines.push_back({1.0, std::tan(to_radians(45.0 * i / n))});
+    const std::size_t count = lines.size();
     for (int axis = 0; axis < 3; ++axis) {
         const int first = (axis + 1) % 3;
         const int second = (axis + 2) % 3;
         for (const double side : {-1.0, 1.0}) {
             std::vector<std::uint32_t> grid;
-            for (const Step& b : steps) {
-                for (const Step& a : steps) {
+            for (const GridLine& b : lines) {
+                for (const GridLine& a : lines) {
                     Vec3 normal(0.0);
                     normal[axis] = side;
                     normal[first] = a.slope;
@@ -94,8 +94,8 @@ void Solid::box(int material, const Vec3& centre, const Vec3& size, const Roundi
     }
 }
 
-void Solid::turned(int material, const Vec3& foot, std::span<const glm::dvec2> profile, int segments,
-                   const Quat& turn) {
+void SolidBuilder::add_turned(int material, const Vec3& foot, std::span<const glm::dvec2> profile,
+                              int segments, const Quat& turn) {
     for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
         const glm::dvec2 along = profile[k + 1] - profile[k];
         if (glm::dot(along, along) < 1e-18) continue;
@@ -107,7 +107,7 @@ void Solid::turned(int material, const Vec3& foot, std::span<const glm::dvec2> p
             const Vec3 normal = turn * (away * out.x + Vec3(0.0, out.y, 0.0));
             for (const glm::dvec2& point : {profile[k], profile[k + 1]}) {
                 const Vec3 at = foot + turn * (away * point.x + Vec3(0.0, point.y, 0.0));
-                ring.push_back(vertex(material, at, normal, widest(normal)));
+                ring.push_back(vertex(material, at, normal, dominant_axis(normal)));
             }
         }
         std::vector<std::uint32_t>& indices = parts_[material].indices;
@@ -122,23 +122,23 @@ void Solid::turned(int material, const Vec3& foot, std::span<const glm::dvec2> p
     }
 }
 
-void Solid::sculpted(int material, const Field& field, const Box& box, double cell, std::size_t triangles,
-                     const Vec3& place) {
+void SolidBuilder::add_field(int material, const SignedDistanceField& field, const FieldBounds& box,
+                             double cell, std::size_t triangles, const Vec3& position) {
     LabelledMesh fine_mesh;
     fine_mesh.mesh = extract(field, box, cell);
     for (Vec3& p : fine_mesh.mesh.positions) p = rounded(p, micron);
     fine_mesh.labels.assign(fine_mesh.mesh.triangles.size(), 0);
     const LabelledMesh coarse = simplify(fine_mesh, triangles);
-    std::map<std::pair<std::uint32_t, int>, std::uint32_t> known;
+    std::map<std::pair<std::uint32_t, int>, std::uint32_t> vertex_of;
     std::vector<std::uint32_t> indices;
-    for (const Triangle& t : coarse.mesh.triangles) {
-        const int face = widest(area_vector(coarse.mesh, t));
+    for (const IndexTriangle& t : coarse.mesh.triangles) {
+        const int face = dominant_axis(area_vector(coarse.mesh, t));
         for (const std::uint32_t v : t) {
-            const auto [entry, fresh] = known.try_emplace({v, face}, 0U);
-            if (fresh) {
+            const auto [entry, is_new] = vertex_of.try_emplace({v, face}, 0U);
+            if (is_new) {
                 const Vec3& p = coarse.mesh.positions[v];
                 const Vec3 normal = glm::normalize(gradient(field, p, 0.25 * cell));
-                entry->second = vertex(material, p + place, normal, face);
+                entry->second = vertex(material, p + position, normal, face);
             }
             indices.push_back(entry->second);
         }
@@ -147,14 +147,15 @@ void Solid::sculpted(int material, const Field& field, const Box& box, double ce
     all.insert(all.end(), indices.begin(), indices.end());
 }
 
-void Solid::add_to(assets::Model& model, const std::string& name) {
+void SolidBuilder::add_to(assets::Model& model, const std::string& name) {
     assets::Mesh mesh;
     mesh.name = name;
     for (auto& [material, part] : parts_) {
-        const assets::Material& look = model.materials[static_cast<std::size_t>(material)];
-        if (look.normal_texture.texture < 0) part.tangents.clear();
-        const bool plain = look.base_color_texture.texture < 0 && look.normal_texture.texture < 0 &&
-                           look.metallic_roughness_texture.texture < 0;
+        const assets::Material& material_info = model.materials[static_cast<std::size_t>(material)];
+        if (material_info.normal_texture.texture < 0) part.tangents.clear();
+        const bool plain = material_info.base_color_texture.texture < 0 &&
+                           material_info.normal_texture.texture < 0 &&
+                           material_info.metallic_roughness_texture.texture < 0;
         if (plain) part.texcoords[0].clear();
         mesh.primitives.push_back(part);
     }
@@ -167,7 +168,7 @@ void Solid::add_to(assets::Model& model, const std::string& name) {
     model.nodes.push_back(std::move(node));
 }
 
-std::size_t Solid::triangles() const {
+std::size_t SolidBuilder::triangles() const {
     std::size_t count = 0;
     for (const auto& [material, part] : parts_) count += part.indices.size() / 3;
     return count;

@@ -1,6 +1,6 @@
-// A scene built of plain solids: boxes with rounded edges, turned parts, and things sculpted from a field.
-// Every node has one mesh with a primitive per material; texture coordinates are metres laid on box faces,
-// times the material's scale.
+// Builds the meshes of a glTF scene from solids: boxes with rounded edges, turned parts, and surfaces of
+// distance fields. Each node has one mesh with one primitive per material. Texture coordinates are
+// box-projected positions in metres, times the material's repeats.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,25 +14,27 @@
 
 namespace bolt::sculpt {
 
-class Solid {
+class SolidBuilder {
   public:
-    // Texture repeats per metre, by material.
-    explicit Solid(std::span<const double> repeats) : repeats_(repeats) {}
+    // `repeats`: texture repeats per metre, by material.
+    explicit SolidBuilder(std::span<const double> repeats) : repeats_(repeats) {}
 
     struct Rounding {
         double radius = 2 * mm;
         int segments = 1;
     };
 
-    void box(int material, const Vec3& centre, const Vec3& size, const Rounding& rounding);
-    // Points (radius, height) from the bottom up, turned about the vertical axis through `foot`; sharp
-    // corners where `sharp` says so are kept by standing twice in the profile.
-    void turned(int material, const Vec3& foot, std::span<const glm::dvec2> profile, int segments,
-                const Quat& turn = Quat(1.0, 0.0, 0.0, 0.0));
-    void sculpted(int material, const Field& field, const Box& box, double cell, std::size_t triangles,
-                  const Vec3& place);
+    void add_box(int material, const Vec3& centre, const Vec3& size, const Rounding& rounding);
+    // Revolves the profile, points (radius, height) from the bottom up, about the vertical axis through
+    // `foot`. `turn` rotates the result about `foot`. Every corner of the profile is sharp.
+    void add_turned(int material, const Vec3& foot, std::span<const glm::dvec2> profile, int segments,
+                    const Quat& turn = Quat(1.0, 0.0, 0.0, 0.0));
+    // Adds the surface of `field` within `box`, extracted with cells of size `cell` (m), simplified to about
+    // `triangles` triangles and moved by `position`.
+    void add_field(int material, const SignedDistanceField& field, const FieldBounds& box, double cell,
+                   std::size_t triangles, const Vec3& position);
 
-    // Appends node and mesh; the node stands at the origin.
+    // Appends the solids so far to the model as one mesh, with a node at the origin, and clears them.
     void add_to(assets::Model& model, const std::string& name);
     [[nodiscard]] std::size_t triangles() const;
 

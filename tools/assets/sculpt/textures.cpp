@@ -74,7 +74,8 @@ std::uint8_t byte(double x) {
 
 double to_srgb(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055; }
 
-Result<assets::TextureRef> add(assets::Model& model, const std::string& name, int size, const Paint& paint) {
+Result<assets::TextureRef> add(assets::Model& model, const std::string& name, int size,
+                               const PaintFunction& paint) {
     std::vector<std::uint8_t> pixels;
     pixels.reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(size) * 3);
     for (int row = 0; row < size; ++row) {
@@ -101,7 +102,7 @@ Result<assets::TextureRef> add(assets::Model& model, const std::string& name, in
 }  // namespace
 
 Result<assets::TextureRef> add_colour(assets::Model& model, const std::string& name, int size,
-                                      const Paint& paint) {
+                                      const PaintFunction& paint) {
     return add(model, name, size, [&](double u, double v) {
         const Vec3 c = glm::clamp(paint(u, v), Vec3(0.0), Vec3(1.0));
         return Vec3(to_srgb(c.x), to_srgb(c.y), to_srgb(c.z));
@@ -109,12 +110,12 @@ Result<assets::TextureRef> add_colour(assets::Model& model, const std::string& n
 }
 
 Result<assets::TextureRef> add_data(assets::Model& model, const std::string& name, int size,
-                                    const Paint& paint) {
+                                    const PaintFunction& paint) {
     return add(model, name, size, paint);
 }
 
 Result<assets::TextureRef> add_normals(assets::Model& model, const std::string& name, int size, double length,
-                                       const Height& height) {
+                                       const HeightFunction& height) {
     const double step = 1.0 / size;
     return add(model, name, size, [&](double u, double v) {
         const double along_u = (height(u + step, v) - height(u - step, v)) / (2.0 * step * length);

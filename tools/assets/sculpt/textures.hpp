@@ -1,4 +1,5 @@
-// Value noise that repeats: what textures and worn edges are made of. The same on every machine.
+// Procedural textures: periodic value noise that is the same on every machine, and its conversion to glTF
+// textures.
 #pragma once
 
 #include <cstdint>
@@ -12,32 +13,32 @@
 
 namespace bolt::sculpt {
 
-// [0, 1), a hash of the integers.
+// Returns a hash of the integers in [0, 1).
 double hash01(int x, int y, int z, std::uint32_t seed);
 
-// Smooth in [0, 1); repeats every `period` units in both directions (0: never).
+// Smooth noise in [0, 1). noise2 has the period `period` in both directions (0: not periodic).
 double noise2(double x, double y, int period, std::uint32_t seed);
 double noise3(const Vec3& p, std::uint32_t seed);
 
-// Octaves of noise2, each twice as fine and half as strong; [0, 1).
+// Sums octaves of noise2, each with twice the frequency and half the amplitude; in [0, 1).
 double fractal2(double x, double y, int period, int octaves, std::uint32_t seed);
 
-// Pictures made point by point: functions of (u, v) in [0, 1) become pixels, textures and PNG files.
+// Functions of (u, v) in [0, 1) from which textures are sampled.
+using HeightFunction = std::function<double(double u, double v)>;  // m; repeats with period one
+using PaintFunction = std::function<Vec3(double u, double v)>;     // linear values in [0, 1]
 
-using Height = std::function<double(double u, double v)>;  // m; repeats with period one
-using Paint = std::function<Vec3(double u, double v)>;     // linear values in [0, 1]
-
-// Both append image and texture to the model and say where they are.
+// Each function appends a square PNG image of `size` pixels and its texture to the model, and returns the
+// reference to the texture. add_colour encodes as sRGB.
 Result<assets::TextureRef> add_colour(assets::Model& model, const std::string& name, int size,
-                                      const Paint& paint);
-// Linear data, such as occlusion, roughness and metalness in red, green and blue.
+                                      const PaintFunction& paint);
+// Stores linear data, such as occlusion, roughness and metalness in red, green and blue.
 Result<assets::TextureRef> add_data(assets::Model& model, const std::string& name, int size,
-                                    const Paint& paint);
-// A tile of `length` metres as a normal map: red along u, green against v, as glTF wants it.
+                                    const PaintFunction& paint);
+// Stores a height field over a tile of `length` metres as a normal map of glTF: red along +u, green along −v.
 Result<assets::TextureRef> add_normals(assets::Model& model, const std::string& name, int size, double length,
-                                       const Height& height);
+                                       const HeightFunction& height);
 
-// sRGB hex, "#RRGGBB", as linear values.
+// Converts sRGB 0xRRGGBB to linear values.
 Vec3 from_srgb(std::uint32_t hex);
 
 }  // namespace bolt::sculpt

@@ -1,9 +1,9 @@
-// The workshop as a glTF model: floor, back wall, a bench with a clamping plate, a tool board, two strip
+// The workshop as a glTF model: floor, back wall, a bench with a clamping plate, a tool board and two strip
 // lights.
 //
-// Frame: metres, Y up, +Z towards the trainee; origin in the middle of the clamping plate, whose upper face
-// is y = 0. The empty node `machine_mount` stands there: a machine's foot goes on y = 0 with its middle on
-// the node, its length along x. The plate is 1.00 m by 0.62 m; the floor is at y = −0.85 m.
+// Frame: metres, Y up, +Z towards the trainee. The origin, with the empty node `machine_mount`, is the middle
+// of the clamping plate's upper face. A machine's foot is placed on y = 0 with its middle on the node and its
+// length along x. The plate is 1.00 m by 0.62 m; the floor is at y = −0.85 m.
 #pragma once
 
 #include "engine/assets/model.hpp"

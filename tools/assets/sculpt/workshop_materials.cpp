@@ -19,7 +19,7 @@ const std::array<double, workshop_materials> workshop_repeats{1 / 2.4,  // concr
 
 namespace {
 
-// Power-floated concrete: clouds, aggregate that shines through, a few pores.
+// Power-floated concrete: large-scale clouds, visible aggregate and a few pores.
 double pores(double u, double v) {
     const double x = u * 48;
     const double y = v * 48;
@@ -51,7 +51,7 @@ Vec3 concrete_gloss(double u, double v) {
     return {1.0, std::clamp(0.50 + 0.35 * (cloud - 0.5) + 0.3 * pores(u, v), 0.3, 1.0), 0.0};
 }
 
-// Edge-glued staves of 50 mm along u, each with its own tone, length and rings.
+// Edge-glued staves along u, 50 mm wide, each with its own tone, length and growth rings.
 struct Stave {
     double row, tone, seam, shift;
 };
@@ -75,7 +75,7 @@ double grain(double u, double v, const Stave& s) {
     return 0.5 + 0.5 * std::sin(2 * pi * (v * staves * 2.6 + 3.2 * wander + 7.0 * s.shift));
 }
 
-// Repeats in u, although each stave's noise does not: two halves are blended over the seam of the tile.
+// The grain made periodic in u by blending across the seam of the tile; the noise of a stave is not periodic.
 double seamless_grain(double u, double v, const Stave& s) {
     const double blend = smooth_step(0.85, 1.0, u);
     return (1.0 - blend) * grain(u, v, s) + blend * grain(u - 1.0, v, s);
@@ -90,7 +90,7 @@ Vec3 beech_paint(double u, double v) {
     const Vec3 dark = from_srgb(0x7A5736);
     Vec3 c = light + (dark - light) * (0.18 * rings + 0.55 * s.tone + 0.22 * flecks - 0.05);
     c *= (0.80 + 0.3 * wear) * (1.0 - 0.55 * s.seam);
-    // Oil has darkened it here and there.
+    // Oil stains darken the wood in places.
     const double oil = smooth_step(0.56, 0.74, fractal2(u * 3, v * 3, 3, 5, 78));
     c *= Vec3(1.0 - 0.38 * oil, 1.0 - 0.42 * oil, 1.0 - 0.44 * oil);
     return c;
@@ -107,7 +107,7 @@ double beech_height(double u, double v) {
            0.35 * mm * s.seam;
 }
 
-// Surface-ground: fine lines along u, the odd scratch, a film of oil that evens them out.
+// Surface-ground steel: fine lines along u, a few scratches, and a film of oil that smooths them.
 double lines(double u, double v) {
     return 0.6 * noise2(u * 4, v * 256, 256, 81) + 0.4 * noise2(u * 8, v * 512, 512, 82);
 }
@@ -136,7 +136,7 @@ double board_height(double u, double v) {
     return -1.2 * mm * hole(u, v) + 0.03 * mm * fractal2(u * 40, v * 40, 40, 2, 93);
 }
 
-assets::Material plain(const std::string& name, const Vec3& colour, double metallic, double roughness) {
+assets::Material untextured(const std::string& name, const Vec3& colour, double metallic, double roughness) {
     assets::Material m;
     m.name = name;
     m.base_color = glm::vec4(glm::vec3(colour), 1.0F);
@@ -145,24 +145,24 @@ assets::Material plain(const std::string& name, const Vec3& colour, double metal
     return m;
 }
 
-// Textures of a material as they are made; the first failure stays.
-struct Painter {
+// Adds textures to materials and keeps the first error.
+struct TextureAdder {
     assets::Model& model;
     Status status;
 
-    void keep(const Result<assets::TextureRef>& ref, assets::TextureRef& out) {
+    void store(const Result<assets::TextureRef>& ref, assets::TextureRef& out) {
         if (ref) out = *ref;
         if (!ref && status) status = tl::unexpected(ref.error());
     }
-    void colour(assets::Material& m, int size, const Paint& paint) {
-        keep(add_colour(model, m.name + "_colour", size, paint), m.base_color_texture);
+    void colour(assets::Material& m, int size, const PaintFunction& paint) {
+        store(add_colour(model, m.name + "_colour", size, paint), m.base_color_texture);
     }
-    void gloss(assets::Material& m, int size, const Paint& paint) {
-        keep(add_data(model, m.name + "_gloss", size, paint), m.metallic_roughness_texture);
+    void gloss(assets::Material& m, int size, const PaintFunction& paint) {
+        store(add_data(model, m.name + "_gloss", size, paint), m.metallic_roughness_texture);
     }
-    void bumps(assets::Material& m, int size, int index, const Height& height) {
+    void normals(assets::Material& m, int size, int index, const HeightFunction& height) {
         const double length = 1.0 / workshop_repeats[static_cast<std::size_t>(index)];
-        keep(add_normals(model, m.name + "_normal", size, length, height), m.normal_texture);
+        store(add_normals(model, m.name + "_normal", size, length, height), m.normal_texture);
     }
 };
 
@@ -170,48 +170,48 @@ struct Painter {
 
 Status add_workshop_materials(assets::Model& model) {
     std::vector<assets::Material> all(workshop_materials);
-    Painter painter{model, {}};
+    TextureAdder textures{model, {}};
 
-    assets::Material& floor = all[concrete] = plain("concrete", Vec3(1.0), 0.0, 1.0);
-    painter.colour(floor, 512, concrete_paint);
-    painter.gloss(floor, 256, concrete_gloss);
-    painter.bumps(floor, 512, concrete, concrete_height);
-    all[line_paint] = plain("line_paint", from_srgb(0xD8A71C), 0.0, 0.55);
+    assets::Material& floor = all[concrete] = untextured("concrete", Vec3(1.0), 0.0, 1.0);
+    textures.colour(floor, 512, concrete_paint);
+    textures.gloss(floor, 256, concrete_gloss);
+    textures.normals(floor, 512, concrete, concrete_height);
+    all[line_paint] = untextured("line_paint", from_srgb(0xD8A71C), 0.0, 0.55);
 
-    all[wall_upper] = plain("wall_upper", from_srgb(0xC9CBC6), 0.0, 0.85);
-    painter.bumps(all[wall_upper], 256, wall_upper, rolled_wall);
-    all[wall_lower] = plain("wall_lower", from_srgb(0x55666B), 0.0, 0.6);
+    all[wall_upper] = untextured("wall_upper", from_srgb(0xC9CBC6), 0.0, 0.85);
+    textures.normals(all[wall_upper], 256, wall_upper, rolled_wall);
+    all[wall_lower] = untextured("wall_lower", from_srgb(0x55666B), 0.0, 0.6);
     all[wall_lower].normal_texture = all[wall_upper].normal_texture;
 
-    all[beech] = plain("beech", Vec3(1.0), 0.0, 1.0);
-    painter.gloss(all[beech], 256, beech_gloss);
-    painter.colour(all[beech], 512, beech_paint);
-    painter.bumps(all[beech], 512, beech, beech_height);
+    all[beech] = untextured("beech", Vec3(1.0), 0.0, 1.0);
+    textures.gloss(all[beech], 256, beech_gloss);
+    textures.colour(all[beech], 512, beech_paint);
+    textures.normals(all[beech], 512, beech, beech_height);
 
-    all[frame_paint] = plain("frame_paint", from_srgb(0x3A4046), 0.0, 0.42);
-    painter.bumps(all[frame_paint], 256, frame_paint, orange_peel);
-    all[drawer_paint] = plain("drawer_paint", from_srgb(0x2F5F8A), 0.0, 0.38);
+    all[frame_paint] = untextured("frame_paint", from_srgb(0x3A4046), 0.0, 0.42);
+    textures.normals(all[frame_paint], 256, frame_paint, orange_peel);
+    all[drawer_paint] = untextured("drawer_paint", from_srgb(0x2F5F8A), 0.0, 0.38);
     all[drawer_paint].normal_texture = all[frame_paint].normal_texture;
 
-    all[ground_steel] = plain("ground_steel", from_srgb(0xB6B7B5), 1.0, 1.0);
-    painter.gloss(all[ground_steel], 256, ground_gloss);
-    painter.bumps(all[ground_steel], 256, ground_steel, ground_height);
-    all[zinc] = plain("zinc", from_srgb(0xC9CED2), 1.0, 0.34);
+    all[ground_steel] = untextured("ground_steel", from_srgb(0xB6B7B5), 1.0, 1.0);
+    textures.gloss(all[ground_steel], 256, ground_gloss);
+    textures.normals(all[ground_steel], 256, ground_steel, ground_height);
+    all[zinc] = untextured("zinc", from_srgb(0xC9CED2), 1.0, 0.34);
 
-    all[board_steel] = plain("board_steel", from_srgb(0x9BA3A8), 0.0, 0.45);
-    painter.colour(all[board_steel], 256, board_paint);
-    painter.bumps(all[board_steel], 256, board_steel, board_height);
+    all[board_steel] = untextured("board_steel", from_srgb(0x9BA3A8), 0.0, 0.45);
+    textures.colour(all[board_steel], 256, board_paint);
+    textures.normals(all[board_steel], 256, board_steel, board_height);
 
-    all[tool_chrome] = plain("tool_chrome", from_srgb(0xC6C8CB), 1.0, 0.22);
-    all[tool_black] = plain("tool_black", from_srgb(0x2B2B2D), 0.9, 0.42);
-    all[tool_grip] = plain("tool_grip", from_srgb(0xB01E28), 0.0, 0.45);
-    all[lamp_housing] = plain("lamp_housing", from_srgb(0xE4E5E3), 0.0, 0.5);
-    all[lamp_glow] = plain("lamp_glow", Vec3(0.9), 0.0, 0.6);
-    all[lamp_glow].emissive = glm::vec3(room::strips[0].colour);
-    // Bright enough to be seen as a lamp; the light itself comes from the lamps' nodes and the environment.
+    all[tool_chrome] = untextured("tool_chrome", from_srgb(0xC6C8CB), 1.0, 0.22);
+    all[tool_black] = untextured("tool_black", from_srgb(0x2B2B2D), 0.9, 0.42);
+    all[tool_grip] = untextured("tool_grip", from_srgb(0xB01E28), 0.0, 0.45);
+    all[lamp_housing] = untextured("lamp_housing", from_srgb(0xE4E5E3), 0.0, 0.5);
+    all[lamp_glow] = untextured("lamp_glow", Vec3(0.9), 0.0, 0.6);
+    all[lamp_glow].emissive = glm::vec3(room::strip_lights[0].colour);
+    // Bright enough to look like a lamp. The illumination comes from the light nodes and the environment map.
     all[lamp_glow].emissive_strength = 8.0F;
     model.materials = std::move(all);
-    return painter.status;
+    return textures.status;
 }
 
 }  // namespace bolt::sculpt

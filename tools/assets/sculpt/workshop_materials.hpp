@@ -1,4 +1,4 @@
-// What the workshop is made of, with textures painted by noise.
+// The materials of the workshop, with textures generated from noise.
 #pragma once
 
 #include <array>

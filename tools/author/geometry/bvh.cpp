@@ -12,21 +12,22 @@ constexpr std::uint32_t leaf_size = 4;
 
 Vec3 centroid(const Triangle& t) { return (t.a + t.b + t.c) / 3.0; }
 
-// Distance at which a ray enters a box, infinity if it misses it.
-double entry(const Bvh::Node& node, const Vec3& origin, const Vec3& inverse) {
+// Returns the distance at which the ray enters the box; infinity if it misses.
+double entry_distance(const Bvh::Node& node, const Vec3& origin, const Vec3& inverse) {
     const Vec3 near = (node.middle - node.half - origin) * inverse;
     const Vec3 far = (node.middle + node.half - origin) * inverse;
     double in = 0.0, out = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) {
-        // A ray in the plane of a face gives 0 · ∞; such a NaN limits nothing.
+        // A ray in the plane of a face gives 0 · ∞ = NaN, which fmin and fmax ignore.
         in = std::fmax(in, std::fmin(near[i], far[i]));
         out = std::fmin(out, std::fmax(near[i], far[i]));
     }
     return in <= out ? in : std::numeric_limits<double>::infinity();
 }
 
-// T. Möller, B. Trumbore: Fast, minimum storage ray–triangle intersection (1997).
-double distance_to(const Triangle& t, const Vec3& origin, const Vec3& direction) {
+// Distance along the ray to the triangle, infinity without a hit. T. Möller, B. Trumbore: Fast, minimum
+// storage ray–triangle intersection (1997).
+double hit_distance(const Triangle& t, const Vec3& origin, const Vec3& direction) {
     constexpr double none = std::numeric_limits<double>::infinity();
     const Vec3 e1 = t.b - t.a, e2 = t.c - t.a, p = glm::cross(direction, e2);
     const double det = glm::dot(e1, p);
@@ -49,13 +50,13 @@ Bvh::Bvh(std::vector<Triangle> triangles) : triangles_(std::move(triangles)) {
     split(0, 0, static_cast<std::uint32_t>(triangles_.size()));
 }
 
-Box Bvh::box() const {
+Aabb Bvh::box() const {
     if (nodes_.empty()) return {};
     return {nodes_[0].middle - nodes_[0].half, nodes_[0].middle + nodes_[0].half};
 }
 
 void Bvh::split(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
-    Box box, centres;
+    Aabb box, centres;
     for (std::uint32_t i = first; i < first + count; ++i) {
         const Triangle& t = triangles_[i];
         for (const Vec3& p : {t.a, t.b, t.c}) box.add(p);
@@ -83,7 +84,7 @@ void Bvh::split(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
 }
 
 std::optional<RayHit> first_hit(const Bvh& bvh, const Vec3& origin, const Vec3& direction, double reach,
-                                const Skip& skip) {
+                                const SkipPart& skip) {
     std::optional<RayHit> best;
     if (bvh.nodes().empty()) return best;
     const Vec3 inverse = 1.0 / direction;
@@ -91,7 +92,7 @@ std::optional<RayHit> first_hit(const Bvh& bvh, const Vec3& origin, const Vec3& 
     while (!stack.empty()) {
         const Bvh::Node& node = bvh.nodes()[stack.back()];
         stack.pop_back();
-        if (entry(node, origin, inverse) > reach) continue;
+        if (entry_distance(node, origin, inverse) > reach) continue;
         if (node.count == 0) {
             stack.push_back(node.first);
             stack.push_back(node.first + 1);
@@ -99,7 +100,7 @@ std::optional<RayHit> first_hit(const Bvh& bvh, const Vec3& origin, const Vec3& 
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             const Triangle& t = bvh.triangles()[i];
-            const double distance = distance_to(t, origin, direction);
+            const double distance = hit_distance(t, origin, direction);
             if (distance > reach || (best && distance >= best->distance) || (skip && skip(t.part))) continue;
             best = RayHit{distance, i};
             reach = distance;
@@ -110,26 +111,27 @@ std::optional<RayHit> first_hit(const Bvh& bvh, const Vec3& origin, const Vec3& 
 
 namespace {
 
+// Six times the signed volume of a tetrahedron.
 double volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     return glm::dot(glm::cross(b - a, c - a), d - a);
 }
 
-bool passes_through(const Vec3& p, const Vec3& q, const Triangle& t) {
+bool segment_crosses(const Vec3& p, const Vec3& q, const Triangle& t) {
     const double above = volume(t.a, t.b, t.c, p), below = volume(t.a, t.b, t.c, q);
     if (!(above * below < 0.0)) return false;
     const double u = volume(p, q, t.a, t.b), v = volume(p, q, t.b, t.c), w = volume(p, q, t.c, t.a);
     return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
 }
 
-// All of `t` on one side of the plane of `s`, or in it.
-bool beside(const Triangle& s, const Triangle& t) {
+// Returns true if `t` lies on one side of the plane of `s` or in the plane.
+bool on_one_side(const Triangle& s, const Triangle& t) {
     const Vec3 n = normal_of(s);
     const double a = glm::dot(n, t.a - s.a), b = glm::dot(n, t.b - s.a), c = glm::dot(n, t.c - s.a);
     return (a >= 0.0 && b >= 0.0 && c >= 0.0) || (a <= 0.0 && b <= 0.0 && c <= 0.0);
 }
 
-// Separating axes of a box along the axes and one that is turned about Y.
-bool apart(const Bvh::Node& still, const Bvh::Node& moving, const TurnAboutY& pose) {
+// Separating-axis test of an axis-aligned box and a box rotated about Y.
+bool separated(const Bvh::Node& still, const Bvh::Node& moving, const TurnAboutY& pose) {
     const Vec3 d = pose(moving.middle) - still.middle;
     const double c = std::abs(pose.cosine), s = std::abs(pose.sine);
     const Vec3 &a = still.half, &b = moving.half;
@@ -143,21 +145,21 @@ double size_of(const Bvh::Node& node) { return node.half.x + node.half.y + node.
 
 }  // namespace
 
-bool cross(const Triangle& s, const Triangle& t) {
-    if (beside(s, t) || beside(t, s)) return false;
-    return passes_through(s.a, s.b, t) || passes_through(s.b, s.c, t) || passes_through(s.c, s.a, t) ||
-           passes_through(t.a, t.b, s) || passes_through(t.b, t.c, s) || passes_through(t.c, t.a, s);
+bool triangles_cross(const Triangle& s, const Triangle& t) {
+    if (on_one_side(s, t) || on_one_side(t, s)) return false;
+    return segment_crosses(s.a, s.b, t) || segment_crosses(s.b, s.c, t) || segment_crosses(s.c, s.a, t) ||
+           segment_crosses(t.a, t.b, s) || segment_crosses(t.b, t.c, s) || segment_crosses(t.c, t.a, s);
 }
 
 std::optional<std::uint32_t> first_crossing(const Bvh& still, const Bvh& moving, const TurnAboutY& pose,
-                                            const Skip& skip) {
+                                            const SkipPart& skip) {
     if (still.nodes().empty() || moving.nodes().empty()) return std::nullopt;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> stack{{0, 0}};
     while (!stack.empty()) {
         const auto [i, k] = stack.back();
         stack.pop_back();
         const Bvh::Node &a = still.nodes()[i], &b = moving.nodes()[k];
-        if (apart(a, b, pose)) continue;
+        if (separated(a, b, pose)) continue;
         if (a.count == 0 && (b.count > 0 || size_of(a) >= size_of(b))) {
             stack.emplace_back(a.first, k);
             stack.emplace_back(a.first + 1, k);
@@ -172,7 +174,8 @@ std::optional<std::uint32_t> first_crossing(const Bvh& still, const Bvh& moving,
             const Triangle& own = moving.triangles()[m];
             const Triangle posed{pose(own.a), pose(own.b), pose(own.c), own.part};
             for (std::uint32_t n = a.first; n < a.first + a.count; ++n)
-                if (cross(posed, still.triangles()[n]) && !(skip && skip(still.triangles()[n].part)))
+                if (triangles_cross(posed, still.triangles()[n]) &&
+                    !(skip && skip(still.triangles()[n].part)))
                     return n;
         }
     }

@@ -1,4 +1,5 @@
-// A box along the axes, and a triangle that knows which part it belongs to.
+// A tree of axis-aligned boxes over triangles, in double precision: ray queries, and the test whether two
+// triangle sets cross. Metres in every interface.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,8 @@
 
 namespace bolt::geometry {
 
-struct Box {
+// Axis-aligned bounding box; empty until the first add().
+struct Aabb {
     Vec3 low{std::numeric_limits<double>::infinity()};
     Vec3 high{-std::numeric_limits<double>::infinity()};
 
@@ -28,27 +30,27 @@ struct Box {
 
 struct Triangle {
     Vec3 a, b, c;
-    std::uint32_t part = 0;
+    std::uint32_t part = 0;  // index of the part that the triangle belongs to
 };
 
-inline Vec3 normal_of(const Triangle& t) { return glm::cross(t.b - t.a, t.c - t.a); }  // twice the area
-
-// Triangles in a tree of boxes, in double precision: rays through them, and what of one set crosses another.
+// Normal by the winding; its length is twice the area.
+inline Vec3 normal_of(const Triangle& t) { return glm::cross(t.b - t.a, t.c - t.a); }
 
 class Bvh {
   public:
     struct Node {
         Vec3 middle, half;
-        std::uint32_t first = 0;  // triangle of a leaf, left child otherwise (the right one follows it)
-        std::uint32_t count = 0;  // triangles of a leaf; 0: not a leaf
+        std::uint32_t first = 0;  // leaf: first triangle; inner node: left child (the right one is first + 1)
+        std::uint32_t count = 0;  // leaf: number of triangles; inner node: 0
     };
 
     Bvh() = default;
     explicit Bvh(std::vector<Triangle> triangles);
 
-    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }  // root first; empty: none
+    // The root comes first; empty without triangles.
+    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
     [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
-    [[nodiscard]] Box box() const;
+    [[nodiscard]] Aabb box() const;
 
   private:
     void split(std::uint32_t node, std::uint32_t first, std::uint32_t count);
@@ -56,21 +58,19 @@ class Bvh {
     std::vector<Triangle> triangles_;
 };
 
-// Parts that are looked through.
-using Skip = std::function<bool(std::uint32_t part)>;
+// Returns true for the parts that a query ignores.
+using SkipPart = std::function<bool(std::uint32_t part)>;
 
 struct RayHit {
     double distance = 0.0;
     std::uint32_t triangle = 0;
 };
 
-// The nearest hit within `reach`, from either side. `direction`: unit.
+// Returns the nearest hit on either side of a triangle within `reach`, m. `direction` is a unit vector.
 std::optional<RayHit> first_hit(const Bvh& bvh, const Vec3& origin, const Vec3& direction, double reach,
-                                const Skip& skip = {});
+                                const SkipPart& skip = {});
 
-// Whether one set of triangles, turned and shifted, crosses another. Surfaces that only touch do not cross.
-
-// A turn about +Y, then a shift.
+// Rotation about +Y, then translation.
 struct TurnAboutY {
     double cosine = 1.0, sine = 0.0;
     Vec3 shift{0.0};
@@ -83,11 +83,12 @@ struct TurnAboutY {
     }
 };
 
-// An edge of one triangle passes through the other.
-bool cross(const Triangle& s, const Triangle& t);
+// Returns true if an edge of one triangle passes through the other. Triangles that only touch do not cross.
+bool triangles_cross(const Triangle& s, const Triangle& t);
 
-// A triangle of `still` that one of `moving`, in its pose, crosses.
+// Returns the index of a triangle of `still` that crosses a triangle of `moving` placed by `pose`; nullopt if
+// there is none.
 std::optional<std::uint32_t> first_crossing(const Bvh& still, const Bvh& moving, const TurnAboutY& pose,
-                                            const Skip& skip = {});
+                                            const SkipPart& skip = {});
 
 }  // namespace bolt::geometry

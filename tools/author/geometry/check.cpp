@@ -6,7 +6,6 @@
 
 #include "content/format/json_document.hpp"
 #include "engine/assets/gltf.hpp"
-
 #include "tools/author/geometry/check_joint.hpp"
 #include "tools/author/geometry/check_model.hpp"
 
@@ -14,68 +13,70 @@ namespace bolt::geometry {
 
 namespace {
 
-std::optional<Scene> read_scene(const std::string& path, std::string_view pointer, const Messages& messages) {
+std::optional<FlattenedModel> read_scene(const std::string& path, std::string_view pointer,
+                                         const Messages& messages) {
     if (path.empty()) return std::nullopt;
     const auto model = assets::read_gltf(path);
     if (!model) {
-        messages.error(pointer, fmt::format("the file cannot be used: {}", model.error().message()), {});
+        messages.error(pointer, fmt::format("the file cannot be read: {}", model.error().message()), {});
         return std::nullopt;
     }
     check_file_size(path, pointer, messages);
-    Scene scene = flatten(*model);
+    FlattenedModel scene = flatten(*model);
     if (scene.triangle_count() == 0) {
-        messages.error(pointer, "the file shows nothing", "expected triangles in its default scene");
+        messages.error(pointer, "the file has no triangles", "triangles in its default scene");
         return std::nullopt;
     }
     return scene;
 }
 
-// The author's wrench; what is wrong with it is said, and the envelope stands for it.
-Wrench wrench_of(const content::WrenchDesign& design, const std::string& pointer, const Messages& messages) {
+// Loads the author's wrench. Reports its errors and falls back to the envelope.
+WrenchShape load_wrench(const content::WrenchDesign& design, const std::string& pointer,
+                        const Messages& messages) {
     if (const auto scene = read_scene(design.model, pointer, messages)) {
-        auto wrench = model_wrench(*scene, design);
+        auto wrench = wrench_from_model(*scene, design);
         if (wrench) return std::move(*wrench);
         messages.error(pointer, wrench.error().what, wrench.error().expected);
     }
-    return plain_wrench(design);
+    return envelope_wrench(design);
 }
 
-// The usual one first, then those to choose from.
-std::vector<Wrench> wrenches_of(const content::Assembly& assembly, const Messages& messages) {
-    std::vector<Wrench> wrenches;
+// The default wrench first, then those of "more_tools".
+std::vector<WrenchShape> load_wrenches(const content::Assembly& assembly, const Messages& messages) {
+    std::vector<WrenchShape> wrenches;
     for (const content::Tool& tool : assembly.tools) {
-        const bool usual = wrenches.empty();
-        const std::string at = usual ? "/tool" : "/more_tools/" + content::pointer_token(tool.name);
-        wrenches.push_back(wrench_of(tool.wrench, at + "/model", messages));
-        if (!usual) wrenches.back().name = "the tool " + content::in_quotes(tool.name);
+        const bool is_default = wrenches.empty();
+        const std::string at = is_default ? "/tool" : "/more_tools/" + content::pointer_token(tool.name);
+        wrenches.push_back(load_wrench(tool.wrench, at + "/model", messages));
+        if (!is_default) wrenches.back().name = "the tool " + content::in_quotes(tool.name);
     }
     return wrenches;
 }
 
-Bvh everything_of(const Scene& scene) {
+Bvh build_bvh(const FlattenedModel& scene) {
     std::vector<Triangle> triangles;
     triangles.reserve(scene.triangle_count());
-    for (const Part& part : scene.parts)
+    for (const ModelPart& part : scene.parts)
         triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
     return Bvh(std::move(triangles));
 }
 
-void check_model(const content::Assembly& assembly, const Scene& scene, const Messages& messages) {
+void check_model(const content::Assembly& assembly, const FlattenedModel& scene, const Messages& messages) {
     check_triangles(scene, near_budget, "/model", messages);
-    const std::vector<Wrench> wrenches = wrenches_of(assembly, messages);
+    const std::vector<WrenchShape> wrenches = load_wrenches(assembly, messages);
 
     const std::vector<int> nodes = check_nodes(assembly, scene, messages);
-    const Bvh everything = everything_of(scene);
+    const Bvh everything = build_bvh(scene);
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {
         if (nodes[i] < 0) continue;
         const content::AssemblyJoint& joint = assembly.joints[i];
         const JointParts parts = find_joint_parts(scene, nodes[i], joint.design.id);
         if (!check_stack(joint, i, parts, scene, everything, assembly.wrench.jaw, messages)) continue;
-        for (const Wrench& wrench : wrenches) check_wrench(joint, i, parts, scene, wrench, messages);
+        for (const WrenchShape& wrench : wrenches) check_wrench(joint, i, parts, scene, wrench, messages);
     }
 }
 
-void sort_by_place(std::vector<Error>& errors) {
+void sort_by_position(std::vector<Error>& errors) {
     std::stable_sort(errors.begin(), errors.end(), [](const Error& a, const Error& b) {
         return std::tie(a.line, a.column) < std::tie(b.line, b.column);
     });
@@ -95,8 +96,8 @@ Findings check_geometry(const content::Assembly& assembly) {
     if (far) check_triangles(*far, far_budget, "/model_far", messages);
     if (model && far) check_names(*model, *far, messages);
     if (model && contact) check_contact(*contact, *model, messages);
-    sort_by_place(findings.errors);
-    sort_by_place(findings.notes);
+    sort_by_position(findings.errors);
+    sort_by_position(findings.notes);
     return findings;
 }
 

@@ -1,5 +1,5 @@
-// Whether what an assembly file says and what its models show agree, and whether the work can be done: nodes,
-// sizes, room for the wrench, overlaps, levels of detail.
+// Checks that an assembly file agrees with its models and that the wrench can do the work: nodes, sizes,
+// overlaps, room for the wrench, levels of detail.
 #pragma once
 
 #include <vector>
@@ -11,11 +11,11 @@ namespace bolt::geometry {
 
 struct Findings {
     std::vector<Error> errors;  // all bad_content, in the order of the file
-    std::vector<Error> notes;   // what is no mistake, but good to know
+    std::vector<Error> notes;   // not errors, but of use to the author
 };
 
-// `assembly` is one that loaded without a mistake, with its files. An assembly without a model has no
-// findings.
+// `assembly` must have loaded without errors, and its model files must exist. An assembly without a model has
+// no findings.
 Findings check_geometry(const content::Assembly& assembly);
 
 }  // namespace bolt::geometry

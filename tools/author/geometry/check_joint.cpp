@@ -12,17 +12,18 @@ namespace bolt::geometry {
 
 namespace {
 
-constexpr double on_axis = 0.01 * mm;        // of nut and hole beside the joint's axis
-constexpr double depth_allowed = 0.05 * mm;  // of one part in another, and between parts that should touch
-constexpr double length_allowed = 0.1 * mm;
+constexpr double offset_tolerance = 0.01 * mm;   // of nut and hole from the joint's axis
+constexpr double contact_tolerance = 0.05 * mm;  // penetration or gap of two parts that should touch
+constexpr double length_tolerance = 0.1 * mm;
 constexpr double nut_play = 0.5 * mm;  // ISO 4032 lets the width across flats be smaller by up to 2 %
-constexpr double jaw_play = 0.6 * mm;
+constexpr double jaw_play = 0.6 * mm;  // a jaw may be wider than the nut by this
 
-struct Stack {
+// One joint, and what its checks need.
+struct JointCheck {
     const content::AssemblyJoint& joint;
     std::size_t index;
     const JointParts& parts;
-    const Scene& scene;
+    const FlattenedModel& scene;
     const Bvh& everything;
     const Messages& messages;
 
@@ -33,7 +34,7 @@ struct Stack {
     [[nodiscard]] std::string name_of(std::uint32_t part) const {
         return content::in_quotes(scene.parts[part].name);
     }
-    // A ray in the joint's frame, through everything but the joint's own fasteners.
+    // Casts a ray, given in the joint's frame, that ignores the joint's own fasteners.
     [[nodiscard]] std::optional<RayHit> ray(const Vec3& origin, const Vec3& direction, double reach) const {
         return first_hit(everything, Vec3(parts.to_assembly * glm::dvec4(origin, 1.0)),
                          glm::normalize(Vec3(parts.to_assembly * glm::dvec4(direction, 0.0))), reach,
@@ -41,75 +42,78 @@ struct Stack {
     }
 };
 
-// What a joint should have is there, and nothing else.
-void check_there(const Stack& s, const Fastener& fastener, bool wanted) {
-    if (fastener.there() == wanted) return;
+// Reports a fastener that is missing, or a washer that the joint type does not have.
+void check_presence(const JointCheck& s, const Fastener& fastener, bool wanted) {
+    if (fastener.exists() == wanted) return;
     std::vector<std::string> names;
-    for (const SceneNode& node : s.scene.nodes)
+    for (const ModelNode& node : s.scene.nodes)
         if (!node.name.empty() && node.parent >= 0 &&
             s.scene.nodes[static_cast<std::size_t>(node.parent)].name == s.joint.node)
             names.push_back(node.name);
-    const std::string near = content::meant(fastener.name, names);
+    const std::string near = content::nearest_name(fastener.name, names);
     if (wanted)
         s.error(fmt::format("there is no node {} with a mesh under {}", content::in_quotes(fastener.name),
                             content::in_quotes(s.joint.node)),
                 near.empty() || near == fastener.name
-                    ? "expected one"
+                    ? "one"
                     : fmt::format("did you mean {}?", content::in_quotes(near)));
     else
         s.error(fmt::format("the model has {}, but the joint type has no such washer",
                             content::in_quotes(fastener.name)),
-                "expected washer_under_head and washer_under_nut as in the model");
+                "washer_under_head and washer_under_nut as in the model");
 }
 
-bool check_nut(const Stack& s, double jaw) {
+bool check_nut(const JointCheck& s, double jaw) {
     const auto hexagon = measure_hexagon(s.parts.nut.triangles);
     if (!hexagon || hexagon->unevenness > 0.1 * mm) {
-        s.error(fmt::format("{} is no hexagon about the joint's axis", content::in_quotes(s.parts.nut.name)),
-                fmt::format("expected a hexagon nut, {:g} mm across flats", s.size().across_flats / mm));
+        s.error(
+            fmt::format("{} is not a hexagon about the joint's axis", content::in_quotes(s.parts.nut.name)),
+            fmt::format("a hexagon nut, {:g} mm across flats", s.size().across_flats / mm));
         return false;
     }
     const double flats = hexagon->across_flats, off = std::hypot(hexagon->centre.x, hexagon->centre.z);
     const std::string name = content::in_quotes(s.parts.nut.name);
-    if (off > on_axis)
-        s.error(fmt::format("{} is {:.3g} mm beside the joint's axis", name, off / mm),
-                "expected at most 0.01 mm");
-    if (flats > s.size().across_flats + depth_allowed || flats < s.size().across_flats - nut_play)
+    if (off > offset_tolerance)
+        s.error(fmt::format("{} is {:.3g} mm beside the joint's axis", name, off / mm), "at most 0.01 mm");
+    if (flats > s.size().across_flats + contact_tolerance || flats < s.size().across_flats - nut_play)
         s.error(fmt::format("{} measures {:.2f} mm across flats", name, flats / mm),
-                fmt::format("expected {:g} mm, as {} has it", s.size().across_flats / mm, s.size().name));
+                fmt::format("{:g} mm for {}", s.size().across_flats / mm, s.size().name));
     if (jaw < flats - 1e-6)
         s.error(fmt::format("a jaw of {:g} mm is too small for {}, {:.2f} mm across flats", jaw / mm, name,
                             flats / mm),
-                fmt::format("expected jaw_mm from {:.2f} to {:.2f}", flats / mm, (flats + jaw_play) / mm));
+                fmt::format("jaw_mm from {:.2f} to {:.2f}", flats / mm, (flats + jaw_play) / mm));
     else if (jaw > flats + jaw_play + 1e-6)
         s.error(fmt::format("a jaw of {:g} mm is too wide for {}, {:.2f} mm across flats", jaw / mm, name,
                             flats / mm),
-                fmt::format("expected jaw_mm from {:.2f} to {:.2f}", flats / mm, (flats + jaw_play) / mm));
+                fmt::format("jaw_mm from {:.2f} to {:.2f}", flats / mm, (flats + jaw_play) / mm));
     return true;
 }
 
-// `upper` should lie on `level`, the top of what `lower` names.
-void check_seat(const Stack& s, const std::string& upper, double bottom, const std::string& lower,
+// Reports a gap or a penetration between the part `upper`, which begins at the height `bottom`, and the part
+// `lower`, which ends at the height `level` (m, along the axis).
+void check_seat(const JointCheck& s, const std::string& upper, double bottom, const std::string& lower,
                 double level) {
     const double gap = bottom - level;
-    if (std::abs(gap) <= depth_allowed) return;
+    if (std::abs(gap) <= contact_tolerance) return;
     if (gap < 0.0)
         s.error(fmt::format("{} is {:.2f} mm deep in {}", content::in_quotes(upper), -gap / mm, lower),
-                "expected it on the face");
+                "the two faces in contact");
     else
         s.error(fmt::format("{} is {:.2f} mm away from {}", content::in_quotes(upper), gap / mm, lower),
-                "expected it on the face");
+                "the two faces in contact");
 }
 
-// Median distance along `direction` to the face that rays on a ring about the axis meet, and the part that
-// has it.
-struct Face {
-    double distance = 0.0;
+struct FaceHit {
+    double distance = 0.0;  // m
     std::uint32_t part = 0;
 };
-std::optional<Face> find_face(const Stack& s, double radius, double height, double direction, double reach) {
+
+// Casts rays from a ring about the axis at `height` along ±Y and returns the hit at the median distance;
+// nullopt if fewer than half of them hit.
+std::optional<FaceHit> find_face(const JointCheck& s, double radius, double height, double direction,
+                                 double reach) {
     constexpr int rays = 24;
-    std::vector<Face> hits;
+    std::vector<FaceHit> hits;
     for (int i = 0; i < rays; ++i) {
         const double angle = (i + 0.5) * 2.0 * pi / rays;
         const Vec3 origin{radius * std::cos(angle), height, radius * std::sin(angle)};
@@ -117,12 +121,14 @@ std::optional<Face> find_face(const Stack& s, double radius, double height, doub
             hits.push_back({hit->distance, s.everything.triangles()[hit->triangle].part});
     }
     if (hits.size() < rays / 2) return std::nullopt;
-    std::sort(hits.begin(), hits.end(), [](const Face& a, const Face& b) { return a.distance < b.distance; });
+    std::sort(hits.begin(), hits.end(),
+              [](const FaceHit& a, const FaceHit& b) { return a.distance < b.distance; });
     return hits[hits.size() / 2];
 }
 
-// Under the head: what is wider than the shank and its fillet.
-std::optional<double> head_underside(const Stack& s) {
+// Height of the bearing face under the head: the highest point wider than the shank and its fillet; nullopt
+// without a head.
+std::optional<double> head_underside(const JointCheck& s) {
     std::optional<double> top;
     for (const Triangle& t : s.parts.bolt.triangles)
         for (const Vec3& p : {t.a, t.b, t.c})
@@ -130,7 +136,7 @@ std::optional<double> head_underside(const Stack& s) {
     return top;
 }
 
-void check_members(const Stack& s) {
+void check_members(const JointCheck& s) {
     const auto& design = s.joint.design;
     const double washer = design.washer_under_nut ? s.size().washer_outer : s.size().nut_bearing;
     const double radius = 0.25 * (s.size().hole + washer);
@@ -139,40 +145,42 @@ void check_members(const Stack& s) {
     const double above = 0.5 * s.size().nut_height;
     const auto top = find_face(s, radius, above, -1.0, above + grip);
     if (!top) {
-        s.error("nothing is under the nut where the joint has its members", "expected a face at position_mm");
+        s.error("no member is under the nut at position_mm", "a face at position_mm");
         return;
     }
     const double face = above - top->distance;
-    if (std::abs(face) > depth_allowed)
+    if (std::abs(face) > contact_tolerance)
         s.error(fmt::format("the face of {} under the nut is {:.2f} mm {} position_mm", s.name_of(top->part),
                             std::abs(face) / mm, face > 0.0 ? "beyond" : "below"),
-                "expected position_mm on the face");
+                "position_mm on the face");
     const auto bottom = find_face(s, radius, -grip - above, 1.0, above + grip);
     const double measured = bottom ? grip + above - bottom->distance : 0.0;
-    if (!bottom || std::abs(measured + face - grip) > length_allowed)
+    if (!bottom || std::abs(measured + face - grip) > length_tolerance)
         s.error(bottom
                     ? fmt::format("the members measure {:.2f} mm in the model, and {:g} mm in the joint type",
                                   (measured + face) / mm, grip / mm)
-                    : "nothing is under the head where the joint has its members",
-                "expected both within 0.1 mm");
+                    : "no member is under the head",
+                "both within 0.1 mm");
 }
 
-// A circle through points, least squares (I. Kåsa, 1976): minimises the sum of (x² + z² + ax + bz + c)².
-struct Circle {
-    double x = 0.0, z = 0.0, radius = 0.0, residual = 0.0;
+struct CircleFit {
+    double x = 0.0, z = 0.0, radius = 0.0, residual = 0.0;  // m; residual: largest radial distance
 };
-std::optional<Circle> fit_circle(const std::vector<Vec3>& points) {
+
+// Least-squares circle (I. Kåsa, 1976): minimises the sum of (x² + z² + ax + bz + c)². Returns nullopt for
+// fewer than six points or points on a line.
+std::optional<CircleFit> fit_circle(const std::vector<Vec3>& points) {
     glm::dmat3 m(0.0);
     Vec3 right(0.0);
     for (const Vec3& p : points) {
-        const Vec3 row{p.x, p.z, 1e-2};  // the constant scaled to the size of a hole
+        const Vec3 row{p.x, p.z, 1e-2};  // the constant is scaled to the size of a hole
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) m[k][i] += row[i] * row[k];
         right -= (p.x * p.x + p.z * p.z) * row;
     }
     if (points.size() < 6 || std::abs(glm::determinant(m)) < 1e-30) return std::nullopt;
     const Vec3 abc = glm::inverse(m) * right;
-    Circle circle;
+    CircleFit circle;
     circle.x = -0.5 * abc.x;
     circle.z = -0.5 * abc.y;
     circle.radius = std::sqrt(std::max(circle.x * circle.x + circle.z * circle.z - 1e-2 * abc.z, 0.0));
@@ -182,9 +190,9 @@ std::optional<Circle> fit_circle(const std::vector<Vec3>& points) {
     return circle;
 }
 
-// The walls of the hole, part by part, as rays from the axis meet them. Gives the parts that leave the bolt
-// no room.
-std::set<std::uint32_t> check_hole(const Stack& s) {
+// Measures the hole in each part with rays from the axis. Returns the parts whose hole is smaller than the
+// bolt.
+std::set<std::uint32_t> check_hole(const JointCheck& s) {
     constexpr int heights = 8, rays = 36;
     double grip = 0.0;
     for (const joint::Member& member : s.joint.design.members) grip += member.thickness;
@@ -202,27 +210,28 @@ std::set<std::uint32_t> check_hole(const Stack& s) {
         }
     for (const auto& [part, points] : walls) {
         const auto circle = fit_circle(points);
-        if (!circle || circle->residual > on_axis) continue;  // no round hole: overlaps are found otherwise
+        if (!circle || circle->residual > offset_tolerance)
+            continue;  // no round hole: check_overlaps() finds overlaps
         const double off = std::hypot(circle->x, circle->z);
         if (2.0 * circle->radius < s.size().d) {
             tight.insert(part);
             s.error(fmt::format("the hole in {} measures {:.2f} mm, and the bolt {:g} mm", s.name_of(part),
                                 2.0 * circle->radius / mm, s.size().d / mm),
-                    fmt::format("expected {:g} mm (ISO 273 medium)", s.size().hole / mm));
-        } else if (off > on_axis)
+                    fmt::format("{:g} mm (ISO 273 medium)", s.size().hole / mm));
+        } else if (off > offset_tolerance)
             s.error(
                 fmt::format("the hole in {} is {:.3g} mm beside the joint's axis", s.name_of(part), off / mm),
-                "expected at most 0.01 mm");
+                "at most 0.01 mm");
     }
     return tight;
 }
 
-void check_bolt(const Stack& s) {
+void check_bolt(const JointCheck& s) {
     const auto underside = head_underside(s);
     if (!underside) {
         s.error(fmt::format("{} has no head on the other side of the members",
                             content::in_quotes(s.parts.bolt.name)),
-                "expected the head at -Y of the joint's node");
+                "the head at -Y of the joint's node");
         return;
     }
     double radius = 0.0;
@@ -233,16 +242,16 @@ void check_bolt(const Stack& s) {
     if (std::abs(2.0 * radius - s.size().d) > 0.3 * mm)
         s.error(fmt::format("{} measures {:.2f} mm across its thread", content::in_quotes(s.parts.bolt.name),
                             2.0 * radius / mm),
-                fmt::format("expected {:g} mm, as {} has it", s.size().d / mm, s.size().name));
+                fmt::format("{:g} mm for {}", s.size().d / mm, s.size().name));
     const double length = s.parts.bolt.box.high.y - *underside;
-    if (std::abs(length - s.joint.design.bolt_length) > length_allowed)
+    if (std::abs(length - s.joint.design.bolt_length) > length_tolerance)
         s.error(fmt::format("{} measures {:.2f} mm under its head", content::in_quotes(s.parts.bolt.name),
                             length / mm),
-                fmt::format("expected {:g} mm, as bolt_length_mm says", s.joint.design.bolt_length / mm));
+                fmt::format("{:g} mm (bolt_length_mm)", s.joint.design.bolt_length / mm));
     double grip = 0.0;
     for (const joint::Member& member : s.joint.design.members) grip += member.thickness;
-    // Downward, so with the signs turned.
-    if (s.parts.washer_head.there()) {
+    // These faces look along -Y, so all heights are negated.
+    if (s.parts.washer_head.exists()) {
         check_seat(s, s.parts.bolt.name, -*underside, content::in_quotes(s.parts.washer_head.name),
                    -s.parts.washer_head.box.low.y);
         check_seat(s, s.parts.washer_head.name, -s.parts.washer_head.box.high.y, "the member under the head",
@@ -252,46 +261,47 @@ void check_bolt(const Stack& s) {
     }
 }
 
-// A fastener made smaller by what is allowed crosses a part that is not of this joint.
-void check_overlaps(const Stack& s, const Fastener& fastener, const std::set<std::uint32_t>& said) {
-    if (!fastener.there()) return;
+// Reports a part outside the joint that crosses the fastener after shrinking it by the contact tolerance.
+// `reported`: parts that already have an error.
+void check_overlaps(const JointCheck& s, const Fastener& fastener, const std::set<std::uint32_t>& reported) {
+    if (!fastener.exists()) return;
     std::vector<Triangle> smaller = fastener.triangles;
     const double middle = fastener.box.middle().y;
     for (Triangle& t : smaller)
         for (Vec3* p : {&t.a, &t.b, &t.c}) {
             const double radius = std::hypot(p->x, p->z);
-            const double in = radius > depth_allowed ? 1.0 - depth_allowed / radius : 0.0;
-            const double y = p->y - std::clamp(p->y - middle, -depth_allowed, depth_allowed);
+            const double in = radius > contact_tolerance ? 1.0 - contact_tolerance / radius : 0.0;
+            const double y = p->y - std::clamp(p->y - middle, -contact_tolerance, contact_tolerance);
             *p = Vec3(s.parts.to_assembly * glm::dvec4(p->x * in, y, p->z * in, 1.0));
         }
     const auto hit =
         first_crossing(s.everything, Bvh(std::move(smaller)), TurnAboutY{},
-                       [&](std::uint32_t part) { return s.parts.owns(part) || said.contains(part); });
+                       [&](std::uint32_t part) { return s.parts.owns(part) || reported.contains(part); });
     if (hit)
-        s.error(fmt::format("{} runs into {}", content::in_quotes(fastener.name),
+        s.error(fmt::format("{} overlaps {}", content::in_quotes(fastener.name),
                             s.name_of(s.everything.triangles()[*hit].part)),
-                "expected parts that do not overlap");
+                "parts that do not overlap");
 }
 
 }  // namespace
 
 bool check_stack(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
-                 const Scene& scene, const Bvh& everything, double jaw, const Messages& messages) {
-    const Stack s{joint, index, parts, scene, everything, messages};
-    check_there(s, parts.bolt, true);
-    check_there(s, parts.washer_head, joint.design.washer_under_head);
-    check_there(s, parts.washer_nut, joint.design.washer_under_nut);
-    check_there(s, parts.nut, true);
+                 const FlattenedModel& scene, const Bvh& everything, double jaw, const Messages& messages) {
+    const JointCheck s{joint, index, parts, scene, everything, messages};
+    check_presence(s, parts.bolt, true);
+    check_presence(s, parts.washer_head, joint.design.washer_under_head);
+    check_presence(s, parts.washer_nut, joint.design.washer_under_nut);
+    check_presence(s, parts.nut, true);
     check_members(s);
     const std::set<std::uint32_t> tight = check_hole(s);
-    if (parts.bolt.there()) check_bolt(s);
-    const bool gripped = parts.nut.there() && check_nut(s, jaw);
-    if (parts.washer_nut.there()) {
+    if (parts.bolt.exists()) check_bolt(s);
+    const bool gripped = parts.nut.exists() && check_nut(s, jaw);
+    if (parts.washer_nut.exists()) {
         check_seat(s, parts.washer_nut.name, parts.washer_nut.box.low.y, "the member under the nut", 0.0);
-        if (parts.nut.there())
+        if (parts.nut.exists())
             check_seat(s, parts.nut.name, parts.nut.box.low.y, content::in_quotes(parts.washer_nut.name),
                        parts.washer_nut.box.high.y);
-    } else if (parts.nut.there()) {
+    } else if (parts.nut.exists()) {
         check_seat(s, parts.nut.name, parts.nut.box.low.y, "the member under the nut", 0.0);
     }
     for (const Fastener* fastener : {&parts.bolt, &parts.washer_head, &parts.washer_nut, &parts.nut})
@@ -301,12 +311,13 @@ bool check_stack(const content::AssemblyJoint& joint, std::size_t index, const J
 
 namespace {
 
-constexpr double hexagon_turn = to_radians(60.0);  // from one grip of the nut to the next
-constexpr double least_swing = to_radians(30.0);   // with a head at 15°, turned over after every stroke
-constexpr double least_gap = to_radians(5.0);
-constexpr double clearance = 0.2 * mm;  // of a wrench that lies on what is under the nut
+constexpr double hexagon_turn = to_radians(60.0);  // between two grips on the nut
+constexpr double min_swing = to_radians(30.0);     // for a 15° head that is turned over after every stroke
+constexpr double min_gap = to_radians(5.0);        // narrower gaps are ignored
+constexpr double clearance = 0.2 * mm;             // between the wrench and the face under the nut
 
-struct Swings {
+// The swing of a wrench as it is and turned over.
+struct SwingPair {
     Swing plain, turned_over;
 
     [[nodiscard]] double width(const Swing& swing) const {
@@ -320,55 +331,55 @@ struct Swings {
     }
 };
 
-// Where the jaw points, for every angle of the handle that is free. Gaps that nobody threads a wrench into do
-// not count.
+// Appends the jaw angles of every free handle angle. Ignores gaps too narrow to bring a wrench into.
 void add_jaw_angles(const Swing& swing, double head_angle, std::vector<std::pair<double, double>>& angles) {
     for (const Arc& arc : swing.arcs)
-        if (arc.width() > least_gap) angles.emplace_back(arc.from + head_angle, arc.to + head_angle);
+        if (arc.width() > min_gap) angles.emplace_back(arc.from + head_angle, arc.to + head_angle);
 }
 
-// The nut can be turned on and on when some grip is free wherever it stands: jaw angles repeat every 60°.
-bool turns_on(const Swings& swings, double head_angle, bool one_way_up) {
+// Returns true if a grip is free for every orientation of the nut, so that it can be turned without end. Jaw
+// angles repeat every 60°. `one_way_up`: without turning the wrench over.
+bool can_turn_fully(const SwingPair& swings, double head_angle, bool one_way_up) {
     std::vector<std::pair<double, double>> plain, over;
     add_jaw_angles(swings.plain, head_angle, plain);
     add_jaw_angles(swings.turned_over, -head_angle, over);
-    if (one_way_up) return cover(plain, hexagon_turn) || cover(over, hexagon_turn);
+    if (one_way_up) return covers_period(plain, hexagon_turn) || covers_period(over, hexagon_turn);
     plain.insert(plain.end(), over.begin(), over.end());
-    return cover(plain, hexagon_turn);
+    return covers_period(plain, hexagon_turn);
 }
 
-std::string name_of(const Scene& scene, std::uint32_t part) {
-    return part < scene.parts.size() ? content::in_quotes(scene.parts[part].name) : "nothing";
+std::string name_of(const FlattenedModel& scene, std::uint32_t part) {
+    return part < scene.parts.size() ? content::in_quotes(scene.parts[part].name) : "no part";
 }
 
-std::string between(const Scene& scene, const Swing& swing) {
+std::string describe_limits(const FlattenedModel& scene, const Swing& swing) {
     const Arc* arc = swing.widest();
     if (arc == nullptr) return fmt::format("{} is in its way", name_of(scene, swing.blocking));
     if (arc->before == arc->after) return fmt::format("{} is on both sides", name_of(scene, arc->before));
     return fmt::format("between {} and {}", name_of(scene, arc->before), name_of(scene, arc->after));
 }
 
-std::string in_degrees(const Swings& swings) {
+std::string in_degrees(const SwingPair& swings) {
     std::string text = fmt::format("{:.1f} degrees", to_degrees(swings.most()));
     if (to_degrees(swings.most() - swings.least()) > 0.1)
         text += fmt::format(" ({:.1f} the other way up)", to_degrees(swings.least()));
     return text;
 }
 
-// `where`: " at the start, 21 mm above its seat", or nothing.
-void judge(const Swings& swings, const Wrench& wrench, std::size_t index, const std::string& where,
-           const Scene& scene, const Messages& messages) {
+// Reports too little swing. `where`: " where it starts, 21 mm above its seat", or empty.
+void check_swing(const SwingPair& swings, const WrenchShape& wrench, std::size_t index,
+                 const std::string& where, const FlattenedModel& scene, const Messages& messages) {
     const double head_angle = std::abs(wrench.head_angle);
-    const std::string place = between(scene, swings.wider());
-    if (swings.most() < least_swing || !turns_on(swings, head_angle, false)) {
+    const std::string place = describe_limits(scene, swings.wider());
+    if (swings.most() < min_swing || !can_turn_fully(swings, head_angle, false)) {
         messages.error(joint_pointer(index),
                        fmt::format("{} has {} of free swing on the nut{}: {}", wrench.name,
                                    in_degrees(swings), where, place),
-                       // With room both ways up it is the head that stops it, at the same angles of the jaw.
-                       head_angle < to_radians(1.0) || swings.least() >= least_swing
-                           ? "expected 60 degrees: the wrench gains nothing here by being turned over"
-                           : "expected 30 degrees or more both ways up, or 60 one way up");
-    } else if (!turns_on(swings, head_angle, true)) {
+                       // With enough swing both ways up, the head limits both at the same jaw angles.
+                       head_angle < to_radians(1.0) || swings.least() >= min_swing
+                           ? "60 degrees: turning the wrench over gains nothing here"
+                           : "30 degrees or more both ways up, or 60 one way up");
+    } else if (!can_turn_fully(swings, head_angle, true)) {
         messages.note(joint_pointer(index),
                       fmt::format("{} has {} of free swing on the nut{}, {}: it has to be turned over "
                                   "after every stroke",
@@ -379,32 +390,32 @@ void judge(const Swings& swings, const Wrench& wrench, std::size_t index, const 
 }  // namespace
 
 void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
-                  const Scene& scene, const Wrench& wrench, const Messages& messages) {
+                  const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages) {
     const double low = parts.nut.box.low.y, high = parts.nut.box.high.y;
     const double seated = std::max(0.5 * (low + high), low + wrench.half_thickness + clearance);
-    const Bvh plain = posed(wrench, false), over = posed(wrench, true);
+    const Bvh plain = place_on_nut(wrench, false), over = place_on_nut(wrench, true);
     const double lowest = seated + std::min(plain.box().low.y, over.box().low.y);
-    const Bvh around(surroundings(scene, parts.to_joint, 3.0 * wrench.reach, lowest, parts.nut.parts));
+    const Bvh around(nearby_triangles(scene, parts.to_joint, 3.0 * wrench.reach, lowest, parts.nut.parts));
     const auto swings_at = [&](double height) {
-        return Swings{free_swing(around, plain, height), free_swing(around, over, height)};
+        return SwingPair{find_free_swing(around, plain, height), find_free_swing(around, over, height)};
     };
-    const Swings swings = swings_at(seated);
-    judge(swings, wrench, index, "", scene, messages);
+    const SwingPair swings = swings_at(seated);
+    check_swing(swings, wrench, index, "", scene, messages);
     if (joint.design.start_gap > 1.0 * mm)
-        judge(swings_at(seated + joint.design.start_gap), wrench, index,
-              fmt::format(" where it starts, {:.3g} mm above its seat", joint.design.start_gap / mm), scene,
-              messages);
-    if (swings.most() <= 0.0) return;  // said
+        check_swing(swings_at(seated + joint.design.start_gap), wrench, index,
+                    fmt::format(" where it starts, {:.3g} mm above its seat", joint.design.start_gap / mm),
+                    scene, messages);
+    if (swings.most() <= 0.0) return;  // already reported
     Approach approach{seated, wrench.head_angle, wrench.head_size, wrench.reach};
-    std::uint32_t blocked = blocked_by(around, plain, swings.plain, approach);
+    std::uint32_t blocked = find_obstruction(around, plain, swings.plain, approach);
     approach.jaw_angle = -wrench.head_angle;
-    if (blocked != no_part) blocked = blocked_by(around, over, swings.turned_over, approach);
+    if (blocked != no_part) blocked = find_obstruction(around, over, swings.turned_over, approach);
     if (blocked != no_part)
         messages.error(joint_pointer(index),
                        fmt::format("{} cannot be brought onto the nut, neither along the bolt nor from "
                                    "the side: {} is in its way",
                                    wrench.name, name_of(scene, blocked)),
-                       "expected a free way for it");
+                       "a free path");
 }
 
 }  // namespace bolt::geometry

@@ -1,4 +1,5 @@
-// Bolt, washers, nut and members of a joint: sizes as the file says, each on the next, none inside another.
+// Checks of one joint against its model: sizes, contact and overlap of the fasteners and members, and room
+// for the wrench.
 #pragma once
 
 #include "content/format/assembly.hpp"
@@ -9,13 +10,13 @@
 
 namespace bolt::geometry {
 
-// False if the joint has no nut that a wrench could grip. `everything`: all parts, in the assembly's frame.
+// Returns false if the joint has no nut that a wrench can grip. `index`: of the joint in the file.
+// `everything`: all parts, in the assembly's frame. `jaw`: opening of the wrench, m.
 bool check_stack(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
-                 const Scene& scene, const Bvh& everything, double jaw, const Messages& messages);
+                 const FlattenedModel& scene, const Bvh& everything, double jaw, const Messages& messages);
 
-// Room for the wrench: does it fit the nut, can it get there, how far does it swing.
-
+// Checks that the wrench can be brought onto the nut and swings far enough on it.
 void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
-                  const Scene& scene, const Wrench& wrench, const Messages& messages);
+                  const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages);
 
 }  // namespace bolt::geometry

@@ -1,4 +1,5 @@
-// One slip behind many wrong positions: wrong units, axes that are exchanged, another origin.
+// Checks of the model files as a whole: the nodes that joints name, systematic errors of units, axes or
+// origin, closed surfaces, node names at every level, triangle and byte budgets.
 #pragma once
 
 #include <optional>
@@ -14,49 +15,47 @@
 
 namespace bolt::geometry {
 
-// A joint as the file and as the model have it, metres.
-struct Placement {
+// Position (m) and unit axis of a joint, in the assembly file and in the model.
+struct JointPlacement {
     Vec3 file, file_axis, model, model_axis;
 };
 
 inline constexpr double position_tolerance = 0.01e-3;      // m
 inline constexpr double axis_tolerance = to_radians(0.1);  // rad
 
-bool agrees(const Placement& placement);
+// Returns true if file and model agree within the tolerances.
+bool agrees(const JointPlacement& placement);
 
-struct Slip {
+// One mistake that explains the wrong positions of all joints.
+struct SystematicError {
     std::string what;      // "the model is in millimetres"
-    std::string expected;  // what to do
+    std::string expected;  // "metres, as in glTF: scale the model by 0.001"
 };
 
-// The slip that explains all of them; none if they agree, or if no single slip does.
-std::optional<Slip> common_slip(std::span<const Placement> placements);
-
-// Whether a part's surface is closed.
+// Returns nullopt if all placements agree, or if no single mistake explains all of them.
+std::optional<SystematicError> find_systematic_error(std::span<const JointPlacement> placements);
 
 struct OpenEdges {
     std::size_t count = 0;
-    Vec3 first{0.0};  // the middle of one of them
+    Vec3 first{0.0};  // m, middle of one of them
 };
 
-// Edges that no triangle runs through the other way. Corners are the same where their coordinates are exactly
-// equal.
+// Counts the triangle edges without a partner in the opposite direction; a closed surface has none. Corners
+// with exactly equal coordinates are the same point.
 OpenEdges open_edges(std::span<const Triangle> triangles);
 
-// Each joint's node: there, alone, in its place.
-
-// For every joint the scene's node that shows it; -1 where that is not so, which has been said then.
-std::vector<int> check_nodes(const content::Assembly& assembly, const Scene& scene, const Messages& messages);
-
-// The files themselves: budgets, the same names at every level, a contact model that is closed.
+// Checks that each joint's node exists once, is rigid and is at the joint's position. Returns the node index
+// for every joint; -1 where an error was reported.
+std::vector<int> check_nodes(const content::Assembly& assembly, const FlattenedModel& scene,
+                             const Messages& messages);
 
 inline constexpr std::size_t near_budget = 250'000, far_budget = 60'000;  // triangles, counting instances
 inline constexpr std::uintmax_t file_budget = 8'000'000;                  // bytes
 
 void check_file_size(const std::string& path, std::string_view pointer, const Messages& messages);
-void check_triangles(const Scene& scene, std::size_t budget, std::string_view pointer,
+void check_triangles(const FlattenedModel& scene, std::size_t budget, std::string_view pointer,
                      const Messages& messages);
-void check_names(const Scene& near, const Scene& far, const Messages& messages);
-void check_contact(const Scene& contact, const Scene& near, const Messages& messages);
+void check_names(const FlattenedModel& near, const FlattenedModel& far, const Messages& messages);
+void check_contact(const FlattenedModel& contact, const FlattenedModel& near, const Messages& messages);
 
 }  // namespace bolt::geometry

@@ -20,7 +20,7 @@ glm::dmat4 local_matrix(const assets::Node& node) {
 
 bool is_finite(const Vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-// Three indices a triangle, whatever the topology.
+// Returns three indices for each triangle, for every topology.
 std::vector<std::uint32_t> corners(const assets::Primitive& primitive) {
     std::vector<std::uint32_t> list = primitive.indices, result;
     if (list.empty())
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> corners(const assets::Primitive& primitive) {
     }
 }
 
-void add_mesh(Part& part, const assets::Mesh& mesh, const glm::dmat4& world, std::uint32_t index) {
+void add_mesh(ModelPart& part, const assets::Mesh& mesh, const glm::dmat4& world, std::uint32_t index) {
     for (const assets::Primitive& primitive : mesh.primitives) {
         std::vector<Vec3> points;
         points.reserve(primitive.positions.size());
@@ -63,45 +63,46 @@ void add_mesh(Part& part, const assets::Mesh& mesh, const glm::dmat4& world, std
 
 }  // namespace
 
-bool Scene::is_under(int node, int ancestor) const {
+bool FlattenedModel::is_under(int node, int ancestor) const {
     while (node >= 0 && node != ancestor) node = nodes[static_cast<std::size_t>(node)].parent;
     return node >= 0;
 }
 
-std::size_t Scene::triangle_count() const {
+std::size_t FlattenedModel::triangle_count() const {
     std::size_t count = 0;
-    for (const Part& part : parts) count += part.triangles.size();
+    for (const ModelPart& part : parts) count += part.triangles.size();
     return count;
 }
 
-std::vector<std::string> Scene::names() const {
+std::vector<std::string> FlattenedModel::names() const {
     std::vector<std::string> result;
     for (const auto& [name, found] : by_name) result.push_back(name);
     return result;
 }
 
-Scene flatten(const assets::Model& model) {
-    Scene scene;
-    struct Visit {
+FlattenedModel flatten(const assets::Model& model) {
+    FlattenedModel scene;
+    struct PendingNode {
         int node, parent;
     };
-    std::vector<Visit> stack;
+    std::vector<PendingNode> stack;
     for (auto root = model.roots.rbegin(); root != model.roots.rend(); ++root) stack.push_back({*root, -1});
-    std::vector<bool> seen(model.nodes.size(), false);  // a node has one parent at most
+    std::vector<bool> seen(model.nodes.size(),
+                           false);  // each node is visited once, even if the file has a loop
     while (!stack.empty()) {
-        const Visit visit = stack.back();
+        const PendingNode pending = stack.back();
         stack.pop_back();
-        const auto index = static_cast<std::size_t>(visit.node);
-        if (visit.node < 0 || index >= model.nodes.size() || seen[index]) continue;
+        const auto index = static_cast<std::size_t>(pending.node);
+        if (pending.node < 0 || index >= model.nodes.size() || seen[index]) continue;
         seen[index] = true;
         const assets::Node& node = model.nodes[index];
-        const auto above = static_cast<std::size_t>(visit.parent);
+        const auto above = static_cast<std::size_t>(pending.parent);
         const int own = static_cast<int>(scene.nodes.size());
-        const glm::dmat4 parent = visit.parent >= 0 ? scene.nodes[above].world : glm::dmat4(1.0);
-        scene.nodes.push_back({node.name, visit.parent, parent * local_matrix(node)});
+        const glm::dmat4 parent = pending.parent >= 0 ? scene.nodes[above].world : glm::dmat4(1.0);
+        scene.nodes.push_back({node.name, pending.parent, parent * local_matrix(node)});
         if (!node.name.empty()) scene.by_name[node.name].push_back(own);
         if (node.mesh >= 0 && static_cast<std::size_t>(node.mesh) < model.meshes.size()) {
-            Part part;
+            ModelPart part;
             part.node = own;
             for (int at = own; at >= 0 && part.name.empty();
                  at = scene.nodes[static_cast<std::size_t>(at)].parent)
@@ -119,9 +120,10 @@ Scene flatten(const assets::Model& model) {
 
 namespace {
 
-Vec3 moved(const glm::dmat4& m, const Vec3& p) { return Vec3(m * glm::dvec4(p, 1.0)); }
+Vec3 transform_to(const glm::dmat4& m, const Vec3& p) { return Vec3(m * glm::dvec4(p, 1.0)); }
 
-Fastener find_fastener(const Scene& scene, int joint_node, std::string name, const glm::dmat4& to_joint) {
+Fastener find_fastener(const FlattenedModel& scene, int joint_node, std::string name,
+                       const glm::dmat4& to_joint) {
     Fastener fastener;
     fastener.name = std::move(name);
     const auto found = scene.by_name.find(fastener.name);
@@ -132,8 +134,8 @@ Fastener find_fastener(const Scene& scene, int joint_node, std::string name, con
             if (!scene.is_under(scene.parts[i].node, node)) continue;
             fastener.parts.insert(i);
             for (const Triangle& t : scene.parts[i].triangles) {
-                fastener.triangles.push_back(
-                    {moved(to_joint, t.a), moved(to_joint, t.b), moved(to_joint, t.c), i});
+                fastener.triangles.push_back({transform_to(to_joint, t.a), transform_to(to_joint, t.b),
+                                              transform_to(to_joint, t.c), i});
                 const Triangle& own = fastener.triangles.back();
                 for (const Vec3& p : {own.a, own.b, own.c}) fastener.box.add(p);
             }
@@ -142,15 +144,15 @@ Fastener find_fastener(const Scene& scene, int joint_node, std::string name, con
     return fastener;
 }
 
-Box moved(const glm::dmat4& m, const Box& box) {
-    const Vec3 middle = moved(m, box.middle()), half = box.half();
+Aabb transform_to(const glm::dmat4& m, const Aabb& box) {
+    const Vec3 middle = transform_to(m, box.middle()), half = box.half();
     const Vec3 reach =
         glm::abs(Vec3(m[0])) * half.x + glm::abs(Vec3(m[1])) * half.y + glm::abs(Vec3(m[2])) * half.z;
     return {middle - reach, middle + reach};
 }
 
-// Something of the box may be within the radius of the Y axis and above the floor.
-bool is_near(const Box& box, double radius, double floor) {
+// Returns true if a part of the box may be within the radius of the Y axis and above the floor.
+bool is_near(const Aabb& box, double radius, double floor) {
     const double x = std::max({box.low.x, -box.high.x, 0.0}), z = std::max({box.low.z, -box.high.z, 0.0});
     return box.high.y > floor && std::hypot(x, z) < radius;
 }
@@ -162,7 +164,7 @@ bool JointParts::owns(std::uint32_t part) const {
            nut.parts.contains(part);
 }
 
-JointParts find_joint_parts(const Scene& scene, int joint_node, std::string_view id) {
+JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, std::string_view id) {
     JointParts parts;
     parts.to_assembly = scene.nodes[static_cast<std::size_t>(joint_node)].world;
     parts.to_joint = glm::inverse(parts.to_assembly);
@@ -176,17 +178,18 @@ JointParts find_joint_parts(const Scene& scene, int joint_node, std::string_view
     return parts;
 }
 
-std::vector<Triangle> surroundings(const Scene& scene, const glm::dmat4& to_joint, double radius,
-                                   double floor, const std::set<std::uint32_t>& left_out) {
+std::vector<Triangle> nearby_triangles(const FlattenedModel& scene, const glm::dmat4& to_joint, double radius,
+                                       double floor, const std::set<std::uint32_t>& left_out) {
     std::vector<Triangle> result;
     for (std::uint32_t i = 0; i < scene.parts.size(); ++i) {
-        const Part& part = scene.parts[i];
+        const ModelPart& part = scene.parts[i];
         if (left_out.contains(i) || part.triangles.empty() ||
-            !is_near(moved(to_joint, part.box), radius, floor))
+            !is_near(transform_to(to_joint, part.box), radius, floor))
             continue;
         for (const Triangle& t : part.triangles) {
-            const Triangle own{moved(to_joint, t.a), moved(to_joint, t.b), moved(to_joint, t.c), i};
-            Box box;
+            const Triangle own{transform_to(to_joint, t.a), transform_to(to_joint, t.b),
+                               transform_to(to_joint, t.c), i};
+            Aabb box;
             for (const Vec3& p : {own.a, own.b, own.c}) box.add(p);
             if (is_near(box, radius, floor)) result.push_back(own);
         }
@@ -196,13 +199,14 @@ std::vector<Triangle> surroundings(const Scene& scene, const glm::dmat4& to_join
 
 namespace {
 
-struct Flat {
-    double angle, distance, area;
+struct HexagonFlat {
+    double angle, distance, area;  // of the outward normal about Y, rad; from the axis, m; m²
 };
 
-// Triangles that stand upright near the distance of a flat: neither the bore, nor the chamfers, nor a collar.
-std::vector<Flat> upright(std::span<const Triangle> triangles, double corner) {
-    std::vector<Flat> flats;
+// Returns the triangles parallel to the axis at the distance of a flat, which excludes the bore, the chamfers
+// and a collar. `corner`: largest radius of the part, m.
+std::vector<HexagonFlat> find_hexagon_flats(std::span<const Triangle> triangles, double corner) {
+    std::vector<HexagonFlat> flats;
     for (const Triangle& t : triangles) {
         Vec3 n = normal_of(t);
         const double twice = std::sqrt(glm::dot(n, n));
@@ -211,7 +215,7 @@ std::vector<Flat> upright(std::span<const Triangle> triangles, double corner) {
         if (std::abs(n.y) > 0.02) continue;
         const double distance = glm::dot(n, t.a);
         if (std::abs(distance) < 0.8 * corner || std::abs(distance) > 0.95 * corner) continue;
-        // Whichever way round the triangle is wound.
+        // The sign makes the result independent of the winding.
         const double side = distance < 0.0 ? -1.0 : 1.0;
         flats.push_back({std::atan2(side * n.z, side * n.x), std::abs(distance), 0.5 * twice});
     }
@@ -220,25 +224,25 @@ std::vector<Flat> upright(std::span<const Triangle> triangles, double corner) {
 
 }  // namespace
 
-std::optional<Hexagon> measure_hexagon(std::span<const Triangle> triangles) {
-    Hexagon hexagon;
+std::optional<MeasuredHexagon> measure_hexagon(std::span<const Triangle> triangles) {
+    MeasuredHexagon hexagon;
     double corner = 0.0;
-    Box box;
+    Aabb box;
     for (const Triangle& t : triangles)
         for (const Vec3& p : {t.a, t.b, t.c}) {
             corner = std::max(corner, std::hypot(p.x, p.z));
             box.add(p);
         }
-    const std::vector<Flat> flats = upright(triangles, corner);
-    // Six directions 60° apart point the same way when their angles are taken six times.
+    const std::vector<HexagonFlat> flats = find_hexagon_flats(triangles, corner);
+    // Six directions 60° apart coincide when their angles are multiplied by six.
     std::complex<double> sum;
-    for (const Flat& flat : flats) sum += std::polar(flat.area, 6.0 * flat.angle);
+    for (const HexagonFlat& flat : flats) sum += std::polar(flat.area, 6.0 * flat.angle);
     if (flats.empty()) return std::nullopt;
     const double phase = std::arg(sum) / 6.0;
     constexpr double window = to_radians(2.0);
     std::array<double, 6> support{};
     for (std::size_t k = 0; k < 6; ++k)
-        for (const Flat& flat : flats)
+        for (const HexagonFlat& flat : flats)
             if (std::abs(wrap(flat.angle - phase - static_cast<double>(k) * pi / 3.0, 2.0 * pi)) < window)
                 support[k] = std::max(support[k], flat.distance);
     if (*std::min_element(support.begin(), support.end()) <= 0.0) return std::nullopt;

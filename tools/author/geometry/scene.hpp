@@ -1,4 +1,5 @@
-// A model with every instance in its place: nodes by name, parts as triangles in the assembly's frame.
+// A glTF model flattened into the assembly's frame (metres), the fasteners of one joint in the joint's frame,
+// and the measurement of a hexagon.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -15,44 +16,46 @@
 
 namespace bolt::geometry {
 
-struct SceneNode {
+struct ModelNode {
     std::string name;
     int parent = -1;
     glm::dmat4 world{1.0};
 };
 
-// A node's mesh.
-struct Part {
-    std::string name;  // of the node, or of the nearest one above it that has a name
-    int node = -1;     // of the scene
+// The mesh of one node, in the assembly's frame.
+struct ModelPart {
+    std::string name;  // of the node or of its nearest named ancestor
+    int node = -1;     // index into FlattenedModel::nodes
     std::vector<Triangle> triangles;
-    Box box;
+    Aabb box;
 };
 
-struct Scene {
-    std::vector<SceneNode> nodes;  // a parent before its children
-    std::vector<Part> parts;
+struct FlattenedModel {
+    std::vector<ModelNode> nodes;  // a parent before its children
+    std::vector<ModelPart> parts;
     std::map<std::string, std::vector<int>, std::less<>> by_name;
 
-    [[nodiscard]] bool is_under(int node, int ancestor) const;  // or is the same
+    [[nodiscard]] bool is_under(int node, int ancestor) const;  // true also for node == ancestor
     [[nodiscard]] std::size_t triangle_count() const;
     [[nodiscard]] std::vector<std::string> names() const;
 };
 
-Scene flatten(const assets::Model& model);
+// Places every mesh instance of the default scene. Ignores triangles with indices out of range or non-finite
+// corners.
+FlattenedModel flatten(const assets::Model& model);
 
-// The fasteners of one joint, in the joint's own frame: origin in the middle of the hole on the face under
-// the nut, +Y along the bolt towards the nut.
-
+// A fastener in the frame of its joint: origin in the middle of the hole on the face under the nut, +Y along
+// the bolt towards the nut.
 struct Fastener {
     std::string name;                 // of its node
-    std::vector<Triangle> triangles;  // part: index into the scene's parts
-    Box box;
+    std::vector<Triangle> triangles;  // Triangle::part: index into FlattenedModel::parts
+    Aabb box;
     std::set<std::uint32_t> parts;
 
-    [[nodiscard]] bool there() const { return !triangles.empty(); }
+    [[nodiscard]] bool exists() const { return !triangles.empty(); }
 };
 
+// The fasteners of one joint.
 struct JointParts {
     glm::dmat4 to_joint{1.0}, to_assembly{1.0};
     Fastener bolt, washer_head, washer_nut, nut;
@@ -60,23 +63,24 @@ struct JointParts {
     [[nodiscard]] bool owns(std::uint32_t part) const;
 };
 
-JointParts find_joint_parts(const Scene& scene, int joint_node, std::string_view id);
+// Finds the nodes ID_bolt, ID_washer_head, ID_washer_nut and ID_nut under the joint's node; those that are
+// missing have no triangles.
+JointParts find_joint_parts(const FlattenedModel& scene, int joint_node, std::string_view id);
 
-// What stands within `radius` of the joint's axis and reaches above `floor`, in the joint's frame, but for
-// the parts that are left out.
-std::vector<Triangle> surroundings(const Scene& scene, const glm::dmat4& to_joint, double radius,
-                                   double floor, const std::set<std::uint32_t>& left_out);
+// Returns the triangles, in the joint's frame, whose bounding box is within `radius` of the joint's axis and
+// reaches above the height `floor`, without those of the parts in `left_out`.
+std::vector<Triangle> nearby_triangles(const FlattenedModel& scene, const glm::dmat4& to_joint, double radius,
+                                       double floor, const std::set<std::uint32_t>& left_out);
 
-// A hexagon about +Y, measured off its mesh.
-
-struct Hexagon {
+// A hexagon about +Y, measured on its mesh.
+struct MeasuredHexagon {
     double across_flats = 0.0;     // m, mean of the three widths
-    double unevenness = 0.0;       // m, the widest less the narrowest
-    Vec3 centre{0.0};              // m, beside the axis; y is 0
+    double unevenness = 0.0;       // m, widest minus narrowest
+    Vec3 centre{0.0};              // m, offset from the axis; y is 0
     double low = 0.0, high = 0.0;  // m, along the axis
 };
 
-// None if the triangles show no six flats about the axis.
-std::optional<Hexagon> measure_hexagon(std::span<const Triangle> triangles);
+// Returns nullopt if the triangles have no six flats about the axis.
+std::optional<MeasuredHexagon> measure_hexagon(std::span<const Triangle> triangles);
 
 }  // namespace bolt::geometry

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double mm = 1e-3;
 
-struct Flat {
+struct OutlinePoint {
     double x, y;
 };
 
@@ -21,8 +21,8 @@ void quad(std::vector<Triangle>& out, const Vec3& a, const Vec3& b, const Vec3& 
     out.push_back({a, c, d, 0});
 }
 
-// The upright block over a quadrangle that is given counterclockwise.
-void block(std::vector<Triangle>& out, const Flat (&base)[4], double half) {
+// Appends a prism along Z over a quadrangle with counterclockwise corners.
+void block(std::vector<Triangle>& out, const OutlinePoint (&base)[4], double half) {
     const auto low = [&](int i) { return Vec3{base[i].x, base[i].y, -half}; };
     const auto high = [&](int i) { return Vec3{base[i].x, base[i].y, half}; };
     quad(out, high(0), high(1), high(2), high(3));
@@ -33,7 +33,8 @@ void block(std::vector<Triangle>& out, const Flat (&base)[4], double half) {
     }
 }
 
-// Where a ray from the middle of the jaw leaves the slot: |y| = half opening, or the bottom at +x.
+// Distance from the middle of the jaw at which a ray leaves the slot: at |y| = half_jaw or at the bottom x =
+// depth.
 double slot_exit(double angle, double half_jaw, double depth) {
     const double c = std::cos(angle), s = std::abs(std::sin(angle));
     const double side = s > 0.0 ? half_jaw / s : 1e9, bottom = c > 0.0 ? depth / c : 1e9;
@@ -42,14 +43,15 @@ double slot_exit(double angle, double half_jaw, double depth) {
 
 Vec3 jaw_direction(double angle) { return {std::cos(angle), std::sin(angle), 0.0}; }
 
-// What rays from the middle of the jaw meet across it; nothing is met out of the mouth.
-struct Jaw {
-    double opening = 0.0, off_middle = 0.0;
+// Measured with rays from the middle of the jaw: two across it that must hit, one out of the mouth that must
+// not.
+struct MeasuredJaw {
+    double opening = 0.0, off_middle = 0.0;  // m
     bool found = false;
 };
 
-Jaw measure_jaw(const Bvh& bvh, double head_angle, double reach) {
-    Jaw jaw;
+MeasuredJaw measure_jaw(const Bvh& bvh, double head_angle, double reach) {
+    MeasuredJaw jaw;
     const Vec3 across = jaw_direction(head_angle + 0.5 * pi), mouth = -jaw_direction(head_angle);
     const auto left = first_hit(bvh, Vec3{0.0}, across, reach),
                right = first_hit(bvh, Vec3{0.0}, -across, reach);
@@ -60,20 +62,20 @@ Jaw measure_jaw(const Bvh& bvh, double head_angle, double reach) {
     return jaw;
 }
 
-tl::unexpected<Error> unfit(std::string what, std::string expected) {
+tl::unexpected<Error> wrench_error(std::string what, std::string expected) {
     return fail(ErrorCode::bad_content, std::move(what), std::move(expected));
 }
 
 }  // namespace
 
-Wrench plain_wrench(const content::WrenchDesign& design) {
-    Wrench wrench;
+WrenchShape envelope_wrench(const content::WrenchDesign& design) {
+    WrenchShape wrench;
     const double s = design.jaw, radius = 0.5 * head_width_ratio * s, depth = jaw_depth_ratio * s;
     wrench.head_angle = design.head_angle;
     wrench.head_size = radius;
     wrench.half_thickness = 0.5 * thickness_ratio * s;
     wrench.reach = std::max(handle_beyond_grip * design.handle_length, radius);
-    // The head: the disc without the slot, in wedges from the slot's edge to the rim.
+    // The head is a disc without the slot, built of wedges from the edge of the slot to the rim.
     constexpr int wedges = 72;
     const double prong = std::asin(0.5 * s / radius);  // half angle of the mouth
     const double first = -pi + prong, step = 2.0 * (pi - prong) / wedges;
@@ -81,7 +83,7 @@ Wrench plain_wrench(const content::WrenchDesign& design) {
         const double a = first + i * step, b = a + step;
         const auto point = [&](double angle, double r) {
             const double turned = angle + design.head_angle;
-            return Flat{r * std::cos(turned), r * std::sin(turned)};
+            return OutlinePoint{r * std::cos(turned), r * std::sin(turned)};
         };
         const double inner_a = std::min(radius, slot_exit(a, 0.5 * s, depth));
         const double inner_b = std::min(radius, slot_exit(b, 0.5 * s, depth));
@@ -94,15 +96,15 @@ Wrench plain_wrench(const content::WrenchDesign& design) {
     return wrench;
 }
 
-Result<Wrench> model_wrench(const Scene& scene, const content::WrenchDesign& design) {
-    Wrench wrench;
-    Box box;
-    for (const Part& part : scene.parts) {
+Result<WrenchShape> wrench_from_model(const FlattenedModel& scene, const content::WrenchDesign& design) {
+    WrenchShape wrench;
+    Aabb box;
+    for (const ModelPart& part : scene.parts) {
         wrench.triangles.insert(wrench.triangles.end(), part.triangles.begin(), part.triangles.end());
         for (const Vec3& p : {part.box.low, part.box.high})
             if (!part.box.empty()) box.add(p);
     }
-    if (wrench.triangles.empty()) return unfit("the wrench has no triangles", "expected a mesh");
+    if (wrench.triangles.empty()) return wrench_error("the wrench has no triangles", "a mesh");
     const bool lies = box.half().y < box.half().z;
     for (Triangle& t : wrench.triangles) {
         for (Vec3* p : {&t.a, &t.b, &t.c}) {
@@ -112,27 +114,29 @@ Result<Wrench> model_wrench(const Scene& scene, const content::WrenchDesign& des
         t.part = 0;
     }
     if (wrench.reach > 5.0 || wrench.reach < 0.02)
-        return unfit(fmt::format("the wrench is {:.4g} mm long", wrench.reach / mm),
-                     wrench.reach > 5.0 ? "expected metres: it looks like millimetres"
-                                        : "expected metres, as glTF has them");
+        return wrench_error(fmt::format("the wrench is {:.4g} mm long", wrench.reach / mm),
+                            wrench.reach > 5.0 ? "metres: it looks like millimetres" : "metres, as in glTF");
     const Bvh bvh(wrench.triangles);
-    // Which side the head points to is the modeller's choice: the wrench can be turned over.
-    const Jaw left = measure_jaw(bvh, design.head_angle, wrench.reach);
-    const Jaw right = measure_jaw(bvh, -design.head_angle, wrench.reach);
+    // The head may point to either side, because the wrench can be turned over.
+    const MeasuredJaw left = measure_jaw(bvh, design.head_angle, wrench.reach);
+    const MeasuredJaw right = measure_jaw(bvh, -design.head_angle, wrench.reach);
     if (!left.found && !right.found)
-        return unfit("the wrench has no jaw about its origin that opens at -X, turned by the head angle",
-                     "expected the middle of the jaw at the origin, the handle along +X");
+        return wrench_error(
+            "the wrench has no jaw about its origin that opens at -X, turned by the head angle",
+            "the middle of the jaw at the origin, the handle along +X");
     const bool is_left = left.found && (!right.found || left.opening <= right.opening);
-    const Jaw& jaw = is_left ? left : right;
+    const MeasuredJaw& jaw = is_left ? left : right;
     wrench.head_angle = is_left ? design.head_angle : -design.head_angle;
     if (std::abs(jaw.opening - design.jaw) > 0.05 * mm)
-        return unfit(fmt::format("the jaw of the wrench measures {:.2f} mm in its model, and jaw_mm is {:g}",
-                                 jaw.opening / mm, design.jaw / mm),
-                     "expected both within 0.05 mm");
+        return wrench_error(
+            fmt::format("the jaw of the wrench measures {:.2f} mm in its model, and jaw_mm is {:g}",
+                        jaw.opening / mm, design.jaw / mm),
+            "both within 0.05 mm");
     if (std::abs(jaw.off_middle) > 0.05 * mm)
-        return unfit(fmt::format("the middle of the jaw is {:.2f} mm beside the origin of the wrench's model",
-                                 std::abs(jaw.off_middle) / mm),
-                     "expected the middle of the jaw at the origin");
+        return wrench_error(
+            fmt::format("the middle of the jaw is {:.2f} mm beside the origin of the wrench's model",
+                        std::abs(jaw.off_middle) / mm),
+            "the middle of the jaw at the origin");
     const double near_head = 1.3 * design.jaw;
     for (const Triangle& t : wrench.triangles)
         for (const Vec3& p : {t.a, t.b, t.c})
@@ -143,7 +147,7 @@ Result<Wrench> model_wrench(const Scene& scene, const content::WrenchDesign& des
     return wrench;
 }
 
-Bvh posed(const Wrench& wrench, bool turned_over) {
+Bvh place_on_nut(const WrenchShape& wrench, bool turned_over) {
     std::vector<Triangle> triangles = wrench.triangles;
     const double side = turned_over ? -1.0 : 1.0;
     for (Triangle& t : triangles)
@@ -155,12 +159,12 @@ namespace {
 
 constexpr double resolution = to_radians(0.01);
 
-struct Probe {
+struct SwingProbe {
     const Bvh& surroundings;
     const Bvh& wrench;
     double height;
 
-    // What the wrench touches at this angle.
+    // Returns the part that the wrench collides with at this handle angle, or no_part.
     [[nodiscard]] std::uint32_t operator()(double angle) const {
         const auto hit =
             first_crossing(surroundings, wrench, TurnAboutY::turned(angle, Vec3{0.0, height, 0.0}));
@@ -168,16 +172,17 @@ struct Probe {
     }
 };
 
-// A degree, or less for a wrench so long that something could slip through between two samples: the end of
-// its handle moves by no more than the wrench is thick, and it is wider than thick.
+// Samples of one revolution: one per degree, more for a long wrench. Between two samples the end of the
+// handle moves by at most the thickness of the wrench, so that no obstacle is skipped.
 int sample_count(const Bvh& wrench) {
-    const Box box = wrench.box();
+    const Aabb box = wrench.box();
     const double thickness = std::max(2.0 * box.half().y, 1e-3);
     return std::max(360, static_cast<int>(std::ceil(2.0 * pi * box.high.x / thickness)));
 }
 
-// The end of what is free between a free angle and one that is not, and what stands there.
-double find_edge(const Probe& probe, double free, double blocked, std::uint32_t& part) {
+// Bisects between a free and a blocked angle. Returns the last free angle; `part` receives the part that
+// blocks it.
+double find_edge(const SwingProbe& probe, double free, double blocked, std::uint32_t& part) {
     while (std::abs(blocked - free) > resolution) {
         const double middle = 0.5 * (free + blocked);
         const std::uint32_t hit = probe(middle);
@@ -199,8 +204,8 @@ const Arc* Swing::widest() const {
     return it == arcs.end() ? nullptr : &*it;
 }
 
-Swing free_swing(const Bvh& surroundings, const Bvh& wrench, double height) {
-    const Probe probe{surroundings, wrench, height};
+Swing find_free_swing(const Bvh& surroundings, const Bvh& wrench, double height) {
+    const SwingProbe probe{surroundings, wrench, height};
     const int samples = sample_count(wrench);
     const double step = 2.0 * pi / samples;
     std::vector<std::uint32_t> hits;
@@ -232,7 +237,7 @@ Swing free_swing(const Bvh& surroundings, const Bvh& wrench, double height) {
     return swing;
 }
 
-bool cover(std::vector<std::pair<double, double>> intervals, double period) {
+bool covers_period(std::vector<std::pair<double, double>> intervals, double period) {
     std::vector<std::pair<double, double>> parts;
     for (const auto& [from, to] : intervals) {
         if (to - from >= period) return true;
@@ -251,20 +256,21 @@ bool cover(std::vector<std::pair<double, double>> intervals, double period) {
 
 namespace {
 
-constexpr double step = 3e-3;                   // m; thinner than any wrench that is modelled
-constexpr double turn_step = to_radians(10.0);  // between the angles that are tried
-constexpr double most_lift = 2.0;               // m; what a wrench has passed by then is behind it
-constexpr double jaw_to_tip = 1.7;              // head sizes to draw the jaw off a hexagon
+constexpr double step = 3e-3;                   // m, smaller than the thickness of any modelled wrench
+constexpr double turn_step = to_radians(10.0);  // between the handle angles that are tried
+constexpr double max_lift = 2.0;                // m, beyond which obstacles are ignored
+constexpr double jaw_to_tip = 1.7;              // head sizes of travel that pull the jaw off a hexagon
 
-struct Path {
+// Moves the wrench along a straight line at a fixed handle angle and tests it for collisions.
+struct PathProbe {
     const Bvh& surroundings;
     const Bvh& wrench;
     double angle;
-    std::uint32_t hit = no_part;  // what stopped it
+    std::uint32_t hit = no_part;  // the part that blocks the path
 
     bool free(const Vec3& from, const Vec3& direction, double distance) {
-        for (double gone = 0.0; gone < distance + step; gone += step) {
-            const Vec3 shift = from + std::min(gone, distance) * direction;
+        for (double travelled = 0.0; travelled < distance + step; travelled += step) {
+            const Vec3 shift = from + std::min(travelled, distance) * direction;
             const auto found = first_crossing(surroundings, wrench, TurnAboutY::turned(angle, shift));
             if (!found) continue;
             hit = surroundings.triangles()[*found].part;
@@ -276,22 +282,22 @@ struct Path {
 
 }  // namespace
 
-std::uint32_t blocked_by(const Bvh& surroundings, const Bvh& wrench, const Swing& swing,
-                         const Approach& approach) {
+std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const Swing& swing,
+                               const Approach& approach) {
     if (surroundings.nodes().empty()) return no_part;
     const Vec3 start{0.0, approach.height, 0.0}, up{0.0, 1.0, 0.0};
-    const double lift = std::clamp(surroundings.box().high.y - approach.height, 0.0, most_lift) + 2.0 * step;
+    const double lift = std::clamp(surroundings.box().high.y - approach.height, 0.0, max_lift) + 2.0 * step;
     std::uint32_t hit = swing.blocking;
     for (const Arc& arc : swing.arcs) {
         const int tries = 1 + static_cast<int>(arc.width() / turn_step);
         for (int i = 0; i < tries; ++i) {
             const double angle = arc.from + (i + 0.5) / tries * arc.width();
-            Path path{surroundings, wrench, angle};
+            PathProbe path{surroundings, wrench, angle};
             if (path.free(start, up, lift)) return no_part;
-            // Off the nut, the jaw's bottom ahead: towards the handle.
+            // Sideways off the nut: the wrench moves towards the bottom of its jaw, along its handle.
             const double away = angle + approach.jaw_angle, off = jaw_to_tip * approach.head_size;
             const Vec3 direction{std::cos(away), 0.0, -std::sin(away)};
-            Path sideways{surroundings, wrench, angle};
+            PathProbe sideways{surroundings, wrench, angle};
             if (sideways.free(start, direction, off) &&
                 (sideways.free(start + off * direction, up, lift) ||
                  sideways.free(start + off * direction, direction, 2.0 * approach.reach)))

@@ -1,6 +1,7 @@
-// An open-end wrench as triangles: the author's model of it or, without one, an envelope of plausible
-// proportions. Tool frame: origin in the middle of the jaw at mid thickness, +X along the handle, +Z normal
-// to the flat; the mouth of the jaw opens at -X, turned by the head angle about Z.
+// An open-end wrench as triangles (the author's model, or an envelope of typical proportions), the angles
+// through which it can swing on a nut, and the search for a free path onto the nut. Tool frame: origin in the
+// middle of the jaw at mid thickness, +X along the handle, +Z normal to the flat side; the mouth of the jaw
+// opens at -X, rotated by the head angle about Z.
 #pragma once
 
 #include <limits>
@@ -13,71 +14,70 @@
 
 namespace bolt::geometry {
 
-// Proportions of the envelope over the jaw's opening, near those of forged double-ended wrenches (DIN 3110:
-// 24 mm has a head of 50 to 52 mm, 10 to 11 mm thick). One thickness for all of it is on the safe side.
+// Dimensions of the envelope relative to the jaw opening, close to forged double-ended wrenches (DIN 3110: a
+// 24 mm wrench has a head of 50 to 52 mm, 10 to 11 mm thick). The handle has the thickness of the head, which
+// is conservative.
 inline constexpr double head_width_ratio = 2.1;
 inline constexpr double thickness_ratio = 0.45;
 inline constexpr double handle_width_ratio = 0.85;
-inline constexpr double jaw_depth_ratio =
-    0.6;  // from the middle of the jaw to its bottom; the hexagon needs 0.577
-inline constexpr double handle_beyond_grip = 1.12;  // overall length over jaw to middle of grip
+inline constexpr double jaw_depth_ratio = 0.6;  // middle of the jaw to its bottom; a hexagon needs 0.577
+inline constexpr double handle_beyond_grip =
+    1.12;  // overall length / distance from the jaw to the middle of the grip
 
-struct Wrench {
-    std::string name = "the wrench";  // in what is said of it
-
+struct WrenchShape {
+    std::string name = "the wrench";  // used in messages
     std::vector<Triangle> triangles;  // in the tool frame, metres
     double head_angle = 0.0;          // rad, of the jaw to the handle, about +Z
-    double head_size = 0.0;           // m, from the middle of the jaw to the outside of the head
+    double head_size = 0.0;           // m, middle of the jaw to the outside of the head
     double half_thickness = 0.0;      // m, of the head
-    double reach = 0.0;               // m, of what is furthest from the middle of the jaw
+    double reach = 0.0;               // m, largest distance from the middle of the jaw
 };
 
-Wrench plain_wrench(const content::WrenchDesign& design);
+// The envelope for an assembly without a wrench model.
+WrenchShape envelope_wrench(const content::WrenchDesign& design);
 
-// The wrench of a model, with what its jaw measures held against the design; a model may lie flat (Y normal
-// to the flat, as import-step turns it) or stand (Z).
-Result<Wrench> model_wrench(const Scene& scene, const content::WrenchDesign& design);
+// The wrench of a model whose flat side is normal to Y (as import-step writes it) or to Z. Fails if the
+// measured jaw does not agree with the design.
+Result<WrenchShape> wrench_from_model(const FlattenedModel& scene, const content::WrenchDesign& design);
 
-// The wrench on a nut whose axis is +Y, its handle along +X; turned over, its head points to the other side.
-Bvh posed(const Wrench& wrench, bool turned_over);
-
-// How far a wrench that is on a nut can swing about the nut's axis before it touches something.
+// The wrench on a nut with the axis +Y, its handle along +X. `turned_over`: rotated by 180° about the handle.
+Bvh place_on_nut(const WrenchShape& wrench, bool turned_over);
 
 inline constexpr std::uint32_t no_part = std::numeric_limits<std::uint32_t>::max();
 
-// Angles of the handle, rad, at which nothing is touched: from < to. What stops it at either end.
+// A collision-free range of handle angles about +Y.
 struct Arc {
-    double from = 0.0, to = 0.0;
-    std::uint32_t before = no_part, after = no_part;
+    double from = 0.0, to = 0.0;                      // rad, from < to
+    std::uint32_t before = no_part, after = no_part;  // parts that limit the range at `from` and at `to`
 
     [[nodiscard]] double width() const { return to - from; }
 };
 
-// All free arcs of a turn, by angle; none: it fits nowhere, and `blocking` is what is most in the way.
+// The free arcs of one revolution of a wrench on a nut.
 struct Swing {
-    std::vector<Arc> arcs;
-    std::uint32_t blocking = no_part;
+    std::vector<Arc> arcs;             // in the order of their angles; empty: the wrench fits at no angle
+    std::uint32_t blocking = no_part;  // the part that collides at the most angles
 
-    [[nodiscard]] const Arc* widest() const;  // nullptr: there is none
+    [[nodiscard]] const Arc* widest() const;  // nullptr without an arc
 };
 
-// `wrench` on the nut's axis +Y with its handle along +X, `height` above the joint's origin.
-Swing free_swing(const Bvh& surroundings, const Bvh& wrench, double height);
+// `wrench` as from place_on_nut(), `height` m above the joint's origin.
+Swing find_free_swing(const Bvh& surroundings, const Bvh& wrench, double height);
 
-// Angles [from, to], taken modulo `period`, leave no gap.
-bool cover(std::vector<std::pair<double, double>> intervals, double period);
+// Returns true if the intervals [from, to], taken modulo `period`, cover the whole period.
+bool covers_period(std::vector<std::pair<double, double>> intervals, double period);
 
-// Whether a wrench that fits on a nut can be brought there: lifted off along the bolt, or drawn off sideways.
-
+// Geometry of the paths by which a wrench can leave the nut: up along the bolt, or sideways out of the jaw.
 struct Approach {
-    double height = 0.0;     // of the wrench on the nut, above the joint's origin
-    double jaw_angle = 0.0;  // of the jaw to the handle, rad about +Y
+    double height = 0.0;     // m, of the wrench on the nut above the joint's origin
+    double jaw_angle = 0.0;  // rad about +Y, from the handle to the jaw
     double head_size = 0.0;  // m
     double reach = 0.0;      // m, of the wrench
 };
 
-// What is in the way of every path from every free angle; no_part: there is a path.
-std::uint32_t blocked_by(const Bvh& surroundings, const Bvh& wrench, const Swing& swing,
-                         const Approach& approach);
+// Returns the part that blocks the last path tried if every path from every free angle is blocked; no_part if
+// one is free.
+std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const Swing& swing,
+                               const Approach& approach);
 
 }  // namespace bolt::geometry

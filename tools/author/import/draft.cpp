@@ -17,9 +17,9 @@ namespace bolt::step_import {
 
 namespace {
 
-constexpr double friction = 0.12;    // oiled, middle of VDI 2230 class B
-constexpr double utilisation = 0.9;  // of yield
-constexpr double share = 0.8;        // of the torque at that utilisation: room for a tolerance of 10 %
+constexpr double friction = 0.12;     // oiled, middle of VDI 2230 class B
+constexpr double utilisation = 0.9;   // of yield
+constexpr double torque_share = 0.8;  // of the torque at that utilisation, so that a tolerance of 10 % fits
 constexpr std::array built_in = {"aluminium",    "bronze",          "cast_iron",
                                  "ductile_iron", "stainless_steel", "steel"};
 
@@ -32,7 +32,7 @@ double rounded(double value, double step) {
     return result == 0.0 ? 0.0 : result;  // no −0
 }
 
-// Decimal millimetres without the tail of binary fractions.
+// Millimetres in decimal notation without trailing zeros.
 std::string in_mm(double metres, double step = 1e-4) {
     std::string text = fmt::format("{:.4f}", rounded(metres / mm, step));
     while (text.back() == '0') text.pop_back();
@@ -49,41 +49,42 @@ std::string axis_text(const Vec3& a) {
     return fmt::format("[{}, {}, {}]", part(a.x), part(a.y), part(a.z));
 }
 
-// What two joints must have in common to be of one type.
-struct Type {
+// The values that two joints must share to be of one joint type.
+struct JointTypeKey {
     std::string size, property_class;
     double length = 0.0;  // mm
     bool washer_head = false, washer_nut = false;
     std::vector<std::pair<double, std::string>> members;  // mm, material
-    friend bool operator==(const Type&, const Type&) = default;
+    friend bool operator==(const JointTypeKey&, const JointTypeKey&) = default;
 };
 
-struct NamedType {
+struct DraftJointType {
     std::string name;
-    Type type;
+    JointTypeKey type;
     double torque = 0.0;  // N·m
 };
 
-double target_torque(const Type& type) {
+double target_torque(const JointTypeKey& type) {
     const auto thread = joint::parse_thread(type.size);
     if (!thread) return 0.0;
     const auto bolt = joint::property_class(type.property_class, thread->size.d);
     if (!bolt) return 0.0;
     const double torque =
-        share * joint::assembly_preload(
-                    thread->thread, *bolt, friction, friction,
-                    joint::bearing_mean_diameter(thread->size.nut_bearing, thread->size.hole), utilisation)
-                    .torque;
-    const double step = std::pow(10.0, std::floor(std::log10(torque)) - 1.0);  // two digits
+        torque_share *
+        joint::assembly_preload(thread->thread, *bolt, friction, friction,
+                                joint::bearing_mean_diameter(thread->size.nut_bearing, thread->size.hole),
+                                utilisation)
+            .torque;
+    const double step = std::pow(10.0, std::floor(std::log10(torque)) - 1.0);  // two significant digits
     return std::floor(torque / step) * step;
 }
 
-class Writer {
+class DraftWriter {
   public:
-    explicit Writer(const DraftInput& input) : in_(input) {}
+    explicit DraftWriter(const DraftInput& input) : in_(input) {}
 
     Draft run() {
-        choose();
+        choose_joints();
         if (joints_.empty()) return std::move(draft_);
         for (const JointCandidate* joint : joints_) type_of_.push_back(type_index(*joint));
         draft_.joints = joints_.size();
@@ -96,13 +97,13 @@ class Writer {
     Draft draft_;
     std::vector<const JointCandidate*> joints_;
     std::vector<std::size_t> type_of_;
-    std::vector<NamedType> types_;
-    double flats_ = 0.0;  // m, of the nuts that the tool fits
+    std::vector<DraftJointType> types_;
+    double flats_ = 0.0;  // m, width across flats of the chosen nuts
     bool gasket_ = false;
     std::size_t unknown_members_ = 0;
 
-    // An assembly has one wrench: the joints of the most frequent width stay.
-    void choose() {
+    // Keeps the joints with the most frequent width across flats, because an assembly has one wrench.
+    void choose_joints() {
         std::map<double, std::size_t> widths;
         const auto width = [](const JointCandidate& joint) {
             const auto thread = joint::parse_thread(joint.size);
@@ -141,7 +142,7 @@ class Writer {
     }
 
     std::size_t type_index(const JointCandidate& joint) {
-        Type type;
+        JointTypeKey type;
         type.size = joint.size;
         type.property_class = in_.stainless[static_cast<std::size_t>(joint.bolt)] ? "A2-70" : "8.8";
         type.length = rounded(joint.bolt_length / mm, 0.1);
@@ -152,7 +153,7 @@ class Writer {
         for (std::size_t i = 0; i < types_.size(); ++i)
             if (types_[i].type == type) return i;
         std::string name = fmt::format("{}x{}", type.size, in_mm(type.length * mm));
-        const auto same = std::count_if(types_.begin(), types_.end(), [&](const NamedType& one) {
+        const auto same = std::count_if(types_.begin(), types_.end(), [&](const DraftJointType& one) {
             return one.type.size == type.size && one.type.length == type.length;
         });
         if (same > 0) name += fmt::format(" ({})", same + 1);
@@ -160,8 +161,8 @@ class Writer {
         return types_.size() - 1;
     }
 
-    // On a circle the next one is the farthest from all that are done, and of those the farthest from the
-    // last: a star. Else from the middle outward.
+    // Tightening order. Joints on a circle: a star, where the next joint is the farthest from all earlier
+    // ones and, among equals, the farthest from the last one. Otherwise from the middle outwards.
     std::vector<std::size_t> order() const {
         const std::size_t n = joints_.size();
         const auto apart = [&](std::size_t i, std::size_t k) {
@@ -174,7 +175,7 @@ class Writer {
         const auto [least, most] = std::minmax_element(radius.begin(), radius.end());
         const bool circle = *most - *least < 0.02 * *most;
         std::vector<std::size_t> order;
-        // In tenths of a millimetre, so that what is equal is equal.
+        // Rounded to 0.1 mm, so that equal distances compare equal.
         const auto rank = [&](std::size_t i) {
             double nearest = circle ? 1e3 : -radius[i];
             for (const std::size_t k : order) nearest = circle ? std::min(nearest, apart(i, k)) : nearest;
@@ -192,8 +193,8 @@ class Writer {
         return order;
     }
 
-    std::string type_text(const NamedType& named) const {
-        const Type& type = named.type;
+    std::string type_text(const DraftJointType& named) const {
+        const JointTypeKey& type = named.type;
         std::vector<std::string> members;
         for (const auto& [thickness, material] : type.members)
             members.push_back(fmt::format(R"(        {{ "thickness_mm": {}, "material": {} }})",
@@ -258,7 +259,7 @@ class Writer {
             "wrench, the order and the passes.",
             in_.source,
             unknown_members_ > 0 ? fmt::format(" (unknown for {}: steel is assumed)", unknown_members_) : "",
-            friction, 100.0 * share, 100.0 * utilisation);
+            friction, 100.0 * torque_share, 100.0 * utilisation);
         if (gasket_) text += " The gasket's Young's modulus is a guess.";
         return text;
     }
@@ -283,7 +284,7 @@ class Writer {
             in_mm(flats_ + 0.2 * mm), in_mm((8.2 * flats_ + 33.0 * mm), 10.0));
         if (gasket_) out += "  \"materials\": { \"gasket\": { \"E_GPa\": 1 } },\n";
         std::vector<std::string> types, joints, ids;
-        for (const NamedType& type : types_) types.push_back(type_text(type));
+        for (const DraftJointType& type : types_) types.push_back(type_text(type));
         for (std::size_t i = 0; i < joints_.size(); ++i) joints.push_back(joint_text(i));
         for (const std::size_t i : order()) ids.push_back(quoted(joints_[i]->id));
         out += fmt::format("  \"joint_types\": {{\n{}\n  }},\n", fmt::join(types, ",\n"));
@@ -302,6 +303,6 @@ class Writer {
 
 }  // namespace
 
-Draft make_draft(const DraftInput& input) { return Writer(input).run(); }
+Draft make_draft(const DraftInput& input) { return DraftWriter(input).run(); }
 
 }  // namespace bolt::step_import

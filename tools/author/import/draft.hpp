@@ -1,4 +1,5 @@
-// A first assembly.json from what the geometry shows. What a STEP file cannot tell is a stated default.
+// Drafts assembly.json from the geometry. Values that a STEP file does not contain are defaults, which the
+// draft states.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +13,16 @@ namespace bolt::step_import {
 struct DraftInput {
     std::string title;
     std::string source;               // name of the STEP file
-    std::string model, far, contact;  // file names; empty: there is none
-    std::string schema;               // what "$schema" says
+    std::string model, far, contact;  // file names; empty: no such file
+    std::string schema;               // value of "$schema"
     Vec3 low{0.0}, high{0.0};         // of the whole assembly, m
-    const JointSearch* search = nullptr;
+    const JointSearchResult* search = nullptr;
     std::vector<std::string> member_of;  // material of clamped parts, by tree node; empty: unknown
-    std::vector<bool> stainless;         // by tree node: for bolts
+    std::vector<bool> stainless;         // by tree node: whether a bolt is of stainless steel
 };
 
 struct Draft {
-    std::string text;  // empty: there is no joint to write
+    std::string text;  // empty without a joint
     std::size_t joints = 0;
     std::vector<std::string> remarks;
 };

@@ -1,4 +1,4 @@
-// content/materials.json as it was when the program was built.
+// The text of content/materials.json at build time.
 #pragma once
 
 #include <string_view>

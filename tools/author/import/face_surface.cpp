@@ -20,7 +20,7 @@
 namespace bolt::step_import {
 
 FaceSurface::FaceSurface(const TopoDS_Face& face, const Handle(Poly_Triangulation) & triangulation)
-    : surface_(face, false), side_(face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0) {
+    : surface_(face, false), orientation_(face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0) {
     for (int i = 1; i <= triangulation->NbNodes(); ++i) add(triangulation->UVNode(i).XY());
 }
 
@@ -28,7 +28,7 @@ void FaceSurface::add(const gp_XY& uv) {
     gp_Pnt point;
     gp_Vec du, dv;
     surface_.D1(uv.X(), uv.Y(), point, du, dv);
-    constexpr double vanishing = 1e-9;  // against the other derivative
+    constexpr double vanishing = 1e-9;  // ratio to the other derivative
     uv_.push_back(uv);
     pole_u_.push_back(du.Magnitude() < vanishing * dv.Magnitude());
     pole_v_.push_back(dv.Magnitude() < vanishing * du.Magnitude());
@@ -59,32 +59,32 @@ Vec3 FaceSurface::normal(const gp_XY& uv) const {
     const gp_Vec cross = du.Crossed(dv);
     const double squared = cross.SquareMagnitude();
     if (squared < 1e-24 || squared < 1e-14 * du.SquareMagnitude() * dv.SquareMagnitude()) return Vec3{0.0};
-    return direction_to_scene(cross.Normalized().XYZ()) * side_;
+    return direction_to_scene(cross.Normalized().XYZ()) * orientation_;
 }
 
 double FaceSurface::distance(const gp_XY& uv, const Vec3& p) const {
-    const gp_Pnt there(point_to_cad(p));
+    const gp_Pnt given(point_to_cad(p));
     gp_Pnt point;
     gp_Vec du, dv;
     surface_.D1(uv.X(), uv.Y(), point, du, dv);
-    const gp_Vec off(point, there);
-    // One step of Newton's method: enough for points as near as those of a mesh.
+    const gp_Vec off(point, given);
+    // One Newton step is enough, because the points of a mesh are close to the surface.
     const double uu = du.SquareMagnitude(), vv = dv.SquareMagnitude(), mixed = du.Dot(dv);
     const double pu = off.Dot(du), pv = off.Dot(dv), det = uu * vv - mixed * mixed;
     if (det <= 1e-12 * uu * vv) return off.Magnitude() * mm;
     const gp_Pnt nearer =
         surface_.Value(uv.X() + (pu * vv - pv * mixed) / det, uv.Y() + (pv * uu - pu * mixed) / det);
-    return std::min(off.Magnitude(), nearer.Distance(there)) * mm;
+    return std::min(off.Magnitude(), nearer.Distance(given)) * mm;
 }
 
 namespace {
 
-using Side = std::pair<std::uint32_t, std::uint32_t>;
-using Triangle = std::array<std::uint32_t, 3>;
+using EdgeKey = std::pair<std::uint32_t, std::uint32_t>;
+using TriangleIndices = std::array<std::uint32_t, 3>;
 
-constexpr int most_passes = 6;  // each takes three quarters of the deviation away
+constexpr int max_passes = 6;  // each pass removes three quarters of the deviation
 
-Side side(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
+EdgeKey edge_key(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
 
 class Refiner {
   public:
@@ -94,15 +94,15 @@ class Refiner {
     bool pass() {
         uses_.clear();
         split_.clear();
-        for (const Triangle& t : triangles_)
-            for (std::size_t k = 0; k < 3; ++k) ++uses_[side(t[k], t[(k + 1) % 3])];
+        for (const TriangleIndices& t : triangles_)
+            for (std::size_t k = 0; k < 3; ++k) ++uses_[edge_key(t[k], t[(k + 1) % 3])];
         for (const auto& [ab, count] : uses_)
-            if (count == 2 && side_is_off(ab)) mark(ab);
+            if (count == 2 && edge_exceeds(ab)) mark(ab);
         std::vector<bool> centre(triangles_.size(), false);
         bool any = !split_.empty();
         for (std::size_t i = 0; i < triangles_.size(); ++i) {
-            const Triangle t = triangles_[i];
-            if (is_marked(t) || !middle_is_off(t)) continue;
+            const TriangleIndices t = triangles_[i];
+            if (is_marked(t) || !centre_exceeds(t)) continue;
             any = true;
             if (!mark_longest(t)) centre[i] = true;
         }
@@ -115,22 +115,22 @@ class Refiner {
     std::vector<Vec3>& corners_;
     Triangles& triangles_;
     double deflection_;
-    std::map<Side, int> uses_;
-    std::map<Side, std::uint32_t> split_;  // the new corner in the middle
+    std::map<EdgeKey, int> uses_;
+    std::map<EdgeKey, std::uint32_t> split_;  // the new corner in the middle of each split edge
 
-    bool side_is_off(const Side& ab) const {
+    bool edge_exceeds(const EdgeKey& ab) const {
         const Vec3 chord = 0.5 * (corners_[ab.first] + corners_[ab.second]);
         return surface_.distance(surface_.middle(ab.first, ab.second), chord) > deflection_;
     }
 
-    bool middle_is_off(const Triangle& t) const {
+    bool centre_exceeds(const TriangleIndices& t) const {
         const Vec3 middle = (corners_[t[0]] + corners_[t[1]] + corners_[t[2]]) / 3.0;
         return surface_.distance(surface_.middle(t[0], t[1], t[2]), middle) > deflection_;
     }
 
-    bool is_marked(const Triangle& t) const {
-        return split_.contains(side(t[0], t[1])) || split_.contains(side(t[1], t[2])) ||
-               split_.contains(side(t[2], t[0]));
+    bool is_marked(const TriangleIndices& t) const {
+        return split_.contains(edge_key(t[0], t[1])) || split_.contains(edge_key(t[1], t[2])) ||
+               split_.contains(edge_key(t[2], t[0]));
     }
 
     std::uint32_t add(const gp_XY& uv) {
@@ -139,13 +139,13 @@ class Refiner {
         return static_cast<std::uint32_t>(corners_.size() - 1);
     }
 
-    void mark(const Side& ab) { split_[ab] = add(surface_.middle(ab.first, ab.second)); }
+    void mark(const EdgeKey& ab) { split_[ab] = add(surface_.middle(ab.first, ab.second)); }
 
-    bool mark_longest(const Triangle& t) {
-        Side longest{0, 0};
+    bool mark_longest(const TriangleIndices& t) {
+        EdgeKey longest{0, 0};
         double most = 0.0;
         for (std::size_t k = 0; k < 3; ++k) {
-            const Side ab = side(t[k], t[(k + 1) % 3]);
+            const EdgeKey ab = edge_key(t[k], t[(k + 1) % 3]);
             const double length = glm::length(corners_[ab.first] - corners_[ab.second]);
             if (uses_[ab] != 2 || length <= most) continue;
             longest = ab;
@@ -158,7 +158,7 @@ class Refiner {
     void rebuild(const std::vector<bool>& centre) {
         const Triangles old = std::exchange(triangles_, {});
         for (std::size_t i = 0; i < old.size(); ++i) {
-            const Triangle& t = old[i];
+            const TriangleIndices& t = old[i];
             if (centre[i]) {
                 const std::uint32_t m = add(surface_.middle(t[0], t[1], t[2]));
                 for (std::size_t k = 0; k < 3; ++k) triangles_.push_back({t[k], t[(k + 1) % 3], m});
@@ -168,11 +168,11 @@ class Refiner {
         }
     }
 
-    // Cuts off one split side after the other; what is left is split no more.
-    void divide(const Triangle& t) {
+    // Divides a triangle at each of its split edges, recursively.
+    void divide(const TriangleIndices& t) {
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
-            const auto found = split_.find(side(a, b));
+            const auto found = split_.find(edge_key(a, b));
             if (found == split_.end()) continue;
             divide({a, found->second, c});
             divide({found->second, b, c});
@@ -185,19 +185,19 @@ class Refiner {
 }  // namespace
 
 void refine(FaceSurface& surface, std::vector<Vec3>& corners, Triangles& triangles, double deflection) {
-    if (surface.flat()) return;
+    if (surface.is_plane()) return;
     Refiner refiner(surface, corners, triangles, deflection);
-    for (int i = 0; i < most_passes && refiner.pass(); ++i) {
+    for (int i = 0; i < max_passes && refiner.pass(); ++i) {
     }
 }
 
 double deviation(const FaceSurface& surface, const std::vector<Vec3>& corners, const Triangles& triangles) {
-    if (surface.flat()) return 0.0;
+    if (surface.is_plane()) return 0.0;
     double largest = 0.0;
     for (const auto& [a, b, c] : triangles) {
         const Vec3 middle = (corners[a] + corners[b] + corners[c]) / 3.0;
         largest = std::max(largest, surface.distance(surface.middle(a, b, c), middle));
-        for (const auto& [i, k] : {Side{a, b}, Side{b, c}, Side{c, a}})
+        for (const auto& [i, k] : {EdgeKey{a, b}, EdgeKey{b, c}, EdgeKey{c, a}})
             largest =
                 std::max(largest, surface.distance(surface.middle(i, k), 0.5 * (corners[i] + corners[k])));
     }
@@ -206,17 +206,18 @@ double deviation(const FaceSurface& surface, const std::vector<Vec3>& corners, c
 
 namespace {
 
-struct Axis {
+struct RevolutionAxis {
     Vec3 point, direction;
 };
 
-Axis to_scene(const gp_Ax1& axis) {
+RevolutionAxis to_scene(const gp_Ax1& axis) {
     return {point_to_scene(axis.Location().XYZ()), direction_to_scene(axis.Direction().XYZ())};
 }
 
-// Of the largest circle on the rim of a flat face: what it was turned about.
-std::optional<Axis> rim(const TopoDS_Face& face) {
-    std::optional<Axis> axis;
+// Axis of the largest circle on the rim of a plane face, about which the face was turned; nullopt without a
+// circle.
+std::optional<RevolutionAxis> rim_axis(const TopoDS_Face& face) {
+    std::optional<RevolutionAxis> axis;
     double largest = 0.0;
     for (TopExp_Explorer at(face, TopAbs_EDGE); at.More(); at.Next()) {
         const BRepAdaptor_Curve curve(TopoDS::Edge(at.Current()));
@@ -230,7 +231,7 @@ std::optional<Axis> rim(const TopoDS_Face& face) {
     return axis;
 }
 
-Vec3 any_across(const Vec3& normal) {
+Vec3 any_perpendicular(const Vec3& normal) {
     const Vec3 aside = std::abs(normal.x) < 0.8 ? Vec3{1.0, 0.0, 0.0} : Vec3{0.0, 0.0, 1.0};
     return aside - glm::dot(aside, normal) * normal;
 }
@@ -240,10 +241,10 @@ Vec3 any_across(const Vec3& normal) {
 std::vector<Vec3> tangents_across_lay(const TopoDS_Face& face, const std::vector<Vec3>& corners,
                                       const std::vector<Vec3>& normals) {
     const BRepAdaptor_Surface surface(face, false);
-    std::optional<Axis> axis;
+    std::optional<RevolutionAxis> axis;
     switch (surface.GetType()) {
         case GeomAbs_Plane:
-            axis = rim(face);
+            axis = rim_axis(face);
             break;
         case GeomAbs_Cylinder:
             axis = to_scene(surface.Cylinder().Axis());
@@ -263,10 +264,10 @@ std::vector<Vec3> tangents_across_lay(const TopoDS_Face& face, const std::vector
     std::vector<Vec3> tangents;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         Vec3 across{0.0};
-        // The marks run around the axis; across them, in the surface, is the normal times that.
+        // The marks run around the axis; their cross product with the normal lies in the surface across them.
         if (axis) across = glm::cross(glm::cross(axis->direction, corners[i] - axis->point), normals[i]);
         across -= glm::dot(across, normals[i]) * normals[i];
-        if (glm::length(across) < 1e-9) across = any_across(normals[i]);
+        if (glm::length(across) < 1e-9) across = any_perpendicular(normals[i]);
         tangents.push_back(glm::normalize(across));
     }
     return tangents;

@@ -20,20 +20,19 @@ namespace bolt::step_import {
 
 namespace {
 
-constexpr std::size_t most_flats = 400;  // more than any fastener has: a casting is not looked through
+constexpr std::size_t most_flats = 400;  // more than any fastener has; skips castings
 constexpr double parallel = 1e-6;        // 1 − cos of 0.08°
-constexpr double slack = 0.02 * mm;
-constexpr double largest_width =
-    1.3;  // distance of a fastener's points from its axis over the width across flats
+constexpr double slack = 0.02 * mm;      // tolerance of the flats
+constexpr double largest_width = 1.3;    // largest radius of a fastener / width across flats
 
-struct Flat {
+struct PlaneFace {
     Vec3 normal;            // outward
-    double distance = 0.0;  // along the normal
+    double distance = 0.0;  // m, of the origin along the normal
     std::size_t face = 0;
 };
 
-std::vector<Flat> find_flats(const FaceMap& faces) {
-    std::vector<Flat> flats;
+std::vector<PlaneFace> find_flats(const FaceMap& faces) {
+    std::vector<PlaneFace> flats;
     for (int f = 1; f <= faces.Extent(); ++f) {
         const TopoDS_Face face = TopoDS::Face(faces(f));
         const BRepAdaptor_Surface surface(face, false);
@@ -42,7 +41,7 @@ std::vector<Flat> find_flats(const FaceMap& faces) {
         gp_XYZ normal = plane.Axis().Direction().XYZ();
         if (!plane.Direct()) normal.Reverse();
         if (face.Orientation() == TopAbs_REVERSED) normal.Reverse();
-        Flat flat;
+        PlaneFace flat;
         flat.normal = direction_to_scene(normal);
         flat.distance = glm::dot(flat.normal, point_to_scene(plane.Location().XYZ()));
         flat.face = static_cast<std::size_t>(f - 1);
@@ -51,7 +50,7 @@ std::vector<Flat> find_flats(const FaceMap& faces) {
     return flats;
 }
 
-struct Range {
+struct Interval {
     double low = std::numeric_limits<double>::infinity();
     double high = -std::numeric_limits<double>::infinity();
     void add(double x) {
@@ -60,7 +59,7 @@ struct Range {
     }
 };
 
-struct Axis {
+struct AxisLine {
     Vec3 origin, direction;
     [[nodiscard]] double height(const Vec3& p) const { return glm::dot(p - origin, direction); }
     [[nodiscard]] double radius(const Vec3& p) const {
@@ -68,27 +67,27 @@ struct Axis {
     }
 };
 
-struct Hexagon {
-    Axis axis;
+struct HexagonShape {
+    AxisLine axis;
     double across_flats = 0.0;
-    Range height;
+    Interval height;
 };
 
-// Widths across flats that are looked for, m.
+// Accepted widths across flats, m.
 struct WidthRange {
     double low, high;
 };
 constexpr WidthRange fastener_widths{5.0 * mm, 65.0 * mm};
-constexpr WidthRange all_widths{0.05 * mm, 5000.0 * mm};  // a wrong unit shows as a width out of range
+constexpr WidthRange all_widths{0.05 * mm, 5000.0 * mm};  // a width out of range indicates a wrong unit
 
-// A pair of opposite flats that face away from each other.
-struct Pair {
+// Two parallel flats that face away from each other.
+struct FlatPair {
     std::size_t a, b;
     double width;
 };
 
-std::vector<Pair> find_pairs(const std::vector<Flat>& flats, const WidthRange& widths) {
-    std::vector<Pair> pairs;
+std::vector<FlatPair> find_pairs(const std::vector<PlaneFace>& flats, const WidthRange& widths) {
+    std::vector<FlatPair> pairs;
     for (std::size_t a = 0; a < flats.size(); ++a)
         for (std::size_t b = a + 1; b < flats.size(); ++b) {
             const double width = flats[a].distance + flats[b].distance;
@@ -99,32 +98,32 @@ std::vector<Pair> find_pairs(const std::vector<Flat>& flats, const WidthRange& w
     return pairs;
 }
 
-std::optional<Hexagon> find_hexagon(const std::vector<Flat>& flats, const PartMesh& mesh,
-                                    const WidthRange& widths = fastener_widths) {
-    const std::vector<Pair> pairs = find_pairs(flats, widths);
-    const auto at_60 = [&](const Pair& p, const Pair& q) {
+std::optional<HexagonShape> find_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+                                         const WidthRange& widths = fastener_widths) {
+    const std::vector<FlatPair> pairs = find_pairs(flats, widths);
+    const auto same_width_at_60 = [&](const FlatPair& p, const FlatPair& q) {
         return std::abs(std::abs(glm::dot(flats[p.a].normal, flats[q.a].normal)) - 0.5) < 1e-4 &&
                std::abs(p.width - q.width) < slack;
     };
     for (std::size_t i = 0; i < pairs.size(); ++i)
         for (std::size_t k = i + 1; k < pairs.size(); ++k) {
-            const Pair &p = pairs[i], &q = pairs[k];
-            if (!at_60(p, q)) continue;
+            const FlatPair &p = pairs[i], &q = pairs[k];
+            if (!same_width_at_60(p, q)) continue;
             const Vec3 u = flats[p.a].normal, v = flats[q.a].normal;
             const Vec3 axis = glm::normalize(glm::cross(u, v));
-            const auto middle = [&](const Pair& pair) {
+            const auto middle = [&](const FlatPair& pair) {
                 return 0.5 * (flats[pair.a].distance - flats[pair.b].distance);
             };
             const double uv = glm::dot(u, v), mu = middle(p), mv = middle(q);
             const double det = 1.0 - uv * uv;
             const Vec3 centre = u * ((mu - uv * mv) / det) + v * ((mv - uv * mu) / det);
             for (std::size_t l = k + 1; l < pairs.size(); ++l) {
-                const Pair& r = pairs[l];
-                if (!at_60(p, r) || !at_60(q, r)) continue;
+                const FlatPair& r = pairs[l];
+                if (!same_width_at_60(p, r) || !same_width_at_60(q, r)) continue;
                 const Vec3 w = flats[r.a].normal;
                 if (std::abs(glm::dot(w, axis)) > 1e-3 || std::abs(glm::dot(w, centre) - middle(r)) > slack)
                     continue;
-                Hexagon hexagon{{centre, axis}, p.width, {}};
+                HexagonShape hexagon{{centre, axis}, p.width, {}};
                 for (const std::size_t flat : {p.a, p.b, q.a, q.b, r.a, r.b})
                     for (const std::uint32_t point : mesh.faces[flats[flat].face].points)
                         hexagon.height.add(hexagon.axis.height(mesh.points[point]));
@@ -134,7 +133,7 @@ std::optional<Hexagon> find_hexagon(const std::vector<Flat>& flats, const PartMe
     return std::nullopt;
 }
 
-// Is the point inside the mesh? Solid angle of all triangles (van Oosterom and Strackee 1983).
+// Point-in-mesh test by the solid angle of all triangles (van Oosterom and Strackee 1983).
 bool inside(const PartMesh& mesh, const Vec3& p) {
     double sum = 0.0;
     for (const FaceMesh& face : mesh.faces)
@@ -149,15 +148,15 @@ bool inside(const PartMesh& mesh, const Vec3& p) {
     return std::abs(2.0 * sum) > 2.0 * pi;
 }
 
-double face_radius(const PartMesh& mesh, std::size_t face, const Axis& line) {
+double face_radius(const PartMesh& mesh, std::size_t face, const AxisLine& line) {
     double radius = 0.0;
     for (const std::uint32_t point : mesh.faces[face].points)
         radius = std::max(radius, line.radius(mesh.points[point]));
     return radius;
 }
 
-FastenerShape as_nut(const std::vector<Flat>& flats, const PartMesh& mesh, const Hexagon& hexagon,
-                     const Range& whole) {
+FastenerShape classify_nut(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+                           const HexagonShape& hexagon, const Interval& whole) {
     FastenerShape nut;
     nut.kind = FastenerKind::nut;
     nut.origin = hexagon.axis.origin;
@@ -165,9 +164,9 @@ FastenerShape as_nut(const std::vector<Flat>& flats, const PartMesh& mesh, const
     nut.across_flats = hexagon.across_flats;
     nut.low = whole.low;
     nut.high = whole.high;
-    // The faces that bear; the collar of a locking nut stands beyond one of them.
-    Range faces;
-    for (const Flat& flat : flats) {
+    // Bearing faces; the collar of a locking nut protrudes beyond one of them.
+    Interval faces;
+    for (const PlaneFace& flat : flats) {
         const double along = glm::dot(flat.normal, nut.axis);
         if (std::abs(along) < 1.0 - parallel) continue;
         if (face_radius(mesh, flat.face, hexagon.axis) < 0.4 * nut.across_flats) continue;
@@ -193,24 +192,24 @@ FastenerShape as_nut(const std::vector<Flat>& flats, const PartMesh& mesh, const
     return nut;
 }
 
-FastenerShape as_bolt(const std::vector<Flat>& flats, const PartMesh& mesh, const Hexagon& hexagon,
-                      Range whole) {
+FastenerShape classify_bolt(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+                            const HexagonShape& hexagon, Interval whole) {
     FastenerShape bolt;
     bolt.origin = hexagon.axis.origin;
     bolt.axis = hexagon.axis.direction;
     bolt.across_flats = hexagon.across_flats;
-    Range head = hexagon.height;
+    Interval head = hexagon.height;
     if (head.low - whole.low > whole.high - head.high) {  // the shank is on the other side
         bolt.axis = -bolt.axis;
         head = {-hexagon.height.high, -hexagon.height.low};
         whole = {-whole.high, -whole.low};
     }
-    const Axis line{bolt.origin, bolt.axis};
+    const AxisLine line{bolt.origin, bolt.axis};
     bolt.high = whole.high;
     bolt.low = head.high;
-    // The bearing face: under the flats, or below them on a washer face, wider than any shank.
+    // Bearing face: at the end of the flats, or on a washer face beyond them, wider than any shank.
     double best = -std::numeric_limits<double>::infinity();
-    for (const Flat& flat : flats) {
+    for (const PlaneFace& flat : flats) {
         if (glm::dot(flat.normal, bolt.axis) < 1.0 - parallel) continue;
         const double height = line.height(flat.normal * flat.distance);
         if (height < head.high - slack || height > head.high + 0.2 * bolt.across_flats) continue;
@@ -236,18 +235,19 @@ FastenerShape as_bolt(const std::vector<Flat>& flats, const PartMesh& mesh, cons
     return bolt;
 }
 
-// A flat ring: everything between two radii and two parallel faces.
-FastenerShape as_washer(const TopoDS_Shape& shape, const std::vector<Flat>& flats, const PartMesh& mesh) {
+// Returns a washer if the part is a flat ring between two radii and two parallel faces.
+FastenerShape classify_washer(const TopoDS_Shape& shape, const std::vector<PlaneFace>& flats,
+                              const PartMesh& mesh) {
     FastenerShape washer;
     const std::vector<Hole> holes = find_holes(shape);
     if (holes.empty() || flats.size() < 2) return washer;
-    const Axis line{holes.front().point, holes.front().axis};
-    Range heights, radii, faces;
+    const AxisLine line{holes.front().point, holes.front().axis};
+    Interval heights, radii, faces;
     for (const Vec3& point : mesh.points) {
         heights.add(line.height(point));
         radii.add(line.radius(point));
     }
-    for (const Flat& flat : flats) {
+    for (const PlaneFace& flat : flats) {
         if (std::abs(glm::dot(flat.normal, line.direction)) < 1.0 - parallel) return washer;
         faces.add(line.height(flat.normal * flat.distance));
     }
@@ -264,7 +264,7 @@ FastenerShape as_washer(const TopoDS_Shape& shape, const std::vector<Flat>& flat
     return washer;
 }
 
-double largest_radius(const PartMesh& mesh, const Axis& line) {
+double largest_radius(const PartMesh& mesh, const AxisLine& line) {
     double radius = 0.0;
     for (const Vec3& point : mesh.points) radius = std::max(radius, line.radius(point));
     return radius;
@@ -276,7 +276,7 @@ int count_solids(const TopoDS_Shape& shape) {
     return solids;
 }
 
-void explain_missing_hexagon(const std::vector<Flat>& flats, const PartMesh& mesh, FastenerShape& none) {
+void explain_missing_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh, FastenerShape& none) {
     const auto hexagon = find_hexagon(flats, mesh, all_widths);
     if (hexagon && largest_radius(mesh, hexagon->axis) <= largest_width * hexagon->across_flats)
         none.rejection = fmt::format(
@@ -294,15 +294,15 @@ void explain_missing_hexagon(const std::vector<Flat>& flats, const PartMesh& mes
 
 FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh) {
     const FaceMap faces = faces_of(shape);
-    const std::vector<Flat> flats = find_flats(faces);
+    const std::vector<PlaneFace> flats = find_flats(faces);
     if (flats.size() > most_flats || mesh.points.empty()) return {};
     const auto hexagon = find_hexagon(flats, mesh);
     if (!hexagon) {
-        FastenerShape washer = as_washer(shape, flats, mesh);
+        FastenerShape washer = classify_washer(shape, flats, mesh);
         if (washer.kind == FastenerKind::none) explain_missing_hexagon(flats, mesh, washer);
         return washer;
     }
-    Range whole;
+    Interval whole;
     for (const Vec3& point : mesh.points) whole.add(hexagon->axis.height(point));
     const double widest = largest_radius(mesh, hexagon->axis);
     if (widest > largest_width * hexagon->across_flats) {
@@ -319,8 +319,8 @@ FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh
     }
     const double middle = 0.5 * (hexagon->height.low + hexagon->height.high);
     return inside(mesh, hexagon->axis.origin + middle * hexagon->axis.direction)
-               ? as_bolt(flats, mesh, *hexagon, whole)
-               : as_nut(flats, mesh, *hexagon, whole);
+               ? classify_bolt(flats, mesh, *hexagon, whole)
+               : classify_nut(flats, mesh, *hexagon, whole);
 }
 
 std::vector<Hole> find_holes(const TopoDS_Shape& shape) {
@@ -331,7 +331,7 @@ std::vector<Hole> find_holes(const TopoDS_Shape& shape) {
         const BRepAdaptor_Surface surface(face, false);
         if (surface.GetType() != GeomAbs_Cylinder) continue;
         const gp_Cylinder cylinder = surface.Cylinder();
-        // Outward is away from the material: towards the axis in a hole.
+        // The outward normal of a hole points towards its axis.
         if ((face.Orientation() == TopAbs_REVERSED) != cylinder.Direct()) continue;
         holes.push_back({point_to_scene(cylinder.Location().XYZ()),
                          direction_to_scene(cylinder.Axis().Direction().XYZ()), cylinder.Radius() * mm});
@@ -358,7 +358,7 @@ std::vector<double> crossings(const PartMesh& mesh, const Vec3& origin, const Ve
             all.push_back(glm::dot(ac, q) / det);
         }
     std::sort(all.begin(), all.end());
-    // A line through a common side meets both of its triangles.
+    // A line through a shared edge hits both of its triangles.
     all.erase(std::unique(all.begin(), all.end(), [](double x, double y) { return y - x < 1e-9; }),
               all.end());
     return all;

@@ -1,4 +1,4 @@
-// Recognises bolts, nuts and washers by their shape alone: a hexagon of six flats, a ring.
+// Recognises bolts, nuts and washers by their shape alone (a hexagon of six flats, a ring), and finds holes.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -12,24 +12,24 @@ namespace bolt::step_import {
 
 enum class FastenerKind { none, bolt, nut, washer };
 
-// Scene frame, metres, relative to the part. Heights are counted along the axis from `origin`.
+// Scene frame, metres, relative to the part. Heights are measured along the axis from `origin`.
 struct FastenerShape {
     FastenerKind kind = FastenerKind::none;
-    Vec3 origin{0.0}, axis{0.0, 1.0, 0.0};  // of a bolt: from its head to its end
+    Vec3 origin{0.0}, axis{0.0, 1.0, 0.0};  // of a bolt: from the head to the end
     double across_flats = 0.0;
     double low = 0.0;       // bearing face under a bolt's head; lower face of a nut or washer
     double high = 0.0;      // end of a bolt; upper face of a nut or washer
-    double diameter = 0.0;  // of a bolt's thread over its crests; of the hole of a nut or washer
-    // Why a part is no fastener although it resembles one: "what was found; expected what". Empty if it is a
-    // fastener or resembles none.
+    double diameter = 0.0;  // of a bolt's thread over the crests; of the hole of a nut or washer
+    // Reason why a part that resembles a fastener is none: "<what was found>; expected <what>". Empty for a
+    // fastener and for a part that resembles none.
     std::string rejection;
-    std::string
-        without_hexagon;  // the same for a part without a hexagon, of interest if its name is a fastener's
+    // The same for a part without a hexagon; reported only if the name is that of a fastener.
+    std::string without_hexagon;
 };
 
 FastenerShape recognise_fastener(const TopoDS_Shape& shape, const PartMesh& mesh);
 
-// A cylindrical hole, for finding what a bolt goes through.
+// A cylindrical hole. Scene frame, metres, relative to the part.
 struct Hole {
     Vec3 point, axis;
     double radius = 0.0;
@@ -37,7 +37,7 @@ struct Hole {
 
 std::vector<Hole> find_holes(const TopoDS_Shape& shape);
 
-// Where a straight line goes into and out of the closed mesh, in order; t counts lengths of `direction`.
+// Returns the sorted parameters t at which the line origin + t · direction enters and leaves the closed mesh.
 std::vector<double> crossings(const PartMesh& mesh, const Vec3& origin, const Vec3& direction);
 
 }  // namespace bolt::step_import

@@ -65,8 +65,8 @@ int pending_stop_signal(const sigset_t& stop) {
     return std::max(number, 0);
 }
 
-// Waits until the child process ends or a stop signal arrives. Returns the stop signal, or 0; kills the child
-// process in the first case.
+// Waits until the child process ends or a stop signal arrives. Kills the child process on a stop signal and
+// returns the signal. Otherwise returns a pending stop signal, or 0.
 int wait_for_child(pid_t child, const sigset_t& stop, const sigset_t& all, int& status) {
     while (waitpid(child, &status, WNOHANG) == 0) {
         const int number = sigwaitinfo(&all, nullptr);
@@ -201,7 +201,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-tl::unexpected<Error> cannot(const fs::path& file, const std::string& what) {
+tl::unexpected<Error> file_error(const fs::path& file, const std::string& what) {
     Error error;
     error.code = ErrorCode::failed;
     error.file = file.string();
@@ -278,7 +278,7 @@ Result<StagingFolder> StagingFolder::create(const fs::path& output) {
             }
         }
     }
-    return cannot(output, std::string("cannot be made: ") + std::strerror(problem));
+    return file_error(output, std::string("cannot be created: ") + std::strerror(problem));
 }
 
 StagingFolder::StagingFolder(StagingFolder&& other) noexcept
@@ -302,7 +302,7 @@ Status StagingFolder::publish() {
             (void)::close(std::exchange(lock_, -1));
             return {};
         }
-        if (!fs::is_directory(output_)) return cannot(output_, "cannot be made: " + problem.message());
+        if (!fs::is_directory(output_)) return file_error(output_, "cannot be created: " + problem.message());
     }
     std::vector<fs::path> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(path_, problem))
@@ -313,7 +313,7 @@ Status StagingFolder::publish() {
     });
     for (const fs::path& file : files) {
         fs::rename(path_ / file, output_ / file, problem);
-        if (problem) return cannot(output_ / file, "cannot be written: " + problem.message());
+        if (problem) return file_error(output_ / file, "cannot be written: " + problem.message());
     }
     return {};
 }

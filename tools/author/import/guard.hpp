@@ -1,5 +1,6 @@
-// Runs work that may crash or never end in a child process with limits on processor time and memory.
-// OpenCASCADE dereferences null pointers in some damaged STEP files and never finishes others.
+// Runs work that may crash or never end in a child process with limits on processor time and memory, and
+// keeps its files in a temporary folder until it has succeeded. OpenCASCADE dereferences null pointers in
+// some damaged STEP files and never finishes others.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +20,8 @@ struct GuardLimits {
     std::uint64_t memory_mib = 0;  // address space of the child process, MiB; 0: no limit
 };
 
-// Returns limits that importing an undamaged file of this size never reaches: 120 s and 1 s per 16 KiB, and
-// three quarters of the machine's memory.
+// Returns limits that the import of an undamaged file of this size never reaches: 120 s plus 1 s per 16 KiB,
+// and three quarters of the machine's memory.
 GuardLimits default_limits(const std::filesystem::path& step);
 
 enum class GuardOutcome : std::uint8_t {
@@ -33,7 +34,7 @@ enum class GuardOutcome : std::uint8_t {
     not_started,    // no process could be created
 };
 
-// What the work hands to the parent process. Both texts survive a crash of the work.
+// Passes the phase and the result of the work to the parent process. Both survive a crash of the work.
 class GuardChannel {
   public:
     GuardChannel();
@@ -66,12 +67,11 @@ struct GuardedRun {
 // Runs `work` in a child process and waits for it. The child process never outlives this one.
 GuardedRun run_guarded(const GuardLimits& limits, const std::function<int(GuardChannel&)>& work);
 
-// A temporary folder for the files of an import, so that the output folder never holds half of them.
-
-// The folder is named .NAME.import-N and lies beside the output folder NAME, or inside it where a folder
-// beside it cannot be created or is on another file system. Its creator holds a lock on it until it is
-// removed; a folder without a lock was left by a program that was killed, and the next import to the same
-// output folder removes it.
+// A temporary folder for the files of an import, so that the output folder never holds half of them. It is
+// named .NAME.import-N and lies beside the output folder NAME, or inside it where a folder beside it cannot
+// be created or is on another file system. Its creator holds a lock on it until it is removed; a folder
+// without a lock was left by a program that was killed, and the next import to the same output folder removes
+// it.
 class StagingFolder {
   public:
     // Removes what killed imports to `output` have left, and creates the folder. Fails if it cannot be

@@ -26,22 +26,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double far_coarser = 4.0;       // deflection of the far level over that of the near one
-constexpr double far_angle = 30.0;        // degrees
-constexpr double far_error_share = 0.05;  // of the assembly's size: the far level is never coarser
-constexpr double read_share = 0.35, mesh_share = 0.9;  // of the progress
+constexpr double far_deflection_ratio = 4.0;  // deflection of the far level / near level
+constexpr double far_angle = 30.0;            // degrees
+constexpr double far_error_share = 0.05;      // largest error of the far level / size of the assembly
+constexpr double read_share = 0.35, mesh_share = 0.9;  // progress after reading and after meshing
 
-// Every step of an import in order; what they share.
-class Import {
+// Runs the steps of an import in order and holds their shared state. Each step returns false after an error.
+class Importer {
   public:
-    Import(const ImportOptions& options, const Progress& progress) : options_(options), progress_(progress) {
+    Importer(const ImportOptions& options, const ImportProgress& progress)
+        : options_(options), progress_(progress) {
         name_ = options.name.empty() ? options.step.stem().string() : options.name;
     }
 
-    Imported run() {
-        if (check_names() && read_table() && read() && mesh() && pick() && find() && write_models() &&
-            write_draft()) {
-            advise();
+    ImportResult run() {
+        if (check_names() && read_table() && read() && mesh() && choose_materials() &&
+            find_and_group_joints() && write_models() && write_draft()) {
+            add_advice();
             progress_(1.0, "done");
         }
         return std::move(imported_);
@@ -49,18 +50,18 @@ class Import {
 
   private:
     const ImportOptions& options_;
-    const Progress& progress_;
+    const ImportProgress& progress_;
     std::string name_;
-    Imported imported_;
+    ImportResult imported_;
     MaterialTable table_;
     std::optional<MaterialPicker> picker_;
     StepDocument document_;
     Tree tree_;
     std::vector<PartGeometry> geometry_;            // by part
-    std::vector<ContactMesh> contacts_;             // by part
+    std::vector<PartContactMesh> contacts_;         // by part
     std::vector<PartMesh> far_parts_;               // by part
     std::vector<std::vector<int>> face_materials_;  // by shape
-    JointSearch search_;
+    JointSearchResult search_;
 
     ImportReport& report() { return imported_.report; }
 
@@ -80,12 +81,11 @@ class Import {
 
     bool check_names() {
         if (fs::path(name_).filename().string() != name_ || name_ == "." || name_ == "..")
-            return fail_with(ErrorCode::usage, {}, fmt::format("\"{}\" is no name for files", name_),
+            return fail_with(ErrorCode::usage, {}, fmt::format("\"{}\" is not a file name", name_),
                              "a name without folders");
         std::error_code ignored;
         if (fs::exists(options_.folder, ignored) && !fs::is_directory(options_.folder, ignored))
-            return fail_with(ErrorCode::failed, options_.folder, "cannot be written to: this is a file",
-                             "expected a folder");
+            return fail_with(ErrorCode::failed, options_.folder, "is a file", "a folder");
         return true;
     }
 
@@ -107,8 +107,9 @@ class Import {
         return true;
     }
 
-    // One part that the mesher cannot do leaves the others as they are.
-    PartMesh mesh_part(const Part& part, const Deflection& deflection) {
+    // Returns an empty mesh and adds a remark if the mesher fails on a part; the other parts are not
+    // affected.
+    PartMesh mesh_part(const StepPart& part, const Deflection& deflection) {
         try {
             return tessellate(part.shape, deflection);
         } catch (const Standard_OutOfMemory&) {
@@ -128,12 +129,13 @@ class Import {
         const bool own_contact = options_.contact_deflection_mm > 0.0;
         const Deflection contact{own_contact ? options_.contact_deflection_mm : near.length_mm,
                                  own_contact ? std::max(near.angle, to_radians(far_angle)) : near.angle};
-        const Deflection far{far_coarser * near.length_mm, std::max(near.angle, to_radians(far_angle))};
+        const Deflection far{far_deflection_ratio * near.length_mm,
+                             std::max(near.angle, to_radians(far_angle))};
         report().deflection_mm = near.length_mm;
         report().contact_deflection_mm = contact.length_mm;
         report().far_deflection_mm = options_.far_level ? far.length_mm : 0.0;
         for (std::size_t p = 0; p < document_.parts.size(); ++p) {
-            const Part& part = document_.parts[p];
+            const StepPart& part = document_.parts[p];
             const double done = static_cast<double>(p) / static_cast<double>(document_.parts.size());
             progress_(read_share + (mesh_share - read_share) * done, "meshing " + part.name);
             PartGeometry geometry;
@@ -156,7 +158,7 @@ class Import {
             const PartMesh& mesh = geometry_[p].mesh;
             PartReport part;
             part.name = document_.parts[p].name;
-            for (const Shape& shape : tree_.shapes)
+            for (const ColouredPart& shape : tree_.shapes)
                 if (shape.part == static_cast<int>(p)) part.instances += shape.uses;
             part.triangles = count_triangles(mesh);
             part.contact_triangles = contacts_[p].triangles;
@@ -172,13 +174,13 @@ class Import {
         }
         if (all == 0)
             return fail_with(ErrorCode::bad_content, options_.step, "none of its shapes can be meshed",
-                             "expected solids or shells with a surface");
+                             "solids or shells with a surface");
         return true;
     }
 
-    bool pick() {
-        for (const Shape& shape : tree_.shapes) {
-            const Part& part = document_.parts[static_cast<std::size_t>(shape.part)];
+    bool choose_materials() {
+        for (const ColouredPart& shape : tree_.shapes) {
+            const StepPart& part = document_.parts[static_cast<std::size_t>(shape.part)];
             std::vector<int> materials;
             for (const FaceStyle& face : part.faces) {
                 const auto& whole = shape.colour ? shape.colour : part.colour;
@@ -194,10 +196,10 @@ class Import {
         return true;
     }
 
-    bool find() {
+    bool find_and_group_joints() {
         if (options_.joints) {
             search_ = find_joints(tree_, geometry_);
-            group_joints(tree_, search_);
+            add_joint_nodes(tree_, search_);
             report().joints = search_.joints.size();
             report().remarks.insert(report().remarks.end(), search_.remarks.begin(), search_.remarks.end());
         }
@@ -222,7 +224,7 @@ class Import {
         return note_file(name, assets::write_glb(write_to() / name, model));
     }
 
-    // Where the files are created; their final place is options_.folder.
+    // Folder in which the files are created; the caller publishes them to options_.folder.
     [[nodiscard]] const fs::path& write_to() const {
         return options_.write_to.empty() ? options_.folder : options_.write_to;
     }
@@ -241,37 +243,37 @@ class Import {
         return true;
     }
 
-    void advise() {
+    void add_advice() {
         if (report().triangles > geometry::near_budget)
             report().remarks.push_back(fmt::format(
-                "the near level has {} triangles, {} are as many as it should have: import with a larger "
-                "--deflection or --angle",
+                "the near level has {} triangles; expected at most {}: import with a larger --deflection or "
+                "--angle",
                 report().triangles, geometry::near_budget));
         for (const FileReport& file : report().files)
             if (file.bytes > geometry::file_budget)
                 report().remarks.push_back(
-                    fmt::format("{} has {:.1f} MB, more than the {} MB that an assembly may have",
-                                file.path.filename().string(), static_cast<double>(file.bytes) * 1e-6,
-                                geometry::file_budget / 1'000'000));
+                    fmt::format("{} has {:.1f} MB; expected at most {} MB", file.path.filename().string(),
+                                static_cast<double>(file.bytes) * 1e-6, geometry::file_budget / 1'000'000));
     }
 
     bool write_models() {
         std::error_code problem;
         fs::create_directories(write_to(), problem);
         if (problem)
-            return fail_with(ErrorCode::failed, options_.folder, "cannot be made: " + problem.message(), {});
+            return fail_with(ErrorCode::failed, options_.folder, "cannot be created: " + problem.message(),
+                             {});
         std::vector<const PartMesh*> near;
         for (const PartGeometry& part : geometry_) near.push_back(&part.mesh);
         if (!write_model(".glb",
                          make_model(tree_, render_meshes(near, picker_->materials()), picker_->materials())))
             return false;
         if (options_.far_level && !write_far()) return false;
-        // Colours make no other contact mesh of a part.
+        // Instances of a part with different colours share one contact mesh.
         Tree by_part = tree_;
         for (TreeNode& node : by_part.nodes)
             if (node.shape >= 0) node.shape = tree_.shapes[static_cast<std::size_t>(node.shape)].part;
         std::vector<assets::Mesh> closed;
-        for (const ContactMesh& contact : contacts_) closed.push_back(contact.mesh);
+        for (const PartContactMesh& contact : contacts_) closed.push_back(contact.mesh);
         return write_model(".contact.glb", make_model(by_part, closed, {}));
     }
 
@@ -279,10 +281,10 @@ class Import {
         std::vector<const PartMesh*> parts;
         for (const PartMesh& part : far_parts_) parts.push_back(&part);
         std::vector<std::size_t> uses;
-        for (const Shape& shape : tree_.shapes) uses.push_back(shape.uses);
+        for (const ColouredPart& shape : tree_.shapes) uses.push_back(shape.uses);
         const auto [low, high] = bounds();
         progress_(mesh_share, "simplifying the far level");
-        // Simplified meshes have no tangents, and from afar nobody sees the lay.
+        // Simplified meshes have no tangents, and the lay is invisible at a distance.
         std::vector<assets::Material> materials = picker_->materials();
         for (assets::Material& material : materials) material.anisotropy = 0.0F;
         const FarLevel far = simplify(render_meshes(parts, materials), uses, options_.far_triangles,
@@ -293,7 +295,7 @@ class Import {
             report().parts[static_cast<std::size_t>(tree_.shapes[s].part)].far_triangles =
                 count_triangles(far.meshes[s]);
         if (far.triangles > options_.far_triangles)
-            report().remarks.push_back(fmt::format("the far level has {} triangles, {} are wanted",
+            report().remarks.push_back(fmt::format("the far level has {} triangles; expected at most {}",
                                                    far.triangles, options_.far_triangles));
         return write_model(".far.glb", make_model(tree_, far.meshes, materials));
     }
@@ -303,7 +305,7 @@ class Import {
         for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
             const int shape = tree_.nodes[n].shape;
             if (shape < 0) continue;
-            const Placement pose = world(tree_, static_cast<int>(n));
+            const ScaledPose pose = world(tree_, static_cast<int>(n));
             const auto part = static_cast<std::size_t>(tree_.shapes[static_cast<std::size_t>(shape)].part);
             for (const Vec3& point : geometry_[part].mesh.points) {
                 low = glm::min(low, pose.point(point));
@@ -313,7 +315,7 @@ class Import {
         return {low, high};
     }
 
-    // What most of the part's surface is made of.
+    // Returns the material with the largest area on the part.
     int main_material(int shape) const {
         const auto s = static_cast<std::size_t>(shape);
         const PartMesh& mesh = geometry_[static_cast<std::size_t>(tree_.shapes[s].part)].mesh;
@@ -357,8 +359,8 @@ class Import {
 
         std::string name = "assembly.json";
         if (fs::exists(options_.folder / name, ignored)) {
-            const auto there = read_file(options_.folder / name, 16U << 20U, ErrorCode::failed);
-            if (there && *there == draft.text) return true;  // ours, and nothing has changed
+            const auto existing = read_file(options_.folder / name, 16U << 20U, ErrorCode::failed);
+            if (existing && *existing == draft.text) return true;  // an unchanged draft
             name = "assembly.draft.json";
         }
         if (!shipped && !fs::exists(options_.folder / schema, ignored) &&
@@ -370,18 +372,18 @@ class Import {
 
 }  // namespace
 
-Imported import_step(const ImportOptions& options, const Progress& progress) {
+ImportResult import_step(const ImportOptions& options, const ImportProgress& progress) {
     try {
-        return Import(options, progress).run();
+        return Importer(options, progress).run();
     } catch (const Standard_OutOfMemory&) {
         throw std::bad_alloc();
     } catch (const Standard_Failure& failure) {
-        Imported imported;
+        ImportResult imported;
         Error error;
         error.code = ErrorCode::bad_content;
         error.file = options.step.string();
-        error.what = fmt::format("its geometry cannot be worked with: {}", failure.GetMessageString());
-        error.expected = "expected a STEP file as a CAD program exports it";
+        error.what = fmt::format("its geometry cannot be processed: {}", failure.GetMessageString());
+        error.expected = "a STEP file as a CAD program exports it";
         imported.errors.push_back(std::move(error));
         return imported;
     }

@@ -1,5 +1,4 @@
-// From a STEP file to what an assembly needs: models near and far, the contact model, a draft of
-// assembly.json.
+// Imports a STEP file: writes the near and far models, the contact model and a draft of assembly.json.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +14,23 @@ namespace bolt::step_import {
 
 struct ImportOptions {
     std::filesystem::path step, folder;
-    std::filesystem::path write_to;      // where the files are created, if not in `folder` itself
-    std::string name;                    // of the files; empty: as the STEP file
-    double deflection_mm = 0.1;          // chord against curve or surface
-    double angle_deg = 15.0;             // between neighbouring chords
-    double contact_deflection_mm = 0.0;  // 0: as the near level
-    bool far_level = false;              // write NAME.far.glb too
+    std::filesystem::path write_to;      // temporary folder of the files; empty: `folder`
+    std::string name;                    // of the files; empty: the name of the STEP file
+    double deflection_mm = 0.1;          // largest distance between chord and curve or surface
+    double angle_deg = 15.0;             // largest angle between neighbouring chords
+    double contact_deflection_mm = 0.0;  // of the contact model; 0: deflection_mm
+    bool far_level = false;              // also write NAME.far.glb
     std::size_t far_triangles = 60'000;
-    bool joints = true;  // look for joints, and draft assembly.json
+    bool joints = true;  // find joints and draft assembly.json
 };
 
 struct PartReport {
     std::string name;
     std::size_t instances = 0, triangles = 0, far_triangles = 0, contact_triangles = 0;
     std::size_t open_edges = 0;
-    std::vector<Vec3> open_at_mm;  // the first ones, in the part's CAD frame
+    std::vector<Vec3> open_at_mm;  // middle of the first ones, in the part's CAD frame
     std::size_t faces_without_triangles = 0;
-    double deviation_mm = 0.0;  // largest found
+    double deviation_mm = 0.0;  // largest distance found between a triangle and its surface
 };
 
 struct FileReport {
@@ -46,25 +45,25 @@ struct ImportReport {
     std::vector<std::string> materials;
     std::size_t joints = 0, joints_drafted = 0;
     double deflection_mm = 0.0, contact_deflection_mm = 0.0, far_deflection_mm = 0.0, far_error_mm = 0.0;
-    std::size_t renamed = 0;  // nodes whose name was taken
+    std::size_t renamed = 0;  // nodes with a duplicate name
     std::vector<FileReport> files;
     std::vector<std::string> remarks;
 };
 
-// 0 … 1 of the whole, and what is being worked on.
-using Progress = std::function<void(double fraction, const std::string& what)>;
+// Called with the progress of the whole import, 0 … 1, and the present phase.
+using ImportProgress = std::function<void(double fraction, const std::string& what)>;
 
-struct Imported {
+struct ImportResult {
     ImportReport report;
     std::vector<Error> errors;
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
 
-// Throws std::bad_alloc if memory runs out. OpenCASCADE may crash or never return on a damaged file: the
-// command calls it in a child process (guard.hpp).
-Imported import_step(const ImportOptions& options, const Progress& progress);
+// Throws std::bad_alloc if memory runs out. OpenCASCADE may crash or never return on a damaged file, so the
+// command calls this in a child process (guard.hpp).
+ImportResult import_step(const ImportOptions& options, const ImportProgress& progress);
 
-// The report as a table for people.
+// Formats the report as a table.
 std::string summary(const ImportReport& report);
 
 }  // namespace bolt::step_import

@@ -17,17 +17,17 @@ namespace bolt::step_import {
 namespace {
 
 constexpr double touching = 0.06 * mm;
-constexpr std::string_view joint_prefix = "joint_";
 
-struct Placed {
+// An instance of a fastener, scene frame.
+struct PlacedFastener {
     int node = -1;
     const FastenerShape* shape = nullptr;
     Vec3 origin, axis;
     double scale = 1.0;
 };
 
-// Heights of a nut's or washer's faces along another axis.
-std::pair<double, double> along(const Placed& placed, const Vec3& origin, const Vec3& axis) {
+// Lower and upper face of a nut or washer as heights along the line from `origin`, m.
+std::pair<double, double> along(const PlacedFastener& placed, const Vec3& origin, const Vec3& axis) {
     const auto height = [&](double h) {
         return glm::dot(placed.origin + h * placed.scale * placed.axis - origin, axis);
     };
@@ -47,7 +47,7 @@ const joint::FastenerSize& nearest_size(double diameter) {
 
 double diameter_slack(const joint::FastenerSize& size) { return std::max(0.35 * mm, 0.04 * size.d); }
 
-// The width across flats of DIN 931 and 934, which differs from that of ISO 272 for four sizes.
+// Width across flats by DIN 931 and 934, which differs from ISO 272 for four sizes.
 double din_across_flats(const joint::FastenerSize& size) {
     if (size.name == "M10") return 17.0 * mm;
     if (size.name == "M12") return 19.0 * mm;
@@ -91,7 +91,7 @@ std::string explain_size(const FastenerShape& bolt) {
     return text;
 }
 
-// The pitch shows in the nut's hole where its thread is modelled: D1 = d − 1.0825 P (ISO 68-1). Else coarse.
+// Infers a fine pitch from the hole of the nut, D1 = d − 1.0825 P (ISO 68-1); otherwise the pitch is coarse.
 std::string thread_name(const joint::FastenerSize& size, double hole) {
     const auto off = [&](double pitch) { return std::abs(size.d - 1.0825 * pitch - hole); };
     double best = size.coarse_pitch;
@@ -116,15 +116,15 @@ class JointFinder {
             poses_.push_back(world(tree, node));
             const PartGeometry* part = part_of(node);
             if (part == nullptr || part->fastener.kind == FastenerKind::none) continue;
-            const Placement& pose = poses_.back();
-            Placed placed{node, &part->fastener, pose.point(part->fastener.origin),
-                          pose.direction(part->fastener.axis), std::abs(pose.scale)};
+            const ScaledPose& pose = poses_.back();
+            PlacedFastener placed{node, &part->fastener, pose.point(part->fastener.origin),
+                                  pose.direction(part->fastener.axis), std::abs(pose.scale)};
             of_kind_[part->fastener.kind].push_back(placed);
         }
     }
 
-    JointSearch run() {
-        for (const Placed& bolt : of_kind_[FastenerKind::bolt]) {
+    JointSearchResult run() {
+        for (const PlacedFastener& bolt : of_kind_[FastenerKind::bolt]) {
             const auto nut = nut_on(bolt);
             const joint::FastenerSize* size = nut ? size_of(*bolt.shape) : nullptr;
             if (size == nullptr) {
@@ -135,20 +135,20 @@ class JointFinder {
             search_.joints.push_back(make(bolt, *nut, *size));
         }
         explain_unused();
-        number();
+        assign_ids();
         return std::move(search_);
     }
 
   private:
     const Tree& tree_;
     const std::vector<PartGeometry>& parts_;
-    std::vector<Placement> poses_;
-    std::map<FastenerKind, std::vector<Placed>> of_kind_;
-    JointSearch search_;
+    std::vector<ScaledPose> poses_;
+    std::map<FastenerKind, std::vector<PlacedFastener>> of_kind_;
+    JointSearchResult search_;
     std::map<int, int> bolt_of_nut_;  // nodes
     struct UnusedBolt {
-        Placed bolt;
-        std::optional<Placed> nut;  // that would fit it
+        PlacedFastener bolt;
+        std::optional<PlacedFastener> nut;  // a nut on the bolt, whose size is not metric
     };
     std::vector<UnusedBolt> unused_bolts_;
 
@@ -158,17 +158,17 @@ class JointFinder {
         return &parts_[static_cast<std::size_t>(tree_.shapes[static_cast<std::size_t>(shape)].part)];
     }
 
-    std::optional<Placed> nut_on(const Placed& bolt) const {
-        std::optional<Placed> best;
+    std::optional<PlacedFastener> nut_on(const PlacedFastener& bolt) const {
+        std::optional<PlacedFastener> best;
         double nearest = 0.0;
         const double low = bolt.shape->low * bolt.scale, high = bolt.shape->high * bolt.scale;
-        for (const Placed& nut : placed_of(FastenerKind::nut)) {
+        for (const PlacedFastener& nut : placed_of(FastenerKind::nut)) {
             if (bolt_of_nut_.contains(nut.node) || !coaxial(bolt.origin, bolt.axis, nut.origin, nut.axis))
                 continue;
             if (std::abs(nut.shape->across_flats - bolt.shape->across_flats) > flats_slack) continue;
             const auto [seat, top] = along(nut, bolt.origin, bolt.axis);
             if (seat < low || seat > high) continue;
-            if (!best || seat < nearest) {  // of two nuts locked against each other, the one that bears
+            if (!best || seat < nearest) {  // of two locked nuts, the one at the members
                 best = nut;
                 nearest = seat;
             }
@@ -176,8 +176,8 @@ class JointFinder {
         return best;
     }
 
-    const std::vector<Placed>& placed_of(FastenerKind kind) const {
-        static const std::vector<Placed> none;
+    const std::vector<PlacedFastener>& placed_of(FastenerKind kind) const {
+        static const std::vector<PlacedFastener> none;
         const auto found = of_kind_.find(kind);
         return found == of_kind_.end() ? none : found->second;
     }
@@ -197,7 +197,7 @@ class JointFinder {
                 unused.nut ? explain_size(shape) : explain_missing_nut(unused.bolt)));
             if (unused.nut) explained.insert(unused.nut->node);
         }
-        for (const Placed& nut : placed_of(FastenerKind::nut))
+        for (const PlacedFastener& nut : placed_of(FastenerKind::nut))
             if (!bolt_of_nut_.contains(nut.node) && !explained.contains(nut.node))
                 search_.remarks.push_back(fmt::format(
                     "{}: looks like a nut (hole {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
@@ -215,10 +215,10 @@ class JointFinder {
                 "by hand");
     }
 
-    std::string explain_missing_nut(const Placed& bolt) const {
-        const Placed* nearest = nullptr;
+    std::string explain_missing_nut(const PlacedFastener& bolt) const {
+        const PlacedFastener* nearest = nullptr;
         double distance = 0.0;
-        for (const Placed& nut : placed_of(FastenerKind::nut)) {
+        for (const PlacedFastener& nut : placed_of(FastenerKind::nut)) {
             const double off = distance_from_axis(bolt, nut.origin);
             if (nearest == nullptr || off < distance) {
                 nearest = &nut;
@@ -255,10 +255,10 @@ class JointFinder {
             (bolt.shape->high - bolt.shape->low) * bolt.scale / mm);
     }
 
-    std::string explain_missing_bolt(const Placed& nut) const {
-        const Placed* nearest = nullptr;
+    std::string explain_missing_bolt(const PlacedFastener& nut) const {
+        const PlacedFastener* nearest = nullptr;
         double distance = 0.0;
-        for (const Placed& bolt : placed_of(FastenerKind::bolt)) {
+        for (const PlacedFastener& bolt : placed_of(FastenerKind::bolt)) {
             const double off = distance_from_axis(bolt, nut.origin);
             if (nearest == nullptr || off < distance) {
                 nearest = &bolt;
@@ -276,7 +276,7 @@ class JointFinder {
             name_of(nearest->node), distance / mm, coaxial_distance / mm);
     }
 
-    static double distance_from_axis(const Placed& placed, const Vec3& point) {
+    static double distance_from_axis(const PlacedFastener& placed, const Vec3& point) {
         return glm::length(glm::cross(point - placed.origin, placed.axis));
     }
 
@@ -291,21 +291,21 @@ class JointFinder {
                                                   shape.without_hexagon));
     }
 
-    // Washers stacked from `face` in the direction `way` (+1: along the axis); moves `face` to the last one's
-    // far side.
-    std::vector<int> washers_from(const Placed& bolt, double& face, double way) {
+    // Returns the washers stacked from the height `face` in `direction` (+1: along the axis, −1: against it).
+    // Moves `face` to the far side of the last one.
+    std::vector<int> washers_from(const PlacedFastener& bolt, double& face, double direction) {
         std::vector<int> found;
         for (bool more = true; more;) {
             more = false;
-            for (const Placed& washer : of_kind_[FastenerKind::washer]) {
+            for (const PlacedFastener& washer : of_kind_[FastenerKind::washer]) {
                 if (std::find(found.begin(), found.end(), washer.node) != found.end()) continue;
                 if (!coaxial(bolt.origin, bolt.axis, washer.origin, washer.axis)) continue;
                 const double hole = washer.shape->diameter * washer.scale, d = bolt.shape->diameter;
                 if (hole < 0.98 * d || hole > 1.3 * d) continue;
                 const auto [low, high] = along(washer, bolt.origin, bolt.axis);
-                const double near = way > 0.0 ? low : high;
+                const double near = direction > 0.0 ? low : high;
                 if (std::abs(near - face) > touching) continue;
-                face = way > 0.0 ? high : low;
+                face = direction > 0.0 ? high : low;
                 found.push_back(washer.node);
                 more = true;
                 break;
@@ -314,7 +314,8 @@ class JointFinder {
         return found;
     }
 
-    JointCandidate make(const Placed& bolt, const Placed& nut, const joint::FastenerSize& size) {
+    JointCandidate make(const PlacedFastener& bolt, const PlacedFastener& nut,
+                        const joint::FastenerSize& size) {
         JointCandidate joint;
         joint.bolt = bolt.node;
         joint.nut = nut.node;
@@ -327,24 +328,24 @@ class JointFinder {
         joint.nut_washers = washers_from(bolt, seat, -1.0);
         joint.grip = seat - head;
         joint.members = members_of(bolt, joint, head, seat);
-        // What is clamped says better than the nut where the seat is: a CAD nut may stand off it.
         double sum = 0.0;
         for (const ClampedMember& member : joint.members) sum += member.thickness;
         joint.seat = bolt.origin + seat * bolt.axis;
         if (joint.members.empty()) {
             joint.members.push_back({-1, joint.grip});
-            note(joint, "no part with a hole was found between head and nut: one member fills the grip");
+            add_remark(joint,
+                       "no part with a hole was found between head and nut: one member fills the grip");
         } else if (std::abs(sum - joint.grip) > 0.02 * mm) {
-            note(joint,
-                 fmt::format("the parts between head and nut are {:.2f} mm, the room for them is {:.2f} mm",
-                             sum / mm, joint.grip / mm));
+            add_remark(joint, fmt::format("the parts between head and nut are {:.2f} mm thick; expected "
+                                          "{:.2f} mm, the distance from head to nut",
+                                          sum / mm, joint.grip / mm));
         }
         joint.group = group_of(joint);
         return joint;
     }
 
-    std::vector<ClampedMember> members_of(const Placed& bolt, const JointCandidate& joint, double head,
-                                          double seat) const {
+    std::vector<ClampedMember> members_of(const PlacedFastener& bolt, const JointCandidate& joint,
+                                          double head, double seat) const {
         std::vector<const PartGeometry*> parts;
         for (std::size_t n = 0; n < tree_.nodes.size(); ++n) parts.push_back(part_of(static_cast<int>(n)));
         for (const auto& list : {joint.head_washers, joint.nut_washers, std::vector{joint.bolt, joint.nut}})
@@ -352,12 +353,12 @@ class JointFinder {
         return find_members(parts, poses_, {bolt.origin, bolt.axis, bolt.shape->diameter, head, seat});
     }
 
-    void note(const JointCandidate& joint, const std::string& what) {
+    void add_remark(const JointCandidate& joint, const std::string& what) {
         search_.remarks.push_back(
             fmt::format("{}: {}", tree_.nodes[static_cast<std::size_t>(joint.bolt)].name, what));
     }
 
-    // The group that the author made for this joint.
+    // Returns the node of a group joint_ID in the file around this joint; −1 if there is none.
     int group_of(const JointCandidate& joint) const {
         const auto name = [&](int node) -> const std::string& {
             return tree_.nodes[static_cast<std::size_t>(node)].name;
@@ -368,14 +369,16 @@ class JointFinder {
         return -1;
     }
 
-    // Ids of the author's groups as they are, others by position: along x, then z, then y, in millimetres.
-    void number() {
+    // Takes the id of a joint from its group; numbers the others by position: x, then z, then y, rounded to 1
+    // mm.
+    void assign_ids() {
         std::map<int, int> members;
         for (const JointCandidate& joint : search_.joints)
             if (joint.group >= 0) ++members[joint.group];
         std::set<std::string> taken;
         for (JointCandidate& joint : search_.joints) {
-            if (joint.group >= 0 && members[joint.group] > 1) joint.group = -1;  // a group of several joints
+            if (joint.group >= 0 && members[joint.group] > 1)
+                joint.group = -1;  // the group holds several joints
             if (joint.group < 0) continue;
             joint.id = tree_.nodes[static_cast<std::size_t>(joint.group)].name.substr(joint_prefix.size());
             if (!taken.insert(joint.id).second) joint.group = -1;
@@ -399,66 +402,10 @@ class JointFinder {
     }
 };
 
-// The shortest turn of +Y into the axis.
-Quat turn_to(const Vec3& axis) {
-    const Vec3 up{0.0, 1.0, 0.0};
-    const double cos = glm::dot(up, axis);
-    if (cos > 1.0 - 1e-12) return {1.0, 0.0, 0.0, 0.0};
-    if (cos < -1.0 + 1e-12) return {0.0, 1.0, 0.0, 0.0};
-    const Vec3 cross = glm::cross(up, axis);
-    return glm::normalize(Quat{1.0 + cos, cross.x, cross.y, cross.z});
-}
-
-int make_group(Tree& tree, const JointCandidate& joint) {
-    const int node = static_cast<int>(tree.nodes.size());
-    TreeNode group;
-    group.local = {turn_to(joint.axis), joint.seat, 1.0};
-    tree.nodes.push_back(group);
-    tree.roots.push_back(node);
-    if (const int parent = common_parent(tree, joint.bolt, joint.nut); parent >= 0)
-        move_under(tree, node, parent);
-    return node;
-}
-
-// The group of the author's own should stand where the geometry says.
-void check_group(const Tree& tree, const JointCandidate& joint, std::vector<std::string>& remarks) {
-    const Placement pose = world(tree, joint.group);
-    const double off = glm::length(pose.position - joint.seat) / mm;
-    const double turn = glm::dot(pose.direction({0.0, 1.0, 0.0}), joint.axis);
-    const std::string& name = tree.nodes[static_cast<std::size_t>(joint.group)].name;
-    if (off > 0.01)
-        remarks.push_back(
-            fmt::format("{}: its origin is {:.3f} mm from the centre of the hole under the nut", name, off));
-    if (turn < 1.0 - 1e-6)
-        remarks.push_back(fmt::format("{}: its +Z axis is {:.2f} degrees off the bolt's", name,
-                                      to_degrees(std::acos(std::clamp(turn, -1.0, 1.0)))));
-}
-
 }  // namespace
 
-JointSearch find_joints(const Tree& tree, const std::vector<PartGeometry>& parts) {
+JointSearchResult find_joints(const Tree& tree, const std::vector<PartGeometry>& parts) {
     return JointFinder(tree, parts).run();
-}
-
-void group_joints(Tree& tree, JointSearch& search) {
-    for (JointCandidate& joint : search.joints) {
-        if (joint.group >= 0)
-            check_group(tree, joint, search.remarks);
-        else
-            joint.group = make_group(tree, joint);
-        const auto put = [&](int node, const std::string& name) {
-            if (tree.nodes[static_cast<std::size_t>(node)].parent != joint.group)
-                move_under(tree, node, joint.group);
-            tree.nodes[static_cast<std::size_t>(node)].name = joint.id + "_" + name;
-            tree.nodes[static_cast<std::size_t>(node)].fixed = true;
-        };
-        tree.nodes[static_cast<std::size_t>(joint.group)].name = std::string(joint_prefix) + joint.id;
-        tree.nodes[static_cast<std::size_t>(joint.group)].fixed = true;
-        put(joint.bolt, "bolt");
-        for (const int washer : joint.head_washers) put(washer, "washer_head");
-        for (const int washer : joint.nut_washers) put(washer, "washer_nut");
-        put(joint.nut, "nut");
-    }
 }
 
 }  // namespace bolt::step_import

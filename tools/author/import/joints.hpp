@@ -1,7 +1,9 @@
-// Joints that the geometry shows: a hexagon bolt with a nut on its axis, the washers and parts between them.
+// Finds joints by their geometry: a hexagon bolt with a nut on its axis, and the washers and parts between
+// them.
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tools/author/import/members.hpp"
@@ -9,12 +11,15 @@
 
 namespace bolt::step_import {
 
+inline constexpr std::string_view joint_prefix = "joint_";  // of a node's name
+
+// Scene frame.
 struct JointCandidate {
     std::string id;
     std::string size;          // "M16", "M16x1.5"
     double bolt_length = 0.0;  // m, under the head
-    double grip = 0.0;         // m, of the members
-    Vec3 seat{0.0};            // centre of the hole on the face of the member under the nut
+    double grip = 0.0;         // m, distance between head and nut without washers
+    Vec3 seat{0.0};            // m, centre of the hole on the face of the member under the nut
     Vec3 axis{0.0, 1.0, 0.0};  // from the members to the nut
     int bolt = -1, nut = -1;   // nodes
     std::vector<int> head_washers, nut_washers;
@@ -22,17 +27,18 @@ struct JointCandidate {
     int group = -1;                      // node joint_ID
 };
 
-struct JointSearch {
+struct JointSearchResult {
     std::vector<JointCandidate> joints;
-    std::vector<std::string> remarks;  // also one for each bolt or nut that is in no joint, with the reason
+    std::vector<std::string> remarks;  // include the reason for each bolt or nut without a joint
 };
 
-// `parts` as in the document. Ids come from groups that are named joint_ID; other joints are J1, J2 … by
-// position.
-JointSearch find_joints(const Tree& tree, const std::vector<PartGeometry>& parts);
+// `parts`: by part of the document. A group named joint_ID in the file gives the id; other joints are
+// numbered J1, J2 … by position.
+JointSearchResult find_joints(const Tree& tree, const std::vector<PartGeometry>& parts);
 
-// Gives every joint its node joint_ID, at the seat and +Y along the axis, with ID_bolt, ID_washer_head,
-// ID_washer_nut and ID_nut under it. A group of the file's own stays where it is.
-void group_joints(Tree& tree, JointSearch& search);
+// Gives every joint a node joint_ID, at the seat with +Y along the axis, and moves its fasteners under it as
+// ID_bolt, ID_washer_head, ID_washer_nut and ID_nut. A group that exists in the file keeps its pose.
+// Implemented in joint_nodes.cpp.
+void add_joint_nodes(Tree& tree, JointSearchResult& search);
 
 }  // namespace bolt::step_import

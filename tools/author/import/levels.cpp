@@ -16,39 +16,40 @@ namespace bolt::step_import {
 
 namespace {
 
-// Vertices at one place have one number, whatever their normals were.
-std::vector<std::uint32_t> places_of(const std::vector<glm::vec3>& positions) {
+// Returns one id for each vertex; vertices at equal positions have the same id.
+std::vector<std::uint32_t> position_ids(const std::vector<glm::vec3>& positions) {
     std::vector<std::uint32_t> order(positions.size());
     std::iota(order.begin(), order.end(), 0U);
     const auto key = [&](std::uint32_t i) {
         return std::tuple(positions[i].x, positions[i].y, positions[i].z);
     };
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-    std::vector<std::uint32_t> place(positions.size());
+    std::vector<std::uint32_t> position_id(positions.size());
     for (std::size_t i = 0; i < order.size(); ++i)
-        place[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? place[order[i - 1]] : order[i];
-    return place;
+        position_id[order[i]] =
+            i > 0 && key(order[i]) == key(order[i - 1]) ? position_id[order[i - 1]] : order[i];
+    return position_id;
 }
 
 }  // namespace
 
 std::vector<glm::vec3> crease_normals(const std::vector<glm::vec3>& positions,
                                       const std::vector<std::uint32_t>& indices, double crease) {
-    const std::vector<std::uint32_t> place = places_of(positions);
-    std::vector<std::vector<std::uint32_t>> around(positions.size());  // triangles, by place
+    const std::vector<std::uint32_t> position_id = position_ids(positions);
+    std::vector<std::vector<std::uint32_t>> around(positions.size());  // triangles, by position id
     std::vector<Vec3> area(indices.size() / 3), facing(indices.size() / 3);
     for (std::uint32_t t = 0; t < area.size(); ++t) {
         const auto p = [&](std::size_t k) { return Vec3(positions[indices[3 * t + k]]); };
         area[t] = glm::cross(p(1) - p(0), p(2) - p(0));
         const double length = glm::length(area[t]);
         if (length > 0.0) facing[t] = area[t] / length;
-        for (std::size_t k = 0; k < 3; ++k) around[place[indices[3 * t + k]]].push_back(t);
+        for (std::size_t k = 0; k < 3; ++k) around[position_id[indices[3 * t + k]]].push_back(t);
     }
     const double least = std::cos(crease);
     std::vector<glm::vec3> normals(indices.size());
     for (std::size_t i = 0; i < indices.size(); ++i) {
         Vec3 sum{0.0};
-        for (const std::uint32_t t : around[place[indices[i]]])
+        for (const std::uint32_t t : around[position_id[indices[i]]])
             if (glm::dot(facing[t], facing[i / 3]) > least) sum += area[t];
         const double length = glm::length(sum);
         normals[i] = length > 0.0 ? glm::vec3(sum / length) : glm::vec3(0.0F, 1.0F, 0.0F);
@@ -60,14 +61,16 @@ namespace {
 
 constexpr double same_normal = 0.99965732;  // cos 1.5°
 
-// One primitive as it grows. Vertices of a point are a chain: there are few of them.
-struct Growing {
+// Builds one primitive. The few vertices of a point form a linked list.
+struct PrimitiveBuilder {
     int material = -1;
     bool tangents = false;
     assets::Primitive primitive;
-    std::vector<Vec3> normals;  // in full precision, for comparing
-    std::vector<int> first;     // by point
-    std::vector<int> next;      // by vertex
+    std::vector<Vec3> normals;  // in double precision, for comparison
+    std::vector<int> first;     // by point: its first vertex; −1: none
+    std::vector<int> next;      // by vertex: the next one of its point; −1: none
+
+    // Returns the vertex of the point with this normal; adds it if needed.
 
     std::uint32_t vertex(std::uint32_t point, const Vec3& position, const Vec3& normal, const Vec3& tangent) {
         for (int v = first[point]; v >= 0; v = next[static_cast<std::size_t>(v)])
@@ -84,14 +87,14 @@ struct Growing {
     }
 };
 
-// Triangles and vertices in an order that graphics cards and compressors like.
-void optimise(assets::Primitive& primitive) {
+// Reorders triangles and vertices for the vertex cache of the GPU and for compression.
+void optimise_order(assets::Primitive& primitive) {
     std::vector<std::uint32_t>& indices = primitive.indices;
     meshopt_optimizeVertexCache(indices.data(), indices.data(), indices.size(), primitive.positions.size());
     std::vector<unsigned> remap(primitive.positions.size());
     const std::size_t used = meshopt_optimizeVertexFetchRemap(remap.data(), indices.data(), indices.size(),
                                                               primitive.positions.size());
-    // Vertices that only triangles without area had are dropped.
+    // Drops the vertices that no triangle uses.
     const auto move = [&](auto& stream) {
         if (stream.empty()) return;
         std::remove_reference_t<decltype(stream)> moved(used);
@@ -115,14 +118,14 @@ bool has_area(const assets::Primitive& primitive, std::uint32_t a, std::uint32_t
 
 assets::Mesh render_mesh(const PartMesh& part, const std::vector<int>& faces,
                          const std::vector<assets::Material>& materials, std::string name) {
-    std::vector<Growing> growing;
+    std::vector<PrimitiveBuilder> builders;
     for (std::size_t f = 0; f < part.faces.size(); ++f) {
         const FaceMesh& face = part.faces[f];
         if (face.triangles.empty()) continue;
-        auto found = std::find_if(growing.begin(), growing.end(),
-                                  [&](const Growing& one) { return one.material == faces[f]; });
-        if (found == growing.end()) {
-            found = growing.insert(growing.end(), Growing{});
+        auto found = std::find_if(builders.begin(), builders.end(),
+                                  [&](const PrimitiveBuilder& one) { return one.material == faces[f]; });
+        if (found == builders.end()) {
+            found = builders.insert(builders.end(), PrimitiveBuilder{});
             found->material = found->primitive.material = faces[f];
             found->tangents = materials[static_cast<std::size_t>(faces[f])].anisotropy > 0.0F;
             found->first.assign(part.points.size(), -1);
@@ -140,9 +143,9 @@ assets::Mesh render_mesh(const PartMesh& part, const std::vector<int>& faces,
     }
     assets::Mesh mesh;
     mesh.name = std::move(name);
-    for (Growing& one : growing) {
+    for (PrimitiveBuilder& one : builders) {
         if (one.primitive.indices.empty()) continue;
-        optimise(one.primitive);
+        optimise_order(one.primitive);
         mesh.primitives.push_back(std::move(one.primitive));
     }
     return mesh;
@@ -156,48 +159,50 @@ std::size_t count_triangles(const assets::Mesh& mesh) {
 
 namespace {
 
-// All primitives of a mesh as one: where two materials meet, or an edge is hard, the same place has a vertex
-// for either side. The simplifier knows such seams by their positions and moves both sides together.
-struct Whole {
+// All primitives of a mesh in one. At a material boundary or a sharp edge the same position has one vertex
+// for each side; the simplifier recognises such seams by their positions and moves both sides together.
+struct JoinedMesh {
     std::vector<glm::vec3> positions;
     std::vector<std::size_t> owner;  // primitive of each vertex
     std::vector<std::uint32_t> indices;
 };
 
-Whole join(const assets::Mesh& mesh) {
-    Whole whole;
+JoinedMesh join_primitives(const assets::Mesh& mesh) {
+    JoinedMesh joined;
     for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
         const assets::Primitive& primitive = mesh.primitives[p];
-        const auto first = static_cast<std::uint32_t>(whole.positions.size());
-        whole.positions.insert(whole.positions.end(), primitive.positions.begin(), primitive.positions.end());
-        whole.owner.resize(whole.positions.size(), p);
-        for (const std::uint32_t index : primitive.indices) whole.indices.push_back(first + index);
+        const auto first = static_cast<std::uint32_t>(joined.positions.size());
+        joined.positions.insert(joined.positions.end(), primitive.positions.begin(),
+                                primitive.positions.end());
+        joined.owner.resize(joined.positions.size(), p);
+        for (const std::uint32_t index : primitive.indices) joined.indices.push_back(first + index);
     }
-    return whole;
+    return joined;
 }
 
-// A vertex only ever gives way to one of its own side, so the material of a triangle is that of its vertices.
-// Their normals have come loose from the surface and are made anew.
-void part(const Whole& whole, const std::vector<std::uint32_t>& kept, assets::Mesh& mesh) {
-    constexpr double crease = 0.7;       // rad; wider than the far level's chords turn
+// Distributes the kept triangles over the primitives of `mesh` with new normals, because the simplified
+// triangles no longer lie on the surface. The simplifier merges vertices only within one side of a seam, so
+// the vertices of a triangle determine its material.
+void split_primitives(const JoinedMesh& joined, const std::vector<std::uint32_t>& kept, assets::Mesh& mesh) {
+    constexpr double crease = 0.7;  // rad; larger than the angle between neighbouring chords of the far level
     constexpr float same = 0.99965732F;  // cos 1.5°
-    const std::vector<glm::vec3> normals = crease_normals(whole.positions, kept, crease);
+    const std::vector<glm::vec3> normals = crease_normals(joined.positions, kept, crease);
     for (assets::Primitive& primitive : mesh.primitives) {
         primitive.positions.clear();
         primitive.normals.clear();
         primitive.tangents.clear();
         primitive.indices.clear();
     }
-    std::vector<std::vector<std::uint32_t>> made(whole.positions.size());  // new vertices of each old one
+    std::vector<std::vector<std::uint32_t>> made(joined.positions.size());  // new vertices of each old one
     for (std::size_t i = 0; i < kept.size(); ++i) {
-        assets::Primitive& primitive = mesh.primitives[whole.owner[kept[i - i % 3]]];
+        assets::Primitive& primitive = mesh.primitives[joined.owner[kept[i - i % 3]]];
         std::vector<std::uint32_t>& vertices = made[kept[i]];
         auto found = std::find_if(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
             return glm::dot(primitive.normals[v], normals[i]) > same;
         });
         if (found == vertices.end()) {
             found = vertices.insert(found, static_cast<std::uint32_t>(primitive.positions.size()));
-            primitive.positions.push_back(whole.positions[kept[i]]);
+            primitive.positions.push_back(joined.positions[kept[i]]);
             primitive.normals.push_back(normals[i]);
         }
         primitive.indices.push_back(*found);
@@ -205,36 +210,36 @@ void part(const Whole& whole, const std::vector<std::uint32_t>& kept, assets::Me
     std::erase_if(mesh.primitives, [](const assets::Primitive& one) { return one.indices.empty(); });
 }
 
-// Returns the error, m.
+// Simplifies one mesh up to `error` (m). Returns the error reached, m.
 double simplify(assets::Mesh& mesh, double error) {
-    const Whole whole = join(mesh);
-    if (whole.indices.empty()) return 0.0;
-    const float* positions = &whole.positions.front().x;
-    const float scale = meshopt_simplifyScale(positions, whole.positions.size(), sizeof(glm::vec3));
+    const JoinedMesh joined = join_primitives(mesh);
+    if (joined.indices.empty()) return 0.0;
+    const float* positions = &joined.positions.front().x;
+    const float scale = meshopt_simplifyScale(positions, joined.positions.size(), sizeof(glm::vec3));
     if (scale <= 0.0F) return 0.0;
-    std::vector<std::uint32_t> kept(whole.indices.size());
+    std::vector<std::uint32_t> kept(joined.indices.size());
     float reached = 0.0F;
-    const std::size_t count = meshopt_simplify(kept.data(), whole.indices.data(), whole.indices.size(),
-                                               positions, whole.positions.size(), sizeof(glm::vec3), 0,
+    const std::size_t count = meshopt_simplify(kept.data(), joined.indices.data(), joined.indices.size(),
+                                               positions, joined.positions.size(), sizeof(glm::vec3), 0,
                                                static_cast<float>(error) / scale, 0, &reached);
-    if (count == 0) return 0.0;  // smaller than the error: it stays as it is rather than vanish
+    if (count == 0) return 0.0;  // the mesh is smaller than the error: keep it unchanged
     kept.resize(count);
-    meshopt_optimizeVertexCache(kept.data(), kept.data(), kept.size(), whole.positions.size());
-    part(whole, kept, mesh);
+    meshopt_optimizeVertexCache(kept.data(), kept.data(), kept.size(), joined.positions.size());
+    split_primitives(joined, kept, mesh);
     return static_cast<double>(reached * scale);
 }
 
 }  // namespace
 
 FarLevel simplify(const std::vector<assets::Mesh>& meshes, const std::vector<std::size_t>& uses,
-                  std::size_t budget, double most_error) {
+                  std::size_t budget, double max_error) {
     const auto total = [&](const std::vector<assets::Mesh>& all) {
         std::size_t sum = 0;
         for (std::size_t i = 0; i < all.size(); ++i) sum += uses[i] * count_triangles(all[i]);
         return sum;
     };
     FarLevel far{meshes, total(meshes), 0.0};
-    for (double error = 0.05e-3; far.triangles > budget && error <= most_error; error *= 1.4) {
+    for (double error = 0.05e-3; far.triangles > budget && error <= max_error; error *= 1.4) {
         far.meshes = meshes;
         far.error = 0.0;
         for (assets::Mesh& mesh : far.meshes) far.error = std::max(far.error, simplify(mesh, error));
@@ -245,41 +250,41 @@ FarLevel simplify(const std::vector<assets::Mesh>& meshes, const std::vector<std
 
 namespace {
 
-struct Side {
+struct DirectedEdge {
     std::uint32_t low, high;
-    int turn;  // +1: from low to high
-    friend auto operator<=>(const Side&, const Side&) = default;
+    int direction;  // +1: from low to high; −1: from high to low
+    friend auto operator<=>(const DirectedEdge&, const DirectedEdge&) = default;
 };
 
 }  // namespace
 
-OpenEdges open_edges(const PartMesh& mesh, std::size_t most_listed) {
-    std::vector<Side> sides;
-    sides.reserve(3 * count_triangles(mesh));
+OpenEdgeList open_edges(const PartMesh& mesh, std::size_t max_listed) {
+    std::vector<DirectedEdge> edges;
+    edges.reserve(3 * count_triangles(mesh));
     for (const FaceMesh& face : mesh.faces)
         for (const auto& triangle : face.triangles)
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::uint32_t a = face.points[triangle[k]], b = face.points[triangle[(k + 1) % 3]];
-                sides.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
+                edges.push_back({std::min(a, b), std::max(a, b), a < b ? 1 : -1});
             }
-    std::sort(sides.begin(), sides.end());
-    OpenEdges open;
-    for (std::size_t i = 0; i < sides.size();) {
+    std::sort(edges.begin(), edges.end());
+    OpenEdgeList open;
+    for (std::size_t i = 0; i < edges.size();) {
         int balance = 0;
         const std::size_t first = i;
-        for (; i < sides.size() && sides[i].low == sides[first].low && sides[i].high == sides[first].high;
+        for (; i < edges.size() && edges[i].low == edges[first].low && edges[i].high == edges[first].high;
              ++i)
-            balance += sides[i].turn;
+            balance += edges[i].direction;
         if (balance == 0) continue;
         open.count += static_cast<std::size_t>(std::abs(balance));
-        if (open.first.size() < most_listed)
-            open.first.push_back(0.5 * (mesh.points[sides[first].low] + mesh.points[sides[first].high]));
+        if (open.first.size() < max_listed)
+            open.first.push_back(0.5 * (mesh.points[edges[first].low] + mesh.points[edges[first].high]));
     }
     return open;
 }
 
-ContactMesh contact_mesh(const PartMesh& mesh, std::string name) {
-    ContactMesh contact;
+PartContactMesh contact_mesh(const PartMesh& mesh, std::string name) {
+    PartContactMesh contact;
     contact.mesh.name = std::move(name);
     contact.triangles = count_triangles(mesh);
     contact.open = open_edges(mesh);

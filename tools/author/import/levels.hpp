@@ -1,4 +1,4 @@
-// Normals made from triangles alone, for meshes that no longer lie on their surface.
+// The near, far and contact meshes of a part, made from its triangulation.
 #pragma once
 
 #include <cstddef>
@@ -12,52 +12,47 @@
 
 namespace bolt::step_import {
 
-// A normal for every corner (as many as indices): the mean, weighted by area, of the triangles around the
-// corner's place that turn by less than `crease` (rad) against its own. Large flats stay flat, edges stay
-// hard.
+// Returns one normal for each index: the area-weighted mean of the triangles at the same position whose
+// normal differs by less than `crease` (rad) from that of the corner's own triangle. Flats stay flat and
+// edges stay sharp.
 std::vector<glm::vec3> crease_normals(const std::vector<glm::vec3>& positions,
                                       const std::vector<std::uint32_t>& indices, double crease);
 
-// What is drawn of a part: one primitive a material, vertices shared where the surface goes on smoothly.
-
-// `faces`: the material of each face; `materials`: what those are. Anisotropic ones get tangents. Corners of
-// one point become one vertex where their normals agree within 1.5°, so that tangent faces flow into each
-// other and edges stay hard. Triangles without area are left out.
+// Builds the near level of a part, one primitive for each material. `faces`: index of each face's material in
+// `materials`; anisotropic materials get tangents. Corners of one point whose normals agree within 1.5° share
+// a vertex, so that tangent faces blend and edges stay sharp. Omits triangles without area.
 assets::Mesh render_mesh(const PartMesh& part, const std::vector<int>& faces,
                          const std::vector<assets::Material>& materials, std::string name);
 
 std::size_t count_triangles(const assets::Mesh& mesh);
 
-// The far level: meshes simplified by one common error until the whole assembly fits its budget.
-
 struct FarLevel {
-    std::vector<assets::Mesh> meshes;  // as given, simplified
-    std::size_t triangles = 0;         // counting uses
-    double error = 0.0;                // m, that simplifying has added
+    std::vector<assets::Mesh> meshes;  // in the order of the input
+    std::size_t triangles = 0;         // counting every instance
+    double error = 0.0;                // m, added by the simplification
 };
 
-// `uses`: how often each mesh is placed. Both sides of a hard edge, and of where two materials
-// meet, move together, so that no gap opens. The error stops at `most_error` (m) even where the budget is not
-// met.
+// Simplifies all meshes with one common error until the assembly has at most `budget` triangles or the error
+// reaches `max_error` (m). `uses`: number of instances of each mesh. Vertices on both sides of a sharp edge
+// or of a material boundary move together, so that no gap opens.
 FarLevel simplify(const std::vector<assets::Mesh>& meshes, const std::vector<std::size_t>& uses,
-                  std::size_t budget, double most_error);
+                  std::size_t budget, double max_error);
 
-// The contact mesh of a part: its points welded along the B-rep's edges, and where it is not closed.
-
-struct OpenEdges {
+struct OpenEdgeList {
     std::size_t count = 0;
-    std::vector<Vec3> first;  // middle of the first ones, m, relative to the part
+    std::vector<Vec3> first;  // m, middles of the first ones, relative to the part
 };
 
-struct ContactMesh {
+// The contact mesh of a part; its points are shared along the edges of the B-rep.
+struct PartContactMesh {
     assets::Mesh mesh;  // positions and indices only
     std::size_t triangles = 0;
-    OpenEdges open;  // none: watertight
+    OpenEdgeList open;  // empty if watertight
 };
 
-// A side of a triangle that no other triangle has the other way round is open.
-OpenEdges open_edges(const PartMesh& mesh, std::size_t most_listed = 5);
+// Finds the triangle edges without a partner in the opposite direction. Lists at most `max_listed` positions.
+OpenEdgeList open_edges(const PartMesh& mesh, std::size_t max_listed = 5);
 
-ContactMesh contact_mesh(const PartMesh& mesh, std::string name);
+PartContactMesh contact_mesh(const PartMesh& mesh, std::string name);
 
 }  // namespace bolt::step_import

@@ -56,14 +56,14 @@ double saturation(const Colour& colour) {
 namespace {
 
 using content::JsonDocument;
-using content::Part;
+using content::JsonPart;
 using nlohmann::json;
 
-// One object of the file, its members asked for by name; what nobody asked for is a mistake.
-class Members {
+// Reads the members of one JSON object by name. reject_unknown_keys() reports the members that were not read.
+class MaterialObjectReader {
   public:
-    Members(const JsonDocument& document, const json& object, std::string pointer, std::vector<Error>& errors,
-            std::set<std::string>* keys)
+    MaterialObjectReader(const JsonDocument& document, const json& object, std::string pointer,
+                         std::vector<Error>& errors, std::set<std::string>* keys)
         : document_(document), object_(object), pointer_(std::move(pointer)), errors_(errors), keys_(keys) {}
 
     const json* find(const char* key) {
@@ -77,32 +77,30 @@ class Members {
         const json* found = find(key);
         if (found == nullptr) return;
         if (!found->is_number() || found->get<double>() < least || found->get<double>() > most)
-            return wrong(key, "this is no usable number", fmt::format("expected {:g} to {:g}", least, most));
+            return wrong(key, "is not a number in range", fmt::format("{:g} to {:g}", least, most));
         value = found->get<float>();
     }
 
     void flag(const char* key, bool& value) {
         const json* found = find(key);
         if (found == nullptr) return;
-        if (!found->is_boolean())
-            return wrong(key, "this is neither true nor false", "expected true or false");
+        if (!found->is_boolean()) return wrong(key, "is not a boolean", "true or false");
         value = found->get<bool>();
     }
 
     void text(const char* key, std::string& value) {
         const json* found = find(key);
         if (found == nullptr) return;
-        if (!found->is_string()) return wrong(key, "this is no text", "expected a text in quotes");
+        if (!found->is_string()) return wrong(key, "is not a text", "a text in quotes");
         value = found->get<std::string>();
     }
 
     void texts(const char* key, std::vector<std::string>& values) {
         const json* found = find(key);
         if (found == nullptr) return;
-        if (!found->is_array()) return wrong(key, "this is no list", "expected a list of texts");
+        if (!found->is_array()) return wrong(key, "is not a list", "a list of texts");
         for (const json& item : *found) {
-            if (!item.is_string())
-                return wrong(key, "not all of these are texts", "expected a list of texts");
+            if (!item.is_string()) return wrong(key, "has an element that is not a text", "a list of texts");
             values.push_back(item.get<std::string>());
         }
     }
@@ -114,22 +112,21 @@ class Members {
         if (const auto parsed = parse_hex(written))
             value = linear(*parsed);
         else
-            wrong(key, fmt::format("{} is no colour", content::in_quotes(written)),
-                  "expected sRGB as in \"#2F5D62\"");
+            wrong(key, fmt::format("{} is not a colour", content::in_quotes(written)),
+                  "sRGB as in \"#2F5D62\"");
     }
 
     void wrong(const std::string& key, std::string what, std::string expected) {
-        errors_.push_back(document_.error(pointer_ + "/" + content::pointer_token(key), Part::value,
+        errors_.push_back(document_.error(pointer_ + "/" + content::pointer_token(key), JsonPart::value,
                                           std::move(what), std::move(expected)));
     }
 
-    void no_others() {
+    void reject_unknown_keys() {
         for (const auto& [key, value] : object_.items())
             if (std::find(known_.begin(), known_.end(), key) == known_.end())
-                errors_.push_back(
-                    document_.error(pointer_ + "/" + content::pointer_token(key), Part::key,
-                                    fmt::format("nothing has the name {}", content::in_quotes(key)),
-                                    content::suggest(key, known_)));
+                errors_.push_back(document_.error(pointer_ + "/" + content::pointer_token(key), JsonPart::key,
+                                                  fmt::format("unknown property {}", content::in_quotes(key)),
+                                                  content::suggest(key, known_)));
     }
 
   private:
@@ -141,32 +138,32 @@ class Members {
     std::vector<std::string> known_;
 };
 
-void read_look(Members& in, assets::Material& look) {
+void read_pbr(MaterialObjectReader& in, assets::Material& pbr) {
     glm::vec3 base{1.0F};
     in.colour("base_color", base);
     float alpha = 1.0F;
     in.number("alpha", alpha, 0.0, 1.0);
-    look.base_color = {base, alpha};
-    if (alpha < 1.0F) look.alpha_mode = assets::AlphaMode::blend;
-    in.number("metallic", look.metallic, 0.0, 1.0);
-    in.number("roughness", look.roughness, 0.0, 1.0);
-    in.number("clearcoat", look.clearcoat, 0.0, 1.0);
-    in.number("clearcoat_roughness", look.clearcoat_roughness, 0.0, 1.0);
-    in.number("anisotropy", look.anisotropy, 0.0, 1.0);
+    pbr.base_color = {base, alpha};
+    if (alpha < 1.0F) pbr.alpha_mode = assets::AlphaMode::blend;
+    in.number("metallic", pbr.metallic, 0.0, 1.0);
+    in.number("roughness", pbr.roughness, 0.0, 1.0);
+    in.number("clearcoat", pbr.clearcoat, 0.0, 1.0);
+    in.number("clearcoat_roughness", pbr.clearcoat_roughness, 0.0, 1.0);
+    in.number("anisotropy", pbr.anisotropy, 0.0, 1.0);
     float degrees = 0.0F;
     in.number("anisotropy_rotation_deg", degrees, -360.0, 360.0);
-    look.anisotropy_rotation = static_cast<float>(to_radians(static_cast<double>(degrees)));
-    in.number("ior", look.ior, 1.0, 3.0);
-    in.number("specular", look.specular, 0.0, 1.0);
-    in.colour("specular_color", look.specular_color);
-    in.flag("double_sided", look.double_sided);
+    pbr.anisotropy_rotation = static_cast<float>(to_radians(static_cast<double>(degrees)));
+    in.number("ior", pbr.ior, 1.0, 3.0);
+    in.number("specular", pbr.specular, 0.0, 1.0);
+    in.colour("specular_color", pbr.specular_color);
+    in.flag("double_sided", pbr.double_sided);
 }
 
-TableMaterial read_material(Members& in, const std::string& name) {
+TableMaterial read_material(MaterialObjectReader& in, const std::string& name) {
     TableMaterial material;
-    material.name = material.look.name = name;
-    material.look.metallic = 0.0F;
-    material.look.roughness = 0.5F;
+    material.name = material.pbr.name = name;
+    material.pbr.metallic = 0.0F;
+    material.pbr.roughness = 0.5F;
     std::string ignored;
     in.text("description", ignored);
     in.texts("colors", material.colours);
@@ -174,14 +171,14 @@ TableMaterial read_material(Members& in, const std::string& name) {
         if (const auto parsed = parse_hex(colour))
             colour = hex(*parsed);
         else
-            in.wrong("colors", fmt::format("{} is no colour", content::in_quotes(colour)),
-                     "expected sRGB as in \"#2F5D62\"");
+            in.wrong("colors", fmt::format("{} is not a colour", content::in_quotes(colour)),
+                     "sRGB as in \"#2F5D62\"");
     }
     in.texts("names", material.patterns);
     in.text("member", material.member);
     in.flag("tint", material.tint);
-    read_look(in, material.look);
-    in.no_others();
+    read_pbr(in, material.pbr);
+    in.reject_unknown_keys();
     return material;
 }
 
@@ -191,10 +188,10 @@ void check_colours(const JsonDocument& document, const MaterialTable& table, std
         for (const std::string& colour : material.colours) {
             const auto [known, fresh] = first.emplace(colour, material.name);
             if (fresh) continue;
-            errors.push_back(
-                document.error("/materials/" + content::pointer_token(material.name), Part::key,
-                               fmt::format("{} means {} already", colour, content::in_quotes(known->second)),
-                               "expected every colour once"));
+            errors.push_back(document.error(
+                "/materials/" + content::pointer_token(material.name), JsonPart::key,
+                fmt::format("{} is already a colour of {}", colour, content::in_quotes(known->second)),
+                "every colour once"));
         }
 }
 
@@ -207,24 +204,24 @@ void read_materials(std::string_view text, std::string_view file, MaterialTable&
     if (!document) return;
     const json& root = document->root();
     if (!root.is_object() || !root.contains("materials") || !root["materials"].is_object()) {
-        errors.push_back(document->error("", Part::value, "there is no object \"materials\" in this file",
-                                         "expected { \"materials\": { \"my_paint\": { … } } }"));
+        errors.push_back(document->error("", JsonPart::value, "the file has no object \"materials\"",
+                                         "{ \"materials\": { \"my_paint\": { … } } }"));
         return;
     }
-    Members top(*document, root, "", errors, keys);
+    MaterialObjectReader top(*document, root, "", errors, keys);
     (void)top.find("materials");
     std::string ignored;
     top.text("$schema", ignored);
     top.text("sources", ignored);
-    top.no_others();
+    top.reject_unknown_keys();
     for (const auto& [name, value] : root["materials"].items()) {
         const std::string pointer = "/materials/" + content::pointer_token(name);
         if (!value.is_object()) {
-            errors.push_back(document->error(pointer, Part::value, "this is no material",
-                                             "expected an object: { \"base_color\": \"#C4C6C8\", … }"));
+            errors.push_back(document->error(pointer, JsonPart::value, "is not an object",
+                                             "an object: { \"base_color\": \"#C4C6C8\", … }"));
             continue;
         }
-        Members members(*document, value, pointer, errors, keys);
+        MaterialObjectReader members(*document, value, pointer, errors, keys);
         TableMaterial material = read_material(members, name);
         const auto at =
             std::lower_bound(table.materials.begin(), table.materials.end(), name,
@@ -262,7 +259,7 @@ MaterialTable load_materials(const std::filesystem::path& folder, std::vector<Er
 
 namespace {
 
-// A colour goes through floats in CAD programs: one step of 255 is the same colour.
+// CAD programs store colours as floats, so a difference of one step of 255 is the same colour.
 bool same_colour(const Colour& colour, const std::string& key) {
     const auto other = parse_hex(key);
     constexpr double step = 1.001 / 255.0;
@@ -270,7 +267,7 @@ bool same_colour(const Colour& colour, const std::string& key) {
            std::abs(other->b - colour.b) < step;
 }
 
-assets::Material plain(const Colour& colour, std::string name, float metallic, float roughness) {
+assets::Material make_material(const Colour& colour, std::string name, float metallic, float roughness) {
     assets::Material material;
     material.name = std::move(name);
     material.base_color = {linear(colour), static_cast<float>(colour.alpha)};
@@ -302,7 +299,7 @@ const TableMaterial* MaterialPicker::by_colour(const Colour& colour) const {
     return nullptr;
 }
 
-const TableMaterial* MaterialPicker::by_name(const Appearance& appearance) const {
+const TableMaterial* MaterialPicker::by_name(const FaceAppearance& appearance) const {
     for (const std::string& name : {appearance.material, appearance.face_name, appearance.part_name}) {
         if (name.empty()) continue;
         const TableMaterial* best = nullptr;
@@ -321,47 +318,46 @@ const TableMaterial* MaterialPicker::by_name(const Appearance& appearance) const
 }
 
 int MaterialPicker::tinted(const TableMaterial& material, const Colour& colour) {
-    assets::Material look = material.look;
-    look.name = fmt::format("{}_{}", material.name, hex(colour).substr(1));
-    look.base_color = {linear(colour), static_cast<float>(colour.alpha)};
-    if (colour.alpha < 1.0) look.alpha_mode = assets::AlphaMode::blend;
-    return add(std::move(look), material.member);
+    assets::Material pbr = material.pbr;
+    pbr.name = fmt::format("{}_{}", material.name, hex(colour).substr(1));
+    pbr.base_color = {linear(colour), static_cast<float>(colour.alpha)};
+    if (colour.alpha < 1.0) pbr.alpha_mode = assets::AlphaMode::blend;
+    return add(std::move(pbr), material.member);
 }
 
 int MaterialPicker::guess(const std::optional<Colour>& colour) {
     if (!colour) {
-        guesses_.emplace("no_colour", "no colour in the file: taken for machined steel");
-        return add(plain({0.77, 0.776, 0.784}, "no_colour", 1.0F, 0.4F), "steel");
+        guesses_.emplace("no_colour", "no colour in the file; machined steel is assumed");
+        return add(make_material({0.77, 0.776, 0.784}, "no_colour", 1.0F, 0.4F), "steel");
     }
     const std::string key = hex(*colour).substr(1);
     const double value = std::max({colour->r, colour->g, colour->b});
     if (colour->alpha < 0.999) {
         const std::string name = fmt::format("glass_{}_{:02X}", key, std::lround(colour->alpha * 255.0));
-        guesses_.emplace(name, "transparent: taken for glass");
-        return add(plain(*colour, name, 0.0F, 0.05F), "");
+        guesses_.emplace(name, "transparent; glass is assumed");
+        return add(make_material(*colour, name, 0.0F, 0.05F), "");
     }
     if (saturation(*colour) < 0.12 && value >= 0.35 && value <= 0.93) {
-        guesses_.emplace("metal_" + key, "grey: taken for a metal");
-        return add(plain(*colour, "metal_" + key, 1.0F, 0.4F), "steel");
+        guesses_.emplace("metal_" + key, "grey; metal is assumed");
+        return add(make_material(*colour, "metal_" + key, 1.0F, 0.4F), "steel");
     }
     if (value < 0.25) {
-        guesses_.emplace("plastic_" + key, "nearly black: taken for plastic");
-        return add(plain(*colour, "plastic_" + key, 0.0F, 0.55F), "");
+        guesses_.emplace("plastic_" + key, "nearly black; plastic is assumed");
+        return add(make_material(*colour, "plastic_" + key, 0.0F, 0.55F), "");
     }
-    guesses_.emplace("paint_" + key, "taken for paint");
-    assets::Material paint = plain(*colour, "paint_" + key, 0.0F, 0.5F);
+    guesses_.emplace("paint_" + key, "paint is assumed");
+    assets::Material paint = make_material(*colour, "paint_" + key, 0.0F, 0.5F);
     paint.clearcoat = 0.5F;
     paint.clearcoat_roughness = 0.2F;
     return add(std::move(paint), "");
 }
 
-int MaterialPicker::pick(const Appearance& appearance) {
+int MaterialPicker::pick(const FaceAppearance& appearance) {
     if (appearance.colour)
-        if (const TableMaterial* found = by_colour(*appearance.colour))
-            return add(found->look, found->member);
+        if (const TableMaterial* found = by_colour(*appearance.colour)) return add(found->pbr, found->member);
     if (const TableMaterial* found = by_name(appearance))
         return found->tint && appearance.colour ? tinted(*found, *appearance.colour)
-                                                : add(found->look, found->member);
+                                                : add(found->pbr, found->member);
     return guess(appearance.colour);
 }
 

@@ -1,4 +1,5 @@
-// A CAD colour: sRGB as the file and its author write it.
+// CAD colours, the table of PBR materials (content/materials.json) and the choice of a material for each
+// face.
 #pragma once
 
 #include <filesystem>
@@ -15,70 +16,68 @@
 
 namespace bolt::step_import {
 
+// sRGB, 0 … 1.
 struct Colour {
     double r = 0.0, g = 0.0, b = 0.0, alpha = 1.0;
     friend bool operator==(const Colour&, const Colour&) = default;
 };
 
-// "#2F5D62", and the other way. Alpha is not part of it.
+// Conversion to and from "#2F5D62", without alpha.
 std::string hex(const Colour& colour);
 std::optional<Colour> parse_hex(std::string_view text);
 
-// IEC 61966-2-1.
+// Linear RGB by IEC 61966-2-1.
 glm::vec3 linear(const Colour& colour);
 
-// Largest less smallest component over the largest; 0: grey.
+// (Largest − smallest component) / largest; 0 for grey.
 double saturation(const Colour& colour);
 
-// content/materials.json: named PBR materials, and the colours and names by which a CAD file means them.
-
+// One entry of content/materials.json: a PBR material, and the colours and names that select it.
 struct TableMaterial {
     std::string name;
-    std::vector<std::string> colours;   // "#2F5D62", capitals
+    std::vector<std::string> colours;   // "#2F5D62", upper case
     std::vector<std::string> patterns;  // "*gasket*", for names of materials, faces and parts
-    std::string member;                 // what a clamped part of it is made of: "cast_iron"; empty: unknown
-    bool tint = false;  // a paint or a dye: the file's own colour takes the place of base_color
-    assets::Material look;
+    std::string member;                 // material of a clamped part: "cast_iron"; empty: unknown
+    bool tint = false;                  // paint or dye: the colour of the CAD file replaces base_color
+    assets::Material pbr;
 };
 
 struct MaterialTable {
-    std::vector<TableMaterial> materials;  // by name
+    std::vector<TableMaterial> materials;  // sorted by name
 };
 
-// Appends to `errors` everything that is wrong, with line and column. Materials of the text replace those of
-// the table that have their name. `keys`: every key that was asked for.
+// Reads the materials of `text` into the table, where they replace those of the same name. Appends all errors
+// with line and column. `keys` receives every key that the reader knows.
 void read_materials(std::string_view text, std::string_view file, MaterialTable& table,
                     std::vector<Error>& errors, std::set<std::string>* keys = nullptr);
 
-// content/materials.json where the program finds its content, else as it was built in; over it, if it is
-// there, materials.json in `folder`.
+// Loads materials.json from the content folder, or the built-in copy if there is none, then materials.json
+// from `folder` if it exists.
 MaterialTable load_materials(const std::filesystem::path& folder, std::vector<Error>& errors);
 
-// Which material a face gets, and why: an exact colour of the table, a name, or a plausible guess from the
-// colour.
-
-// What the file says about a face.
-struct Appearance {
+// The properties of a face in the CAD file that select its material.
+struct FaceAppearance {
     std::optional<Colour> colour;
-    std::string material;  // of the CAD's own list: "C45"
+    std::string material;  // from the list of materials in the CAD file: "C45"
     std::string face_name, part_name;
 };
 
+// Chooses a material for each face and collects the chosen ones.
 class MaterialPicker {
   public:
     explicit MaterialPicker(const MaterialTable& table) : table_(table) {}
 
-    // Index into materials(). Colour first; then the names, longest pattern first; then a guess: a painted
-    // surface keeps the file's colour, light grey is taken for steel, black for plastic, everything else for
-    // paint.
-    int pick(const Appearance& appearance);
+    // Returns an index into materials(). Order: an exact colour of the table; a name, longest pattern first;
+    // a guess from the colour, with transparent as glass, grey as metal, nearly black as plastic and all else
+    // as paint.
+    int pick(const FaceAppearance& appearance);
 
     [[nodiscard]] const std::vector<assets::Material>& materials() const { return materials_; }
-    // What a clamped part of this material is made of; empty: unknown.
+    // Material of a clamped part that looks like this; empty: unknown.
     [[nodiscard]] const std::string& member(int index) const {
         return members_[static_cast<std::size_t>(index)];
     }
-    // What had to be guessed, by the name of the material.
+    // The reason for each guessed material, by its name.
     [[nodiscard]] const std::map<std::string, std::string>& guesses() const { return guesses_; }
 
   private:
@@ -90,7 +89,7 @@ class MaterialPicker {
 
     int add(assets::Material material, std::string member);
     const TableMaterial* by_colour(const Colour& colour) const;
-    const TableMaterial* by_name(const Appearance& appearance) const;
+    const TableMaterial* by_name(const FaceAppearance& appearance) const;
     int tinted(const TableMaterial& material, const Colour& colour);
     int guess(const std::optional<Colour>& colour);
 };

@@ -12,14 +12,14 @@ namespace {
 
 constexpr double touching = 0.06 * mm;
 
-struct Span {
+struct MemberSpan {
     int node = -1;
-    double from = 0.0, to = 0.0;  // heights along the bolt
-    double solid = 0.0;           // thickness, less what is hollow
+    double from = 0.0, to = 0.0;  // m, heights along the bolt
+    double solid = 0.0;           // m, thickness without cavities
 };
 
-// Radius of the part's hole around the bolt; 0: it has none.
-double hole_around(const PartGeometry& part, const Placement& pose, const Clamping& bolt) {
+// Radius of the part's hole around the bolt, m; 0 without a hole.
+double hole_around(const PartGeometry& part, const ScaledPose& pose, const InstalledBolt& bolt) {
     double hole = 0.0;
     for (const Hole& one : part.holes) {
         const double radius = one.radius * std::abs(pose.scale);
@@ -30,19 +30,20 @@ double hole_around(const PartGeometry& part, const Placement& pose, const Clampi
     return hole;
 }
 
-// The median of eight lines around the bolt, beside the hole's chamfer.
-std::optional<Span> measure(const PartGeometry& part, const Placement& pose, const Clamping& bolt,
-                            double radius) {
-    const Placement local = inverse(pose);
+// Measures the part along eight lines parallel to the bolt at `radius`, clear of the hole's chamfer, and
+// returns the median; nullopt below 0.2 mm of material.
+std::optional<MemberSpan> measure(const PartGeometry& part, const ScaledPose& pose, const InstalledBolt& bolt,
+                                  double radius) {
+    const ScaledPose local = inverse(pose);
     const Vec3 aside = std::abs(bolt.axis.y) < 0.9 ? Vec3{0.0, 1.0, 0.0} : Vec3{1.0, 0.0, 0.0};
     const Vec3 u = glm::normalize(glm::cross(bolt.axis, aside)), v = glm::cross(bolt.axis, u);
-    std::array<Span, 8> spans;
+    std::array<MemberSpan, 8> spans;
     for (std::size_t i = 0; i < spans.size(); ++i) {
-        // Not on the seams that CAD programs put at round angles.
+        // The offset avoids the seams that CAD programs put at round angles.
         const double angle = (static_cast<double>(i) + 0.37) * pi / 4.0;
         const Vec3 start = bolt.origin + radius * (std::cos(angle) * u + std::sin(angle) * v);
         const auto cuts = crossings(part.mesh, local.point(start), local.direction(bolt.axis));
-        Span& span = spans[i];
+        MemberSpan& span = spans[i];
         span.from = bolt.seat;
         span.to = bolt.head;
         for (std::size_t c = 0; c + 1 < cuts.size(); c += 2) {
@@ -55,13 +56,14 @@ std::optional<Span> measure(const PartGeometry& part, const Placement& pose, con
         }
     }
     std::nth_element(spans.begin(), spans.begin() + 4, spans.end(),
-                     [](const Span& a, const Span& b) { return a.solid < b.solid; });
+                     [](const MemberSpan& a, const MemberSpan& b) { return a.solid < b.solid; });
     if (spans[4].solid < 0.2 * mm) return std::nullopt;
     return spans[4];
 }
 
-// Heights of the whole part along the bolt.
-std::pair<double, double> extent(const PartGeometry& part, const Placement& pose, const Clamping& bolt) {
+// Lowest and highest point of the whole part along the bolt, m.
+std::pair<double, double> extent(const PartGeometry& part, const ScaledPose& pose,
+                                 const InstalledBolt& bolt) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const Vec3& point : part.mesh.points) {
         const double height = glm::dot(pose.point(point) - bolt.origin, bolt.axis);
@@ -71,14 +73,16 @@ std::pair<double, double> extent(const PartGeometry& part, const Placement& pose
     return {low, high};
 }
 
-// Between two members that do not meet at the bolt: their raised faces, then a part that fills what is left.
-void close_gap(const std::vector<const PartGeometry*>& parts, const std::vector<Placement>& poses,
-               const Clamping& bolt, Span& below, Span& above, std::vector<Span>& spans) {
-    const auto of = [&](int node) {
+// Closes the gap between two members that do not touch at the bolt: first extends both to their raised faces,
+// then appends a part that fills the rest.
+void close_gap(const std::vector<const PartGeometry*>& parts, const std::vector<ScaledPose>& poses,
+               const InstalledBolt& bolt, MemberSpan& below, MemberSpan& above,
+               std::vector<MemberSpan>& spans) {
+    const auto extent_of = [&](int node) {
         const auto n = static_cast<std::size_t>(node);
         return extent(*parts[n], poses[n], bolt);
     };
-    const double top = of(below.node).second, bottom = of(above.node).first;
+    const double top = extent_of(below.node).second, bottom = extent_of(above.node).first;
     if (top > below.to && bottom < above.from && top <= bottom + touching) {
         below.solid += top - below.to;
         above.solid += above.from - bottom;
@@ -103,8 +107,8 @@ bool coaxial(const Vec3& p, const Vec3& a, const Vec3& q, const Vec3& b) {
 }
 
 std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& parts,
-                                        const std::vector<Placement>& poses, const Clamping& bolt) {
-    std::vector<Span> spans;
+                                        const std::vector<ScaledPose>& poses, const InstalledBolt& bolt) {
+    std::vector<MemberSpan> spans;
     for (std::size_t n = 0; n < parts.size(); ++n) {
         if (parts[n] == nullptr) continue;
         const double hole = hole_around(*parts[n], poses[n], bolt);
@@ -114,19 +118,19 @@ std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& 
             spans.push_back(*span);
         }
     }
-    const auto order = [&] {
+    const auto sort_spans = [&] {
         std::stable_sort(spans.begin(), spans.end(),
-                         [](const Span& a, const Span& b) { return a.from < b.from; });
+                         [](const MemberSpan& a, const MemberSpan& b) { return a.from < b.from; });
     };
-    order();
-    std::vector<Span> fillers;
+    sort_spans();
+    std::vector<MemberSpan> fillers;
     for (std::size_t i = 0; i + 1 < spans.size(); ++i)
         if (spans[i + 1].from - spans[i].to > touching)
             close_gap(parts, poses, bolt, spans[i], spans[i + 1], fillers);
     spans.insert(spans.end(), fillers.begin(), fillers.end());
-    order();
+    sort_spans();
     std::vector<ClampedMember> members;
-    for (const Span& span : spans) members.push_back({span.node, span.solid});
+    for (const MemberSpan& span : spans) members.push_back({span.node, span.solid});
     return members;
 }
 

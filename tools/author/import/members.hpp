@@ -1,4 +1,4 @@
-// What a bolt clamps: the parts between head and nut, and how thick they are there.
+// Finds the parts that a bolt clamps between head and nut, and their thickness along the bolt.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace bolt::step_import {
 
-// What is known of each part of the document.
+// Geometry of one part of the document.
 struct PartGeometry {
     PartMesh mesh;
     FastenerShape fastener;
@@ -16,26 +16,28 @@ struct PartGeometry {
 };
 
 struct ClampedMember {
-    int node = -1;           // of the tree; −1: nothing was found there
+    int node = -1;           // of the tree; −1: no part was found
     double thickness = 0.0;  // m
 };
 
-// A bolt in its place; heights along the axis of what stands at the head's and at the nut's side of the
-// members.
-struct Clamping {
+// A bolt in the scene frame, metres. The clamped members lie between the heights `head` and `seat` along the
+// axis from `origin`.
+struct InstalledBolt {
     Vec3 origin, axis;
     double diameter = 0.0;
-    double head = 0.0, seat = 0.0;
+    double head = 0.0, seat = 0.0;  // under the head and its washers; under the nut and its washers
 };
 
 inline constexpr double coaxial_distance = 0.1 * mm;
 
-// Axes within 0.1 mm and 0.5° of each other: the point q is that near to the first axis.
+// Returns true if the lines through p along a and through q along b agree within 0.1 mm, measured at q, and
+// 0.5°.
 bool coaxial(const Vec3& p, const Vec3& a, const Vec3& q, const Vec3& b);
 
-// From head to nut. `parts` and `poses` by node; null: no member. Where the parts around the bolt leave a
-// gap, what closes it elsewhere counts: the raised faces of two flanges and the gasket between them.
+// Returns the members from head to nut. `parts` and `poses` are indexed by node; a null part is ignored. A
+// gap between two members at the bolt is filled by the parts that close it elsewhere, such as the raised
+// faces of two flanges and the gasket between them.
 std::vector<ClampedMember> find_members(const std::vector<const PartGeometry*>& parts,
-                                        const std::vector<Placement>& poses, const Clamping& bolt);
+                                        const std::vector<ScaledPose>& poses, const InstalledBolt& bolt);
 
 }  // namespace bolt::step_import

@@ -14,7 +14,8 @@ bool digits(std::string_view text) {
            std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// Bytes of the well-formed UTF-8 sequence at the start of `text`; 0: it is none (Unicode 15, table 3-7).
+// Length in bytes of the well-formed UTF-8 sequence at the start of `text`; 0 if it is not well-formed
+// (Unicode 15, table 3-7).
 std::size_t utf8_length(std::string_view text) {
     const auto at = [&](std::size_t i) {
         return i < text.size() ? static_cast<unsigned char>(text[i]) : static_cast<unsigned char>(0);
@@ -49,24 +50,24 @@ std::string clean_name(std::string_view text) {
     return clean.substr(first, clean.find_last_not_of(' ') - first + 1);
 }
 
-bool telling(std::string_view name) {
+bool is_meaningful_name(std::string_view name) {
     if (name.empty() || digits(name) || name.starts_with("=>[") ||
         name.starts_with("Open CASCADE STEP translator"))
         return false;
-    for (const std::string_view dull : {"SOLID", "SHELL", "COMPOUND", "COMPSOLID", "FACE", "PART", "ASSEMBLY",
-                                        "COMPONENT", "NONE", "NAUO"}) {
-        if (name.size() < dull.size()) continue;
-        if (!std::equal(dull.begin(), dull.end(), name.begin(),
+    for (const std::string_view generic : {"SOLID", "SHELL", "COMPOUND", "COMPSOLID", "FACE", "PART",
+                                           "ASSEMBLY", "COMPONENT", "NONE", "NAUO"}) {
+        if (name.size() < generic.size()) continue;
+        if (!std::equal(generic.begin(), generic.end(), name.begin(),
                         [](char a, char b) { return lower(a) == lower(b); }))
             continue;
-        std::string_view rest = name.substr(dull.size());
+        std::string_view rest = name.substr(generic.size());
         while (!rest.empty() && (rest[0] == '_' || rest[0] == ' ' || rest[0] == '-')) rest.remove_prefix(1);
         if (rest.empty() || digits(rest)) return false;
     }
     return true;
 }
 
-std::string UniqueNames::take(std::string_view name) {
+std::string UniqueNames::claim(std::string_view name) {
     const std::string base = name.empty() ? "part" : std::string(name);
     std::string free = base;
     for (int i = 2; !used_.insert(free).second; ++i) free = base + "_" + std::to_string(i);
@@ -75,7 +76,7 @@ std::string UniqueNames::take(std::string_view name) {
 }
 
 bool matches(std::string_view pattern, std::string_view name) {
-    // Greedy with one point to come back to: linear for the patterns that people write.
+    // Greedy with backtracking to the last star only: linear for typical patterns.
     std::size_t p = 0, n = 0, star = std::string_view::npos, from = 0;
     while (n < name.size()) {
         if (p < pattern.size() && pattern[p] == '*') {

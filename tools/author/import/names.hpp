@@ -1,4 +1,4 @@
-// Names of nodes: what the author wrote, and unique.
+// Names of nodes: cleaning, uniqueness and pattern matching.
 #pragma once
 
 #include <set>
@@ -7,16 +7,16 @@
 
 namespace bolt::step_import {
 
-// Without control characters and outer blanks; what is not UTF-8 becomes U+FFFD.
+// Removes control characters and outer blanks; replaces invalid UTF-8 by U+FFFD.
 std::string clean_name(std::string_view text);
 
-// A person's name for something, not one that an exporter made up ("NAUO12", "=>[0:1:1:2]", "SOLID", "7").
-bool telling(std::string_view name);
+// Returns false for a name that an exporter made up ("NAUO12", "=>[0:1:1:2]", "SOLID", "7").
+bool is_meaningful_name(std::string_view name);
 
 class UniqueNames {
   public:
-    // The name, or name_2, name_3 … where it is taken. Empty names become "part".
-    std::string take(std::string_view name);
+    // Reserves and returns the name, or name_2, name_3 … if it is in use. An empty name becomes "part".
+    std::string claim(std::string_view name);
     [[nodiscard]] bool taken(const std::string& name) const { return used_.contains(name); }
     [[nodiscard]] int renamed() const { return renamed_; }
 
@@ -25,7 +25,7 @@ class UniqueNames {
     int renamed_ = 0;
 };
 
-// "*casing*": a star stands for any characters; ASCII case does not matter.
+// Matches a pattern such as "*casing*": a star matches any characters; ASCII case is ignored.
 bool matches(std::string_view pattern, std::string_view name);
 
 }  // namespace bolt::step_import

@@ -35,10 +35,11 @@
 #include "engine/base/file.hpp"
 #include "tools/author/import/names.hpp"
 
-// Progress of OpenCASCADE's long steps, passed on as a fraction.
-
 namespace bolt::step_import {
 
+namespace {
+
+// Forwards the progress of OpenCASCADE as a fraction.
 class OccProgress : public Message_ProgressIndicator {
   public:
     explicit OccProgress(std::function<void(double)> report) : report_(std::move(report)) {}
@@ -52,10 +53,8 @@ class OccProgress : public Message_ProgressIndicator {
     std::function<void(double)> report_;
 };
 
-namespace {
-
-constexpr std::size_t most_instances = 100'000;
-constexpr int most_levels = 200;
+constexpr std::size_t max_instances = 100'000;
+constexpr int max_levels = 200;
 
 tl::unexpected<Error> refuse(const std::filesystem::path& path, std::string what, std::string expected) {
     Error error;
@@ -66,13 +65,13 @@ tl::unexpected<Error> refuse(const std::filesystem::path& path, std::string what
     return fail(std::move(error));
 }
 
-// What can be said without the library, which is vague about files that are no STEP files.
-Status look_at(const std::filesystem::path& path) {
-    constexpr const char* wanted = "expected a STEP file (ISO 10303-21: AP203, AP214 or AP242)";
+// Checks the file before OpenCASCADE reads it, whose errors for other files are vague.
+Status check_file(const std::filesystem::path& path) {
+    constexpr const char* wanted = "a STEP file (ISO 10303-21: AP203, AP214 or AP242)";
     std::error_code problem;
     const auto status = std::filesystem::status(path, problem);
-    if (!std::filesystem::exists(status)) return refuse(path, "there is no such file", wanted);
-    if (!std::filesystem::is_regular_file(status)) return refuse(path, "this is no file", wanted);
+    if (!std::filesystem::exists(status)) return refuse(path, "does not exist", wanted);
+    if (!std::filesystem::is_regular_file(status)) return refuse(path, "is not a regular file", wanted);
     std::ifstream file(path, std::ios::binary);
     if (!file) return refuse(path, "cannot be opened", wanted);
     std::string head(65536, '\0');
@@ -81,10 +80,10 @@ Status look_at(const std::filesystem::path& path) {
     if (head.empty()) return refuse(path, "the file is empty", wanted);
     const std::size_t magic = head.find("ISO-10303-21");
     if (magic == std::string::npos || magic > 4096)
-        return refuse(path, "this is no STEP file: it does not begin with ISO-10303-21", wanted);
+        return refuse(path, "is not a STEP file: it does not begin with ISO-10303-21", wanted);
     const std::size_t schema = head.find("FILE_SCHEMA");
     if (schema != std::string::npos && head.find("IFC", schema) < head.find(';', schema))
-        return refuse(path, "this is a building (IFC), not a STEP file of parts", wanted);
+        return refuse(path, "is a building model (IFC), not a STEP file of parts", wanted);
     file.clear();
     file.seekg(0, std::ios::end);
     const std::streamoff size = file.tellg();
@@ -93,7 +92,7 @@ Status look_at(const std::filesystem::path& path) {
     file.read(tail.data(), static_cast<std::streamsize>(tail.size()));
     if (tail.find("END-ISO-10303-21") == std::string::npos)
         return refuse(path, "the file is cut short: its last line is missing",
-                      "expected it to end with END-ISO-10303-21;");
+                      "END-ISO-10303-21; at its end");
     return {};
 }
 
@@ -123,15 +122,16 @@ std::string material_of(const TDF_Label& label) {
     return material->GetName().IsNull() ? std::string() : clean_name(material->GetName()->ToCString());
 }
 
-class Walk {
+// Converts the document tree of OpenCASCADE.
+class DocumentWalker {
   public:
-    Walk(const Handle(TDocStd_Document) & document, StepDocument& result)
+    DocumentWalker(const Handle(TDocStd_Document) & document, StepDocument& result)
         : shapes_(XCAFDoc_DocumentTool::ShapeTool(document->Main())),
           colours_(XCAFDoc_DocumentTool::ColorTool(document->Main())),
           result_(result) {}
 
-    // False: deeper or larger than any file that we take.
-    bool all() {
+    // Returns false if the tree exceeds max_instances or max_levels.
+    bool run() {
         TDF_LabelSequence free;
         shapes_->GetFreeShapes(free);
         for (const TDF_Label& label : free) {
@@ -146,13 +146,14 @@ class Walk {
     Handle(XCAFDoc_ColorTool) colours_;
     StepDocument& result_;
     std::map<std::string, int> part_of_;  // by the label's entry
-    TDF_LabelSequence path_;              // components from the root to here
+    TDF_LabelSequence path_;              // components from the root to the present one
     bool too_large_ = false;
 
-    // `use` is a component or a free shape, `product` what it refers to. A colour of an assembly goes down to
-    // what has none of its own.
+    // `use` is a component or a free shape, `product` the shape that it refers to. Descendants without a
+    // colour inherit the colour of their assembly. Returns the index of the instance; −1 if the tree is too
+    // large.
     int visit(const TDF_Label& use, const TDF_Label& product, std::optional<Colour> above, int level) {
-        if (too_large_ || level > most_levels || result_.instances.size() >= most_instances) {
+        if (too_large_ || level > max_levels || result_.instances.size() >= max_instances) {
             too_large_ = true;
             return -1;
         }
@@ -162,13 +163,13 @@ class Walk {
         const auto self = static_cast<std::size_t>(index);
         result_.instances.emplace_back();
         const std::string own = name_of(use);
-        result_.instances[self].name = telling(own) ? own : name_of(product);
+        result_.instances[self].name = is_meaningful_name(own) ? own : name_of(product);
         if (component)
             result_.instances[self].placement = XCAFDoc_ShapeTool::GetLocation(use).Transformation();
         std::optional<Colour> here = override_of(use);
         if (!here && component) here = colour_of(colours_, use);
         if (XCAFDoc_ShapeTool::IsAssembly(product)) {
-            // The product's own colour is weaker than its use's, stronger than what comes from above.
+            // Priority: colour of the use, of the product, inherited.
             if (!here) here = colour_of(colours_, product);
             if (!here) here = above;
             TDF_LabelSequence components;
@@ -189,7 +190,7 @@ class Walk {
         return index;
     }
 
-    // A style that an assembly further up gives to this one use in it (SHUO); the uppermost wins.
+    // Returns the colour that an ancestor assigns to this one use (SHUO); the uppermost ancestor wins.
     std::optional<Colour> override_of(const TDF_Label& use) {
         if (path_.IsEmpty() || !path_.Last().IsEqual(use)) return std::nullopt;
         for (int first = 1; first < path_.Length(); ++first) {
@@ -207,7 +208,7 @@ class Walk {
         TDF_Tool::Entry(label, entry);
         const auto [known, fresh] = part_of_.emplace(entry.ToCString(), -1);
         if (!fresh) return known->second;
-        Part part;
+        StepPart part;
         part.name = name_of(label);
         part.shape = XCAFDoc_ShapeTool::GetShape(label);
         if (part.shape.IsNull()) return -1;
@@ -222,8 +223,8 @@ class Walk {
         return known->second;
     }
 
-    // Solids first, then shells, then faces: what is smaller is meant more exactly.
-    void style_faces(const TDF_Label& label, const FaceMap& faces, Part& part) const {
+    // Applies the styles of solids first, then of shells, then of faces, so that the most specific one wins.
+    void style_faces(const TDF_Label& label, const FaceMap& faces, StepPart& part) const {
         TDF_LabelSequence labels;
         XCAFDoc_ShapeTool::GetSubShapes(label, labels);
         struct Styled {
@@ -244,13 +245,13 @@ class Walk {
                 if (index == 0) continue;
                 FaceStyle& face = part.faces[static_cast<std::size_t>(index - 1)];
                 if (one.style.colour) face.colour = one.style.colour;
-                if (telling(one.style.name)) face.name = one.style.name;
+                if (is_meaningful_name(one.style.name)) face.name = one.style.name;
             }
         }
     }
 };
 
-Result<StepDocument> read(const std::filesystem::path& path, const StepProgress& progress) {
+Result<StepDocument> read(const std::filesystem::path& path, const ReadProgress& progress) {
     Message::DefaultMessenger()->ChangePrinters().Clear();
     STEPCAFControl_Controller::Init();
     Interface_Static::SetCVal("xstep.cascade.unit", "MM");
@@ -266,8 +267,7 @@ Result<StepDocument> read(const std::filesystem::path& path, const StepProgress&
     reader.SetViewMode(false);
     progress(0.0, path.filename().string());
     if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-        return refuse(path, "the file breaks the rules of ISO 10303-21",
-                      "expected a STEP file as a CAD program exports it");
+        return refuse(path, "the file violates ISO 10303-21", "a STEP file as a CAD program exports it");
     StepDocument result;
     TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
     reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
@@ -285,32 +285,32 @@ Result<StepDocument> read(const std::filesystem::path& path, const StepProgress&
         new OccProgress([&](double fraction) { progress(0.3 + 0.7 * fraction, path.filename().string()); });
     const bool transferred = reader.Transfer(document, indicator->Start());
     const Interface_CheckIterator checks = reader.Reader().WS()->ModelCheckList();
-    int broken = 0;
-    for (checks.Start(); checks.More(); checks.Next()) broken += checks.Value()->HasFailed() ? 1 : 0;
-    if (broken > 0) result.warnings.push_back(fmt::format("{} records of the file are broken", broken));
-    bool whole = true;
-    if (transferred) whole = Walk(document, result).all();
+    int invalid = 0;
+    for (checks.Start(); checks.More(); checks.Next()) invalid += checks.Value()->HasFailed() ? 1 : 0;
+    if (invalid > 0) result.warnings.push_back(fmt::format("{} records of the file are invalid", invalid));
+    bool complete = true;
+    if (transferred) complete = DocumentWalker(document, result).run();
     application->Close(document);
-    if (!whole)
-        return refuse(path, "the assembly is larger than any that we take",
-                      fmt::format("expected at most {} instances in {} levels", most_instances, most_levels));
+    if (!complete)
+        return refuse(path, "the assembly is too large",
+                      fmt::format("at most {} instances in {} levels", max_instances, max_levels));
     if (result.parts.empty())
-        return refuse(path, "there is no shape in this file",
-                      "expected solids or shells (exported as B-rep, not as a tessellation or a drawing)");
+        return refuse(path, "the file has no shape",
+                      "solids or shells (exported as B-rep, not as a tessellation or a drawing)");
     return result;
 }
 
 }  // namespace
 
-Result<StepDocument> read_step(const std::filesystem::path& path, const StepProgress& progress) {
-    if (Status looked = look_at(path); !looked) return fail(looked.error());
+Result<StepDocument> read_step(const std::filesystem::path& path, const ReadProgress& progress) {
+    if (Status checked = check_file(path); !checked) return fail(checked.error());
     try {
         return read(path, progress);
     } catch (const Standard_OutOfMemory&) {
         throw;
     } catch (const Standard_Failure& failure) {
         return refuse(path, fmt::format("cannot be read: {}", failure.GetMessageString()),
-                      "expected a STEP file as a CAD program exports it");
+                      "a STEP file as a CAD program exports it");
     }
 }
 

@@ -1,3 +1,4 @@
+// The summary of an import as text.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -14,7 +15,7 @@ std::string size_text(std::uintmax_t bytes) {
     return kib < 1024.0 ? fmt::format("{:.0f} KiB", kib) : fmt::format("{:.2f} MiB", kib / 1024.0);
 }
 
-// Columns count characters, not bytes; a long name is cut at a character.
+// Pads or cuts a name to `width` characters (not bytes).
 std::string column(const std::string& name, std::size_t width) {
     std::string text;
     std::size_t characters = 0;
@@ -73,7 +74,7 @@ std::string summary(const ImportReport& report) {
             text +=
                 fmt::format("{}: {} faces could not be meshed\n", part.name, part.faces_without_triangles);
     if (report.renamed > 0)
-        text += fmt::format("{} nodes had the name of another and got a number\n", report.renamed);
+        text += fmt::format("{} nodes with a duplicate name got a numeric suffix\n", report.renamed);
     for (const std::string& remark : report.remarks) text += "note: " + remark + "\n";
     for (const FileReport& file : report.files)
         text += fmt::format("{} {}\n", file.path.string(), size_text(file.bytes));

@@ -21,8 +21,8 @@ namespace bolt::step_import {
 
 namespace {
 
-// Which corners of which faces are one point.
-class Sets {
+// Disjoint-set forest: the corners of all faces, grouped by common point.
+class DisjointSets {
   public:
     std::size_t add(std::size_t count) {
         const std::size_t first = parent_.size();
@@ -34,8 +34,8 @@ class Sets {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
     }
-    // The smaller index stands for both, so that the result does not depend on the order of joining.
-    void join(std::size_t a, std::size_t b) {
+    // The smaller index represents the union, so that the result does not depend on the order of the calls.
+    void unite(std::size_t a, std::size_t b) {
         a = find(a);
         b = find(b);
         if (a != b) parent_[std::max(a, b)] = std::min(a, b);
@@ -47,18 +47,18 @@ class Sets {
 
 struct MeshedFace {
     TopoDS_Face face;
-    Handle(Poly_Triangulation) triangulation;  // null: none
+    Handle(Poly_Triangulation) triangulation;  // null if the mesher failed
     TopLoc_Location place;
-    std::size_t first = 0;  // of its corners in Sets
+    std::size_t first = 0;  // index of its first corner in DisjointSets
 };
 
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-// Joins corners along the edges: the mesher has put the same points, in the same order, on every face of an
+// Unites corners along the edges. The mesher creates the same points, in the same order, on every face of an
 // edge.
 class Stitcher {
   public:
-    Stitcher(const TopoDS_Shape& shape, Sets& sets) : sets_(sets) {
+    Stitcher(const TopoDS_Shape& shape, DisjointSets& sets) : sets_(sets) {
         TopExp::MapShapes(shape, TopAbs_EDGE, edges_);
         TopExp::MapShapes(shape, TopAbs_VERTEX, vertices_);
         on_edge_.resize(static_cast<std::size_t>(edges_.Extent()));
@@ -71,13 +71,13 @@ class Stitcher {
     }
 
   private:
-    Sets& sets_;
+    DisjointSets& sets_;
     TopTools_IndexedMapOfShape edges_, vertices_;
     std::vector<std::vector<std::size_t>> on_edge_;
     std::vector<std::size_t> at_vertex_;
 
     void add_edge(const MeshedFace& meshed, const TopoDS_Edge& edge) {
-        // A seam has a polygon for either side of it: which one depends on the edge's orientation.
+        // A seam edge has one polygon for each side; the orientation of the edge selects it.
         const Handle(Poly_PolygonOnTriangulation) polygon =
             BRep_Tool::PolygonOnTriangulation(edge, meshed.triangulation, meshed.place);
         if (polygon.IsNull()) return;
@@ -88,15 +88,15 @@ class Stitcher {
         const TopoDS_Edge forward = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
         join_vertex(TopExp::FirstVertex(forward, true), corners.front());
         join_vertex(TopExp::LastVertex(forward, true), corners.back());
-        if (BRep_Tool::Degenerated(edge)) {  // the pole of a sphere: all of it is one point
-            for (const std::size_t corner : corners) sets_.join(corners.front(), corner);
+        if (BRep_Tool::Degenerated(edge)) {  // the pole of a sphere: all its corners are one point
+            for (const std::size_t corner : corners) sets_.unite(corners.front(), corner);
             return;
         }
-        std::vector<std::size_t>& there = on_edge_[static_cast<std::size_t>(edges_.FindIndex(edge) - 1)];
-        if (there.empty()) {
-            there = corners;
-        } else if (there.size() == corners.size()) {
-            for (std::size_t i = 0; i < corners.size(); ++i) sets_.join(there[i], corners[i]);
+        std::vector<std::size_t>& known = on_edge_[static_cast<std::size_t>(edges_.FindIndex(edge) - 1)];
+        if (known.empty()) {
+            known = corners;
+        } else if (known.size() == corners.size()) {
+            for (std::size_t i = 0; i < corners.size(); ++i) sets_.unite(known[i], corners[i]);
         }
     }
 
@@ -104,19 +104,21 @@ class Stitcher {
         if (vertex.IsNull()) return;
         const int index = vertices_.FindIndex(vertex);
         if (index == 0) return;
-        std::size_t& there = at_vertex_[static_cast<std::size_t>(index - 1)];
-        if (there == none)
-            there = corner;
+        std::size_t& known = at_vertex_[static_cast<std::size_t>(index - 1)];
+        if (known == none)
+            known = corner;
         else
-            sets_.join(there, corner);
+            sets_.unite(known, corner);
     }
 };
 
+// Returns true if the triangles of the face are wound inwards.
 bool inside_out(const MeshedFace& meshed) {
     return (meshed.face.Orientation() == TopAbs_REVERSED) != meshed.place.Transformation().IsNegative();
 }
 
-// Normals of the surface at the corners. At a pole, and at a cone's tip, the one a little inside the face.
+// Sets the normals of the surface at the corners. At a pole and at the tip of a cone, where the surface has
+// none, takes the normal slightly inside the face.
 void add_normals(const FaceSurface& surface, const std::vector<Vec3>& corners, FaceMesh& face) {
     face.normals.assign(corners.size(), Vec3{0.0});
     std::vector<gp_XY> inside(corners.size(), gp_XY(0.0, 0.0));
@@ -131,8 +133,8 @@ void add_normals(const FaceSurface& surface, const std::vector<Vec3>& corners, F
     }
     for (std::uint32_t i = 0; i < corners.size(); ++i) {
         const gp_XY uv = surface.at(i);
-        // Rounding may have put a pole beyond itself, where the surface is inside out.
-        Vec3 normal = surface.pole(i) ? Vec3{0.0} : surface.normal(uv);
+        // Rounding may place a pole outside the parameter range, where the normal points inwards.
+        Vec3 normal = surface.is_pole(i) ? Vec3{0.0} : surface.normal(uv);
         constexpr double step = 1e-3;
         if (glm::dot(normal, normal) < 0.5) normal = surface.normal(uv * (1.0 - step) + inside[i] * step);
         if (glm::dot(normal, normal) < 0.5) normal = flat[i];
@@ -148,14 +150,14 @@ PartMesh tessellate(const TopoDS_Shape& shape, const Deflection& deflection) {
     IMeshTools_Parameters parameters;
     parameters.Deflection = deflection.length_mm;
     parameters.Angle = deflection.angle;
-    parameters.InParallel = false;  // the same bytes on every machine
+    parameters.InParallel = false;  // keeps the result the same on every machine
     const BRepMesh_IncrementalMesh mesher(shape, parameters);
 
     const FaceMap faces = faces_of(shape);
     PartMesh mesh;
     mesh.faces.resize(static_cast<std::size_t>(faces.Extent()));
     std::vector<MeshedFace> meshed(mesh.faces.size());
-    Sets sets;
+    DisjointSets sets;
     Stitcher stitcher(shape, sets);
     for (std::size_t f = 0; f < meshed.size(); ++f) {
         MeshedFace& one = meshed[f];
@@ -178,7 +180,7 @@ PartMesh tessellate(const TopoDS_Shape& shape, const Deflection& deflection) {
         const gp_Trsf place = one.place.Transformation();
         std::vector<Vec3> corners;
         for (int i = 1; i <= one.triangulation->NbNodes(); ++i) {
-            // All faces take the point of the first, so that a tolerance in the file opens no gap.
+            // All faces use the point of the first face, so that a tolerance in the file opens no gap.
             std::uint32_t& point = point_of[sets.find(one.first + static_cast<std::size_t>(i - 1))];
             if (point == 0xFFFFFFFFU) {
                 point = static_cast<std::uint32_t>(mesh.points.size());
@@ -187,11 +189,11 @@ PartMesh tessellate(const TopoDS_Shape& shape, const Deflection& deflection) {
             face.points.push_back(point);
             corners.push_back(mesh.points[point]);
         }
-        const bool turned = inside_out(one);
+        const bool flip = inside_out(one);
         for (int t = 1; t <= one.triangulation->NbTriangles(); ++t) {
             int a = 0, b = 0, c = 0;
             one.triangulation->Triangle(t).Get(a, b, c);
-            if (turned) std::swap(b, c);
+            if (flip) std::swap(b, c);
             const std::array<std::uint32_t, 3> triangle = {static_cast<std::uint32_t>(a - 1),
                                                            static_cast<std::uint32_t>(b - 1),
                                                            static_cast<std::uint32_t>(c - 1)};
@@ -208,7 +210,7 @@ PartMesh tessellate(const TopoDS_Shape& shape, const Deflection& deflection) {
         face.tangents = tangents_across_lay(one.face, corners, face.normals);
         mesh.deviation = std::max(mesh.deviation, deviation(surface, corners, face.triangles));
     }
-    BRepTools::Clean(shape, true);  // a large assembly would hold every level in memory otherwise
+    BRepTools::Clean(shape, true);  // otherwise a large assembly would keep every level in memory
     return mesh;
 }
 

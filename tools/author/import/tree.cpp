@@ -25,15 +25,15 @@ Tree make_tree(const StepDocument& document) {
     tree.roots = document.roots;
     tree.nodes.resize(document.instances.size());
     for (std::size_t i = 0; i < document.instances.size(); ++i) {
-        const Instance& instance = document.instances[i];
+        const StepInstance& instance = document.instances[i];
         TreeNode& node = tree.nodes[i];
         node.name = instance.name;
         node.local = to_scene(instance.placement);
         node.children = instance.children;
         for (const int child : instance.children) at(tree, child).parent = static_cast<int>(i);
         if (instance.part < 0) continue;
-        // A use that is given the part's own colour is no other mesh.
-        const Part& part = document.parts[static_cast<std::size_t>(instance.part)];
+        // An instance with the part's own colour shares the mesh of the part.
+        const StepPart& part = document.parts[static_cast<std::size_t>(instance.part)];
         const bool same = instance.colour == part.colour;
         node.shape = shape_for(tree, instance.part, same ? std::nullopt : instance.colour);
         ++tree.shapes[static_cast<std::size_t>(node.shape)].uses;
@@ -41,18 +41,18 @@ Tree make_tree(const StepDocument& document) {
     return tree;
 }
 
-Placement world(const Tree& tree, int node) {
-    Placement pose = at(tree, node).local;
+ScaledPose world(const Tree& tree, int node) {
+    ScaledPose pose = at(tree, node).local;
     for (int up = at(tree, node).parent; up >= 0; up = at(tree, up).parent) pose = at(tree, up).local * pose;
     return pose;
 }
 
 void move_under(Tree& tree, int node, int parent) {
-    const Placement here = world(tree, node);
+    const ScaledPose pose = world(tree, node);
     TreeNode& moved = at(tree, node);
     std::vector<int>& old = moved.parent >= 0 ? at(tree, moved.parent).children : tree.roots;
     std::erase(old, node);
-    moved.local = parent >= 0 ? inverse(world(tree, parent)) * here : here;
+    moved.local = parent >= 0 ? inverse(world(tree, parent)) * pose : pose;
     moved.parent = parent;
     (parent >= 0 ? at(tree, parent).children : tree.roots).push_back(node);
 }
@@ -69,7 +69,7 @@ int make_names_unique(Tree& tree) {
     UniqueNames names;
     for (const bool fixed : {true, false})
         for (TreeNode& node : tree.nodes)
-            if (node.fixed == fixed) node.name = names.take(node.name);
+            if (node.fixed == fixed) node.name = names.claim(node.name);
     return names.renamed();
 }
 

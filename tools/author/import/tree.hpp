@@ -1,4 +1,5 @@
-// The nodes of the glTF scene: the assembly tree of the file in the scene's frame, with unique names.
+// The assembly tree of the STEP file as nodes of the glTF scene (metres, Y up), and its conversion to a glTF
+// model.
 #pragma once
 
 #include <optional>
@@ -10,44 +11,43 @@
 
 namespace bolt::step_import {
 
-// A part under one colouring: one mesh, however often it is placed.
-struct Shape {
+// A part with one colour override; all instances that share both use one mesh.
+struct ColouredPart {
     int part = -1;
-    std::optional<Colour> colour;  // of the uses; stronger than the part's
-    std::size_t uses = 0;
+    std::optional<Colour> colour;  // of the instances; overrides the colour of the part
+    std::size_t uses = 0;          // number of instances
 };
 
 struct TreeNode {
     std::string name;
-    bool fixed = false;  // the name is needed as it is: others give way
-    Placement local;
-    int shape = -1;
-    int parent = -1;
+    bool fixed = false;  // the name must stay; other nodes of this name are renamed
+    ScaledPose local;
+    int shape = -1;   // index into Tree::shapes; −1: no mesh
+    int parent = -1;  // −1: a root
     std::vector<int> children;
 };
 
 struct Tree {
     std::vector<TreeNode> nodes;
     std::vector<int> roots;
-    std::vector<Shape> shapes;
+    std::vector<ColouredPart> shapes;
 };
 
 Tree make_tree(const StepDocument& document);
 
-Placement world(const Tree& tree, int node);
+// Pose of the node in the scene.
+ScaledPose world(const Tree& tree, int node);
 
-// Puts `node` under `parent` (−1: a root) where it stands in the world.
+// Makes `node` a child of `parent` (−1: a root) and keeps its pose in the scene.
 void move_under(Tree& tree, int node, int parent);
 
-// The nearest node that both are under; −1: none.
+// Returns the nearest common ancestor; −1 if there is none.
 int common_parent(const Tree& tree, int a, int b);
 
-// Adds _2, _3 … where a name is taken; returns how many had to be changed.
+// Appends _2, _3 … to duplicate names. Returns the number of renamed nodes.
 int make_names_unique(Tree& tree);
 
-// The tree with one mesh a shape, as a glTF model.
-
-// `meshes`: by TreeNode::shape; one without primitives leaves its nodes empty.
+// `meshes` is indexed by TreeNode::shape. The nodes of a mesh without primitives get no mesh.
 assets::Model make_model(const Tree& tree, const std::vector<assets::Mesh>& meshes,
                          const std::vector<assets::Material>& materials);
 

@@ -1,4 +1,4 @@
-// bolt-author preview: an assembly or a model in a window that follows the files.
+// The subcommand bolt-author preview.
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -18,7 +18,7 @@ Result<gpu::Instance> make_instance(const PreviewOptions& options, std::span<con
     return gpu::Instance::create(instance);
 }
 
-Status in_a_window(const PreviewOptions& options, Sources& sources) {
+Status show_in_window(const PreviewOptions& options, PreviewSources& sources) {
     Result<platform::Desktop> desktop = platform::Desktop::open();
     if (!desktop) {
         Error error = desktop.error();
@@ -26,7 +26,7 @@ Status in_a_window(const PreviewOptions& options, Sources& sources) {
         return fail(std::move(error));
     }
     BOLT_TRY_ASSIGN(const auto extensions, desktop->vulkan_extensions());
-    BOLT_TRY_ASSIGN(auto window, platform::Window::open(*desktop, {sources.subject().name, options.size.width,
+    BOLT_TRY_ASSIGN(auto window, platform::Window::open(*desktop, {sources.model().name, options.size.width,
                                                                    options.size.height}));
     BOLT_TRY_ASSIGN(const auto instance, make_instance(options, extensions));
     return show_preview(options, sources, window, instance);
@@ -36,18 +36,18 @@ int run_preview(PreviewOptions options, const std::string& size) {
     const Result<VkExtent2D> extent = view::parse_size(size);
     if (!extent) return print_error(extent.error());
     options.size = *extent;
-    Sources sources(options);
-    view::LoadedSubject loaded = sources.read_subject(view::Level::near);
+    PreviewSources sources(options);
+    view::ModelLoadResult loaded = sources.read_model(view::DetailLevel::near);
     if (!loaded.ok()) return print_error(loaded.errors);
-    sources.keep(std::move(loaded.subject), view::Level::near);
+    sources.set_shown(std::move(loaded.model), view::DetailLevel::near);
     Result<shading::RadianceImage> light = sources.read_light();
     if (!light) return print_error(light.error());
-    sources.keep(std::move(*light));
+    sources.set_shown(std::move(*light));
     if (!options.view.empty())
-        if (const auto known = view::named_view(sources.subject(), options.view); !known)
+        if (const auto known = view::named_view(sources.model(), options.view); !known)
             return print_error(known.error());
     if (options.png.empty()) {
-        const Status shown = in_a_window(options, sources);
+        const Status shown = show_in_window(options, sources);
         return shown ? 0 : print_error(shown.error());
     }
     const Result<gpu::Instance> instance = make_instance(options, {});
@@ -59,24 +59,26 @@ int run_preview(PreviewOptions options, const std::string& size) {
 }  // namespace
 
 void add_preview(CLI::App& app, int& exit_code) {
-    struct Given {
+    struct PreviewArguments {
         PreviewOptions options;
         std::string size = "1280x720";
     };
-    auto given = std::make_shared<Given>();
-    PreviewOptions& options = given->options;
-    CLI::App* command =
-        app.add_subcommand("preview", "Show an assembly or a model in a window that follows its files");
+    auto arguments = std::make_shared<PreviewArguments>();
+    PreviewOptions& options = arguments->options;
+    CLI::App* command = app.add_subcommand(
+        "preview", "Show an assembly or a model in a window and reload its files when they change");
     command->add_option("what", options.what, "Assembly (folder, file or name) or a .glb")->required();
-    command->add_option("--size", given->size, "WIDTHxHEIGHT of the window or the picture");
+    command->add_option("--size", arguments->size, "WIDTHxHEIGHT of the window or the picture");
     command->add_option("--view", options.view, "Named view of the assembly to begin with");
     command->add_option("--light", options.light, "studio, or a Radiance .hdr file");
     command->add_option("--png", options.png, "Draw into this file instead; needs no display");
-    command->add_option("--shaders", options.shaders, "Use the GLSL in this folder, and follow it too");
+    command->add_option("--shaders", options.shaders,
+                        "Use the GLSL in this folder, and reload it when it changes");
     command->add_option("--gpu", options.gpu, "Part of the name of the GPU to use");
     command->add_flag("--validate", options.validate,
                       "Run under the Vulkan validation layers; any message is an error");
-    command->callback([given, &exit_code] { exit_code = run_preview(given->options, given->size); });
+    command->callback(
+        [arguments, &exit_code] { exit_code = run_preview(arguments->options, arguments->size); });
 }
 
 }  // namespace bolt::author

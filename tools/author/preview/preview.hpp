@@ -1,4 +1,4 @@
-// What bolt-author preview is asked for.
+// The preview of an assembly or a model that reloads its files when they change.
 #pragma once
 
 #include <string>
@@ -11,55 +11,54 @@
 namespace bolt::author {
 
 struct PreviewOptions {
-    std::string what;              // assembly or model
-    std::string view;              // its first view; empty: all of it
+    std::string what;              // assembly (folder, file or name) or model file
+    std::string view;              // name of the first view; empty: the whole model
     std::string light = "studio";  // or a Radiance file
-    std::string shaders;           // a folder to take them from; empty: those built in
-    std::string gpu;               // part of a name
-    std::string png;               // no window: one picture
+    std::string shaders;           // folder with GLSL; empty: the built-in shaders
+    std::string gpu;               // part of the name of a GPU
+    std::string png;               // file for one picture without a window; empty: a window
     VkExtent2D size{1280, 720};
     bool validate = false;
 };
 
-// What the preview shows, as it is on the disk now.
-
-class Sources {
+// The model and the light that the preview shows, and the watch on their files.
+class PreviewSources {
   public:
-    explicit Sources(const PreviewOptions& options) : what_(options.what), light_(options.light) {}
+    explicit PreviewSources(const PreviewOptions& options) : what_(options.what), light_(options.light) {}
 
-    // What the files hold now; `keep` makes it what is shown.
-    [[nodiscard]] view::LoadedSubject read_subject(view::Level level) const {
-        return view::load_subject(what_, level);
+    // Read the files again. The result becomes current by set_shown().
+    [[nodiscard]] view::ModelLoadResult read_model(view::DetailLevel level) const {
+        return view::load_model(what_, level);
     }
     [[nodiscard]] Result<shading::RadianceImage> read_light() const { return view::load_light(light_); }
-    void keep(view::Subject subject, view::Level level);
-    void keep(shading::RadianceImage radiance) { radiance_ = std::move(radiance); }
+    void set_shown(view::LoadedModel model, view::DetailLevel level);
+    void set_shown(shading::RadianceImage radiance) { radiance_ = std::move(radiance); }
 
-    struct Changes {
-        bool subject = false, light = false;
+    struct FileChanges {
+        bool model = false, light = false;
     };
-    // On the disk, since the last call. `now` as FileWatch has it.
-    Changes changed(double now);
+    // Returns the files that changed since the last call. `now`: s, as for FileWatch.
+    FileChanges poll_changes(double now);
 
-    [[nodiscard]] const view::Subject& subject() const { return subject_; }
+    [[nodiscard]] const view::LoadedModel& model() const { return model_; }
     [[nodiscard]] const shading::RadianceImage& radiance() const { return radiance_; }
-    [[nodiscard]] view::Level level() const { return level_; }
+    [[nodiscard]] view::DetailLevel level() const { return level_; }
 
   private:
     std::string what_, light_;
-    view::Level level_ = view::Level::near;
-    view::Subject subject_;
+    view::DetailLevel level_ = view::DetailLevel::near;
+    view::LoadedModel model_;
     shading::RadianceImage radiance_;
     FileWatch watch_;
 };
 
-// The preview itself: draws in a window until it is closed, and follows the files.
-
-// A GPU that is lost is started again, once in a while (gpu::DeviceLossPolicy).
-Status show_preview(const PreviewOptions& options, Sources& sources, platform::Window& window,
+// Draws in the window until it is closed and reloads changed files. Restarts after a lost GPU as
+// gpu::DeviceLossPolicy allows.
+Status show_preview(const PreviewOptions& options, PreviewSources& sources, platform::Window& window,
                     const gpu::Instance& instance);
 
-// One picture without a window.
-Status draw_preview(const PreviewOptions& options, const Sources& sources, const gpu::Instance& instance);
+// Draws one picture without a window into options.png.
+Status draw_preview(const PreviewOptions& options, const PreviewSources& sources,
+                    const gpu::Instance& instance);
 
 }  // namespace bolt::author

@@ -1,4 +1,4 @@
-// A table of our frame times beside the peer's, and the same as JSON.  node join.mjs THREE.json OURS.json ... OUT.json
+// Prints a table of our frame times beside the peer's, and writes it as JSON:  node join.mjs THREE.json OURS.json ... OUT.json
 import { readFile, writeFile } from 'node:fs/promises';
 
 const read = async (file) => JSON.parse(await readFile(file, 'utf8'));
@@ -29,11 +29,11 @@ await writeFile(out, JSON.stringify({ device, three: three.three, three_renderer
 const cell = (value) => String(typeof value === 'number' ? value.toFixed(2) : value).padStart(13);
 console.log(`ours: ${device}\nthree.js r${three.three}: ${three.renderer}`);
 console.log(`${three.triangles} triangles, ${three.size.join(' x ')}, ${three.samples} samples`);
-if (!same) console.log('These are not the same rasteriser: the ratio means nothing.');
+if (!same) console.log('The rasterisers differ: the ratios are not comparable.');
 console.log(`${''.padEnd(24)}${['ours median', 'three median', 'ratio', 'ours best', 'three best', 'ratio', 'ours CPU', 'three CPU', 'ratio'].map(cell).join('')}`);
 for (const row of rows) {
     if (Math.max(...row.spread) > 1.2 * Math.min(...row.spread))
-        console.log(`Something else ran beside it (our medians: ${row.spread.map(Math.round).join(', ')} ms): trust the CPU time.`);
+        console.log(`The load of the machine changed (our medians: ${row.spread.map(Math.round).join(', ')} ms): compare the CPU times only.`);
     console.log(`${row.what.padEnd(24)}${[row.ours_median_ms, row.three_median_ms, row.ratio_median, row.ours_best_ms,
                                           row.three_best_ms, row.ratio_best, row.ours_cpu_ms, row.three_cpu_ms,
                                           row.ratio_cpu].map(cell).join('')}`);

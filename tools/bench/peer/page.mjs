@@ -1,5 +1,5 @@
-// Draws /model.glb as bolt-bench does, and posts what each frame took: 4 samples a pixel, one shadow map of 2048, light from
-// all around, and a lamp. A frame ends when a pixel of it has been read back: commands alone say nothing.
+// Draws /model.glb as bolt-bench does and posts the time of each frame: 4 samples per pixel, one shadow map of 2048 pixels,
+// environment light and a lamp. A frame ends when one of its pixels has been read back, because commands run asynchronously.
 import * as THREE from 'three';
 import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
 import { RoomEnvironment } from 'three/addons/environments/RoomEnvironment.js';
@@ -55,7 +55,7 @@ async function measure() {
         return performance.now() - before;
     };
     const first = frame();
-    // What every process of the browser has computed so far, in ms.
+    // CPU time of all processes of the browser, in ms.
     const cpu = async () => Number(await (await fetch('/cpu')).text());
     const series = async (keep) => {
         renderer.shadowMap.autoUpdate = !keep;

@@ -1,4 +1,4 @@
-// The same model drawn by three.js in a headless browser, on the same rasteriser: what bolt-bench's frame times stand beside.
+// Measures three.js in a headless browser with the same model on the same rasteriser, for comparison with bolt-bench.
 //   node run.mjs MODEL.glb [--out FILE.json] [--picture FILE.png] [--frames 15] [--size 1280x720] [--angle vulkan]
 //                          [--eye X,Y,Z --target X,Y,Z --fov DEG] [--browser chromium]
 // Needs `npm ci` in this folder and a Chromium with ANGLE (Debian: chromium). Prints one line of JSON.
@@ -34,7 +34,7 @@ async function body(request) {
     return Buffer.concat(parts);
 }
 
-// What the processes of the browser's group have computed since they began, in ms (proc(5): user and system time).
+// Returns the CPU time of the browser's process group in ms (proc(5): user and system time).
 async function cpu_of(group) {
     let ticks = 0;
     for (const id of await readdir('/proc')) {
@@ -46,7 +46,7 @@ async function cpu_of(group) {
     return 10 * ticks;
 }
 
-// Only the page, three.js and the model; only to this machine.
+// Maps a request to a file. The server offers only the page, three.js and the model, and only to this machine.
 function file_of(path) {
     if (path === '/model.glb') return model;
     if (path === '/page.html' || path === '/page.mjs') return join(folder, path);
@@ -83,15 +83,15 @@ const browser = spawn(given.browser, [
     '--ignore-gpu-blocklist', '--enable-unsafe-swiftshader', '--use-gl=angle', `--use-angle=${given.angle}`,
     '--disable-gpu-watchdog', '--disable-frame-rate-limit', `--user-data-dir=${profile}`, `--window-size=${options.size}`,
     `http://127.0.0.1:${server.address().port}/page.html`], { stdio: ['ignore', 'ignore', 'pipe'], detached: true });
-let said = '';
-browser.stderr.on('data', (part) => { said = (said + part).slice(-8000); });
+let log = '';
+browser.stderr.on('data', (part) => { log = (log + part).slice(-8000); });
 browser.on('error', (problem) => finish({ problem: String(problem) }));
 browser.on('exit', (code) => finish({ problem: `the browser ended with ${code}` }));
 const late = setTimeout(() => finish({ problem: `no result in ${given.seconds} s` }), 1000 * Number(given.seconds));
 
 const result = await finished;
 clearTimeout(late);
-try { process.kill(-browser.pid, 'SIGKILL'); } catch { /* gone already */ }
+try { process.kill(-browser.pid, 'SIGKILL'); } catch { /* already ended */ }
 server.closeAllConnections();
 server.close();
 await rm(profile, { recursive: true, force: true, maxRetries: 5 }).catch(() => {});
@@ -104,6 +104,6 @@ if (!result.problem)
 console.log(JSON.stringify(result));
 if (given.out) await writeFile(given.out, JSON.stringify(result, null, 1) + '\n');
 if (result.problem) {
-    console.error(said);
+    console.error(log);
     process.exit(1);
 }

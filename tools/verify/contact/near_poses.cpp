@@ -16,83 +16,89 @@ using namespace contact_oracle;
 namespace {
 
 constexpr double mm = 1e-3, um = 1e-6;
-constexpr std::size_t around_each = 20;
+constexpr std::size_t poses_per_approach = 20;
 constexpr double deep = 0.1 * mm, margin = 0.1 * mm;
-constexpr std::uint32_t of_obstacle = 0x80000000U;  // the top bit of Contact::feature
+constexpr std::uint32_t obstacle_bit = 0x80000000U;  // the top bit of Contact::feature
 
 Quat random_turn(Random& random) {
     return glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
 }
 Vec3 random_direction(Random& random) { return random_turn(random) * Vec3(1, 0, 0); }
 
-Vec3 random_point(const Surface& surface, Random& random) {
+Vec3 random_point(const ClosedSurface& surface, Random& random) {
     const std::vector<geometry::Triangle>& triangles = surface.tree.triangles();
     const geometry::Triangle& t = triangles[random.bits() % triangles.size()];
     const double u = std::sqrt(random.uniform()), v = random.uniform();
     return (1.0 - u) * t.a + u * (1.0 - v) * t.b + u * v * t.c;
 }
 
-struct Place {
+struct TouchingPose {
     Pose tool;
-    Vec3 at;  // where it touches, roughly
+    Vec3 at;  // the approximate contact point
 };
 
-// Some point of the tool at some point of a part, come to along some way from outside until anything touches.
-std::optional<Place> come_to(const Scene& scene, const collision::World& world, Random& random) {
+// Moves a random point of the tool towards a random point of a part along a random direction, from outside,
+// until the tool touches anything. Returns nothing if it starts inside or passes without a contact.
+std::optional<TouchingPose> approach(const ContactScene& scene, const collision::CollisionWorld& world,
+                                     Random& random) {
     constexpr double far = 0.4, near = 1 * um;
-    const Part& part = scene.parts[random.bits() % scene.parts.size()];
+    const ObstaclePart& part = scene.parts[random.bits() % scene.parts.size()];
     const Pose turned{Vec3(0.0), random_turn(random)};
     const Vec3 target = world.bodies[part.body].pose * random_point(part.surface, random);
     const Vec3 on_tool = random_point(scene.tool, random);
-    const Vec3 way = random_direction(random);
+    const Vec3 direction = random_direction(random);
     double s = -far;
     while (s < 3 * mm) {
-        const Pose tool{target - turned.orientation * on_tool + s * way, turned.orientation};
-        const Meeting met = meet(scene, world, tool, {.reach = 30 * mm, .depths = {.enough = 0.0}});
-        if (met.crosses) return std::nullopt;
-        if (met.gap < near) return Place{tool, tool * on_tool};
-        s += met.gap;
+        const Pose tool{target - turned.orientation * on_tool + s * direction, turned.orientation};
+        const ExactContact exact =
+            exact_contact(scene, world, tool, {.reach = 30 * mm, .depths = {.stop_depth = 0.0}});
+        if (exact.crosses) return std::nullopt;
+        if (exact.gap < near) return TouchingPose{tool, tool * on_tool};
+        s += exact.gap;
     }
     return std::nullopt;
 }
 
-Pose beside(const Place& place, Random& random) {
+Pose perturbed(const TouchingPose& touching, Random& random) {
     const Quat turn = rotation(random.uniform(0.0, to_radians(1.0)) * random_direction(random));
     const Vec3 shift = random.uniform(0.0, 1.5 * mm) * random_direction(random);
-    return {place.at + turn * (place.tool.position - place.at) + shift,
-            glm::normalize(turn * place.tool.orientation)};
+    return {touching.at + turn * (touching.tool.position - touching.at) + shift,
+            glm::normalize(turn * touching.tool.orientation)};
 }
 
-// Signed, to the nearest part of a body.
-double distance_to(const Scene& scene, const collision::World& world, std::size_t body, const Vec3& point) {
+// Returns the signed distance from a point to the nearest part of a body.
+double distance_to(const ContactScene& scene, const collision::CollisionWorld& world, std::size_t body,
+                   const Vec3& point) {
     const Vec3 p = inverse(world.bodies[body].pose) * point;
     double least = 1.0;
-    for (const Part& part : scene.parts)
+    for (const ObstaclePart& part : scene.parts)
         if (part.body == body) least = std::min(least, signed_distance(part.surface, p, 1.0));
     return least;
 }
 
-std::size_t body_of(const Scene& scene, collision::ObstacleId id) {
+std::size_t body_of(const ContactScene& scene, collision::ObstacleId id) {
     const auto part = std::find_if(scene.parts.begin(), scene.parts.end(),
-                                   [id](const Part& candidate) { return candidate.id == id; });
+                                   [id](const ObstaclePart& candidate) { return candidate.id == id; });
     return part->body;
 }
 
-// Of a point of either side and not of a piece of an edge.
-bool of_point(const Scene& scene, const collision::World& world, const collision::ToolShape& tool,
-              const collision::Contact& c) {
-    const collision::Samples& samples =
-        (c.feature & of_obstacle) == 0 ? tool.samples
-                                       : world.shapes[world.bodies[body_of(scene, c.obstacle)].shape].samples;
-    return samples.samples[c.feature & ~of_obstacle].piece == collision::Sample::no_piece;
+// Returns whether the contact belongs to a sample point of either side, and not to a piece of an edge.
+bool is_point_contact(const ContactScene& scene, const collision::CollisionWorld& world,
+                      const collision::ToolShape& tool, const collision::Contact& c) {
+    const collision::SurfaceSamples& samples =
+        (c.feature & obstacle_bit) == 0
+            ? tool.samples
+            : world.shapes[world.bodies[body_of(scene, c.obstacle)].shape].samples;
+    return samples.samples[c.feature & ~obstacle_bit].piece == collision::SurfaceSample::no_piece;
 }
 
-void hold_against(const Scene& scene, const collision::World& world, const collision::ToolShape& tool,
-                  std::span<const collision::Contact> contacts, NearPose& pose) {
+void compare_contacts(const ContactScene& scene, const collision::CollisionWorld& world,
+                      const collision::ToolShape& tool, std::span<const collision::Contact> contacts,
+                      NearPose& pose) {
     const Pose to_tool = inverse(pose.tool);
     for (const collision::Contact& c : contacts) {
         double from_obstacle = 1.0;
-        for (const Part& part : scene.parts)
+        for (const ObstaclePart& part : scene.parts)
             if (part.id == c.obstacle)
                 from_obstacle =
                     std::min(from_obstacle,
@@ -101,33 +107,35 @@ void hold_against(const Scene& scene, const collision::World& world, const colli
                                  .distance);
         const double from_tool = nearest(scene.tool.tree, to_tool * c.on_tool, 1.0).distance;
         const double length = glm::length(c.on_tool - c.on_obstacle) - std::abs(c.distance);
-        double& off = of_point(scene, world, tool, c) ? pose.off : pose.off_edges;
-        off = std::max({off, from_obstacle, from_tool, std::abs(length)});
+        double& error = is_point_contact(scene, world, tool, c) ? pose.point_error : pose.edge_error;
+        error = std::max({error, from_obstacle, from_tool, std::abs(length)});
     }
-    // Of the nearest, if a point of one is told of and no crossing of edges, the very distance.
+    // Compare the exact distance for the nearest contact, if it belongs to a sample point.
     const collision::Contact& c = contacts.front();
-    if (!of_point(scene, world, tool, c)) return;
+    if (!is_point_contact(scene, world, tool, c)) return;
     const Vec3 on_tool = to_tool * c.on_obstacle;
     double truth = signed_distance(scene.tool, on_tool, 1.0);
-    if ((c.feature & of_obstacle) == 0) {
+    if ((c.feature & obstacle_bit) == 0) {
         truth = 1.0;
         for (std::size_t b = 0; b < world.bodies.size(); ++b)
             truth = std::min(truth, distance_to(scene, world, b, c.on_tool));
     }
-    pose.wrong = std::abs(c.distance - truth);
+    pose.distance_error = std::abs(c.distance - truth);
 }
 
-void look_at(const Scene& scene, const collision::World& world, const collision::ToolShape& tool, double band,
-             collision::NarrowPhaseState& state, NearPose& pose) {
+void evaluate(const ContactScene& scene, const collision::CollisionWorld& world,
+              const collision::ToolShape& tool, double band, collision::NarrowPhaseState& state,
+              NearPose& pose) {
     std::array<collision::Contact, 32> contacts;
     const collision::ContactQueryResult found =
         collision::find_contacts(world, tool, pose.tool, band, state, contacts);
-    const Looking looking{.reach = band + 10 * um, .depths = {.enough = 0.5 * mm, .tolerance = 0.5 * um}};
-    pose.truth = meet(scene, world, pose.tool, looking);
-    pose.points = meet_points(scene, world, pose.tool, pose.truth.crosses, looking);
+    const OracleQuery query{.reach = band + 10 * um,
+                            .depths = {.stop_depth = 0.5 * mm, .tolerance = 0.5 * um}};
+    pose.truth = exact_contact(scene, world, pose.tool, query);
+    pose.points = exact_contact_of_points(scene, world, pose.tool, pose.truth.crosses, query);
     pose.found = found.count > 0;
-    pose.told = pose.found ? contacts[0].distance : band;
-    if (pose.found) hold_against(scene, world, tool, std::span(contacts).first(found.count), pose);
+    pose.reported = pose.found ? contacts[0].distance : band;
+    if (pose.found) compare_contacts(scene, world, tool, std::span(contacts).first(found.count), pose);
 }
 
 double quantile(std::vector<double>& sorted, double share) {
@@ -138,20 +146,21 @@ double quantile(std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-std::vector<NearPose> near_poses(const Scene& scene, const collision::World& world,
+std::vector<NearPose> near_poses(const ContactScene& scene, const collision::CollisionWorld& world,
                                  const collision::ToolShape& tool, const NearOptions& options) {
     std::vector<NearPose> all(options.poses);
-    const std::size_t places = (options.poses + around_each - 1) / around_each;
+    const std::size_t approaches = (options.poses + poses_per_approach - 1) / poses_per_approach;
     const auto work = [&](std::size_t first) {
         collision::NarrowPhaseState state = collision::make_narrow_phase(world, tool);
-        for (std::size_t i = first; i < places; i += options.threads) {
+        for (std::size_t i = first; i < approaches; i += options.threads) {
             Random random(options.seed, i);
             collision::clear_cache(state, world, tool);
-            std::optional<Place> place;
-            while (!place) place = come_to(scene, world, random);
-            for (std::size_t k = i * around_each; k < std::min(all.size(), (i + 1) * around_each); ++k) {
-                all[k].tool = beside(*place, random);
-                look_at(scene, world, tool, options.band, state, all[k]);
+            std::optional<TouchingPose> touching;
+            while (!touching) touching = approach(scene, world, random);
+            for (std::size_t k = i * poses_per_approach;
+                 k < std::min(all.size(), (i + 1) * poses_per_approach); ++k) {
+                all[k].tool = perturbed(*touching, random);
+                evaluate(scene, world, tool, options.band, state, all[k]);
             }
         }
     };
@@ -162,64 +171,67 @@ std::vector<NearPose> near_poses(const Scene& scene, const collision::World& wor
     return all;
 }
 
-bool told_outside(const NearPose& pose) {
-    return pose.truth.depth > deep && !(pose.found && pose.told < 0.0);
+bool reported_outside(const NearPose& pose) {
+    return pose.truth.depth > deep && !(pose.found && pose.reported < 0.0);
 }
-bool missed(const NearPose& pose) { return pose.truth.depth > deep && !(pose.found && pose.told < margin); }
+bool missed(const NearPose& pose) {
+    return pose.truth.depth > deep && !(pose.found && pose.reported < margin);
+}
 
 NearSummary summarize(const std::vector<NearPose>& poses, double band) {
     NearSummary sum;
-    std::vector<double> later;
+    std::vector<double> gap_over;
     for (const NearPose& pose : poses) {
         ++sum.poses;
-        sum.off = std::max(sum.off, pose.off);
-        sum.off_edges = std::max(sum.off_edges, pose.off_edges);
-        sum.wrong = std::max(sum.wrong, pose.wrong);
+        sum.point_error = std::max(sum.point_error, pose.point_error);
+        sum.edge_error = std::max(sum.edge_error, pose.edge_error);
+        sum.distance_error = std::max(sum.distance_error, pose.distance_error);
         if (pose.truth.crosses) {
             ++sum.crossing;
             sum.deep += pose.truth.depth > deep ? 1U : 0U;
-            sum.told_outside += told_outside(pose) ? 1U : 0U;
+            sum.reported_outside += reported_outside(pose) ? 1U : 0U;
             sum.missed += missed(pose) ? 1U : 0U;
-            if (!pose.found || pose.told >= 0.0)
-                sum.deepest_untold = std::max(sum.deepest_untold, pose.truth.depth);
+            if (!pose.found || pose.reported >= 0.0)
+                sum.deepest_unreported = std::max(sum.deepest_unreported, pose.truth.depth);
             if (pose.points.depth > 0.0)
-                sum.shallower_than_points =
-                    std::max(sum.shallower_than_points, pose.points.depth + pose.told);
+                sum.depth_under_points = std::max(sum.depth_under_points, pose.points.depth + pose.reported);
             continue;
         }
         ++sum.free;
-        sum.nearer = std::max(sum.nearer, std::min(band, pose.truth.gap) - pose.told);
+        sum.gap_under = std::max(sum.gap_under, std::min(band, pose.truth.gap) - pose.reported);
         if (pose.truth.gap >= band) continue;
         ++sum.near;
-        later.push_back(pose.told - pose.truth.gap);
-        sum.later_than_points = std::max(sum.later_than_points, pose.told - std::min(band, pose.points.gap));
+        gap_over.push_back(pose.reported - pose.truth.gap);
+        sum.gap_over_points = std::max(sum.gap_over_points, pose.reported - std::min(band, pose.points.gap));
     }
-    std::sort(later.begin(), later.end());
-    sum.later = quantile(later, 1.0);
-    sum.later_p50 = quantile(later, 0.5);
-    sum.later_p99 = quantile(later, 0.99);
-    const auto exact = std::upper_bound(later.begin(), later.end(), 1 * um) - later.begin();
+    std::sort(gap_over.begin(), gap_over.end());
+    sum.gap_over = quantile(gap_over, 1.0);
+    sum.gap_over_p50 = quantile(gap_over, 0.5);
+    sum.gap_over_p99 = quantile(gap_over, 0.99);
+    const auto exact = std::upper_bound(gap_over.begin(), gap_over.end(), 1 * um) - gap_over.begin();
     sum.within_micrometre =
-        later.empty() ? 0.0 : static_cast<double>(exact) / static_cast<double>(later.size());
+        gap_over.empty() ? 0.0 : static_cast<double>(exact) / static_cast<double>(gap_over.size());
     return sum;
 }
 
 std::string to_text(const NearSummary& s) {
     return fmt::format(
         "{} near poses: {} free ({} of them within the band), {} crossing\n"
-        "  contacts: points off their surfaces by {:.4f} um at most, pieces of edges by {:.1f} um; the "
-        "nearest, if it is\n"
-        "    of a point, wrong by {:.4f} um at most\n"
-        "  gaps: told smaller than they are by {:.4f} um at most; later than the points by {:.4f} um, than "
-        "the surfaces\n"
-        "    by {:.1f} um at most (half {:.3f}, 99 % {:.1f} um; {:.1f} % within 1 um)\n"
-        "  crossings: {} deeper than 0.1 mm, {} of them told to be outside, {} by 0.1 mm or more; the "
-        "deepest\n"
-        "    told to be outside {:.1f} um; shallower than the points by {:.4f} um at most\n",
-        s.poses, s.free, s.near, s.crossing, 1e6 * s.off, 1e6 * s.off_edges, 1e6 * s.wrong, 1e6 * s.nearer,
-        1e6 * s.later_than_points, 1e6 * s.later, 1e6 * s.later_p50, 1e6 * s.later_p99,
-        100.0 * s.within_micrometre, s.deep, s.told_outside, s.missed, 1e6 * s.deepest_untold,
-        1e6 * s.shallower_than_points);
+        "  contacts: greatest position error {:.4f} um for points, {:.1f} um for edge pieces; greatest "
+        "distance error\n"
+        "    of a nearest point contact {:.4f} um\n"
+        "  gaps: underestimated by at most {:.4f} um; overestimated by at most {:.4f} um against the sample "
+        "points and\n"
+        "    {:.1f} um against the surfaces (median {:.3f}, 99th percentile {:.1f} um; {:.1f} % within 1 "
+        "um)\n"
+        "  crossings: {} deeper than 0.1 mm, {} of them reported as outside, {} as outside by 0.1 mm or "
+        "more; the deepest\n"
+        "    reported as outside {:.1f} um; depth underestimated by at most {:.4f} um against the sample "
+        "points\n",
+        s.poses, s.free, s.near, s.crossing, 1e6 * s.point_error, 1e6 * s.edge_error, 1e6 * s.distance_error,
+        1e6 * s.gap_under, 1e6 * s.gap_over_points, 1e6 * s.gap_over, 1e6 * s.gap_over_p50,
+        1e6 * s.gap_over_p99, 100.0 * s.within_micrometre, s.deep, s.reported_outside, s.missed,
+        1e6 * s.deepest_unreported, 1e6 * s.depth_under_points);
 }
 
 std::string to_text(const Pose& pose) {

@@ -1,4 +1,4 @@
-// Random poses of the wrench near obstacles, and the contacts that find_contacts returns there against the
+// Compares the contacts that find_contacts returns at random poses of the wrench near obstacles with the
 // contact oracle.
 #pragma once
 
@@ -19,37 +19,42 @@ struct NearOptions {
 
 struct NearPose {
     Pose tool;
-    Meeting truth;
-    Meeting points;      // of the points alone that the finder looks at
-    bool found = false;  // any contact
-    double told = 0.0;   // m, the nearest of them
-    // m, by which a contact is not where it says, off a surface or longer than its distance: of points, of
-    // pieces of edges (a row of short ones is taken for straight).
-    double off = 0.0, off_edges = 0.0;
-    double wrong = 0.0;  // m, by which the distance of a contact is not that of its point
+    ExactContact truth;
+    ExactContact points;    // of the sample points alone
+    bool found = false;     // the query returned a contact
+    double reported = 0.0;  // m, signed distance of the nearest contact; the band if there is none
+    // m, greatest position error of the contacts of points and of edge pieces: the distance of the witness
+    // points from their surfaces, or from each other compared with the reported distance. Edge pieces are
+    // less exact because a row of short edges is taken as straight.
+    double point_error = 0.0, edge_error = 0.0;
+    double distance_error = 0.0;  // m, error of the distance of the nearest contact, if it is one of a point
 };
 
-// Places come to from outside until they just touch, and many poses about each: by up to 1.5 mm and 1°
-// somewhere else, some free, some crossing. The same for the same seed, whatever the number of threads.
-std::vector<NearPose> near_poses(const Scene& scene, const collision::World& world,
+// Approaches obstacles from outside until the wrench just touches, and perturbs each of these poses many
+// times by up to 1.5 mm and 1°: some results are free, some cross. The result depends on the seed but not on
+// the number of threads.
+std::vector<NearPose> near_poses(const ContactScene& scene, const collision::CollisionWorld& world,
                                  const collision::ToolShape& tool, const NearOptions& options);
 
-// Truly inside by more than 0.1 mm: told to be outside, and not told within the 0.1 mm that contact keeps as
-// a margin for what lies between the finder's points.
-bool told_outside(const NearPose& pose);
+// Deeper than 0.1 mm, but reported as outside.
+bool reported_outside(const NearPose& pose);
+// Deeper than 0.1 mm, but not even reported within the margin of 0.1 mm that contact keeps for surface
+// between the sample points.
 bool missed(const NearPose& pose);
 
 struct NearSummary {
-    std::size_t poses = 0, free = 0, near = 0, crossing = 0, deep = 0;  // deep: by more than 0.1 mm
-    std::size_t told_outside = 0, missed = 0;
-    double deepest_untold = 0.0;  // m, of crossings that are not told to be inside
-    // The worst of NearPose.
-    double off = 0.0, off_edges = 0.0, wrong = 0.0;
-    // Nearer than it is: the nearest contact less the true gap. Later: the other way round. Of the points:
-    // what should be told of the points alone.
-    double nearer = 0.0, later = 0.0, later_than_points = 0.0, later_p50 = 0.0, later_p99 = 0.0;
-    double within_micrometre = 0.0;  // share of the gaps
-    double shallower_than_points = 0.0;
+    // near: free with a gap within the band; deep: crossing by more than 0.1 mm.
+    std::size_t poses = 0, free = 0, near = 0, crossing = 0, deep = 0;
+    std::size_t reported_outside = 0, missed = 0;
+    double deepest_unreported = 0.0;  // m, greatest depth of a pose reported as outside
+    // The greatest errors of all poses.
+    double point_error = 0.0, edge_error = 0.0, distance_error = 0.0;
+    // m: the true gap minus the reported one (under), the reported gap minus the true one (over), with the
+    // greatest, the median and the 99th percentile, and the reported gap minus that of the sample points.
+    double gap_under = 0.0, gap_over = 0.0, gap_over_points = 0.0, gap_over_p50 = 0.0, gap_over_p99 = 0.0;
+    // Fraction of the near poses whose reported gap exceeds the true one by at most 1 um.
+    double within_micrometre = 0.0;
+    double depth_under_points = 0.0;  // m, depth of the sample points minus the reported depth
 };
 
 NearSummary summarize(const std::vector<NearPose>& poses, double band);

@@ -17,31 +17,34 @@ namespace bolt::contact_validation {
 namespace {
 
 constexpr double mm = 1e-3;
-constexpr double sure_from = 50e-6;          // m
-constexpr double looked_at_from = 0.2 * mm;  // truth is asked for where the finder has something this near
+constexpr double min_depth = 50e-6;        // m, smaller depths are not resolved
+constexpr double check_within = 0.2 * mm;  // the oracle checks ticks with a contact nearer than this
 
 Quat random_turn(Random& random) {
     return glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
 }
 Vec3 random_direction(Random& random) { return random_turn(random) * Vec3(1, 0, 0); }
 
-void note(PenetrationRun& run, const Meeting& met, collision::ObstacleId in, const Pose& tool) {
-    if (met.crosses) ++run.crossing;
-    if (met.depth <= run.depth) return;
-    run.depth = met.depth;
-    run.in = in;
+void record(PenetrationRun& run, const ExactContact& exact, collision::ObstacleId obstacle,
+            const Pose& tool) {
+    if (exact.crosses) ++run.crossing;
+    if (exact.depth <= run.depth) return;
+    run.depth = exact.depth;
+    run.obstacle = obstacle;
     run.tool = tool;
 }
 
-// Only how deep it is, and only if that is more than was known. Where flat lies on flat, to know it of what
-// is hardly inside would take seconds.
-Looking deeper_than(const PenetrationRun& run) {
-    return {.reach = 0.0, .depths = {.least = std::max(sure_from, run.depth), .tolerance = 10e-6}};
+// Searches only for depths above the greatest so far. Where flat faces touch, resolving smaller depths would
+// take seconds.
+OracleQuery depth_query(const PenetrationRun& run) {
+    return {.reach = 0.0, .depths = {.min_depth = std::max(min_depth, run.depth), .tolerance = 10e-6}};
 }
 
-class Hand {
+// Drives the servo with scripted hand poses and records the penetration of each tick.
+class SimulatedHand {
   public:
-    Hand(const servo::Setup& setup, servo::State& state, const Scene& scene, PenetrationRun& run)
+    SimulatedHand(const servo::Setup& setup, servo::State& state, const ContactScene& scene,
+                  PenetrationRun& run)
         : setup_(setup), state_(state), scene_(scene), run_(run) {}
 
     servo::Output step(const Pose& hand, servo::Grip grip = servo::Grip::wrench) {
@@ -50,11 +53,11 @@ class Hand {
         input.grip = grip;
         input.device = servo::sample_of(hand);
         const servo::Output output = servo::tick(setup_, state_, input);
-        if (grip == servo::Grip::wrench) look(output.tool);
+        if (grip == servo::Grip::wrench) measure(output.tool);
         return output;
     }
-    // In a minimum-jerk motion from where it was left.
-    void go(const Pose& to, double seconds) {
+    // Moves the hand from its current pose along a minimum-jerk profile.
+    void move_to(const Pose& to, double seconds) {
         const int ticks = static_cast<int>(seconds / setup_.dt);
         const Pose from = at_;
         for (int i = 1; i <= ticks; ++i) {
@@ -64,78 +67,83 @@ class Hand {
             step(at_);
         }
     }
-    // Put there without a way; nothing may be there.
-    void begin(const Pose& at) {
+    // Places the hand at a free pose without a motion.
+    void place_at(const Pose& at) {
         at_ = at;
         for (int i = 0; i < 3; ++i) step(at_, servo::Grip::none);
     }
 
   private:
-    void look(const Pose& tool) {
+    void measure(const Pose& tool) {
         ++run_.ticks;
-        const servo::ToolContact& touch = *state_.tool_contact;
-        if (touch.last_step.contacts == 0 || touch.last_step.nearest > looked_at_from) return;
-        ++run_.touching;
+        const servo::ToolContact& contact = *state_.tool_contact;
+        if (contact.last_step.contacts == 0 || contact.last_step.nearest > check_within) return;
+        ++run_.checked;
         bool crosses = false;
         for (std::size_t i = 0; i < scene_.parts.size(); ++i) {
-            const Part& part = scene_.parts[i];
-            Meeting met = meet(scene_, i, inverse(place_of(part, tool)) * tool, deeper_than(run_));
-            crosses = crosses || met.crosses;
-            met.crosses = false;
-            note(run_, met, part.id, tool);
+            const ObstaclePart& part = scene_.parts[i];
+            ExactContact exact =
+                exact_contact(scene_, i, inverse(world_pose_of(part, tool)) * tool, depth_query(run_));
+            crosses = crosses || exact.crosses;
+            exact.crosses = false;
+            record(run_, exact, part.id, tool);
         }
         run_.crossing += crosses ? 1U : 0U;
     }
-    [[nodiscard]] Pose place_of(const Part& part, const Pose& tool) const {
-        const servo::ToolContact& touch = *state_.tool_contact;
-        const Pose place = touch.world.bodies[part.body].pose;
-        if (touch.seated_joint < 0 ||
-            part.id != collision::ObstacleId::nut(static_cast<std::size_t>(touch.seated_joint)))
-            return place;
+    // Returns the world pose of a part. The nut in the jaw is turned so that its misalignment stays within
+    // the play.
+    [[nodiscard]] Pose world_pose_of(const ObstaclePart& part, const Pose& tool) const {
+        const servo::ToolContact& contact = *state_.tool_contact;
+        const Pose pose_of_body = contact.world.bodies[part.body].pose;
+        if (contact.seated_joint < 0 ||
+            part.id != collision::ObstacleId::nut(static_cast<std::size_t>(contact.seated_joint)))
+            return pose_of_body;
         const collision::Jaw& jaw = setup_.wrench.jaw;
-        const servo::NutGeometry& nut = setup_.nuts[static_cast<std::size_t>(touch.seated_joint)];
+        const servo::NutGeometry& nut = setup_.nuts[static_cast<std::size_t>(contact.seated_joint)];
         const double play = joint::rounded_half_play(jaw.opening, nut.across_flats, 0.0);
-        const double off = collision::seat_of(jaw, servo::prism_of(nut), inverse(place) * tool).misalignment;
-        return {place.position,
-                place.orientation * glm::angleAxis(std::clamp(off, -play, play) - off, Vec3(0, 0, 1))};
+        const double off =
+            collision::seat_of(jaw, servo::prism_of(nut), inverse(pose_of_body) * tool).misalignment;
+        return {pose_of_body.position,
+                pose_of_body.orientation * glm::angleAxis(std::clamp(off, -play, play) - off, Vec3(0, 0, 1))};
     }
 
     const servo::Setup& setup_;
     servo::State& state_;
-    const Scene& scene_;
+    const ContactScene& scene_;
     PenetrationRun& run_;
     Pose at_;
 };
 
-// Somewhere in the assembly or beside it, 5 mm from everything.
-Pose free_place(const servo::ToolContact& touch, const Scene& scene, Random& random) {
-    geometry::Box box;
-    for (const Part& part : scene.parts) {
-        const Pose& place = touch.world.bodies[part.body].pose;
-        const geometry::Box own = part.surface.tree.box();
-        box.add(place * own.low);
-        box.add(place * own.high);
+// Returns a random pose in or beside the assembly, at least 5 mm from every obstacle.
+Pose free_pose(const servo::ToolContact& contact, const ContactScene& scene, Random& random) {
+    geometry::Aabb box;
+    for (const ObstaclePart& part : scene.parts) {
+        const Pose& pose_of_body = contact.world.bodies[part.body].pose;
+        const geometry::Aabb own = part.surface.tree.box();
+        box.add(pose_of_body * own.low);
+        box.add(pose_of_body * own.high);
     }
     for (;;) {
         Pose pose{Vec3(0.0), random_turn(random)};
         for (int k = 0; k < 3; ++k) pose.position[k] = random.uniform(box.low[k] - 0.05, box.high[k] + 0.05);
-        const Meeting met = meet(scene, touch.world, pose, {.reach = 5 * mm, .depths = {.enough = 0.0}});
-        if (!met.crosses && met.gap >= 5 * mm) return pose;
+        const ExactContact exact =
+            exact_contact(scene, contact.world, pose, {.reach = 5 * mm, .depths = {.stop_depth = 0.0}});
+        if (!exact.crosses && exact.gap >= 5 * mm) return pose;
     }
 }
 
-// A world of a few boxes, and the god-object in it.
-struct Boxes {
-    collision::World world;
+// A world of a few boxes with a god-object.
+struct BoxWorld {
+    collision::CollisionWorld world;
     const collision::ToolShape& tool;
     const proxy::GodObjectParameters& parameters;
-    Scene scene;
+    ContactScene scene;
     collision::NarrowPhaseState near;
 
-    static Result<Boxes> make(std::span<const geometry::Box> boxes, const collision::ToolShape& tool,
-                              const proxy::GodObjectParameters& parameters) {
+    static Result<BoxWorld> make(std::span<const geometry::Aabb> boxes, const collision::ToolShape& tool,
+                                 const proxy::GodObjectParameters& parameters) {
         std::vector<collision::ContactMesh> meshes;
-        for (const geometry::Box& box : boxes) {
+        for (const geometry::Aabb& box : boxes) {
             Result<collision::ContactMesh> mesh = mesh_of(box);
             if (!mesh) return fail(mesh.error());
             meshes.push_back(std::move(*mesh));
@@ -143,11 +151,11 @@ struct Boxes {
         std::vector<collision::Obstacle> obstacles;
         for (const collision::ContactMesh& mesh : meshes)
             obstacles.push_back({collision::ObstacleId::fixed(obstacles.size()), &mesh, {}, false});
-        Result<collision::World> world = collision::make_world(obstacles);
+        Result<collision::CollisionWorld> world = collision::make_world(obstacles);
         if (!world) return fail(world.error());
-        Scene scene = make_scene(*world, tool);
+        ContactScene scene = make_scene(*world, tool);
         collision::NarrowPhaseState near = collision::make_narrow_phase(*world, tool);
-        return Boxes{std::move(*world), tool, parameters, std::move(scene), std::move(near)};
+        return BoxWorld{std::move(*world), tool, parameters, std::move(scene), std::move(near)};
     }
     void step(proxy::GodObjectState& state, const Pose& device, PenetrationRun& run) {
         const proxy::GodObjectStep done = proxy::step_god_object(
@@ -157,14 +165,14 @@ struct Boxes {
             },
             1e-3);
         ++run.ticks;
-        if (done.contacts == 0 || done.nearest > looked_at_from) return;
-        ++run.touching;
-        const Meeting met = meet(scene, world, state.tool, deeper_than(run));
-        note(run, met, scene.parts[met.deepest].id, state.tool);
+        if (done.contacts == 0 || done.nearest > check_within) return;
+        ++run.checked;
+        const ExactContact exact = exact_contact(scene, world, state.tool, depth_query(run));
+        record(run, exact, scene.parts[exact.deepest].id, state.tool);
     }
 
   private:
-    static Result<collision::ContactMesh> mesh_of(const geometry::Box& box) {
+    static Result<collision::ContactMesh> mesh_of(const geometry::Aabb& box) {
         std::vector<glm::vec3> vertices;
         for (int i = 0; i < 8; ++i)
             vertices.emplace_back((i & 1) != 0 ? box.high.x : box.low.x,
@@ -178,26 +186,26 @@ struct Boxes {
 
 }  // namespace
 
-PenetrationRun pulled_through(const servo::Setup& setup, servo::State& state, const Scene& scene,
-                              std::uint64_t seed, int ways) {
-    PenetrationRun run{.name = "pulled through everything"};
-    Hand hand(setup, state, scene, run);
+PenetrationRun run_through_obstacles(const servo::Setup& setup, servo::State& state,
+                                     const ContactScene& scene, std::uint64_t seed, int motions) {
+    PenetrationRun run{.name = "pulled through obstacles"};
+    SimulatedHand hand(setup, state, scene, run);
     Random random(seed, 5);
-    hand.begin(free_place(*state.tool_contact, scene, random));
-    for (int i = 0; i < ways; ++i) hand.go(free_place(*state.tool_contact, scene, random), 1.5);
+    hand.place_at(free_pose(*state.tool_contact, scene, random));
+    for (int i = 0; i < motions; ++i) hand.move_to(free_pose(*state.tool_contact, scene, random), 1.5);
     return run;
 }
 
-PenetrationRun at_nuts(const servo::Setup& setup, servo::State& state, const Scene& scene, std::uint64_t seed,
-                       int times) {
-    PenetrationRun run{.name = "put onto nuts, badly"};
-    Hand hand(setup, state, scene, run);
+PenetrationRun run_onto_nuts(const servo::Setup& setup, servo::State& state, const ContactScene& scene,
+                             std::uint64_t seed, int times) {
+    PenetrationRun run{.name = "put onto nuts, misaligned"};
+    SimulatedHand hand(setup, state, scene, run);
     Random random(seed, 6);
     for (int i = 0; i < times; ++i) {
         const std::size_t joint = random.bits() % setup.nuts.size();
         const servo::NutGeometry& nut = setup.nuts[joint];
         const double angle = state.joints[joint].nut.angle;
-        // A free way round, jaw on the flats but for some misfit.
+        // Try the six orientations of the jaw on the flats until the handle is free.
         Pose over;
         const auto above = [&](double height, const Vec3& aside) {
             return servo::nut_centre(nut, angle) + height * nut.axis + aside;
@@ -209,40 +217,42 @@ PenetrationRun at_nuts(const servo::Setup& setup, servo::State& state, const Sce
             over.orientation =
                 glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(nut.axis, x), nut.axis)));
             over.position = above(35 * mm, Vec3(0.0));
-            free = !meet(scene, state.tool_contact->world, over, {.depths = {.enough = 0.0}}).crosses;
+            free = !exact_contact(scene, state.tool_contact->world, over, {.depths = {.stop_depth = 0.0}})
+                        .crosses;
         }
         if (!free) continue;
         const Quat misfit = glm::angleAxis(to_radians(random.uniform(-8.0, 8.0)), nut.axis);
         const Quat tilt = rotation(to_radians(random.uniform(0.0, 4.0)) * random_direction(random));
         const Quat turned = glm::normalize(tilt * misfit * over.orientation);
         const Vec3 aside = random.uniform(0.0, 1.5 * mm) * random_direction(random);
-        hand.begin(over);
-        hand.go({above(random.uniform(-8.0, 3.0) * mm, aside), turned}, 0.5);
-        // Home, there turned about, tilted and pulled at, and off by some way.
+        hand.place_at(over);
+        hand.move_to({above(random.uniform(-8.0, 3.0) * mm, aside), turned}, 0.5);
+        // Seat the jaw, then turn, tilt and pull it there, and lift it off.
         const Vec3 home = above(random.uniform(-3.0, 3.0) * mm, Vec3(0.0));
-        hand.go({home, over.orientation}, 0.4);
+        hand.move_to({home, over.orientation}, 0.4);
         for (int k = 0; k < 3; ++k) {
             const Quat about = glm::angleAxis(to_radians(random.uniform(-40.0, 40.0)), nut.axis);
             const Quat over_it = rotation(to_radians(random.uniform(0.0, 6.0)) * random_direction(random));
-            hand.go({home + random.uniform(0.0, 8.0 * mm) * random_direction(random),
-                     glm::normalize(over_it * about * over.orientation)},
-                    random.uniform(0.1, 0.5));
+            hand.move_to({home + random.uniform(0.0, 8.0 * mm) * random_direction(random),
+                          glm::normalize(over_it * about * over.orientation)},
+                         random.uniform(0.1, 0.5));
         }
-        hand.go({above(35 * mm, 10 * mm * random_direction(random)), over.orientation}, 0.3);
+        hand.move_to({above(35 * mm, 10 * mm * random_direction(random)), over.orientation}, 0.3);
     }
     return run;
 }
 
-Result<PenetrationRun> flicked(const collision::ToolShape& tool, const proxy::GodObjectParameters& parameters,
-                               std::uint64_t seed, int times) {
+Result<PenetrationRun> run_flicks(const collision::ToolShape& tool,
+                                  const proxy::GodObjectParameters& parameters, std::uint64_t seed,
+                                  int times) {
     PenetrationRun run{.name = "flicked through a rib of 1 mm at 2 m/s"};
-    const geometry::Box rib{Vec3(-0.5 * mm, -1.0, -1.0), Vec3(0.5 * mm, 1.0, 1.0)};
-    Result<Boxes> boxes = Boxes::make({&rib, 1}, tool, parameters);
+    const geometry::Aabb rib{Vec3(-0.5 * mm, -1.0, -1.0), Vec3(0.5 * mm, 1.0, 1.0)};
+    Result<BoxWorld> boxes = BoxWorld::make({&rib, 1}, tool, parameters);
     if (!boxes) return fail(boxes.error());
     Random random(seed, 7);
     for (int i = 0; i < times; ++i) {
         const Quat turn = random_turn(random);
-        double front = 0.0;  // of the tool towards the rib
+        double front = 0.0;  // m, extent of the tool towards the rib
         for (const glm::vec3& v : tool.solid.mesh.vertices) front = std::max(front, (turn * Vec3(v)).x);
         const Vec3 start(-front - 1 * mm - random.uniform(0.0, 2 * mm), 0.0, 0.0);
         const Vec3 velocity =
@@ -253,7 +263,7 @@ Result<PenetrationRun> flicked(const collision::ToolShape& tool, const proxy::Go
             const double t = k * 1e-3;
             boxes->step(state, {start + velocity * t, glm::normalize(rotation(spin * t) * turn)}, run);
         }
-        // Behind the rib it is free again, and no crossing tells.
+        // A tool that has passed the rib no longer crosses it, so check the side as well.
         for (const glm::vec3& v : tool.solid.mesh.vertices)
             if ((state.tool * Vec3(v)).x > 0.5 * mm)
                 run.depth = std::max(run.depth, (state.tool * Vec3(v)).x);
@@ -261,15 +271,15 @@ Result<PenetrationRun> flicked(const collision::ToolShape& tool, const proxy::Go
     return run;
 }
 
-Result<PenetrationRun> in_a_slot(const collision::ToolShape& tool,
-                                 const proxy::GodObjectParameters& parameters, double thickness,
-                                 std::uint64_t seed, int ticks) {
+Result<PenetrationRun> run_in_slot(const collision::ToolShape& tool,
+                                   const proxy::GodObjectParameters& parameters, double thickness,
+                                   std::uint64_t seed, int ticks) {
     PenetrationRun run{.name = "jaw in a slot of 1 mm more than it is thick"};
     const double half = 0.5 * (thickness + 1 * mm);
-    const std::array<geometry::Box, 2> plates{
-        geometry::Box{Vec3(-0.08, -0.08, half), Vec3(0.0, 0.08, half + 0.02)},
-        geometry::Box{Vec3(-0.08, -0.08, -half - 0.02), Vec3(0.0, 0.08, -half)}};
-    Result<Boxes> boxes = Boxes::make(plates, tool, parameters);
+    const std::array<geometry::Aabb, 2> plates{
+        geometry::Aabb{Vec3(-0.08, -0.08, half), Vec3(0.0, 0.08, half + 0.02)},
+        geometry::Aabb{Vec3(-0.08, -0.08, -half - 0.02), Vec3(0.0, 0.08, -half)}};
+    Result<BoxWorld> boxes = BoxWorld::make(plates, tool, parameters);
     if (!boxes) return fail(boxes.error());
     Random random(seed, 8);
     proxy::GodObjectState state = proxy::start_god_object({});
@@ -293,10 +303,10 @@ Result<PenetrationRun> in_a_slot(const collision::ToolShape& tool,
 }
 
 std::string to_text(const PenetrationRun& run) {
-    std::string text = fmt::format("{}: {} ticks, {} looked at, {} crossing, deepest {:.1f} um", run.name,
-                                   run.ticks, run.touching, run.crossing, 1e6 * run.depth);
-    if (!run.in.is_none())
-        text += fmt::format(" in {} {}, {}", run.in.is_nut() ? "nut" : "obstacle", run.in.index(),
+    std::string text = fmt::format("{}: {} ticks, {} checked, {} crossing, greatest depth {:.1f} um",
+                                   run.name, run.ticks, run.checked, run.crossing, 1e6 * run.depth);
+    if (!run.obstacle.is_none())
+        text += fmt::format(" in {} {}, {}", run.obstacle.is_nut() ? "nut" : "obstacle", run.obstacle.index(),
                             to_text(run.tool));
     return text + "\n";
 }

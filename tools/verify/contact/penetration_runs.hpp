@@ -1,5 +1,5 @@
-// Motions of a hand through obstacles, and the greatest depth of the wrench that the god-object holds back,
-// by the contact oracle.
+// Moves a simulated hand through obstacles and measures, with the contact oracle, how deep the wrench
+// penetrates them under the god-object.
 #pragma once
 
 #include <string>
@@ -11,30 +11,32 @@ namespace bolt::contact_validation {
 
 struct PenetrationRun {
     std::string name;
-    std::size_t ticks = 0, touching = 0, crossing = 0;
-    // m, the greatest; depths above 60 um are resolved to 10 um.
-    double depth = 0.0;
-    collision::ObstacleId in{};  // the obstacle, there
-    Pose tool{};                 // there
+    std::size_t ticks = 0;
+    std::size_t checked = 0;           // ticks near an obstacle, which the oracle checked
+    std::size_t crossing = 0;          // checked ticks in which the surfaces crossed
+    double depth = 0.0;                // m, greatest penetration; depths above 60 um are resolved to 10 um
+    collision::ObstacleId obstacle{};  // the obstacle with that depth
+    Pose tool{};                       // the pose of the wrench at that depth
 };
 
-// From one free pose to another through everything, 1.5 s each. The hexagon of a nut that the jaw sits on
-// counts as turned with it beyond the play, as the tick has it (servo/touch.hpp).
-PenetrationRun pulled_through(const servo::Setup& setup, servo::State& state, const Scene& scene,
-                              std::uint64_t seed, int ways);
+// `motions` straight motions between random free poses, through whatever lies between, 1.5 s each. The
+// hexagon of the nut in the jaw is taken to turn with the jaw beyond the play, as in servo/tool_contact.hpp.
+PenetrationRun run_through_obstacles(const servo::Setup& setup, servo::State& state,
+                                     const ContactScene& scene, std::uint64_t seed, int motions);
 
-// Onto random nuts, misaligned: offset, turned, tilted, pressed on, twisted, pulled off.
-PenetrationRun at_nuts(const servo::Setup& setup, servo::State& state, const Scene& scene, std::uint64_t seed,
-                       int times);
+// `times` misaligned approaches to random nuts: offset, turned, tilted, pressed on, twisted and pulled off.
+PenetrationRun run_onto_nuts(const servo::Setup& setup, servo::State& state, const ContactScene& scene,
+                             std::uint64_t seed, int times);
 
-// The god-object with this tool alone. Flicked at 2 m/s through a rib of 1 mm.
-Result<PenetrationRun> flicked(const collision::ToolShape& tool, const proxy::GodObjectParameters& parameters,
-                               std::uint64_t seed, int times);
+// The god-object with this tool alone, moved at 2 m/s through a rib of 1 mm.
+Result<PenetrationRun> run_flicks(const collision::ToolShape& tool,
+                                  const proxy::GodObjectParameters& parameters, std::uint64_t seed,
+                                  int times);
 
-// The jaw's end in a slot that is 1 mm wider than the jaw is thick (m), pulled about at up to 1 m/s.
-Result<PenetrationRun> in_a_slot(const collision::ToolShape& tool,
-                                 const proxy::GodObjectParameters& parameters, double thickness,
-                                 std::uint64_t seed, int ticks);
+// The jaw's end in a slot 1 mm wider than the jaw's `thickness` (m), moved at random at up to 1 m/s.
+Result<PenetrationRun> run_in_slot(const collision::ToolShape& tool,
+                                   const proxy::GodObjectParameters& parameters, double thickness,
+                                   std::uint64_t seed, int ticks);
 
 std::string to_text(const PenetrationRun& run);
 

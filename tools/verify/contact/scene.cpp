@@ -8,7 +8,7 @@ using namespace contact_oracle;
 
 namespace {
 
-// The parts that a solid was joined from.
+// Splits a solid into the parts from which it was joined.
 std::vector<collision::ContactMesh> parts_of(const collision::Solid& solid) {
     std::vector<collision::ContactMesh> parts;
     for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
@@ -20,24 +20,25 @@ std::vector<collision::ContactMesh> parts_of(const collision::Solid& solid) {
     return parts;
 }
 
-// The sample points of a shape, as degenerate triangles: contact queries must know their exact distance.
-geometry::Bvh points_of(const collision::Samples& samples) {
+// Returns the sample points of a shape as degenerate triangles. Contact queries must return their exact
+// distance.
+geometry::Bvh points_of(const collision::SurfaceSamples& samples) {
     std::vector<geometry::Triangle> points;
-    for (const collision::Sample& sample : samples.samples)
-        if (sample.piece == collision::Sample::no_piece)
+    for (const collision::SurfaceSample& sample : samples.samples)
+        if (sample.piece == collision::SurfaceSample::no_piece)
             points.push_back({sample.at, sample.at, sample.at, 0});
     return geometry::Bvh(std::move(points));
 }
 
-// Only what is deeper still.
-DepthOptions beyond(DepthOptions depths, double known) {
-    depths.least = std::max(depths.least, known);
+// Restricts the search to depths above `known` (m).
+DepthOptions deeper_than(DepthOptions depths, double known) {
+    depths.min_depth = std::max(depths.min_depth, known);
     return depths;
 }
 
 }  // namespace
 
-Surface surface_of(const collision::ContactMesh& mesh) {
+ClosedSurface surface_of(const collision::ContactMesh& mesh) {
     std::vector<geometry::Triangle> triangles;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto [a, b, c] = collision::corners(mesh, t);
@@ -46,12 +47,12 @@ Surface surface_of(const collision::ContactMesh& mesh) {
     return contact_oracle::make_surface(std::move(triangles));
 }
 
-Scene make_scene(const collision::World& world, const collision::ToolShape& tool) {
-    Scene scene;
+ContactScene make_scene(const collision::CollisionWorld& world, const collision::ToolShape& tool) {
+    ContactScene scene;
     scene.tool = surface_of(tool.solid.mesh);
     scene.tool_points = points_of(tool.samples);
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const collision::Shape& shape = world.shapes[world.bodies[b].shape];
+        const collision::CollisionShape& shape = world.shapes[world.bodies[b].shape];
         const std::vector<collision::ContactMesh> parts = parts_of(shape.solid);
         for (std::size_t i = 0; i < parts.size(); ++i)
             scene.parts.push_back(
@@ -61,53 +62,56 @@ Scene make_scene(const collision::World& world, const collision::ToolShape& tool
     return scene;
 }
 
-Meeting meet(const Scene& scene, std::size_t part, const Pose& to_part, const Looking& looking) {
-    const Surface& surface = scene.parts[part].surface;
-    Meeting met;
-    met.crosses = cross(surface.tree, scene.tool.tree, to_part);
-    if (!met.crosses) {
-        met.gap = gap(surface.tree, scene.tool.tree, to_part, looking.reach);
-        return met;
+ExactContact exact_contact(const ContactScene& scene, std::size_t part, const Pose& to_part,
+                           const OracleQuery& query) {
+    const ClosedSurface& surface = scene.parts[part].surface;
+    ExactContact exact;
+    exact.crosses = cross(surface.tree, scene.tool.tree, to_part);
+    if (!exact.crosses) {
+        exact.gap = gap(surface.tree, scene.tool.tree, to_part, query.reach);
+        return exact;
     }
-    met.depth = depth_in(scene.tool.tree, surface, to_part, looking.depths);
-    met.depth = std::max(
-        met.depth, depth_in(surface.tree, scene.tool, inverse(to_part), beyond(looking.depths, met.depth)));
-    return met;
+    exact.depth = depth_in(scene.tool.tree, surface, to_part, query.depths);
+    exact.depth = std::max(exact.depth, depth_in(surface.tree, scene.tool, inverse(to_part),
+                                                 deeper_than(query.depths, exact.depth)));
+    return exact;
 }
 
-Meeting meet(const Scene& scene, const collision::World& world, const Pose& tool, const Looking& looking) {
-    Meeting all{false, looking.reach, 0.0, 0};
-    Looking less = looking;
+ExactContact exact_contact(const ContactScene& scene, const collision::CollisionWorld& world,
+                           const Pose& tool, const OracleQuery& query) {
+    ExactContact all{false, query.reach, 0.0, 0};
+    OracleQuery remaining = query;
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-        const Meeting met = meet(scene, i, inverse(world.bodies[scene.parts[i].body].pose) * tool, less);
-        if (met.depth > all.depth) all.depth = met.depth, all.deepest = i;
-        if (!met.crosses && met.gap < all.gap) all.gap = met.gap;
-        all.crosses = all.crosses || met.crosses;
-        less.depths = beyond(less.depths, all.depth);
-        less.reach = all.gap;
+        const ExactContact exact =
+            exact_contact(scene, i, inverse(world.bodies[scene.parts[i].body].pose) * tool, remaining);
+        if (exact.depth > all.depth) all.depth = exact.depth, all.deepest = i;
+        if (!exact.crosses && exact.gap < all.gap) all.gap = exact.gap;
+        all.crosses = all.crosses || exact.crosses;
+        remaining.depths = deeper_than(remaining.depths, all.depth);
+        remaining.reach = all.gap;
     }
     if (all.crosses) all.gap = 0.0;
     return all;
 }
 
-Meeting meet_points(const Scene& scene, const collision::World& world, const Pose& tool, bool crosses,
-                    const Looking& looking) {
-    Meeting all{crosses, looking.reach, 0.0, 0};
+ExactContact exact_contact_of_points(const ContactScene& scene, const collision::CollisionWorld& world,
+                                     const Pose& tool, bool crosses, const OracleQuery& query) {
+    ExactContact all{crosses, query.reach, 0.0, 0};
     for (std::size_t i = 0; i < scene.parts.size(); ++i) {
-        const Part& part = scene.parts[i];
+        const ObstaclePart& part = scene.parts[i];
         const Pose to_part = inverse(world.bodies[part.body].pose) * tool;
         const bool first =
-            i == 0 || scene.parts[i - 1].body != part.body;  // the body's points belong to all its parts
+            i == 0 || scene.parts[i - 1].body != part.body;  // all parts of a body share its points
         if (!crosses) {
             all.gap = gap(part.surface.tree, scene.tool_points, to_part, all.gap);
             if (first) all.gap = gap(scene.points[part.body], scene.tool.tree, to_part, all.gap);
             continue;
         }
         const auto deeper = [&](double depth) { all.depth = std::max(all.depth, depth); };
-        deeper(depth_in(scene.tool_points, part.surface, to_part, beyond(looking.depths, all.depth)));
+        deeper(depth_in(scene.tool_points, part.surface, to_part, deeper_than(query.depths, all.depth)));
         if (first)
             deeper(depth_in(scene.points[part.body], scene.tool, inverse(to_part),
-                            beyond(looking.depths, all.depth)));
+                            deeper_than(query.depths, all.depth)));
     }
     return all;
 }

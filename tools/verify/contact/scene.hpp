@@ -1,4 +1,5 @@
-// The obstacles of a servo, part by part, and their exact distance to and depth in the wrench.
+// The wrench and the obstacles of a servo as oracle surfaces, part by part, with their exact gap and
+// penetration depth.
 #pragma once
 
 #include <vector>
@@ -8,47 +9,50 @@
 
 namespace bolt::contact_validation {
 
+using contact_oracle::ClosedSurface;
 using contact_oracle::DepthOptions;
-using contact_oracle::Surface;
 
-// The triangles of a contact mesh, for the oracle.
-Surface surface_of(const collision::ContactMesh& mesh);
+ClosedSurface surface_of(const collision::ContactMesh& mesh);
 
-// A closed part of a body of the world.
-struct Part {
-    Surface surface;
+// A closed part of a body of the world, in the body's frame.
+struct ObstaclePart {
+    ClosedSurface surface;
     std::size_t body = 0;
-    collision::ObstacleId id;  // of its obstacle
+    collision::ObstacleId id;  // the obstacle to which it belongs
 };
 
-struct Scene {
-    std::vector<Part> parts;
-    Surface tool;
-    geometry::Bvh tool_points;
-    std::vector<geometry::Bvh> points;  // by body
+// Sample points are stored as degenerate triangles.
+struct ContactScene {
+    std::vector<ObstaclePart> parts;
+    ClosedSurface tool;
+    geometry::Bvh tool_points;          // sample points of the tool
+    std::vector<geometry::Bvh> points;  // sample points of each body
 };
 
-Scene make_scene(const collision::World& world, const collision::ToolShape& tool);
+ContactScene make_scene(const collision::CollisionWorld& world, const collision::ToolShape& tool);
 
-struct Meeting {
+// The exact contact between tool and obstacles.
+struct ExactContact {
     bool crosses = false;
-    double gap = 0.0;         // m, where nothing crosses; `reach` where there is none smaller
+    double gap = 0.0;         // m, at most `reach`; 0 if the surfaces cross
     double depth = 0.0;       // m, of the deepest point of either in the other
-    std::size_t deepest = 0;  // in which part, or which part in the tool
+    std::size_t deepest = 0;  // index of the part with that depth
 };
 
-struct Looking {
-    double reach = 0.0;  // m, of gaps
+struct OracleQuery {
+    double reach = 0.0;  // m, largest gap that is measured
     DepthOptions depths;
 };
 
-// Disabled bodies count, too.
-Meeting meet(const Scene& scene, const collision::World& world, const Pose& tool, const Looking& looking);
-Meeting meet(const Scene& scene, std::size_t part, const Pose& tool_to_part, const Looking& looking);
+// With one part: that part alone. Without: all parts, disabled bodies included.
+ExactContact exact_contact(const ContactScene& scene, const collision::CollisionWorld& world,
+                           const Pose& tool, const OracleQuery& query);
+ExactContact exact_contact(const ContactScene& scene, std::size_t part, const Pose& tool_to_part,
+                           const OracleQuery& query);
 
-// The same of the points alone that the finder looks at, each in the surface of the other: no gap is smaller,
-// no point deeper than what it should tell.
-Meeting meet_points(const Scene& scene, const collision::World& world, const Pose& tool, bool crosses,
-                    const Looking& looking);
+// The same for the sample points alone, each against the other's surface. A contact query is expected to
+// report this gap or a smaller one, and this depth or a greater one.
+ExactContact exact_contact_of_points(const ContactScene& scene, const collision::CollisionWorld& world,
+                                     const Pose& tool, bool crosses, const OracleQuery& query);
 
 }  // namespace bolt::contact_validation

@@ -20,7 +20,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 
-// sRGB's primaries and D65 in XYZ; the white point is the sum of the columns.
+// From linear sRGB (D65) to XYZ. The white point is the sum of the columns.
 const glm::mat3 xyz_from_rgb(0.4124564F, 0.2126729F, 0.0193339F, 0.3575761F, 0.7151522F, 0.1191920F,
                              0.1804375F, 0.0721750F, 0.9503041F);
 const glm::vec3 white = xyz_from_rgb * glm::vec3(1.0F);
@@ -30,7 +30,8 @@ float linear(std::uint8_t encoded) {
     return x <= 0.04045F ? x / 12.92F : std::pow((x + 0.055F) / 1.055F, 2.4F);
 }
 
-// The opponent space in which the eye's contrast sensitivity is modelled: CIELAB's axes without its curve.
+// Returns the colour in the opponent space in which the eye's contrast sensitivity is modelled: the axes of
+// CIELAB without its nonlinearity.
 glm::vec3 opponent(const glm::vec3& rgb) {
     const glm::vec3 n = xyz_from_rgb * rgb / white;
     return {116.0F * n.y - 16.0F, 500.0F * (n.x - n.y), 200.0F * (n.y - n.z)};
@@ -41,7 +42,7 @@ glm::vec3 rgb_of_opponent(const glm::vec3& c) {
     return glm::inverse(xyz_from_rgb) * (glm::vec3(y + c.y / 500.0F, y, y - c.z / 200.0F) * white);
 }
 
-// CIELAB with Hunt's effect: colours look less colourful where it is dark.
+// Returns CIELAB with the Hunt effect: dark colours look less colourful.
 glm::vec3 hunt_lab(const glm::vec3& rgb) {
     const glm::vec3 n = xyz_from_rgb * rgb / white;
     const auto f = [](float t) {
@@ -58,7 +59,7 @@ float hyab(const glm::vec3& a, const glm::vec3& b) {
 
 using Kernel = std::vector<float>;  // odd length, middle in the middle
 
-// One channel of a picture.
+// One channel of an image.
 struct Plane {
     int width = 0, height = 0;
     std::vector<float> values;
@@ -70,8 +71,8 @@ struct Plane {
     }
 };
 
-// In x with one kernel and in y with another; edges repeat.
-Plane filtered(const Plane& plane, const Kernel& in_x, const Kernel& in_y) {
+// Convolves the plane with one kernel in x and another in y. Border pixels repeat.
+Plane convolve(const Plane& plane, const Kernel& kernel_x, const Kernel& kernel_y) {
     const auto pass = [](const Plane& from, const Kernel& kernel, int dx, int dy) {
         Plane to{from.width, from.height, {}};
         to.values.reserve(from.values.size());
@@ -86,7 +87,7 @@ Plane filtered(const Plane& plane, const Kernel& in_x, const Kernel& in_y) {
         }
         return to;
     };
-    return pass(pass(plane, in_x, 1, 0), in_y, 0, 1);
+    return pass(pass(plane, kernel_x, 1, 0), kernel_y, 0, 1);
 }
 
 Kernel gaussian(float b, int radius, float pixels_per_degree) {
@@ -101,8 +102,8 @@ Kernel gaussian(float b, int radius, float pixels_per_degree) {
     return kernel;
 }
 
-// One channel of the contrast sensitivity: a sum of Gaussians a √(π/b) e^{−π² x²/b}, normalised to keep grey
-// grey.
+// The contrast sensitivity of one channel: a sum of Gaussians a √(π/b) e^{−π² x²/b}, normalised so that
+// uniform grey does not change.
 struct Sensitivity {
     float a1, b1, a2, b2;
 };
@@ -110,16 +111,16 @@ constexpr Sensitivity sensitivities[] = {{1.0F, 0.0047F, 0.0F, 1e-5F},    // lig
                                          {1.0F, 0.0053F, 0.0F, 1e-5F},    // red to green
                                          {34.1F, 0.04F, 13.5F, 0.025F}};  // blue to yellow
 
-Plane seen(const Plane& plane, const Sensitivity& s, float pixels_per_degree) {
+Plane filter_contrast(const Plane& plane, const Sensitivity& s, float pixels_per_degree) {
     const float widest = std::max(s.b1, s.a2 > 0.0F ? s.b2 : 0.0F);
     const int radius =
         static_cast<int>(std::ceil(3.0F * std::sqrt(widest / (2.0F * pi * pi)) * pixels_per_degree));
     const Kernel first = gaussian(s.b1, radius, pixels_per_degree);
-    Plane sum = filtered(plane, first, first);
+    Plane sum = convolve(plane, first, first);
     if (s.a2 <= 0.0F) return sum;
-    // Over the plane a Gaussian sums to b/π: a √(π/b) of it has the weight a √(b/π).
+    // A Gaussian e^{−π² x²/b} integrates to b/π over the plane, so the term a √(π/b) has the weight a √(b/π).
     const Kernel second = gaussian(s.b2, radius, pixels_per_degree);
-    const Plane other = filtered(plane, second, second);
+    const Plane other = convolve(plane, second, second);
     const float weight = s.a1 * std::sqrt(s.b1), share = weight / (weight + s.a2 * std::sqrt(s.b2));
     for (std::size_t i = 0; i < sum.values.size(); ++i)
         sum.values[i] = share * sum.values[i] + (1.0F - share) * other.values[i];
@@ -130,21 +131,22 @@ struct Planes {
     Plane channels[3];
 };
 
-Planes opponents(const Picture& picture) {
+Planes opponent_planes(const RgbImage& image) {
     Planes planes;
-    for (Plane& plane : planes.channels) plane = {picture.width, picture.height, {}};
-    for (std::size_t i = 0; i + 2 < picture.rgb.size(); i += 3) {
+    for (Plane& plane : planes.channels) plane = {image.width, image.height, {}};
+    for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
         const glm::vec3 c =
-            opponent({linear(picture.rgb[i]), linear(picture.rgb[i + 1]), linear(picture.rgb[i + 2])});
+            opponent({linear(image.rgb[i]), linear(image.rgb[i + 1]), linear(image.rgb[i + 2])});
         for (int k = 0; k < 3; ++k) planes.channels[k].values.push_back(c[k]);
     }
     return planes;
 }
 
-// As the eye sees it from that distance, in Hunt-adjusted CIELAB.
+// Returns the pixels as the eye sees them at this resolution, in Hunt-adjusted CIELAB.
 std::vector<glm::vec3> perceived(const Planes& planes, float pixels_per_degree) {
     Plane blurred[3];
-    for (int k = 0; k < 3; ++k) blurred[k] = seen(planes.channels[k], sensitivities[k], pixels_per_degree);
+    for (int k = 0; k < 3; ++k)
+        blurred[k] = filter_contrast(planes.channels[k], sensitivities[k], pixels_per_degree);
     std::vector<glm::vec3> lab;
     lab.reserve(blurred[0].values.size());
     for (std::size_t i = 0; i < blurred[0].values.size(); ++i) {
@@ -154,7 +156,8 @@ std::vector<glm::vec3> perceived(const Planes& planes, float pixels_per_degree) 
     return lab;
 }
 
-// Small differences matter more than their share of the largest one (green against blue).
+// Maps a HyAB distance to 0 … 1, where 1 is the distance between green and blue. Small differences get more
+// than their proportional value.
 float colour_difference(const glm::vec3& a, const glm::vec3& b) {
     constexpr float exponent = 0.7F, knee = 0.4F, at_knee = 0.95F;
     static const float largest = std::pow(hyab(hunt_lab({0, 1, 0}), hunt_lab({0, 0, 1})), exponent);
@@ -165,13 +168,13 @@ float colour_difference(const glm::vec3& a, const glm::vec3& b) {
     return std::min(value, 1.0F);
 }
 
-struct Features {
+struct FeatureMaps {
     Plane edge_x, edge_y, point_x, point_y;
 };
 
-// The first and second derivative of a Gaussian as wide as the finest detail that is noticed; each side sums
-// to one.
-Features features(const Plane& light, float pixels_per_degree) {
+// Filters the lightness with the first (edges) and second (points) derivatives of a Gaussian as wide as the
+// finest detail that the eye notices. The positive and the negative part of each kernel sum to ±1.
+FeatureMaps features(const Plane& light, float pixels_per_degree) {
     const float sigma = 0.5F * 0.082F * pixels_per_degree;
     const int radius = static_cast<int>(std::ceil(3.0F * sigma));
     Kernel smooth, first, second;
@@ -188,8 +191,8 @@ Features features(const Plane& light, float pixels_per_degree) {
         for (float& value : kernel) value /= value > 0.0F ? up : down != 0.0F ? -down : 1.0F;
     };
     for (Kernel* kernel : {&smooth, &first, &second}) balance(*kernel);
-    return {filtered(light, first, smooth), filtered(light, smooth, first), filtered(light, second, smooth),
-            filtered(light, smooth, second)};
+    return {convolve(light, first, smooth), convolve(light, smooth, first), convolve(light, second, smooth),
+            convolve(light, smooth, second)};
 }
 
 Plane lightness(const Plane& achromatic) {
@@ -200,16 +203,16 @@ Plane lightness(const Plane& achromatic) {
 
 }  // namespace
 
-std::vector<float> flip(const Picture& reference, const Picture& test, float pixels_per_degree) {
-    const Planes a = opponents(reference), b = opponents(test);
-    const std::vector<glm::vec3> seen_a = perceived(a, pixels_per_degree),
-                                 seen_b = perceived(b, pixels_per_degree);
-    const Features fa = features(lightness(a.channels[0]), pixels_per_degree);
-    const Features fb = features(lightness(b.channels[0]), pixels_per_degree);
+std::vector<float> flip(const RgbImage& reference, const RgbImage& test, float pixels_per_degree) {
+    const Planes a = opponent_planes(reference), b = opponent_planes(test);
+    const std::vector<glm::vec3> perceived_a = perceived(a, pixels_per_degree),
+                                 perceived_b = perceived(b, pixels_per_degree);
+    const FeatureMaps fa = features(lightness(a.channels[0]), pixels_per_degree);
+    const FeatureMaps fb = features(lightness(b.channels[0]), pixels_per_degree);
     std::vector<float> values;
-    values.reserve(seen_a.size());
-    for (std::size_t i = 0; i < seen_a.size(); ++i) {
-        const float colour = colour_difference(seen_a[i], seen_b[i]);
+    values.reserve(perceived_a.size());
+    for (std::size_t i = 0; i < perceived_a.size(); ++i) {
+        const float colour = colour_difference(perceived_a[i], perceived_b[i]);
         const auto strength = [&](const Plane& x, const Plane& y) {
             return std::hypot(x.values[i], y.values[i]);
         };
@@ -227,28 +230,28 @@ double mean(std::span<const float> values) {
     return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-Result<Picture> read_png(const std::filesystem::path& path) {
+Result<RgbImage> read_png(const std::filesystem::path& path) {
     BOLT_TRY_ASSIGN(const auto bytes, read_file(path, std::size_t{1} << 28U, ErrorCode::failed));
-    assets::Image image;
-    image.name = path.string();
-    image.encoded.assign(bytes.begin(), bytes.end());
-    if (Status decoded = assets::decode(image); !decoded) {
+    assets::Image png;
+    png.name = path.string();
+    png.encoded.assign(bytes.begin(), bytes.end());
+    if (Status decoded = assets::decode(png); !decoded) {
         Error error = decoded.error();
         error.file = path.string();
         return fail(std::move(error));
     }
-    Picture picture{image.width, image.height, {}};
-    const auto channels = static_cast<std::size_t>(image.channels);
-    for (std::size_t i = 0; i < image.pixels.size(); i += channels)
-        for (std::size_t c = 0; c < 3; ++c) picture.rgb.push_back(image.pixels[i + (channels >= 3 ? c : 0)]);
-    return picture;
+    RgbImage image{png.width, png.height, {}};
+    const auto channels = static_cast<std::size_t>(png.channels);
+    for (std::size_t i = 0; i < png.pixels.size(); i += channels)
+        for (std::size_t c = 0; c < 3; ++c) image.rgb.push_back(png.pixels[i + (channels >= 3 ? c : 0)]);
+    return image;
 }
 
-Result<Difference> compare(const Picture& reference, const Picture& test) {
+Result<Difference> compare(const RgbImage& reference, const RgbImage& test) {
     if (reference.width != test.width || reference.height != test.height)
         return fail(ErrorCode::failed,
-                    fmt::format("the pictures have different sizes: {}x{} and {}x{}", reference.width,
-                                reference.height, test.width, test.height));
+                    fmt::format("the images have different sizes, {}x{} and {}x{}; expected equal sizes",
+                                reference.width, reference.height, test.width, test.height));
     Difference difference;
     std::size_t changed = 0;
     for (std::size_t i = 0; i < reference.rgb.size(); i += 3) {
@@ -265,7 +268,7 @@ Result<Difference> compare(const Picture& reference, const Picture& test) {
     return difference;
 }
 
-Status write_flips(const std::filesystem::path& path, const Picture& size, const std::vector<float>& flips) {
+Status write_flips(const std::filesystem::path& path, const RgbImage& size, const std::vector<float>& flips) {
     std::vector<std::uint8_t> grey;
     grey.reserve(flips.size());
     for (const float value : flips)

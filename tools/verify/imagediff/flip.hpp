@@ -1,5 +1,5 @@
-// FLIP: the visible difference of two pictures that are shown in turn, for each pixel; 0 equal, 1 the
-// greatest.
+// Compares two images of one size, by channel and by FLIP: the difference for each pixel that a viewer sees
+// when the two images are shown in turn; 0 equal, 1 the greatest.
 //   P. Andersson, J. Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild, FLIP: A Difference
 //   Evaluator for Alternating Images, Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020. The
 //   low-dynamic-range measure, section 4.
@@ -14,36 +14,34 @@
 
 namespace bolt::imagediff {
 
-// Eight bits a channel, sRGB, three channels, rows from the top.
-struct Picture {
+// 8-bit sRGB, three channels, rows from the top.
+struct RgbImage {
     int width = 0, height = 0;
     std::vector<std::uint8_t> rgb;
 };
 
-// 67 pixels a degree: 0.7 m from a display 0.7 m wide with 3840 pixels.
-inline constexpr float usual_pixels_per_degree = 67.02F;
+// For a viewer 0.7 m from a display that is 0.7 m wide and has 3840 pixels.
+inline constexpr float default_pixels_per_degree = 67.02F;
 
-// A value a pixel; the pictures have the same size.
-std::vector<float> flip(const Picture& reference, const Picture& test,
-                        float pixels_per_degree = usual_pixels_per_degree);
+// Returns one value per pixel. The images must have the same size.
+std::vector<float> flip(const RgbImage& reference, const RgbImage& test,
+                        float pixels_per_degree = default_pixels_per_degree);
 
 double mean(std::span<const float> values);
 
-// Compares two pictures.
-
 struct Difference {
-    int largest = 0;       // of any channel, of 255
-    double changed = 0.0;  // share of pixels with any difference
+    int largest = 0;       // largest difference of any channel, 0 to 255
+    double changed = 0.0;  // fraction of the pixels that differ in any channel
     double mean_flip = 0.0;
-    std::vector<float> flips;  // a pixel
+    std::vector<float> flips;  // one per pixel
 };
 
-Result<Picture> read_png(const std::filesystem::path& path);
+Result<RgbImage> read_png(const std::filesystem::path& path);
 
-// An error if the sizes differ.
-Result<Difference> compare(const Picture& reference, const Picture& test);
+// Fails if the sizes differ.
+Result<Difference> compare(const RgbImage& reference, const RgbImage& test);
 
-// The flips as grey levels.
-Status write_flips(const std::filesystem::path& path, const Picture& size, const std::vector<float>& flips);
+// Writes the FLIP values as grey levels. Only the size of the image `size` is used.
+Status write_flips(const std::filesystem::path& path, const RgbImage& size, const std::vector<float>& flips);
 
 }  // namespace bolt::imagediff

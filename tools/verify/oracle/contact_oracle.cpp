@@ -13,20 +13,21 @@
 
 namespace bolt::contact_oracle {
 
-Surface make_surface(std::vector<geometry::Triangle> triangles) {
+ClosedSurface make_surface(std::vector<geometry::Triangle> triangles) {
     return {geometry::Bvh(std::move(triangles))};
 }
 
-double signed_distance(const Surface& surface, const Vec3& point, double reach) {
+double signed_distance(const ClosedSurface& surface, const Vec3& point, double reach) {
     const double distance = nearest(surface.tree, point, reach).distance;
     return winding(surface, point) != 0 ? -distance : distance;
 }
 
-double depth(const Surface& a, const Surface& b, const Pose& b_to_a, const DepthOptions& options) {
+double depth(const ClosedSurface& a, const ClosedSurface& b, const Pose& b_to_a,
+             const DepthOptions& options) {
     if (!cross(a.tree, b.tree, b_to_a)) return 0.0;
     const double first = depth_in(b.tree, a, b_to_a, options);
     DepthOptions rest = options;
-    rest.least = std::max(options.least, first);
+    rest.min_depth = std::max(options.min_depth, first);
     return std::max(first, depth_in(a.tree, b, inverse(b_to_a), rest));
 }
 
@@ -35,15 +36,16 @@ namespace {
 using geometry::Bvh;
 using geometry::Triangle;
 
-double point_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+double point_segment_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 along = b - a;
     const double square = glm::dot(along, along);
     const double s = square > 0.0 ? std::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0.0;
     return glm::length(p - (a + s * along));
 }
 
-// Two segments are nearest at an end of one, or where the common perpendicular stands on both.
-double perpendicular(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+// Returns the length of the common perpendicular of segments ab and cd if it meets both, else infinity. Two
+// segments are nearest either there or at an end of one.
+double perpendicular_distance(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     constexpr double none = std::numeric_limits<double>::infinity();
     const Vec3 u = b - a, v = d - c, n = glm::cross(u, v), between = c - a;
     const double nn = glm::dot(n, n);
@@ -54,11 +56,11 @@ double perpendicular(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
     return std::abs(glm::dot(between, n)) / std::sqrt(nn);
 }
 
-// A pose as a matrix, which is quicker for many points.
-struct Placing {
+// A pose as a matrix: faster than a quaternion for many points.
+struct RigidTransform {
     glm::dmat3 turn, size;
     Vec3 shift;
-    explicit Placing(const Pose& pose) : turn(glm::mat3_cast(pose.orientation)), shift(pose.position) {
+    explicit RigidTransform(const Pose& pose) : turn(glm::mat3_cast(pose.orientation)), shift(pose.position) {
         for (int i = 0; i < 3; ++i) size[i] = glm::abs(turn[i]);
     }
     Vec3 operator()(const Vec3& p) const { return turn * p + shift; }
@@ -70,28 +72,29 @@ struct Placing {
     }
 };
 
-double between_boxes(const Bvh::Node& a, const Bvh::Node& b) {
+double box_distance(const Bvh::Node& a, const Bvh::Node& b) {
     return glm::length(glm::max(glm::abs(a.middle - b.middle) - a.half - b.half, Vec3(0.0)));
 }
 Bvh::Node box_of(const Triangle& t) {
     const Vec3 low = glm::min(glm::min(t.a, t.b), t.c), high = glm::max(glm::max(t.a, t.b), t.c);
     return {0.5 * (low + high), 0.5 * (high - low), 0, 1};
 }
-double size_of(const Bvh::Node& node) { return glm::length(node.half); }
+double radius_of(const Bvh::Node& node) { return glm::length(node.half); }
 
-// Visits pairs of triangles nearer than `reach`, which `look` may shorten; it ends when that is below 0.
-template <class Look>
-void pairs(const Bvh& a, const Bvh& b, const Pose& b_to_a, double reach, const Look& look) {
+// Calls visit(s, t, reach) for pairs of triangles nearer than `reach` (m). `visit` may reduce `reach`; a
+// negative value ends the traversal.
+template <class Visit>
+void visit_close_pairs(const Bvh& a, const Bvh& b, const Pose& b_to_a, double reach, const Visit& visit) {
     if (a.nodes().empty() || b.nodes().empty()) return;
-    const Placing place(b_to_a);
-    struct Pair {
+    const RigidTransform to_a(b_to_a);
+    struct NodePair {
         std::uint32_t i, k;
         double least;
     };
-    std::vector<Pair> stack{{0, 0, 0.0}};
+    std::vector<NodePair> stack{{0, 0, 0.0}};
     std::vector<Triangle> placed;
     while (!stack.empty()) {
-        const Pair pair = stack.back();
+        const NodePair pair = stack.back();
         stack.pop_back();
         if (pair.least > reach) continue;
         const Bvh::Node& x = a.nodes()[pair.i];
@@ -99,17 +102,17 @@ void pairs(const Bvh& a, const Bvh& b, const Pose& b_to_a, double reach, const L
         if (x.count > 0 && y.count > 0) {
             placed.clear();
             for (std::uint32_t k = y.first; k < y.first + y.count; ++k)
-                placed.push_back(place(b.triangles()[k]));
+                placed.push_back(to_a(b.triangles()[k]));
             for (std::uint32_t i = x.first; i < x.first + x.count; ++i)
                 for (const Triangle& t : placed) {
                     const Triangle& s = a.triangles()[i];
-                    if (between_boxes(box_of(s), box_of(t)) <= reach) look(s, t, reach);
+                    if (box_distance(box_of(s), box_of(t)) <= reach) visit(s, t, reach);
                     if (reach < 0.0) return;
                 }
             continue;
         }
-        const bool open_x = y.count > 0 || (x.count == 0 && size_of(x) >= size_of(y));
-        Pair first = pair, second = pair;
+        const bool open_x = y.count > 0 || (x.count == 0 && radius_of(x) >= radius_of(y));
+        NodePair first = pair, second = pair;
         if (open_x) {
             first.i = x.first;
             second.i = x.first + 1;
@@ -117,9 +120,9 @@ void pairs(const Bvh& a, const Bvh& b, const Pose& b_to_a, double reach, const L
             first.k = y.first;
             second.k = y.first + 1;
         }
-        for (Pair* p : {&first, &second}) p->least = between_boxes(a.nodes()[p->i], place(b.nodes()[p->k]));
-        if (first.least < second.least) std::swap(first, second);  // the nearer on top
-        for (const Pair& p : {first, second})
+        for (NodePair* p : {&first, &second}) p->least = box_distance(a.nodes()[p->i], to_a(b.nodes()[p->k]));
+        if (first.least < second.least) std::swap(first, second);  // the nearer pair on top
+        for (const NodePair& p : {first, second})
             if (p.least <= reach) stack.push_back(p);
     }
 }
@@ -133,7 +136,8 @@ double point_triangle(const Vec3& p, const Triangle& t) {
         glm::dot(glm::cross(t.c - t.b, p - t.b), n) >= 0.0 &&
         glm::dot(glm::cross(t.a - t.c, p - t.c), n) >= 0.0)
         return std::abs(glm::dot(p - t.a, n)) / std::sqrt(square);
-    return std::min({point_segment(p, t.a, t.b), point_segment(p, t.b, t.c), point_segment(p, t.c, t.a)});
+    return std::min({point_segment_distance(p, t.a, t.b), point_segment_distance(p, t.b, t.c),
+                     point_segment_distance(p, t.c, t.a)});
 }
 
 double triangle_triangle(const Triangle& s, const Triangle& t) {
@@ -142,25 +146,25 @@ double triangle_triangle(const Triangle& s, const Triangle& t) {
     for (const Vec3& p : {t.a, t.b, t.c}) least = std::min(least, point_triangle(p, s));
     for (const auto& [a, b] : {std::pair(s.a, s.b), std::pair(s.b, s.c), std::pair(s.c, s.a)})
         for (const auto& [c, d] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)})
-            least = std::min(least, perpendicular(a, b, c, d));
+            least = std::min(least, perpendicular_distance(a, b, c, d));
     return least;
 }
 
 NearestTriangle nearest(const Bvh& tree, const Vec3& point, double reach) {
-    NearestTriangle foot{std::numeric_limits<double>::infinity(), 0};
-    if (tree.nodes().empty()) return foot;
-    const auto to = [&](std::uint32_t node) {
+    NearestTriangle closest{std::numeric_limits<double>::infinity(), 0};
+    if (tree.nodes().empty()) return closest;
+    const auto distance_to = [&](std::uint32_t node) {
         const Bvh::Node& n = tree.nodes()[node];
         return glm::length(glm::max(glm::abs(n.middle - point) - n.half, Vec3(0.0)));
     };
-    std::vector<std::pair<double, std::uint32_t>> stack{{to(0), 0}};
+    std::vector<std::pair<double, std::uint32_t>> stack{{distance_to(0), 0}};
     while (!stack.empty()) {
         const auto [least, index] = stack.back();
         stack.pop_back();
         if (least > reach) continue;
         const Bvh::Node& node = tree.nodes()[index];
         if (node.count == 0) {
-            std::pair a(to(node.first), node.first), b(to(node.first + 1), node.first + 1);
+            std::pair a(distance_to(node.first), node.first), b(distance_to(node.first + 1), node.first + 1);
             if (a.first < b.first) std::swap(a, b);
             stack.push_back(a);
             stack.push_back(b);
@@ -168,19 +172,19 @@ NearestTriangle nearest(const Bvh& tree, const Vec3& point, double reach) {
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             const double d = point_triangle(point, tree.triangles()[i]);
-            if (d <= reach && d < foot.distance) {
-                foot = {d, i};
+            if (d <= reach && d < closest.distance) {
+                closest = {d, i};
                 reach = d;
             }
         }
     }
-    return foot;
+    return closest;
 }
 
 bool cross(const Bvh& a, const Bvh& b, const Pose& b_to_a) {
     bool crossed = false;
-    pairs(a, b, b_to_a, 0.0, [&](const Triangle& s, const Triangle& t, double& reach) {
-        if (!geometry::cross(s, t)) return;
+    visit_close_pairs(a, b, b_to_a, 0.0, [&](const Triangle& s, const Triangle& t, double& reach) {
+        if (!geometry::triangles_cross(s, t)) return;
         crossed = true;
         reach = -1.0;
     });
@@ -189,7 +193,7 @@ bool cross(const Bvh& a, const Bvh& b, const Pose& b_to_a) {
 
 double gap(const Bvh& a, const Bvh& b, const Pose& b_to_a, double reach) {
     double least = reach;
-    pairs(a, b, b_to_a, reach, [&](const Triangle& s, const Triangle& t, double& within) {
+    visit_close_pairs(a, b, b_to_a, reach, [&](const Triangle& s, const Triangle& t, double& within) {
         within = least = std::min(least, triangle_triangle(s, t));
     });
     return least;
@@ -197,15 +201,12 @@ double gap(const Bvh& a, const Bvh& b, const Pose& b_to_a, double reach) {
 
 namespace {
 
-using geometry::Bvh;
-using geometry::Triangle;
-
 constexpr double rounding = 1e-9;  // m
 
-// Crossings of a surface by a ray on its way out, less those on its way in; none if an edge is too close to
-// be sure.
+// Returns the number of times that a ray leaves the surface minus the number of times that it enters; nothing
+// if the ray passes too close to an edge to decide.
 std::optional<int> crossings(const Bvh& tree, const Vec3& from, const Vec3& along) {
-    constexpr double sure = 1e-13;  // m²: an edge of 0.1 mm is passed at a nanometre
+    constexpr double min_area = 1e-13;  // m²: for an edge of 0.1 mm, a distance of 1 nm from the ray
     const Vec3 inverse = 1.0 / along;
     int count = 0;
     std::vector<std::uint32_t> stack{0};
@@ -224,34 +225,38 @@ std::optional<int> crossings(const Bvh& tree, const Vec3& from, const Vec3& alon
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             const Triangle& t = tree.triangles()[i];
             const Vec3 p = t.a - from, q = t.b - from, r = t.c - from;
-            // On which side of the ray each edge passes; their sum is normal · ray.
+            // The sign gives the side on which the ray passes each edge; the sum is normal · ray.
             const double u = glm::dot(glm::cross(q, r), along), v = glm::dot(glm::cross(r, p), along),
                          w = glm::dot(glm::cross(p, q), along);
             const double least = std::min({u, v, w}), most = std::max({u, v, w});
-            if (least < -sure && most > sure) continue;
-            if (least <= sure && most >= -sure) return std::nullopt;
-            const double way = glm::dot(geometry::normal_of(t), p) / (u + v + w);
-            if (way > 0.0) count += most > 0.0 ? 1 : -1;
+            if (least < -min_area && most > min_area) continue;
+            if (least <= min_area && most >= -min_area) return std::nullopt;
+            const double t_ray = glm::dot(geometry::normal_of(t), p) / (u + v + w);
+            if (t_ray > 0.0) count += most > 0.0 ? 1 : -1;
         }
     }
     return count;
 }
 
-// A piece of a triangle that may hold a deeper point than any known.
+// A part of a triangle that may contain a point deeper than the deepest found so far.
 struct Cell {
-    double most = 0.0;       // m, no point of it lies deeper
-    std::uint32_t near = 0;  // a triangle of the surface that is near
+    double most = 0.0;       // m, upper bound of the depth of its points
+    std::uint32_t near = 0;  // index of a nearby triangle of the other surface
     std::array<Vec3, 3> corners;
     friend bool operator<(const Cell& a, const Cell& b) { return a.most < b.most; }
 };
 
-class Search {
+// Branch-and-bound search for the deepest point of added triangles in the surface `other`.
+class DepthSearch {
   public:
-    Search(const Surface& other, const DepthOptions& depths)
-        : other_(other), tolerance_(depths.tolerance), deepest_(depths.least), enough_(depths.enough) {}
+    DepthSearch(const ClosedSurface& other, const DepthOptions& options)
+        : other_(other),
+          tolerance_(options.tolerance),
+          deepest_(options.min_depth),
+          stop_depth_(options.stop_depth) {}
 
-    void add(const Triangle& t, const Pose& pose, std::uint32_t near) {
-        add(std::array{pose * t.a, pose * t.b, pose * t.c}, near);
+    void add_triangle(const Triangle& t, const Pose& pose, std::uint32_t near) {
+        add_cell(std::array{pose * t.a, pose * t.b, pose * t.c}, near);
     }
 
     double run() {
@@ -261,29 +266,29 @@ class Search {
             cells_.pop();
             std::array<Vec3, 3> half;
             for (std::size_t i = 0; i < 3; ++i) half[i] = 0.5 * (t[i] + t[(i + 1) % 3]);
-            add({t[0], half[0], half[2]}, near);
-            add({t[1], half[1], half[0]}, near);
-            add({t[2], half[2], half[1]}, near);
-            add(half, near);
+            add_cell({t[0], half[0], half[2]}, near);
+            add_cell({t[1], half[1], half[0]}, near);
+            add_cell({t[2], half[2], half[1]}, near);
+            add_cell(half, near);
         }
-        return seen_;
+        return found_depth_;
     }
 
-    [[nodiscard]] bool done() const { return seen_ > 0.0 && seen_ >= enough_; }
+    [[nodiscard]] bool done() const { return found_depth_ > 0.0 && found_depth_ >= stop_depth_; }
 
-    // Whether a sphere is all outside, or not deep enough. `near`: a triangle of the surface that may be
-    // middle; then how far it is from any point of it.
-    [[nodiscard]] bool dull(const Vec3& middle, double radius, std::uint32_t& near) const {
-        const NearestTriangle foot = nearest_to(middle, near);
-        const double distance = foot.distance;
-        near = foot.triangle;
+    // Returns whether no point of a sphere can be deeper than the deepest found so far. `near` is a guess of
+    // the triangle nearest to `middle` on entry, and that triangle on return.
+    [[nodiscard]] bool cannot_be_deeper(const Vec3& middle, double radius, std::uint32_t& near) const {
+        const NearestTriangle closest = nearest_to(middle, near);
+        const double distance = closest.distance;
+        near = closest.triangle;
         if (distance + radius <= deepest_ + tolerance_) return true;
         return radius - distance <= deepest_ + tolerance_ && winding(other_, middle) == 0;
     }
 
   private:
-    // Whether the surface passes through a triangle.
-    [[nodiscard]] bool meets(const std::array<Vec3, 3>& t) const {
+    // Returns whether the other surface passes through triangle `t`.
+    [[nodiscard]] bool meets_other(const std::array<Vec3, 3>& t) const {
         const Triangle own{t[0], t[1], t[2], 0};
         const Vec3 low = glm::min(glm::min(t[0], t[1]), t[2]), high = glm::max(glm::max(t[0], t[1]), t[2]);
         std::vector<std::uint32_t> stack{0};
@@ -299,38 +304,38 @@ class Search {
                 continue;
             }
             for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-                if (geometry::cross(own, other_.tree.triangles()[i])) return true;
+                if (geometry::triangles_cross(own, other_.tree.triangles()[i])) return true;
         }
         return false;
     }
     [[nodiscard]] NearestTriangle nearest_to(const Vec3& p, std::uint32_t near) const {
         return nearest(other_.tree, p, point_triangle(p, other_.tree.triangles()[near]) + rounding);
     }
-    // `near`: a triangle of the other surface that may be the nearest.
-    void add(const std::array<Vec3, 3>& t, std::uint32_t near) {
+    // `near`: a guess of the nearest triangle of the other surface.
+    void add_cell(const std::array<Vec3, 3>& t, std::uint32_t near) {
         const Vec3 middle = (t[0] + t[1] + t[2]) / 3.0;
         double radius = 0.0;
         for (const Vec3& p : t) radius = std::max(radius, glm::length(p - middle));
-        const NearestTriangle foot = nearest_to(middle, near);
-        if (foot.distance + radius <= deepest_ + tolerance_) return;
+        const NearestTriangle closest = nearest_to(middle, near);
+        if (closest.distance + radius <= deepest_ + tolerance_) return;
         const bool inside = winding(other_, middle) != 0;
-        // From outside the way inward begins at the surface.
-        double most = inside ? foot.distance + radius : radius - foot.distance;
-        if (inside) seen_ = std::max(seen_, foot.distance);
-        deepest_ = std::max(deepest_, seen_);
-        if (most <= deepest_ + tolerance_ || (!inside && !meets(t))) return;
-        // The distance from one triangle is convex, so nowhere in the cell greater than at its corners, and
-        // what is inside is no deeper than that.
+        // A point outside by d can reach a depth of at most radius − d within the sphere.
+        double most = inside ? closest.distance + radius : radius - closest.distance;
+        if (inside) found_depth_ = std::max(found_depth_, closest.distance);
+        deepest_ = std::max(deepest_, found_depth_);
+        if (most <= deepest_ + tolerance_ || (!inside && !meets_other(t))) return;
+        // The distance to one triangle is convex, so its maximum over the cell is at a corner. It bounds the
+        // depth of the points inside.
         double at_corners = 0.0;
         for (const Vec3& p : t)
-            at_corners = std::max(at_corners, point_triangle(p, other_.tree.triangles()[foot.triangle]));
+            at_corners = std::max(at_corners, point_triangle(p, other_.tree.triangles()[closest.triangle]));
         most = std::min(most, at_corners);
-        if (most > deepest_ + tolerance_ && radius > 0.0) cells_.push({most, foot.triangle, t});
+        if (most > deepest_ + tolerance_ && radius > 0.0) cells_.push({most, closest.triangle, t});
     }
 
-    const Surface& other_;
-    double tolerance_, deepest_, enough_;
-    double seen_ = 0.0;
+    const ClosedSurface& other_;
+    double tolerance_, deepest_, stop_depth_;
+    double found_depth_ = 0.0;
     std::priority_queue<Cell> cells_;
 };
 
@@ -347,9 +352,9 @@ int winding_by_solid_angle(const Bvh& tree, const Vec3& point) {
     return static_cast<int>(std::lround(sum / (4.0 * pi)));
 }
 
-int winding(const Surface& surface, const Vec3& point) {
+int winding(const ClosedSurface& surface, const Vec3& point) {
     if (surface.tree.nodes().empty()) return 0;
-    const geometry::Box box = surface.tree.box();
+    const geometry::Aabb box = surface.tree.box();
     if (glm::any(glm::lessThan(point, box.low)) || glm::any(glm::greaterThan(point, box.high))) return 0;
     for (int i = 0; i < 8; ++i) {
         const Vec3 along =
@@ -359,23 +364,23 @@ int winding(const Surface& surface, const Vec3& point) {
     return winding_by_solid_angle(surface.tree, point);
 }
 
-double depth_in(const Bvh& mine, const Surface& other, const Pose& mine_to_other,
-                const DepthOptions& depths) {
+double depth_in(const Bvh& mine, const ClosedSurface& other, const Pose& mine_to_other,
+                const DepthOptions& options) {
     if (mine.nodes().empty() || other.tree.nodes().empty()) return 0.0;
-    Search search(other, depths);
+    DepthSearch search(other, options);
     std::vector<std::pair<std::uint32_t, std::uint32_t>> stack{{0, 0}};
     while (!stack.empty() && !search.done()) {
         auto [index, near] = stack.back();
         stack.pop_back();
         const Bvh::Node& node = mine.nodes()[index];
-        if (search.dull(mine_to_other * node.middle, glm::length(node.half), near)) continue;
+        if (search.cannot_be_deeper(mine_to_other * node.middle, glm::length(node.half), near)) continue;
         if (node.count == 0) {
             stack.emplace_back(node.first, near);
             stack.emplace_back(node.first + 1, near);
             continue;
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-            search.add(mine.triangles()[i], mine_to_other, near);
+            search.add_triangle(mine.triangles()[i], mine_to_other, near);
     }
     return search.run();
 }

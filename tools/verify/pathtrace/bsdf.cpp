@@ -22,7 +22,7 @@ Layer make_layer(const glm::vec3& f0, float f90, const glm::vec2& ab) {
     return {f0, f90, compensation, (f0 * ab.x + f90 * ab.y) * compensation};
 }
 
-// Schlick's, with what was scattered more than once.
+// Returns Schlick's Fresnel term with the compensation for multiple scattering.
 glm::vec3 fresnel(const Layer& layer, float along) {
     return (layer.f0 + (glm::vec3(layer.f90) - layer.f0) * pow5(1.0F - along)) * layer.compensation;
 }
@@ -41,7 +41,7 @@ glm::vec3 cosine_distributed(const glm::mat3& frame, const glm::vec2& u) {
 
 }  // namespace
 
-Bsdf::Bsdf(const Surface& surface, const glm::vec3& out)
+Bsdf::Bsdf(const ShadingPoint& surface, const glm::vec3& out)
     : surface_(surface), out_(local(surface.frame, out)), coat_out_(local(surface.coat_frame, out)) {
     const glm::vec2 ab =
         directional_albedo(glm::length(surface.alpha) / std::numbers::sqrt2_v<float>, out_.z);
@@ -63,8 +63,8 @@ Bsdf::Bsdf(const Surface& surface, const glm::vec3& out)
     pick_diffuse_ /= sum;
 }
 
-Scattered Bsdf::evaluate(const glm::vec3& direction) const {
-    Scattered result;
+BsdfValue Bsdf::evaluate(const glm::vec3& direction) const {
+    BsdfValue result;
     if (out_.z <= 0.0F) return result;
     const glm::vec3 in = local(surface_.frame, direction);
     if (in.z > 0.0F) {
@@ -100,7 +100,7 @@ BsdfSample Bsdf::sample(float pick, const glm::vec2& u) const {
         in = cosine_distributed(surface_.frame, u);
     }
     in = glm::normalize(in);
-    const Scattered scattered = evaluate(in);
+    const BsdfValue scattered = evaluate(in);
     if (scattered.density <= 0.0F) return {};
     return {in, scattered.value / scattered.density, scattered.density};
 }

@@ -10,13 +10,13 @@ namespace bolt::pathtrace {
 
 namespace {
 
-struct Axes {
+struct CameraBasis {
     glm::vec3 right, up, forward;
 };
 
-Axes axes(const glm::vec3& forward) {
+CameraBasis axes(const glm::vec3& forward) {
     const glm::vec3 f = glm::normalize(forward);
-    // Straight down or up there is no way up; −Z takes its place.
+    // A vertical view has no projected +Y; −Z replaces it.
     const glm::vec3 up = std::abs(f.y) < 0.9999F ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1);
     const glm::vec3 right = glm::normalize(glm::cross(f, up));
     return {right, glm::cross(right, f), f};
@@ -24,8 +24,8 @@ Axes axes(const glm::vec3& forward) {
 
 }  // namespace
 
-glm::vec3 direction(const Camera& camera, const glm::vec2& pixel) {
-    const Axes a = axes(camera.target - camera.eye);
+glm::vec3 ray_direction(const PinholeCamera& camera, const glm::vec2& pixel) {
+    const CameraBasis a = axes(camera.target - camera.eye);
     const float half = std::tan(0.5F * camera.fov);
     const float scale = 2.0F * half / static_cast<float>(camera.height);
     const float x = (pixel.x - 0.5F * static_cast<float>(camera.width)) * scale;
@@ -33,8 +33,9 @@ glm::vec3 direction(const Camera& camera, const glm::vec2& pixel) {
     return glm::normalize(a.forward + x * a.right + y * a.up);
 }
 
-Camera frame(const Camera& camera, const glm::vec3& low, const glm::vec3& high, const glm::vec3& view) {
-    const Axes a = axes(-view);
+PinholeCamera frame_box(const PinholeCamera& camera, const glm::vec3& low, const glm::vec3& high,
+                        const glm::vec3& view) {
+    const CameraBasis a = axes(-view);
     const glm::vec3 middle = 0.5F * (low + high);
     const float margin = 1.06F;
     const float tan_y = std::tan(0.5F * camera.fov) / margin;
@@ -48,7 +49,7 @@ Camera frame(const Camera& camera, const glm::vec3& low, const glm::vec3& high, 
         distance = std::max({distance, std::abs(glm::dot(p, a.right)) / tan_x - depth,
                              std::abs(glm::dot(p, a.up)) / tan_y - depth});
     }
-    Camera framed = camera;
+    PinholeCamera framed = camera;
     framed.target = middle;
     framed.eye = middle - a.forward * std::max(distance, 1e-3F);
     return framed;
@@ -85,7 +86,7 @@ float from_srgb(std::uint8_t encoded) {
     return table[encoded];
 }
 
-std::vector<std::uint8_t> develop(std::span<const glm::vec3> radiance, float exposure) {
+std::vector<std::uint8_t> to_srgb8(std::span<const glm::vec3> radiance, float exposure) {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(radiance.size() * 3);
     for (const glm::vec3& value : radiance) {

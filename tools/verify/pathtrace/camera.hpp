@@ -1,4 +1,4 @@
-// The camera: position, directions and angle of view.
+// The pinhole camera of the path tracer, and the conversion of radiance to 8-bit sRGB.
 #pragma once
 
 #include <cstdint>
@@ -9,30 +9,30 @@
 
 namespace bolt::pathtrace {
 
-struct Camera {
+struct PinholeCamera {
     glm::vec3 eye{0.0F, 0.0F, 1.0F};
     glm::vec3 target{0.0F};
     float fov = 0.6108652F;  // vertical, rad
     int width = 800, height = 600;
 };
 
-// The ray through a point of the picture in pixels from its top left corner; of unit length.
-glm::vec3 direction(const Camera& camera, const glm::vec2& pixel);
+// Returns the unit direction of the ray through a point of the image, in pixels from the top left corner.
+glm::vec3 ray_direction(const PinholeCamera& camera, const glm::vec2& pixel);
 
-// A camera that sees the box `low`–`high` from `view` (towards the viewer), filling the picture.
-Camera frame(const Camera& camera, const glm::vec3& low, const glm::vec3& high, const glm::vec3& view);
-
-// Converts radiance to 8-bit sRGB.
+// Returns the camera moved so that the box `low`–`high` fills the image, seen from the direction `view` (from
+// the box towards the viewer).
+PinholeCamera frame_box(const PinholeCamera& camera, const glm::vec3& low, const glm::vec3& high,
+                        const glm::vec3& view);
 
 // Khronos PBR Neutral Tone Mapper (github.com/KhronosGroup/ToneMapping, PBR_Neutral, 2024): colours below 0.8
-// keep their hue and value up to the fixed 0.04 of a dielectric's reflection, above they are compressed.
+// keep their hue and value except for the 0.04 of a dielectric's reflection; colours above are compressed.
 glm::vec3 pbr_neutral(glm::vec3 color);
 
-// IEC 61966-2-1.
+// Transfer functions of IEC 61966-2-1.
 float to_srgb(float linear);
 float from_srgb(std::uint8_t encoded);
 
-// Radiance times `exposure`, tone mapped, as 8-bit RGB.
-std::vector<std::uint8_t> develop(std::span<const glm::vec3> radiance, float exposure);
+// Returns radiance times `exposure`, tone mapped, as 8-bit RGB.
+std::vector<std::uint8_t> to_srgb8(std::span<const glm::vec3> radiance, float exposure);
 
 }  // namespace bolt::pathtrace

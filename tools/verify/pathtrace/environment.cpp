@@ -24,7 +24,7 @@ std::size_t pixel(const RadianceImage& image, int x, int y) {
 }  // namespace
 
 Environment::Environment(RadianceImage image) : image_(std::move(image)) {
-    // Bilinear filtering spreads a bright pixel over its neighbours, which must be found there too.
+    // Bilinear filtering spreads a bright pixel over its neighbours, so each weight includes the neighbours.
     double mean = 0.0;
     for (const glm::vec3& value : image_.pixels) mean += luminance(value);
     mean /= static_cast<double>(image_.pixels.size());
@@ -54,13 +54,13 @@ glm::vec3 Environment::radiance(const glm::vec3& direction) const {
 }
 
 DirectionSample Environment::sample(const glm::vec2& u) const {
-    // The row, then the column, by their running sums; what is left of u places the point within the pixel.
-    const double wanted = static_cast<double>(u.y) * total_;
+    // Select the row, then the column, by their running sums. The rest of u is the position in the pixel.
+    const double target = static_cast<double>(u.y) * total_;
     const auto row = std::min<std::size_t>(
-        static_cast<std::size_t>(std::upper_bound(rows_.begin(), rows_.end(), wanted) - rows_.begin()),
+        static_cast<std::size_t>(std::upper_bound(rows_.begin(), rows_.end(), target) - rows_.begin()),
         rows_.size() - 1);
     const double below = row > 0 ? rows_[row - 1] : 0.0;
-    const double fy = (wanted - below) / (rows_[row] - below);
+    const double fy = (target - below) / (rows_[row] - below);
     const auto width = static_cast<std::size_t>(image_.width);
     const auto first = columns_.begin() + static_cast<std::ptrdiff_t>(row * width);
     const auto last = first + static_cast<std::ptrdiff_t>(width);
@@ -82,8 +82,8 @@ float Environment::density(const glm::vec3& direction) const {
     const int x = std::clamp(static_cast<int>(uv.x * static_cast<float>(image_.width)), 0, image_.width - 1);
     const int y =
         std::clamp(static_cast<int>(uv.y * static_cast<float>(image_.height)), 0, image_.height - 1);
-    const std::size_t place = pixel(image_, x, y);
-    const double weight = columns_[place] - (x > 0 ? columns_[place - 1] : 0.0);
+    const std::size_t index = pixel(image_, x, y);
+    const double weight = columns_[index] - (x > 0 ? columns_[index - 1] : 0.0);
     // Per unit square, then per solid angle: du dv covers 2π² sin θ.
     const double pixels = static_cast<double>(image_.width) * static_cast<double>(image_.height);
     const double sine = std::max(1e-6, std::sin(static_cast<double>(uv.y) * std::numbers::pi));

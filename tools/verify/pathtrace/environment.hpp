@@ -1,4 +1,5 @@
-// Environment light: evaluates the radiance of a direction, and samples directions by their brightness.
+// Environment light: evaluates the radiance of a direction, and samples directions in proportion to their
+// brightness.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -27,8 +28,9 @@ class Environment {
 
     [[nodiscard]] bool dark() const { return total_ <= 0.0; }
     [[nodiscard]] glm::vec3 radiance(const glm::vec3& direction) const;
-    // Directions from which more light comes are proposed more often.
+    // Samples a direction by brightness; `u` is uniform in the unit square. The environment must not be dark.
     [[nodiscard]] DirectionSample sample(const glm::vec2& u) const;
+    // Returns the probability density of a direction in sample(), per solid angle.
     [[nodiscard]] float density(const glm::vec3& direction) const;
 
   private:

@@ -22,9 +22,9 @@ bool any_matches(const std::string& name, const std::vector<std::string>& patter
 
 struct Flattener {
     const Model& model;
-    const Visibility& visibility;
+    const NodeFilter& visibility;
     std::vector<glm::mat4> world;
-    Flat flat;
+    FlatMesh flat;
 
     void descend(int index, bool shown);
     void add(const Node& node, int index);
@@ -98,7 +98,7 @@ void Flattener::add(const Primitive& p, const Node& node, int index, const std::
                                                                     : static_cast<std::size_t>(p.material));
     const bool mirrored = glm::determinant(glm::mat3(to_world)) < 0.0F;
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-        Triangle triangle{
+        TracedTriangle triangle{
             {first + corners[i], first + corners[i + 1], first + corners[i + 2]}, material, index};
         if (mirrored) std::swap(triangle.corners[1], triangle.corners[2]);
         flat.triangles.push_back(triangle);
@@ -108,7 +108,7 @@ void Flattener::add(const Primitive& p, const Node& node, int index, const std::
 }  // namespace
 
 bool matches(const std::string& name, const std::string& pattern) {
-    // The last star is where to go on from after a mismatch.
+    // After a mismatch, backtrack to the last star and let it match one more character.
     std::size_t n = 0;
     std::size_t p = 0;
     std::size_t star = std::string::npos;
@@ -131,7 +131,7 @@ bool matches(const std::string& name, const std::string& pattern) {
     return p == pattern.size();
 }
 
-Flat flatten(const Model& model, const Visibility& visibility) {
+FlatMesh flatten(const Model& model, const NodeFilter& visibility) {
     Flattener flattener{model, visibility, assets::world_transforms(model), {}};
     for (const int root : model.roots) flattener.descend(root, visibility.show.empty());
     return std::move(flattener.flat);

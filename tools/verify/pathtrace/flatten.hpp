@@ -1,4 +1,4 @@
-// Resolves nodes, skins and morph targets: the triangles of a model at rest, in the world frame.
+// Resolves nodes, skins and morph targets of a model at rest into triangles and lights in the world frame.
 #pragma once
 
 #include <vector>
@@ -7,16 +7,16 @@
 
 namespace bolt::pathtrace {
 
-struct Flat {
+struct FlatMesh {
     std::vector<Vertex> vertices;
-    std::vector<Triangle> triangles;
+    std::vector<TracedTriangle> triangles;
     std::vector<PunctualLight> lights;
 };
 
-// Materials are those of the model; one more, model.materials.size(), stands for none.
-Flat flatten(const assets::Model& model, const Visibility& visibility);
+// Material indices are those of the model; the index model.materials.size() means no material.
+FlatMesh flatten(const assets::Model& model, const NodeFilter& visibility);
 
-// Whether a name matches a pattern in which * is any text and ? any character.
+// Returns whether a name matches a pattern in which * stands for any text and ? for any character.
 bool matches(const std::string& name, const std::string& pattern);
 
 }  // namespace bolt::pathtrace

@@ -1,4 +1,4 @@
-// bolt-pathtrace: a picture of a glTF file by path tracing.
+// bolt-pathtrace: renders an image of a glTF file by path tracing.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -18,14 +18,14 @@ namespace {
 using namespace bolt;
 using namespace bolt::pathtrace;
 
-Result<Environment> light(const Options& options) {
+Result<Environment> light(const PathTraceOptions& options) {
     if (options.light == "none") return Environment();
     if (options.light == "studio") return Environment(studio());
     BOLT_TRY_ASSIGN(auto image, read_hdr(options.light));
     return Environment(std::move(image));
 }
 
-Status draw(const Options& options) {
+Status draw(const PathTraceOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
     if (!options.write_env.empty()) BOLT_TRY(write_hdr(options.write_env, studio(1024)));
     if (options.png.empty()) return {};
@@ -33,19 +33,19 @@ Status draw(const Options& options) {
     if (options.no_lights) model.lights.clear();
     if (options.no_lights)
         for (assets::Node& node : model.nodes) node.light = -1;
-    const auto scene = Scene::build(model, {{options.nodes, options.hide}, options.floor});
+    const auto scene = TracedScene::build(model, {{options.nodes, options.hide}, options.floor});
     if (!scene) {
         Error error = scene.error();
         error.file = options.file;
         return fail(std::move(error));
     }
     BOLT_TRY_ASSIGN(const auto environment, light(options));
-    Camera camera = options.camera;
+    PinholeCamera camera = options.camera;
     if (!options.has_target) camera.target = 0.5F * (scene->low() + scene->high());
-    if (!options.has_eye) camera = frame(camera, scene->low(), scene->high(), options.view);
+    if (!options.has_eye) camera = frame_box(camera, scene->low(), scene->high(), options.view);
     const auto image = render(*scene, environment, camera, options.settings);
     BOLT_TRY_ASSIGN(const auto png, assets::encode_png(camera.width, camera.height, 3,
-                                                       develop(image, std::exp2(options.exposure))));
+                                                       to_srgb8(image, std::exp2(options.exposure))));
     BOLT_TRY(write_file(options.png, png));
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
     return print(
@@ -58,7 +58,7 @@ Status draw(const Options& options) {
 
 int main(int argc, char** argv) {
     CLI::App app("Renders a glTF file by path tracing.", "bolt-pathtrace");
-    Options options;
+    PathTraceOptions options;
     declare(app, options);
     try {
         app.parse(argc, argv);

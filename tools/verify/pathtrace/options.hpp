@@ -13,26 +13,27 @@ class App;
 
 namespace bolt::pathtrace {
 
-struct Options {
+struct PathTraceOptions {
     std::string file, png, write_env;
     std::string light = "studio";  // studio, none or an .hdr file
     std::vector<std::string> nodes, hide;
     bool floor = false;
     bool no_lights = false;
     float exposure = 0.0F;                            // stops
-    std::string size, eye, target, from, background;  // as typed
+    std::string size, eye, target, from, background;  // unparsed
     float fov_deg = 35.0F;
 
-    // What resolve() makes of them.
-    Camera camera;
+    // Computed by resolve().
+    PinholeCamera camera;
     bool has_eye = false, has_target = false;
-    glm::vec3 view{0.55F, 0.5F, 1.0F};  // from which side, without an eye
-    Settings settings{.clamp = 20.0F};
+    glm::vec3 view{0.55F, 0.5F, 1.0F};  // direction to the viewer if there is no eye
+    PathTraceSettings settings{.clamp = 20.0F};
 };
 
-void declare(CLI::App& app, Options& options);
+// Declares the options; parsing fills the first group of members.
+void declare(CLI::App& app, PathTraceOptions& options);
 
-// Turns what was typed into numbers.
-Status resolve(Options& options);
+// Parses the unparsed values and checks all of them. Fails with ErrorCode::usage.
+Status resolve(PathTraceOptions& options);
 
 }  // namespace bolt::pathtrace

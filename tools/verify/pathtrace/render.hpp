@@ -1,9 +1,9 @@
-// Unidirectional path tracing: at every vertex of a path light is sampled from the environment and from the
-// model's lights, and the environment is weighed between both ways of finding it.
+// Unidirectional path tracing. Every vertex of a path samples the environment and the model's lights;
+// multiple importance sampling weighs environment samples against BSDF samples.
 //   E. Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, chapter 9 (power heuristic).
-// Back faces are drawn as front faces, occlusion textures are left out (light is traced), textures have no
-// mip levels (pixels are sampled many times), and what is transparent is thin: KHR_materials_transmission is
-// not there. The picture depends on scene, camera and settings alone, not on the number of threads.
+// Limits: back faces are shaded as front faces; occlusion textures are ignored because light is traced;
+// textures have no mip levels because each pixel has many samples; transparent surfaces are thin, and
+// KHR_materials_transmission is not supported. The image does not depend on the number of threads.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +17,20 @@
 
 namespace bolt::pathtrace {
 
-struct Settings {
+struct PathTraceSettings {
     int samples = 32;
     int bounces = 8;
     std::uint32_t seed = 0;
-    int threads = 0;     // 0: as many as the machine has
-    float clamp = 0.0F;  // what one path may bring after its first bounce; 0: anything (unbiased)
-    std::optional<glm::vec3> background = {};  // what the camera sees behind the model; none: the environment
+    int threads = 0;     // 0: one per processor
+    float clamp = 0.0F;  // maximum radiance of a contribution after the first bounce; 0: unlimited (unbiased)
+    std::optional<glm::vec3> background = {};  // radiance behind the model; none: the environment
 };
 
-// Radiance, rows from the top.
-std::vector<glm::vec3> render(const Scene& scene, const Environment& environment, const Camera& camera,
-                              const Settings& settings);
+// Returns the radiance of every pixel, rows from the top.
+std::vector<glm::vec3> render(const TracedScene& scene, const Environment& environment,
+                              const PinholeCamera& camera, const PathTraceSettings& settings);
 
-// Distance along the view direction through the middle of every pixel, in metres; 0: nothing there.
-std::vector<float> depth(const Scene& scene, const Camera& camera);
+// Returns the depth along the view direction (m) at the middle of every pixel; 0 where there is no surface.
+std::vector<float> depth(const TracedScene& scene, const PinholeCamera& camera);
 
 }  // namespace bolt::pathtrace

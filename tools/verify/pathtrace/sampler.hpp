@@ -1,5 +1,5 @@
-// Low-discrepancy points in the unit square, a pure function of pixel and sample: Sobol's first two
-// dimensions, shuffled and scrambled for every pair of dimensions.
+// Low-discrepancy points in the unit square: a pure function of pixel, seed and sample. Each pair of
+// dimensions uses Sobol's first two dimensions, shuffled and scrambled with its own seed.
 //   B. Burley, Practical Hash-based Owen Scrambling, JCGT 10(4), 2020.
 #pragma once
 
@@ -14,7 +14,7 @@ using shading::radical_inverse;
 using shading::reverse_bits;
 using shading::unit_float;
 
-// A hash with good avalanche (Murmur3's finalizer) of a pair.
+// Returns a hash of a pair with good avalanche (Murmur3's finalizer).
 inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
     std::uint32_t x = a ^ (b * 0x9E3779B9U + 0x7F4A7C15U);
     x ^= x >> 16U;
@@ -25,7 +25,7 @@ inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
     return x;
 }
 
-// Owen's scrambling of the bits below each bit, by Laine and Karras' hash.
+// Owen scrambling by the hash of Laine and Karras.
 inline std::uint32_t scramble(std::uint32_t x, std::uint32_t seed) {
     x = reverse_bits(x);
     x ^= x * 0x3D20ADEAU;
@@ -44,9 +44,9 @@ inline std::uint32_t sobol_second(std::uint32_t i) {
     return result;
 }
 
-class Sampler {
+class SobolSampler {
   public:
-    Sampler(std::uint32_t pixel, std::uint32_t seed, std::uint32_t sample)
+    SobolSampler(std::uint32_t pixel, std::uint32_t seed, std::uint32_t sample)
         : seed_(hash(pixel, seed)), sample_(sample) {}
 
     // The next pair of dimensions.

@@ -17,7 +17,7 @@ namespace bolt::pathtrace {
 
 namespace {
 
-// The nearest texel within the image.
+// Maps a texel index into the image by the wrap mode.
 int wrapped(int index, int size, assets::Wrap wrap) {
     if (wrap == assets::Wrap::clamp) return std::clamp(index, 0, size - 1);
     if (wrap == assets::Wrap::repeat) return ((index % size) + size) % size;
@@ -57,16 +57,16 @@ glm::vec4 Textures::sample(const assets::TextureRef& ref, const std::array<glm::
     const float c = std::cos(ref.rotation);
     const float s = std::sin(ref.rotation);
     const glm::vec2 uv = glm::vec2(c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y) + ref.offset;
-    // Far from the origin a float cannot tell texels apart, and an int may not hold their number.
-    const glm::vec2 place = glm::clamp(uv, -1e4F, 1e4F) * glm::vec2(image.width, image.height);
+    // Clamp: far from the origin a float cannot distinguish texels, and the index may overflow an int.
+    const glm::vec2 position = glm::clamp(uv, -1e4F, 1e4F) * glm::vec2(image.width, image.height);
     const auto at = [&](int x, int y) {
         return texel(image, wrapped(x, image.width, texture.wrap_s), wrapped(y, image.height, texture.wrap_t),
                      srgb);
     };
     if (texture.mag == assets::Filter::nearest)
-        return at(static_cast<int>(std::floor(place.x)), static_cast<int>(std::floor(place.y)));
-    const glm::vec2 corner = glm::floor(place - 0.5F);
-    const glm::vec2 f = place - 0.5F - corner;
+        return at(static_cast<int>(std::floor(position.x)), static_cast<int>(std::floor(position.y)));
+    const glm::vec2 corner = glm::floor(position - 0.5F);
+    const glm::vec2 f = position - 0.5F - corner;
     const int x = static_cast<int>(corner.x);
     const int y = static_cast<int>(corner.y);
     return glm::mix(glm::mix(at(x, y), at(x + 1, y), f.x), glm::mix(at(x, y + 1), at(x + 1, y + 1), f.x),
@@ -88,7 +88,7 @@ RTCRay make_ray(const glm::vec3& origin, const glm::vec3& direction, float dista
     return ray;
 }
 
-void add_floor(Flat& flat, std::size_t material, const glm::vec3& low, const glm::vec3& high) {
+void add_floor(FlatMesh& flat, std::size_t material, const glm::vec3& low, const glm::vec3& high) {
     const float half = 20.0F * glm::distance(low, high);
     const glm::vec3 middle = 0.5F * (low + high);
     const auto first = static_cast<std::uint32_t>(flat.vertices.size());
@@ -115,16 +115,16 @@ assets::Material floor_material() {
 
 }  // namespace
 
-void Scene::Release::operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
-void Scene::Release::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
+void TracedScene::EmbreeDeleter::operator()(RTCDeviceTy* device) const { rtcReleaseDevice(device); }
+void TracedScene::EmbreeDeleter::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene); }
 
-Result<Scene> Scene::build(const assets::Model& model, const SceneOptions& options) {
-    Flat flat = flatten(model, options.nodes);
-    if (flat.triangles.empty()) return fail(ErrorCode::bad_content, "there are no triangles to be seen");
-    Scene scene;
+Result<TracedScene> TracedScene::build(const assets::Model& model, const TracedSceneOptions& options) {
+    FlatMesh flat = flatten(model, options.nodes);
+    if (flat.triangles.empty()) return fail(ErrorCode::bad_content, "has no visible triangles");
+    TracedScene scene;
     scene.low_ = glm::vec3(FLT_MAX);
     scene.high_ = glm::vec3(-FLT_MAX);
-    for (const Triangle& triangle : flat.triangles) {
+    for (const TracedTriangle& triangle : flat.triangles) {
         for (const std::uint32_t corner : triangle.corners) {
             scene.low_ = glm::min(scene.low_, flat.vertices[corner].position);
             scene.high_ = glm::max(scene.high_, flat.vertices[corner].position);
@@ -145,10 +145,10 @@ Result<Scene> Scene::build(const assets::Model& model, const SceneOptions& optio
     return scene;
 }
 
-Status Scene::build_tree() {
-    // One thread builds, so that the tree, and with it the picture, is the same on every machine.
+Status TracedScene::build_tree() {
+    // Build with one thread so that the tree, and therefore the image, is the same on every machine.
     device_.reset(rtcNewDevice("threads=1"));
-    if (!device_) return fail(ErrorCode::failed, "Embree cannot be started");
+    if (!device_) return fail(ErrorCode::failed, "Embree: cannot create a device");
     tree_.reset(rtcNewScene(device_.get()));
     rtcSetSceneFlags(tree_.get(), RTC_SCENE_FLAG_ROBUST);
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -158,7 +158,7 @@ Status Scene::build_tree() {
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), triangles_.size()));
     if (positions == nullptr || corners == nullptr) {
         rtcReleaseGeometry(geometry);
-        return fail(ErrorCode::failed, "Embree has no memory for the model");
+        return fail(ErrorCode::failed, "Embree: cannot allocate memory for the model");
     }
     for (std::size_t i = 0; i < vertices_.size(); ++i)
         std::memcpy(positions + 3 * i, &vertices_[i].position, 3 * sizeof(float));
@@ -171,7 +171,7 @@ Status Scene::build_tree() {
     return {};
 }
 
-std::optional<Hit> Scene::cast(const glm::vec3& origin, const glm::vec3& direction) const {
+std::optional<SurfaceHit> TracedScene::cast(const glm::vec3& origin, const glm::vec3& direction) const {
     RTCRayHit query{};
     query.ray = make_ray(origin, direction, FLT_MAX);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -179,18 +179,16 @@ std::optional<Hit> Scene::cast(const glm::vec3& origin, const glm::vec3& directi
     rtcInitIntersectContext(&context);
     rtcIntersect1(tree_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
-    return Hit{query.ray.tfar, query.hit.primID, {query.hit.u, query.hit.v}};
+    return SurfaceHit{query.ray.tfar, query.hit.primID, {query.hit.u, query.hit.v}};
 }
 
-bool Scene::blocked(const glm::vec3& origin, const glm::vec3& direction, float distance) const {
+bool TracedScene::blocked(const glm::vec3& origin, const glm::vec3& direction, float distance) const {
     RTCRay ray = make_ray(origin, direction, distance);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(tree_.get(), &context, &ray);
-    return ray.tfar < 0.0F;  // Embree's sign of a hit
+    return ray.tfar < 0.0F;  // Embree marks a hit so
 }
-
-// What the scene is like at a hit: the material with its textures, the frames, where rays leave.
 
 namespace {
 
@@ -209,8 +207,8 @@ glm::mat3 make_frame(const glm::vec3& normal, const glm::vec3& tangent, float ha
     return {t, glm::cross(normal, t) * (handedness < 0.0F ? -1.0F : 1.0F), normal};
 }
 
-// The direction of growing u where a mesh has texture coordinates and no tangents; w: the side on which the
-// texture's top is, against v.
+// Computes the tangent (the direction of increasing u) of a triangle with texture coordinates but no
+// tangents; w is the handedness of the bitangent.
 glm::vec4 tangent_of(const Vertex& a, const Vertex& b, const Vertex& c, std::size_t set) {
     const glm::vec2 e1 = b.texcoords[set] - a.texcoords[set];
     const glm::vec2 e2 = c.texcoords[set] - a.texcoords[set];
@@ -220,19 +218,20 @@ glm::vec4 tangent_of(const Vertex& a, const Vertex& b, const Vertex& c, std::siz
             area < 0.0F ? 1.0F : -1.0F};
 }
 
-// Bends the frame's normal by a normal map.
-glm::mat3 bent(const glm::mat3& frame, const glm::vec4& texel, float scale, const glm::vec3& out) {
+// Applies a normal map to the frame.
+glm::mat3 apply_normal_map(const glm::mat3& frame, const glm::vec4& texel, float scale,
+                           const glm::vec3& out) {
     glm::vec3 bump = 2.0F * glm::vec3(texel) - 1.0F;
     bump.x *= scale;
     bump.y *= scale;
     const glm::vec3 normal = glm::normalize(frame * bump);
-    // A normal that looks away from the viewer would make the surface black.
+    // Ignore a normal that points away from the viewer: it would make the surface black.
     if (glm::dot(normal, out) <= 0.0F) return frame;
     return make_frame(normal, frame[0], 1.0F);
 }
 
 void set_base(const Material& m, const Textures& textures, const std::array<glm::vec2, 2>& uv,
-              const glm::vec4& color, Surface& s) {
+              const glm::vec4& color, ShadingPoint& s) {
     const glm::vec4 base = m.base_color * color * textures.sample(m.base_color_texture, uv, true);
     s.base_color = glm::clamp(glm::vec3(base), 0.0F, 1.0F);
     s.opacity = 1.0F;
@@ -247,7 +246,7 @@ void set_base(const Material& m, const Textures& textures, const std::array<glm:
 
 // KHR_materials_ior and _specular.
 void set_dielectric(const Material& m, const Textures& textures, const std::array<glm::vec2, 2>& uv,
-                    Surface& s) {
+                    ShadingPoint& s) {
     const float ratio = (m.ior - 1.0F) / (m.ior + 1.0F);
     const float weight = m.specular * textures.sample(m.specular_texture, uv, false).a;
     const glm::vec3 tint = m.specular_color * glm::vec3(textures.sample(m.specular_color_texture, uv, true));
@@ -255,9 +254,9 @@ void set_dielectric(const Material& m, const Textures& textures, const std::arra
     s.f90 = weight;
 }
 
-// KHR_materials_anisotropy: the texture's red and green are the direction, blue the strength.
+// KHR_materials_anisotropy: red and green of the texture hold the direction, blue the strength.
 void set_anisotropy(const Material& m, const Textures& textures, const std::array<glm::vec2, 2>& uv,
-                    Surface& s) {
+                    ShadingPoint& s) {
     if (m.anisotropy <= 0.0F) return;
     glm::vec2 direction(1.0F, 0.0F);
     float strength = m.anisotropy;
@@ -274,28 +273,29 @@ void set_anisotropy(const Material& m, const Textures& textures, const std::arra
 }
 
 void set_coat(const Material& m, const Textures& textures, const std::array<glm::vec2, 2>& uv,
-              const glm::vec3& out, Surface& s) {
+              const glm::vec3& out, ShadingPoint& s) {
     s.coat = std::clamp(m.clearcoat * textures.sample(m.clearcoat_texture, uv, false).r, 0.0F, 1.0F);
     if (s.coat <= 0.0F) return;
     const float roughness = std::clamp(
         m.clearcoat_roughness * textures.sample(m.clearcoat_roughness_texture, uv, false).g, 0.0F, 1.0F);
     s.coat_alpha = std::max(roughness * roughness, min_alpha);
     if (m.clearcoat_normal_texture.texture >= 0)
-        s.coat_frame = bent(s.coat_frame, textures.sample(m.clearcoat_normal_texture, uv, false), 1.0F, out);
+        s.coat_frame =
+            apply_normal_map(s.coat_frame, textures.sample(m.clearcoat_normal_texture, uv, false), 1.0F, out);
 }
 
 }  // namespace
 
-glm::vec3 Scene::normal(const Hit& hit) const {
-    const Triangle& t = triangles_[hit.triangle];
+glm::vec3 TracedScene::normal(const SurfaceHit& hit) const {
+    const TracedTriangle& t = triangles_[hit.triangle];
     const glm::vec3& a = vertices_[t.corners[0]].position;
     const glm::vec3 n =
         glm::cross(vertices_[t.corners[1]].position - a, vertices_[t.corners[2]].position - a);
     return glm::normalize(n);
 }
 
-Surface Scene::surface(const Hit& hit, const glm::vec3& out) const {
-    const Triangle& t = triangles_[hit.triangle];
+ShadingPoint TracedScene::shading_point(const SurfaceHit& hit, const glm::vec3& out) const {
+    const TracedTriangle& t = triangles_[hit.triangle];
     const Vertex& a = vertices_[t.corners[0]];
     const Vertex& b = vertices_[t.corners[1]];
     const Vertex& c = vertices_[t.corners[2]];
@@ -310,22 +310,23 @@ Surface Scene::surface(const Hit& hit, const glm::vec3& out) const {
     glm::vec3 shading = blend(a.normal, b.normal, c.normal);
     const float length = glm::length(shading);
     shading = length > 1e-6F ? shading / length : face;
-    // Both sides are seen: the back of a triangle is shaded as its front.
+    // Shade the back of a triangle as its front.
     if (glm::dot(face, out) < 0.0F) {
         face = -face;
         shading = -shading;
     }
-    // At a silhouette the smooth normal may look away; it is turned until it does not.
+    // At a silhouette the smooth normal may point away from the viewer; turn it towards the viewer.
     const float facing = glm::dot(shading, out);
     if (facing < 1e-3F) shading = glm::normalize(shading + (1e-3F - facing) * out);
     glm::vec4 tangent = blend(a.tangent, b.tangent, c.tangent);
-    Surface s;
+    ShadingPoint s;
     const auto set = static_cast<std::size_t>(m.normal_texture.texcoord & 1);
     if (tangent == glm::vec4(0.0F)) tangent = tangent_of(a, b, c, set);
     s.frame = make_frame(shading, glm::vec3(tangent), tangent.w);
     s.coat_frame = s.frame;
     if (m.normal_texture.texture >= 0)
-        s.frame = bent(s.frame, textures_.sample(m.normal_texture, uv, false), m.normal_scale, out);
+        s.frame =
+            apply_normal_map(s.frame, textures_.sample(m.normal_texture, uv, false), m.normal_scale, out);
     set_base(m, textures_, uv, blend(a.color, b.color, c.color), s);
     set_dielectric(m, textures_, uv, s);
     set_anisotropy(m, textures_, uv, s);
@@ -333,11 +334,11 @@ Surface Scene::surface(const Hit& hit, const glm::vec3& out) const {
     return s;
 }
 
-// J. Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021: the point is lifted from the triangle
-// to the curved surface that its normals describe, so that a coarse cylinder throws no facets of shadow on
-// itself.
-glm::vec3 Scene::departure(const Hit& hit, const glm::vec3& side) const {
-    const Triangle& t = triangles_[hit.triangle];
+// Moves the point from the triangle to the curved surface that the vertex normals describe, so that a coarse
+// cylinder casts no faceted shadow on itself. J. Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II,
+// 2021.
+glm::vec3 TracedScene::ray_origin(const SurfaceHit& hit, const glm::vec3& side) const {
+    const TracedTriangle& t = triangles_[hit.triangle];
     const glm::vec3 w(1.0F - hit.barycentric.x - hit.barycentric.y, hit.barycentric.x, hit.barycentric.y);
     const glm::vec3 flat = w.x * vertices_[t.corners[0]].position + w.y * vertices_[t.corners[1]].position +
                            w.z * vertices_[t.corners[2]].position;

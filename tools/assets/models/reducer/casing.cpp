@@ -149,8 +149,8 @@ constexpr double cap_screw_depth = 24.0;
 constexpr double cap_screw_hole = 4.02;  // radius; the screw's thread is modelled as its outside cylinder
 constexpr double dowel_hole = 5.65;
 
-TopoDS_Wire housing_outline(std::span<const Circle> contour, double y, double inset) {
-    const auto on = [&](const Circle& c, double angle) {
+TopoDS_Wire housing_outline(std::span<const ContourCircle> contour, double y, double inset) {
+    const auto on = [&](const ContourCircle& c, double angle) {
         return gp_Pnt(c.x + (c.r - inset) * std::cos(angle), y, c.z + (c.r - inset) * std::sin(angle));
     };
     BRepBuilderAPI_MakeWire wire;
@@ -162,7 +162,7 @@ TopoDS_Wire housing_outline(std::span<const Circle> contour, double y, double in
     const gp_Pnt first = on(contour.front(), from), last = on(contour.back(), draft);
     line(below(first, -1.0), first);
     for (std::size_t i = 0; i < contour.size(); ++i) {
-        const Circle& c = contour[i];
+        const ContourCircle& c = contour[i];
         double to = draft;
         if (i + 1 < contour.size()) {  // normal of the common tangent to this circle and the next, from above
             const double dx = contour[i + 1].x - c.x, dz = contour[i + 1].z - c.z;
@@ -186,7 +186,7 @@ TopoDS_Shape half_space_z(bool upper) {
     return upper ? box({-far, far, -far, far, 0.0, far}) : box({-far, far, -far, far, -far, 0.0});
 }
 
-TopoDS_Shape housing(std::span<const Circle> contour, double inset, double half, double radius) {
+TopoDS_Shape housing(std::span<const ContourCircle> contour, double inset, double half, double radius) {
     const double low = half + overlap * std::tan(draft), high = half - 300.0 * std::tan(draft);
     const TopoDS_Shape block =
         extruded(housing_outline(contour, -half - 5.0, inset), gp_Vec(0, 2.0 * half + 10.0, 0));

@@ -17,38 +17,39 @@
 namespace bolt::models::reducer {
 namespace {
 
-using Outline = std::vector<std::pair<double, double>>;
+using RadialOutline = std::vector<std::pair<double, double>>;
 
 // The axis of a shaft; outlines about it are (radius, y).
 gp_Ax2 axis_at(double x) { return {gp_Pnt(x, 0, 0), gp_Dir(0, 1, 0), gp_Dir(1, 0, 0)}; }
 
 // A gear on the shaft at x with its mid plane at y, turned by `turn` from the position with a gap's middle on
 // +X.
-TopoDS_Shape gear_at(const GearSpec& gear, double x, double y, double turn, const Outline& inside = {}) {
-    gp_Trsf place, rotation;
-    place.SetTransformation(gp_Ax3(gp_Pnt(x, y, 0), gp_Dir(0, 1, 0), gp_Dir(1, 0, 0)), gp_Ax3());
+TopoDS_Shape gear_at(const GearSpec& gear, double x, double y, double turn,
+                     const RadialOutline& inside = {}) {
+    gp_Trsf placement, rotation;
+    placement.SetTransformation(gp_Ax3(gp_Pnt(x, y, 0), gp_Dir(0, 1, 0), gp_Dir(1, 0, 0)), gp_Ax3());
     rotation.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1)), turn);
-    return moved(gear_solid(gear, inside), place * rotation);
+    return moved(gear_solid(gear, inside), placement * rotation);
 }
 
 // Keys of ISO/R 773, form A. `shaft` is the shaft's diameter; the table gives width, height and both depths
 // for it.
-struct Key {
+struct ShaftKey {
     double x, y, length, shaft, width, height, shaft_depth, hub_depth;
 };
-constexpr Key key_input{0.0, -200.0, 50.0, 28.0, 8.0, 7.0, 4.0, 3.3};
-constexpr Key key_wheel_1{150.0, 47.0, 50.0, 52.0, 16.0, 10.0, 6.0, 4.3};
-constexpr Key key_wheel_2{350.0, -38.0, 70.0, 72.0, 20.0, 12.0, 7.5, 4.9};
-constexpr Key key_output{350.0, 213.0, 70.0, 55.0, 16.0, 10.0, 6.0, 4.3};
+constexpr ShaftKey key_input{0.0, -200.0, 50.0, 28.0, 8.0, 7.0, 4.0, 3.3};
+constexpr ShaftKey key_wheel_1{150.0, 47.0, 50.0, 52.0, 16.0, 10.0, 6.0, 4.3};
+constexpr ShaftKey key_wheel_2{350.0, -38.0, 70.0, 72.0, 20.0, 12.0, 7.5, 4.9};
+constexpr ShaftKey key_output{350.0, 213.0, 70.0, 55.0, 16.0, 10.0, 6.0, 4.3};
 
-TopoDS_Shape key_solid(const Key& key) {
+TopoDS_Shape key_solid(const ShaftKey& key) {
     const gp_Ax2 frame(gp_Pnt(key.x, key.y, key.shaft / 2.0 - key.shaft_depth), gp_Dir(0, 0, 1),
                        gp_Dir(0, 1, 0));
     return extruded(rounded_rectangle(frame, key.length, key.width, key.width / 2.0),
                     gp_Vec(0, 0, key.height));
 }
 
-TopoDS_Shape hub_groove(const Key& key, double length) {
+TopoDS_Shape hub_groove(const ShaftKey& key, double length) {
     return box({key.x - key.width / 2.0, key.x + key.width / 2.0, key.y - length, key.y + length, 0.0,
                 key.shaft / 2.0 + key.hub_depth});
 }
@@ -68,7 +69,7 @@ DrivePart toothed(std::string name, const TopoDS_Shape& solid) {
 }
 
 // Rim, web and hub of a wheel, with broken corners.
-Outline wheel_inside(double half, double rim, double web, double hub, double bore) {
+RadialOutline wheel_inside(double half, double rim, double web, double hub, double bore) {
     const double w = web / 2.0;
     return {{rim + 1.5, half},  {rim, half - 1.5},     {rim - 2.0, w + 5.0},  {rim - 7.0, w},
             {hub + 7.0, w},     {hub + 2.0, w + 5.0},  {hub, half - 1.5},     {hub - 1.5, half},
@@ -180,7 +181,7 @@ Result<DrivePart> output_shaft() {
 Result<DrivePart> first_wheel() {
     return catch_build_errors("first wheel", [] {
         const double x = shafts[1].x;
-        const Outline inside = wheel_inside(wheel_1.width_mm / 2.0, 113.0, 18.0, 42.0, 26.0);
+        const RadialOutline inside = wheel_inside(wheel_1.width_mm / 2.0, 113.0, 18.0, 42.0, 26.0);
         const TopoDS_Shape wheel =
             with_web_holes(gear_at(wheel_1, x, pair_1_y, std::numbers::pi, inside), x, pair_1_y, 77.5, 17.0);
         return toothed("wheel_1", one_solid("first wheel", cut(wheel, {hub_groove(key_wheel_1, 60.0)})));
@@ -190,7 +191,7 @@ Result<DrivePart> first_wheel() {
 Result<DrivePart> second_wheel() {
     return catch_build_errors("second wheel", [] {
         const double x = shafts[2].x;
-        const Outline inside = wheel_inside(wheel_2.width_mm / 2.0, 147.0, 22.0, 57.0, 36.0);
+        const RadialOutline inside = wheel_inside(wheel_2.width_mm / 2.0, 147.0, 22.0, 57.0, 36.0);
         const TopoDS_Shape wheel =
             with_web_holes(gear_at(wheel_2, x, pair_2_y, std::numbers::pi, inside), x, pair_2_y, 102.0, 22.0);
         return toothed("wheel_2", one_solid("second wheel", cut(wheel, {hub_groove(key_wheel_2, 80.0)})));

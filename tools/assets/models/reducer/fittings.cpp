@@ -20,9 +20,9 @@ constexpr double plate_thickness = 1.6;
 const gp_Ax2 upright(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), gp_Dir(1, 0, 0));
 
 gp_Trsf frame(const gp_Pnt& at, const gp_Dir& z, const gp_Dir& x) {
-    gp_Trsf place;
-    place.SetTransformation(gp_Ax3(at, z, x), gp_Ax3());
-    return place;
+    gp_Trsf placement;
+    placement.SetTransformation(gp_Ax3(at, z, x), gp_Ax3());
+    return placement;
 }
 
 TopoDS_Shape hexagon(double across_flats, double z0, double z1) {
@@ -140,7 +140,7 @@ Result<TopoDS_Shape> lip_seal(const CapSpec& cap) {
 }
 
 gp_Trsf hatch_frame() {
-    const Circle &a = contour_upper[1], &b = contour_upper[2];
+    const ContourCircle &a = contour_upper[1], &b = contour_upper[2];
     const double lean = std::asin((b.r - a.r) / (b.x - a.x));  // of the common tangent from above
     const gp_Dir normal(-std::sin(lean), 0, std::cos(lean)), along(std::cos(lean), 0, std::sin(lean));
     const gp_Vec to_tangent = gp_Vec(normal) * ((a.r + b.r) / 2.0 + hatch.pad);
@@ -209,7 +209,7 @@ Result<TopoDS_Shape> glass_disc() {
 }
 
 gp_Trsf drain_frame() {
-    const Circle& corner = contour_lower[1];
+    const ContourCircle& corner = contour_lower[1];
     const double x = corner.x + corner.r;
     return frame(gp_Pnt(x + boss_face, 0, -corner.z + 8.0), gp_Dir(1, 0, 0), gp_Dir(0, 1, 0));
 }

@@ -112,7 +112,7 @@ double half_tooth_angle(const GearSpec& gear, double radius_mm) {
 }
 
 double twist(const GearSpec& gear, double distance_mm) {
-    const double sense = gear.hand == Hand::right ? 1.0 : -1.0;
+    const double sense = gear.hand == HelixHand::right ? 1.0 : -1.0;
     return sense * distance_mm * std::tan(gear.helix) / (circles(gear).reference_mm / 2.0);
 }
 
@@ -160,11 +160,11 @@ namespace {
 // poles per tooth in the file.
 constexpr int fillet_points = 5, wheel_flank_points = 5, pinion_flank_points = 9;
 
-using Curve = Handle(Geom_BSplineCurve);
+using SplineCurve = Handle(Geom_BSplineCurve);
 
 // A spline through the points. Its parameter is the arc length, so that the unit tangents at the ends apply.
-Curve interpolated(const std::vector<Point2>& points, const std::vector<double>& lengths, Point2 first,
-                   Point2 last) {
+SplineCurve interpolated(const std::vector<Point2>& points, const std::vector<double>& lengths, Point2 first,
+                         Point2 last) {
     const int n = static_cast<int>(points.size());
     Handle(TColgp_HArray1OfPnt) array = new TColgp_HArray1OfPnt(1, n);
     Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, n);
@@ -180,7 +180,7 @@ Curve interpolated(const std::vector<Point2>& points, const std::vector<double>&
 }
 
 // A short arc about the origin as one cubic. Over one tooth its error is far below a nanometre.
-Curve arc(double radius, double from, double to) {
+SplineCurve arc(double radius, double from, double to) {
     const double k = 4.0 / 3.0 * std::tan((to - from) / 4.0);
     TColgp_Array1OfPnt poles(1, 4);
     const auto at = [&](double angle, double along) {
@@ -191,20 +191,21 @@ Curve arc(double radius, double from, double to) {
     return GeomConvert::CurveToBSplineCurve(new Geom_BezierCurve(poles));
 }
 
-Curve mirrored(const Curve& curve) {
-    Curve copy = Handle(Geom_BSplineCurve)::DownCast(curve->Copy());
+SplineCurve mirrored(const SplineCurve& curve) {
+    SplineCurve copy = Handle(Geom_BSplineCurve)::DownCast(curve->Copy());
     copy->Mirror(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0)));
     copy->Reverse();
     return copy;
 }
 
 // The outline of one gap and the next tooth tip, counter-clockwise.
-std::vector<Curve> pitch_outline(const GearSpec& gear) {
+std::vector<SplineCurve> pitch_outline(const GearSpec& gear) {
     const FlankProfile p =
         flank_profile(gear, fillet_points, gear.teeth < 30 ? pinion_flank_points : wheel_flank_points);
-    const Curve fillet =
+    const SplineCurve fillet =
         interpolated(p.fillet, p.fillet_lengths, p.fillet_start_tangent, p.fillet_end_tangent);
-    const Curve flank = interpolated(p.flank, p.flank_lengths, p.fillet_end_tangent, p.flank_end_tangent);
+    const SplineCurve flank =
+        interpolated(p.flank, p.flank_lengths, p.fillet_end_tangent, p.flank_end_tangent);
     const Point2 root = p.fillet.front(), tip = p.flank.back();
     const double root_angle = std::atan2(root.y, root.x), tip_angle = std::atan2(tip.y, tip.x);
     return {mirrored(flank),
@@ -242,7 +243,7 @@ gp_Pnt station(const ScrewMotion& m, const gp_Pnt& p, std::size_t j) {
     return {m.c[j] * p.X() - m.s[j] * p.Y(), m.s[j] * p.X() + m.c[j] * p.Y(), m.z[j]};
 }
 
-Handle(Geom_BSplineSurface) swept(const Curve& section, const ScrewMotion& m) {
+Handle(Geom_BSplineSurface) swept(const SplineCurve& section, const ScrewMotion& m) {
     const int n = section->NbPoles();
     TColgp_Array2OfPnt poles(1, n, 1, 4);
     for (int i = 1; i <= n; ++i)
@@ -256,8 +257,8 @@ Handle(Geom_BSplineSurface) swept(const Curve& section, const ScrewMotion& m) {
                                    v_multiplicities, section->Degree(), 3);
 }
 
-TopoDS_Edge end_edge(const Curve& section, const ScrewMotion& m, std::size_t j) {
-    Curve curve = Handle(Geom_BSplineCurve)::DownCast(section->Copy());
+TopoDS_Edge end_edge(const SplineCurve& section, const ScrewMotion& m, std::size_t j) {
+    SplineCurve curve = Handle(Geom_BSplineCurve)::DownCast(section->Copy());
     for (int i = 1; i <= curve->NbPoles(); ++i) curve->SetPole(i, station(m, section->Pole(i), j));
     return BRepBuilderAPI_MakeEdge(curve).Edge();
 }
@@ -276,10 +277,10 @@ TopoDS_Face end_face(const TopoDS_Wire& outline, double z, double hole) {
 TopoDS_Shape gear_solid(const GearSpec& gear, const std::vector<std::pair<double, double>>& inside) {
     BRepBuilderAPI_Sewing sewing(1e-4);
     BRepBuilderAPI_MakeWire lower, upper;
-    const std::vector<Curve> outline = pitch_outline(gear);
+    const std::vector<SplineCurve> outline = pitch_outline(gear);
     for (int i = 0; i < gear.teeth; ++i) {
         const ScrewMotion m = screw(gear, 2.0 * std::numbers::pi * i / gear.teeth);
-        for (const Curve& section : outline) {
+        for (const SplineCurve& section : outline) {
             sewing.Add(BRepBuilderAPI_MakeFace(swept(section, m), 1e-6).Face());
             lower.Add(end_edge(section, m, 0));
             upper.Add(end_edge(section, m, 3));

@@ -1,23 +1,22 @@
 // The geometry of helical involute gears in the transverse plane, by the formulas of ISO 21771 for profile A
-// of ISO 53. Lengths in millimetres, angles in radians. This file uses no CAD; the solid and its tests share
-// it.
+// of ISO 53. Lengths in millimetres, angles in radians. Independent of CAD; the solid and its tests share it.
 #pragma once
 
 #include <vector>
 
 namespace bolt::models::reducer {
 
-enum class Hand { right, left };
+enum class HelixHand { right, left };
 
 struct GearSpec {
     int teeth = 0;
     double module_mm = 0.0;  // normal module m_n
     double helix = 0.0;      // beta, at the reference cylinder
-    Hand hand = Hand::right;
+    HelixHand hand = HelixHand::right;
     double shift = 0.0;     // profile shift coefficient x
     double width_mm = 0.0;  // face width b
-    double thinning_mm =
-        0.0;  // reduction of the transverse tooth thickness at the reference circle, for backlash
+    // Reduction of the transverse tooth thickness at the reference circle, for backlash.
+    double thinning_mm = 0.0;
 };
 
 // ISO 53, profile A: normal pressure angle, addendum, dedendum and tip rounding of the tool, in modules.
@@ -34,10 +33,10 @@ struct GearCircles {
 
 GearCircles circles(const GearSpec& gear);
 
-// The smallest profile shift coefficient without undercut.
+// Returns the smallest profile shift coefficient without undercut.
 double least_shift(const GearSpec& gear);
 
-// tan(a) - a
+// The involute function, tan(a) − a.
 double involute(double angle);
 
 // Half the angle that a tooth spans at a radius on its flanks.

@@ -37,10 +37,10 @@ inline constexpr std::array<ShaftLayout, 3> shafts{{{0.0, 30.0, 72.0, 19.0, 58.0
 // The first pair is on the +Y side, the second on the -Y side. Both gears on the intermediate shaft have the
 // same hand, so that their axial forces, one driven and one driving, oppose each other.
 inline constexpr double pair_1_y = 48.0, pair_2_y = -38.0;
-inline constexpr GearSpec pinion_1{14, 3.0, helix_angle, Hand::left, 0.16, 65.0, 0.06};
-inline constexpr GearSpec wheel_1{85, 3.0, helix_angle, Hand::right, -0.16, 60.0, 0.06};
-inline constexpr GearSpec pinion_2{16, 4.0, helix_angle, Hand::right, 0.04, 85.0, 0.08};
-inline constexpr GearSpec wheel_2{83, 4.0, helix_angle, Hand::left, -0.04, 80.0, 0.08};
+inline constexpr GearSpec pinion_1{14, 3.0, helix_angle, HelixHand::left, 0.16, 65.0, 0.06};
+inline constexpr GearSpec wheel_1{85, 3.0, helix_angle, HelixHand::right, -0.16, 60.0, 0.06};
+inline constexpr GearSpec pinion_2{16, 4.0, helix_angle, HelixHand::right, 0.04, 85.0, 0.08};
+inline constexpr GearSpec wheel_2{83, 4.0, helix_angle, HelixHand::left, -0.04, 80.0, 0.08};
 
 // The casing.
 inline constexpr double wall = 9.0;
@@ -58,14 +58,14 @@ inline constexpr double oil_z = -118.0;
 inline constexpr double bolt_hole = 17.5, spot_face = 34.0;
 inline constexpr double spot_depth = 0.8;  // machining allowance of the cast bosses and flanges
 
-struct Circle {
+struct ContourCircle {
     double x = 0.0, z = 0.0, r = 0.0;
 };
-// Seen from the side, the casing's outside is the hull of these circles. Above: input end, first and second
-// wheel. Below, in a frame with Z down: the two rounded corners of the sump.
-inline constexpr std::array<Circle, 3> contour_upper{
+// Seen from the side, the casing's outside is the hull of these circles. Upper half: input end, first and
+// second wheel. Lower half, in a frame with Z down: the two rounded corners of the sump.
+inline constexpr std::array<ContourCircle, 3> contour_upper{
     {{wall_left + 50.0, 58.0, 50.0}, {150.0, 0.0, 151.0}, {350.0, 0.0, wall_right - 350.0}}};
-inline constexpr std::array<Circle, 2> contour_lower{
+inline constexpr std::array<ContourCircle, 2> contour_lower{
     {{wall_left + 44.0, -floor_z - 40.0, 40.0}, {wall_right - 44.0, -floor_z - 40.0, 40.0}}};
 
 inline constexpr std::array<double, 2> feet{0.0, 350.0};  // x, on both sides

@@ -273,7 +273,8 @@ TopoDS_Shape blended(std::string_view name, const TopoDS_Shape& body, const Topo
     operation.SetTools(list_of({addition}));
     run(operation, "fuse");
     const TopoDS_Shape joined = unwrapped(operation.Shape());
-    if (volume(joined) < volume(body) + 1.0) throw BuildError{fmt::format("{}: nothing was added", name)};
+    if (volume(joined) < volume(body) + 1.0)
+        throw BuildError{fmt::format("{}: the addition adds no volume", name)};
     TopTools_IndexedMapOfShape edges;
     TopExp::MapShapes(joined, TopAbs_EDGE, edges);
     BRepFilletAPI_MakeFillet fillet(joined);

@@ -1,0 +1,117 @@
+#include "game/trainer/lesson_start.hpp"
+
+#include <fmt/format.h>
+
+#include "haptics/force/output_limits.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+// Starts the station, if the choice needs one, and takes its limits and rate over into the lesson.
+Status start_station_of(const LessonStart& start, StartedLesson& lesson, session::SessionSetup& setup) {
+    if (start.choice.equipment.uses_mouse()) return {};
+    session::LessonOptions& options = lesson.context.options;
+    Equipment equipment = start.choice.equipment;
+    equipment.force_scale = start.settings.force_scale;
+    BOLT_TRY_ASSIGN(auto station,
+                    start.start_station(lesson.context.assembly, options, equipment, start.choice.trainee));
+    lesson.active.station.emplace();
+    lesson.active.station->link = std::move(station);
+    options.device = lesson.active.station->link->setup().limits;
+    options.servo = fmt::format("{:.0f} Hz", 1.0 / options.dt);
+    session::set_device(options, setup);
+    return {};
+}
+
+// The side of the glove, else that of the settings.
+hand::Side working_side(const ActiveLesson& active, const content::TraineeSettings& settings) {
+    if (active.station)
+        if (const station::DisplayedHand* gloved = active.station->link->hand()) return gloved->side;
+    return settings.left_handed ? hand::Side::left : hand::Side::right;
+}
+
+// A view of the machine and the resting wrench, no higher than the eyes of a seated trainee.
+view::Orbit first_view(const ActiveLesson& active, const LessonContext& context, float aspect) {
+    const view::LoadedModel& model = context.models.machine;
+    const render::BoundingBox& machine = active.workplace.machine;
+    const view::Viewpoint viewpoint = model.views.empty()
+                                          ? view::default_viewpoint(machine, view::default_fov, aspect)
+                                          : model.views.front();
+    render::BoundingBox all = machine;
+    for (const double along : {-0.1, 1.2}) {
+        const double x = along * active.session->setup().wrench.handle_length;
+        const glm::vec3 end(hand_of(active).rest * Vec3(x, 0.0, 0.0));
+        all.low = glm::min(all.low, end);
+        all.high = glm::max(all.high, end);
+    }
+    const view::Orbit orbit = view::frame_all(view::orbit_of(viewpoint), all, aspect);
+    const auto eyes = scene::eye_height(machine, context.worker);
+    return eyes ? view::frame_all(view::limit_eye_height(orbit, *eyes), all, aspect) : orbit;
+}
+
+}  // namespace
+
+joint::Law law_in_force(const LessonChoice& choice, const content::TraineeSettings& settings,
+                        joint::Law assembly_law) {
+    if (choice.law) return *choice.law;
+    for (const joint::Law law : {joint::Law::mechanistic, joint::Law::published})
+        if (settings.law == joint::name(law)) return law;
+    return assembly_law;
+}
+
+Result<StartedLesson> start_lesson(const LessonStart& start) {
+    const LessonChoice& choice = start.choice;
+    content::LoadedAssembly loaded = content::load_assembly(choice.assembly, choice.variant);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    BOLT_TRY(content::choose_tool(loaded.assembly, choice.tool));
+
+    StartedLesson lesson;
+    LessonContext& context = lesson.context;
+    session::LessonOptions& options = context.options;
+    options = start.options;
+    options.law = law_in_force(choice, start.settings, loaded.assembly.law);
+    options.mode = choice.mode;
+    options.task = choice.task;
+    options.operator_name = "person";
+    options.trainee = choice.trainee;
+    options.device = force::scaled(start.options.device, start.settings.force_scale);
+    context.assembly = lesson::apply_law(std::move(loaded.assembly), options.law);
+
+    BOLT_TRY_ASSIGN(auto setup, session::prepare(context.assembly, options));
+    BOLT_TRY(start_station_of(start, lesson, setup));
+    context.worker = {working_side(lesson.active, start.settings), start.settings.seated_height};
+    options.hand = context.worker.side == hand::Side::left ? "left" : "right";
+    BOLT_TRY_ASSIGN(auto models, scene::load_lesson_models(context.assembly, context.worker.side));
+    context.models = std::move(models);
+    BOLT_TRY_ASSIGN(auto session, session::LessonSession::begin(std::move(setup), options,
+                                                                start.folder / "session.boltwright"));
+    lesson.active.session = std::move(session);
+    return lesson;
+}
+
+void place_trainee(ActiveLesson& active, const LessonContext& context, float aspect) {
+    const servo::Setup& setup = active.session->setup();
+    const servo::State& state = active.session->state();
+    const render::BoundingBox& machine = active.workplace.machine;
+    const scene::Worker& worker = context.worker;
+    active.mouse = make_hand(
+        scene::wrench_rest_pose(machine, context.assembly.wrench.head_thickness, worker.side), worker.side);
+    active.workplace.world.only<world::WorkingHand>() = hand_of(active.mouse);
+    active.postures = scene::make_postures(state.tool_contact ? &state.tool_contact->wrench : nullptr,
+                                           setup.wrench.handle_length, worker.side, scene::widest_nut(setup));
+    active.shoulder = scene::shoulder_position(machine, worker);
+    if (active.station) {
+        StationClient& station = *active.station;
+        station.rest = hand_of(active).rest;
+        station.home = hand_of(active).pose;
+        const hand::Skeleton& open = active.postures.open;
+        const Pose fingers = scene::frame_towards(station.home, active.shoulder, 0.0);
+        station.bare_wrist =
+            inverse(station.home) * fingers * Pose{open.position[hand::wrist], open.rotation[hand::wrist]};
+    }
+    active.view.close_up.enabled = context.options.mode == lesson::Mode::guided;
+    active.view.camera.jump(first_view(active, context, aspect));
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,67 @@
+// Starts a lesson from the user's choice: loads the assembly, starts the station, loads the models and begins
+// the session.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "content/trainee/settings.hpp"
+#include "game/scene/workplace.hpp"
+#include "game/trainer/active_lesson.hpp"
+#include "game/trainer/station_client.hpp"
+
+namespace bolt::trainer {
+
+// What the user chooses in the menu or on the command line.
+struct LessonChoice {
+    std::string assembly = "zq350";
+    std::string variant;  // empty: the assembly's default
+    lesson::Mode mode = lesson::Mode::guided;
+    lesson::Task task = lesson::Task::tighten;
+    std::string trainee;   // empty: no name
+    std::string language;  // empty: the desktop's, if its texts exist
+    std::string tool;      // empty: the assembly's first
+    Equipment equipment;
+    std::optional<joint::Law> law;  // from the command line; a choice in the menu resets it
+};
+
+// The law of a lesson: the command line's, else the trainee's, else the assembly's.
+joint::Law law_in_force(const LessonChoice& choice, const content::TraineeSettings& settings,
+                        joint::Law assembly_law);
+
+// Starts a station for a lesson; trainer::start_station, or a test's.
+using StartStation = std::function<Result<std::unique_ptr<station_setup::LessonStation>>(
+    const content::Assembly&, const session::LessonOptions&, const Equipment&, const std::string& trainee)>;
+
+struct LessonStart {
+    LessonChoice choice;
+    content::TraineeSettings settings;
+    session::LessonOptions options;  // those that neither choice nor settings determine
+    std::filesystem::path folder;    // receives session.boltwright
+    StartStation start_station;
+};
+
+// What a lesson was started with. It outlives the lesson: the result screen shows it.
+struct LessonContext {
+    content::Assembly assembly;  // with the targets of the law in force, as the lesson uses it
+    session::LessonOptions options;
+    scene::LessonModels models;
+    scene::Worker worker;
+};
+
+struct StartedLesson {
+    LessonContext context;
+    ActiveLesson active;  // with session and station; its workplace is made when the models are on the GPU
+};
+
+// Fails if the assembly cannot be loaded, a chosen device cannot be used, a model is damaged, or the session
+// file cannot be created. Close the station of an earlier lesson before, because it holds the devices.
+Result<StartedLesson> start_lesson(const LessonStart& start);
+
+// Places the hand, the wrench and the first view, once the workplace of `active` exists. `aspect`: width /
+// height of the picture.
+void place_trainee(ActiveLesson& active, const LessonContext& context, float aspect);
+
+}  // namespace bolt::trainer

@@ -1,0 +1,156 @@
+#include "game/trainer/settings_screen.hpp"
+
+#include <imgui/imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr double default_seat = 1.2;  // m, height of the eyes
+constexpr glm::vec4 muted{0.75F, 0.8F, 0.85F, 1.0F}, highlight{1.0F, 0.85F, 0.4F, 1.0F};
+
+words::TextKey term(Action action) {
+    constexpr words::TextKey keys[] = {"action.tool",         "action.find_view",  "action.whole_view",
+                                       "action.hint",         "action.flange_map", "action.pause",
+                                       "action.full_screen",  "action.quiet",      "action.undo",
+                                       "action.restart_step", "action.recentre",   "action.close_up"};
+    static_assert(std::size(keys) == action_count);
+    return keys[static_cast<std::size_t>(action)];
+}
+
+struct SliderRange {
+    double low = 0.0, high = 1.0;
+    const char* format = "%.0f %%";
+    double display_factor = 100.0;
+};
+
+// Rounds to hundredths: finer than a hand can set, and short in the file.
+void draw_slider(const char* label, double& value, const SliderRange& range) {
+    auto displayed = static_cast<float>(value * range.display_factor);
+    if (ImGui::SliderFloat(label, &displayed, static_cast<float>(range.low * range.display_factor),
+                           static_cast<float>(range.high * range.display_factor), range.format,
+                           ImGuiSliderFlags_AlwaysClamp))
+        value = std::clamp(std::round(100.0 * static_cast<double>(displayed) / range.display_factor) / 100.0,
+                           range.low, range.high);
+}
+
+}  // namespace
+
+void SettingsScreen::bind_key(platform::Key key, const words::Words& words, KeyMap& keys) {
+    const Action action = *waiting_;
+    const BindResult bound = bind(keys, action, key);
+    const std::string pressed(platform::name(key));
+    if (bound.outcome == BindOutcome::refused) {
+        message_ = words::format_text(words, "settings.key_refused", {{"key", pressed}});
+        return;
+    }
+    waiting_.reset();
+    message_.clear();
+    if (bound.outcome == BindOutcome::swapped)
+        message_ = words::format_text(
+            words, "settings.key_swapped",
+            {{"key", pressed}, {"action", words[term(bound.other)]}, {"other", key_name(keys, bound.other)}});
+}
+
+std::vector<platform::InputEvent> SettingsScreen::take_keys(std::span<const platform::InputEvent> events,
+                                                            const words::Words& words, KeyMap& keys,
+                                                            bool& closes) {
+    std::vector<platform::InputEvent> remaining;
+    for (const platform::InputEvent& event : events) {
+        const auto* key = std::get_if<platform::KeyEvent>(&event);
+        const bool pressed = key != nullptr && key->down && !key->repeated;
+        if (closes) {
+            remaining.push_back(event);
+        } else if (pressed && key->key == platform::Key::escape) {
+            closes = !waiting_;
+            waiting_.reset();
+        } else if (waiting_ && pressed) {
+            bind_key(key->key, words, keys);
+        } else if (!waiting_ || key == nullptr || !key->down) {
+            remaining.push_back(event);
+        }
+    }
+    return remaining;
+}
+
+void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeSettings& settings) {
+    const words::Words& words = context.words;
+    draw_languages(context, settings);
+    draw_slider(words["menu.sound"].c_str(), settings.volume, {});
+    record_place(context, "menu.sound");
+    ImGui::Checkbox(words["menu.captions"].c_str(), &settings.captions);
+    record_place(context, "menu.captions");
+    ImGui::AlignTextToFramePadding();
+    draw_text(words["menu.palette"]);
+    for (const auto& [key, kind] :
+         {std::pair{words::TextKey("menu.palette.usual"), content::PaletteKind::usual},
+          std::pair{words::TextKey("menu.palette.distinct"), content::PaletteKind::distinct}}) {
+        ImGui::SameLine();
+        if (ImGui::RadioButton(words[key].c_str(), settings.palette == kind)) settings.palette = kind;
+        record_place(context, key);
+    }
+    ImGui::Separator();
+    ImGui::Checkbox(words["menu.left_handed"].c_str(), &settings.left_handed);
+    record_place(context, "menu.left_handed");
+    bool seated = settings.seated_height.has_value();
+    if (ImGui::Checkbox(words["menu.seated"].c_str(), &seated))
+        settings.seated_height = seated ? std::optional(default_seat) : std::nullopt;
+    record_place(context, "menu.seated");
+    if (settings.seated_height) {
+        draw_slider(words["settings.seated_height"].c_str(), *settings.seated_height,
+                    {content::lowest_seat, content::highest_seat, "%.2f m", 1.0});
+        record_place(context, "settings.seated_height");
+    }
+    draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::least_force_scale, 1.0});
+    record_place(context, "menu.force_scale");
+}
+
+void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
+    const words::Words& words = context.words;
+    draw_text(words["menu.keys"]);
+    ImGui::Columns(2, "keys", false);
+    for (std::size_t i = 0; i < action_count; ++i) {
+        const auto action = static_cast<Action>(i);
+        const bool waits = waiting_ == action;
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Button(waits ? "…" : key_name(keys, action).c_str(), {80.0F * context.scale, 0.0F})) {
+            waiting_ = waits ? std::nullopt : std::optional(action);
+            message_.clear();
+        }
+        record_place(context, term(action));
+        ImGui::PopID();
+        ImGui::SameLine();
+        draw_text(words[term(action)]);
+        if (i + 1 == action_count / 2) ImGui::NextColumn();
+    }
+    ImGui::Columns(1);
+    if (waiting_)
+        draw_wrapped(words::format_text(words, "settings.press_key", {{"action", words[term(*waiting_)]}}),
+                     highlight);
+    if (!message_.empty()) draw_wrapped(message_, highlight);
+    draw_wrapped(words["settings.escape"], muted);
+    if (draw_button(context, "settings.usual_keys")) {
+        keys = KeyMap{};
+        *this = {};
+    }
+}
+
+ScreenAction SettingsScreen::draw(const ScreenContext& context, Preferences& preferences, bool in_lesson) {
+    begin_panel(context, "##settings", 720.0F * context.scale, 0.96F);
+    draw_text(context.words["menu.settings"]);
+    ImGui::Separator();
+    draw_person(context, preferences.settings);
+    if (in_lesson) draw_wrapped(context.words["settings.next_lesson"], muted);
+    ImGui::Separator();
+    draw_keys(context, preferences.keys);
+    ImGui::Separator();
+    draw_settings_file(context, preferences);
+    const bool back = draw_button(context, "menu.back");
+    ImGui::End();
+    return back ? ScreenAction::close_settings : ScreenAction::none;
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,28 @@
+// The screen with a trainee's settings and keys, opened from the menu and from the pause. Changes apply at
+// once; working hand, seat height and force scale apply from the next lesson on.
+#pragma once
+
+#include "game/trainer/screens.hpp"
+
+namespace bolt::trainer {
+
+class SettingsScreen {
+  public:
+    // Returns close_settings or none. `in_lesson`: adds the note about changes that wait for the next lesson.
+    ScreenAction draw(const ScreenContext& context, Preferences& preferences, bool in_lesson);
+
+    // Handles the keys of a frame and returns the events that remain for the interface: a key that an action
+    // waits for is bound to it; Escape cancels the wait, or closes the screen (`closes`).
+    std::vector<platform::InputEvent> take_keys(std::span<const platform::InputEvent> events,
+                                                const words::Words& words, KeyMap& keys, bool& closes);
+
+  private:
+    void draw_person(const ScreenContext& context, content::TraineeSettings& settings);
+    void draw_keys(const ScreenContext& context, KeyMap& keys);
+    void bind_key(platform::Key key, const words::Words& words, KeyMap& keys);
+
+    std::optional<Action> waiting_;  // the action whose next key is being waited for
+    std::string message_;            // about the last key that was pressed
+};
+
+}  // namespace bolt::trainer

@@ -1,0 +1,65 @@
+#include "tests/dead_ends/lesson_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dead_ends {
+
+namespace {
+
+constexpr double fastest_hand = 0.03;  // m per tick; the servo rejects faster motion
+
+}  // namespace
+
+LessonRun::LessonRun(session::LessonSession& lesson_session, InvariantChecker& invariant_checker)
+    : session(lesson_session), checker(invariant_checker) {
+    player.hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
+    last.device = servo::sample_of(player.hand.pose);
+}
+
+bool LessonRun::tick(servo::Input input, bool wrench_in_hand, double room, bool hint_key) {
+    input.setting = static_cast<float>(setting_scale * lesson::wrench_setting(session.lesson()));
+    const auto stepped = session.step(input);
+    if (!stepped) {
+        checker.report(stepped.error().message());
+        return false;
+    }
+    output = *stepped;
+    last = input;
+    checker.tick(output);
+    if (session.state().tick % frame_ticks == 0) checker.frame(output, wrench_in_hand, room, hint_key);
+    return true;
+}
+
+void LessonRun::frame(trainer::MouseCommand command, std::optional<std::size_t> undo_steps, bool hint_key) {
+    trainer::MouseHand& hand = player.hand;
+    if (undo_steps) trainer::request_undo(undo, session.lesson(), *undo_steps);
+    if (undo.target && hand.nut) command.retreat = true;
+    trainer::apply_command(hand, command, session.setup(), session.state());
+    for (int i = 0; i < frame_ticks && !over(); ++i) {
+        const Vec3 before = hand.pose.position;
+        servo::Input input = trainer::step_hand(hand, session.setup(), session.state());
+        if (const lesson::LessonStep* due = session.lesson().due(); due != nullptr && session.lesson().guides)
+            input.guide = static_cast<std::int16_t>(due->joint);
+        const auto steps = trainer::steps_to_undo(undo, session.lesson());
+        if (steps && hand.action == trainer::HandAction::resting && !hand.nut) session.request_undo(*steps);
+        double room = std::numeric_limits<double>::infinity();
+        if (hand.wrench && hand.action == trainer::HandAction::holding)
+            room = hand.room - std::abs(hand.handle_angle - hand.stroke_begin);
+        double leap = glm::distance(before, hand.pose.position);
+        // After a miss the hand continues from the pose at which an obstacle stopped the wrench.
+        if (session.state().tool_contact && hand.wrench)
+            leap = std::min(leap, glm::distance(session.state().tool_contact->god_object.tool.position,
+                                                hand.pose.position));
+        if (!(leap < fastest_hand))
+            checker.report(fmt::format("the mouse hand jumps by {:.1f} mm during action {}", 1e3 * leap,
+                                       static_cast<int>(hand.action)));
+        if (!tick(input, hand.wrench, room, hint_key)) return;
+        for (const lesson::LessonEvent& event : session.events())
+            trainer::observe(undo, session.lesson(), event);
+    }
+    trainer::update(undo, frame_seconds);
+}
+
+}  // namespace dead_ends

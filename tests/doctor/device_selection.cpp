@@ -1,0 +1,65 @@
+#include "game/station/station_setup.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace bolt;
+using namespace bolt::station_setup;
+using device::HidKind;
+using device::ListedDevice;
+
+namespace {
+
+ListedDevice device_of(const std::string& id, HidKind kind, const char* trouble = nullptr) {
+    ListedDevice l{"/dev/hidraw0", id, "a " + id, kind, std::nullopt};
+    if (trouble != nullptr) {
+        l.trouble.emplace();
+        l.trouble->code = ErrorCode::no_device;
+        l.trouble->what = trouble;
+    }
+    return l;
+}
+
+const std::vector<ListedDevice> connected{
+    device_of("256f:c62e", HidKind::puck, "may not be opened"), device_of("046d:c626", HidKind::puck),
+    device_of("1234:5678", HidKind::wheel), device_of("1209:ffb0", HidKind::board),
+    device_of("0000:0001", HidKind::other)};
+
+Result<DeviceSelection> selected(const std::vector<std::string>& ids) {
+    return select_devices(connected, ids);
+}
+
+std::string error_of(const std::vector<std::string>& ids) {
+    const Result<DeviceSelection> selection = selected(ids);
+    return selection ? "" : selection.error().message();
+}
+
+}  // namespace
+
+TEST_CASE("Selection: a puck is the mover and a wheel or board the wheel, in any order") {
+    CHECK(!selected({})->mover);
+    for (const auto& ids : {std::vector<std::string>{"046d:c626", "1209:ffb0"}, {"1209:ffb0", "046d:c626"}}) {
+        const Result<DeviceSelection> both = selected(ids);
+        REQUIRE(both);
+        CHECK(both->mover->id == "046d:c626");
+        CHECK(both->wheel->id == "1209:ffb0");
+        CHECK(ids_of(*both) == std::vector<std::string>{"046d:c626", "1209:ffb0"});
+    }
+    CHECK(selected({"1234:5678"})->wheel->id == "1234:5678");
+    CHECK(!selected({"1234:5678"})->mover);
+}
+
+TEST_CASE("Selection: missing, unusable and duplicate devices are errors that name the remedy") {
+    CHECK(error_of({"1209:ffb1"}).find("did you mean 1209:ffb0?") != std::string::npos);
+    CHECK(error_of({"dead:beef"}).find("boltwright devices") != std::string::npos);
+    CHECK(selected({"dead:beef"}).error().code == ErrorCode::no_device);
+    CHECK(error_of({"256f:c62e"}) == "may not be opened");
+    CHECK(error_of({"0000:0001"}).find("cannot be used for training") != std::string::npos);
+    CHECK(error_of({"1234:5678", "1209:ffb0"}).find("only one of them") != std::string::npos);
+    CHECK(selected({"1209:ffb0", "1209:ffb0"}).error().code == ErrorCode::usage);
+}
+
+TEST_CASE("Selection: without ids the first usable device of each role is taken") {
+    CHECK(ids_of(select_any_devices(connected)) == std::vector<std::string>{"046d:c626", "1234:5678"});
+    CHECK(ids_of(select_any_devices({})).empty());
+    CHECK(ids_of(select_any_devices(std::span(connected).first(1))).empty());
+}

@@ -1,0 +1,139 @@
+// Lessons with a torque wrench: its set torque, its click, and its effect on trainees.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "content/format/assembly.hpp"
+#include "game/session/lesson_session.hpp"
+#include "game/trainees/trainee.hpp"
+#include "tests/lesson/script.hpp"
+
+using namespace bolt;
+using namespace bolt::lesson;
+using test::Script;
+
+namespace {
+
+content::Assembly cover_with(const char* tool) {
+    content::LoadedAssembly loaded = content::load_assembly("cover-m8");
+    REQUIRE(loaded.ok());
+    REQUIRE(content::choose_tool(loaded.assembly, tool));
+    return std::move(loaded.assembly);
+}
+
+struct LessonRun {
+    int in_window = 0, clicks = 0;
+    double deviation = 0.0, worst_click = 0.0;  // relative to the trip torque
+    bool finished = false;
+};
+
+LessonRun play_through(const content::Assembly& assembly, const char* trainee, std::uint64_t seed,
+                       joint::Law law = joint::Law::mechanistic) {
+    const content::Assembly under = apply_law(assembly, law);
+    const servo::Setup setup = session::make_setup(under, law, {}, seed, 1e-3);
+    servo::State state = servo::initial_state(setup);
+    Lesson lesson = begin(under, Mode::practice, Task::tighten);
+    trainees::SimulatedTrainee hand(trainees::find_profile(trainee).value(), seed, setup);
+    LessonRun run;
+    run.deviation = setup.wrench.deviation;
+    while (lesson.due() != nullptr && state.tick < 1'200'000) {
+        servo::Input input = hand.act(setup, state, lesson);
+        input.setting = static_cast<float>(wrench_setting(lesson));
+        const double trips = wrench_setting(lesson) * (1.0 + run.deviation);
+        const servo::Output output = servo::tick(setup, state, input);
+        if (output.clicked) {
+            ++run.clicks;
+            run.worst_click = std::max(run.worst_click, output.wrench_torque / trips - 1.0);
+        }
+        observe(lesson, state, output);
+        lesson.events.clear();
+    }
+    run.finished = lesson.due() == nullptr;
+    for (const JointResult& joint : judge(lesson, state, 1e-3).joints)
+        run.in_window += joint.torque_verdict == Verdict::ok ? 1 : 0;
+    return run;
+}
+
+}  // namespace
+
+TEST_CASE("Torque wrench: set to the step's torque, and to 0 for steps without a torque") {
+    Script s;
+    s.idle();
+    CHECK(wrench_setting(s.lesson) == 0.0);  // run down
+    s.seat(0);
+    s.seat(1);
+    CHECK(wrench_setting(s.lesson) == 0.0);  // a plain wrench has no scale
+    s.assembly.wrench.click_swing = 0.07;
+    CHECK(wrench_setting(s.lesson) == 35.0);
+    s.pull(0, 35.0);
+    s.pull(1, 35.0);
+    CHECK(wrench_setting(s.lesson) == 70.0);
+    s.pull(0, 70.0);
+    s.pull(1, 70.0);
+    CHECK(wrench_setting(s.lesson) == 0.0);  // all steps are done
+}
+
+TEST_CASE("Torque wrench: a click gives one event with its torque") {
+    Script s;
+    s.seat_both();
+    s.tick(0, servo::Grip::wrench, 34.5, 0.0, true);
+    for (int i = 0; i < 50; ++i) s.tick(0, servo::Grip::wrench, 17.0);
+    CHECK(s.count(EventKind::click) == 1);
+    for (const LessonEvent& event : s.lesson.events)
+        if (event.kind == EventKind::click) {
+            CHECK(event.joint == 0);
+            CHECK(event.value == 34.5);
+        }
+}
+
+TEST_CASE("Torque wrench: with strategy yield a click completes its step, and no later one") {
+    Script s(Mode::guided, content::Strategy::yield);
+    s.assembly.wrench.click_swing = 0.07;
+    s.seat_both();
+    for (const int joint : {0, 1}) {
+        s.tick(joint, servo::Grip::wrench, 35.0, 0.0, true);
+        s.pull(joint, 35.0);
+    }
+    REQUIRE(s.lesson.current == 4);
+    s.pull(0, 70.0);
+    CHECK(s.lesson.current == 4);
+    s.tick(0, servo::Grip::wrench, 70.0, 0.0, true);
+    s.idle();
+    CHECK(s.lesson.current == 5);
+}
+
+TEST_CASE("Torque wrench: pulling on past the click is excess torque and is reported") {
+    Script s;
+    s.assembly.wrench.click_swing = 0.07;
+    s.seat_both();
+    for (const int joint : {0, 1}) s.pull(joint, 35.0);
+    s.tick(0, servo::Grip::wrench, 70.0, 0.0, true);
+    s.pull(0, 90.0);
+    CHECK(s.count(EventKind::mistake) == 1);
+    CHECK(judge_joint(s.lesson, 0, s.state).torque_verdict == Verdict::high);
+}
+
+TEST_CASE("Torque wrench: trainees stop at the click under both laws, and tighten more accurately with it") {
+    const content::Assembly plain = cover_with("wrench"), torque = cover_with("torque_wrench");
+    for (const joint::Law law : {joint::Law::mechanistic, joint::Law::published}) {
+        const LessonRun expert = play_through(torque, "expert", 3, law);
+        CHECK(expert.finished);
+        CHECK(expert.in_window == 4);
+        CHECK(expert.clicks >= 8);
+        CHECK(expert.worst_click <= 1e-9);
+    }
+    int with = 0, without = 0;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        const LessonRun clicked = play_through(torque, "novice", seed);
+        const LessonRun felt = play_through(plain, "novice", seed);
+        CHECK(clicked.finished);
+        CHECK(felt.clicks == 0);
+        CHECK(std::abs(clicked.deviation) <= 0.04);
+        with += clicked.in_window;
+        without += felt.in_window;
+    }
+    MESSAGE("novices, of 40 nuts in their window: ", without, " by feel, ", with, " by the click");
+    CHECK(with > without);
+    CHECK(with >= 36);
+}

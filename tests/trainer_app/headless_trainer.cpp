@@ -1,0 +1,119 @@
+#include "tests/trainer_app/headless_trainer.hpp"
+
+#include "engine/gpu/resources.hpp"
+
+namespace bolt::test {
+
+using namespace trainer;
+
+namespace {
+
+void need(const Status& status) {
+    if (!status) FAIL(status.error().message());
+}
+
+}  // namespace
+
+HeadlessTrainer::HeadlessTrainer(AppOptions options, Display display)
+    : folder_(options.out), display_(display) {
+    if (folder_.empty()) folder_ = std::filesystem::path(BOLT_TRAINER_OUT) / options.choice.assembly;
+    std::filesystem::create_directories(folder_);
+    options.out = folder_;
+    options.log = [this](const std::string& line) { log_.push_back(line); };
+    options.on_end = [this](const content::Assembly&, const session::LessonOptions&,
+                            const session::LessonOutcome& outcome) {
+        outcome_ = outcome;
+        return Status{};
+    };
+    gpu::InstanceOptions validated;
+    validated.validation = true;
+    auto instance = gpu::Instance::create(validated);
+    if (!instance) FAIL(instance.error().message());
+    instance_.emplace(std::move(*instance));
+    app_ = std::make_unique<App>(std::move(options));
+    make_gpu();
+}
+
+void HeadlessTrainer::make_gpu() {
+    render::RendererOptions drawn;
+    drawn.level_error_px = 0.7F;  // as in the window
+    auto gpu_context = view::make_gpu_context(*instance_, {}, drawn);
+    if (!gpu_context) FAIL(gpu_context.error().message());
+    gpu_context_ = std::move(*gpu_context);
+    need(app_->start(gpu_context_));
+}
+
+void HeadlessTrainer::lose_gpu() {
+    app_->release();
+    (void)gpu_context_.device->idle();
+    gpu_context_.renderer.reset();
+    gpu_context_.frames.reset();
+    gpu_context_.device.reset();
+    make_gpu();
+}
+
+HeadlessTrainer::~HeadlessTrainer() {
+    app_->release();
+    (void)gpu_context_.device->idle();
+    for (const std::string& message : instance_->log().messages) FAIL_CHECK(message);
+}
+
+Status HeadlessTrainer::draw(const std::vector<platform::InputEvent>& events, double seconds) {
+    auto frame = gpu_context_.frames->begin();
+    if (!frame) FAIL(frame.error().message());
+    Status drawn = app_->frame(**frame, events, display_.size, display_.scale, seconds);
+    need(gpu_context_.frames->submit(**frame));
+    return drawn;
+}
+
+void HeadlessTrainer::frame(const std::vector<platform::InputEvent>& events, double seconds) {
+    need(draw(events, seconds));
+}
+Status HeadlessTrainer::try_frame() { return draw({}, display_.step); }
+
+void HeadlessTrainer::wait(double seconds) {
+    for (double t = 0.0; t < seconds; t += display_.step) frame();
+}
+
+void HeadlessTrainer::key(platform::Key key) {
+    frame({platform::KeyEvent{key, true, false, {}}});
+    frame({platform::KeyEvent{key, false, false, {}}});
+}
+
+void HeadlessTrainer::move(const glm::dvec2& to) { frame({platform::CursorEvent{to}}); }
+
+void HeadlessTrainer::press(const glm::dvec2& at) {
+    move(at);
+    frame({platform::ButtonEvent{platform::Button::left, true, at}});
+}
+
+void HeadlessTrainer::release(const glm::dvec2& at) {
+    frame({platform::ButtonEvent{platform::Button::left, false, at}});
+}
+
+glm::dvec2 HeadlessTrainer::hold(std::size_t joint) {
+    const auto on = [&] { return lesson().session->state().engagement.joint == static_cast<int>(joint); };
+    const session::LessonSession& session = *lesson().session;
+    const auto at = project(
+        screen(), servo::nut_centre(session.setup().nuts[joint], session.state().joints[joint].nut.angle));
+    REQUIRE(at);
+    move(*at);
+    REQUIRE(lesson().pointer.nut == joint);
+    press(*at);
+    for (int i = 0; i < 60 && !on(); ++i) frame();
+    REQUIRE(on());
+    return *at;
+}
+
+render::Picture HeadlessTrainer::picture() {
+    need(gpu_context_.frames->finish());
+    const render::ImageLayer made = gpu_context_.renderer->picture(0);
+    const auto texels = gpu::download_image(*gpu_context_.device, *made.image,
+                                            gpu::ResourceUse::transfer_from, 4, 0, made.layer);
+    if (!texels) FAIL(texels.error().message());
+    render::Picture picture{display_.size.width, display_.size.height, {}};
+    for (const std::byte b : *texels) picture.rgba.push_back(static_cast<std::uint8_t>(b));
+    return picture;
+}
+
+}  // namespace bolt::test

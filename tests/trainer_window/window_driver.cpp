@@ -1,0 +1,104 @@
+#include "tests/trainer_window/window_driver.hpp"
+
+#include <stdexcept>
+
+namespace bolt::test {
+
+namespace {
+
+std::string keysym(platform::Key key) {
+    switch (key) {
+        case platform::Key::escape:
+            return "Escape";
+        case platform::Key::enter:
+            return "Return";
+        case platform::Key::backspace:
+            return "BackSpace";
+        default:
+            return std::string(platform::name(key));
+    }
+}
+
+}  // namespace
+
+void WindowDriver::wait_for(Turn turn) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return turn_ == turn || done_ || window_closed_; });
+}
+
+void WindowDriver::pass_to(Turn turn) {
+    {
+        const std::lock_guard lock(mutex_);
+        turn_ = turn;
+    }
+    changed_.notify_all();
+}
+
+bool WindowDriver::turn() {
+    pass_to(Turn::user);
+    wait_for(Turn::trainer);
+    const std::lock_guard lock(mutex_);
+    return done_;
+}
+
+void WindowDriver::run(const std::function<void()>& act) {
+    const auto leave = [&] {
+        {
+            const std::lock_guard lock(mutex_);
+            done_ = true;
+        }
+        changed_.notify_all();
+    };
+    try {
+        wait_for(Turn::user);
+        hand_ = std::make_unique<WindowUser>("boltwright");
+        act();
+    } catch (...) {
+        leave();
+        throw;
+    }
+    leave();
+}
+
+void WindowDriver::window_closed() {
+    {
+        const std::lock_guard lock(mutex_);
+        window_closed_ = true;
+    }
+    changed_.notify_all();
+}
+
+void WindowDriver::frame() {
+    pass_to(Turn::trainer);
+    wait_for(Turn::user);
+    const std::lock_guard lock(mutex_);
+    if (window_closed_) throw std::runtime_error("the window is gone");
+}
+
+void WindowDriver::key(platform::Key key) {
+    hand_->key(keysym(key).c_str());
+    frame();
+}
+
+void WindowDriver::move(const glm::dvec2& to) {
+    hand_->point(static_cast<int>(to.x), static_cast<int>(to.y));
+    frame();
+}
+
+void WindowDriver::press(const glm::dvec2& at) {
+    move(at);
+    hand_->press(static_cast<int>(at.x), static_cast<int>(at.y));
+    frame();
+}
+
+void WindowDriver::release(const glm::dvec2& at) {
+    hand_->release(static_cast<int>(at.x), static_cast<int>(at.y));
+    frame();
+}
+
+glm::dvec2 WindowDriver::size() const {
+    const platform::Size pixels = window_.pixels();
+    return {pixels.width, pixels.height};
+}
+
+}  // namespace bolt::test

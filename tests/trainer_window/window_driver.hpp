@@ -1,0 +1,50 @@
+// A driver for the trainer in a real window, with input through the X server.
+//
+// The trainer runs in the thread that owns the window, the simulated user in another. They take turns, so the
+// user always sees the picture that was shown last.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+
+#include "engine/platform/window.hpp"
+#include "tests/platform/window_user.hpp"
+#include "tests/trainer_app/trainer_driver.hpp"
+
+namespace bolt::test {
+
+class WindowDriver final : public TrainerDriver {
+  public:
+    WindowDriver(const trainer::App& app, const platform::Window& window) : app_(app), window_(window) {}
+
+    // Call once a frame in the trainer's thread. Returns true when the user is done.
+    bool turn();
+    // Runs `act` in the user's thread from the first picture on.
+    void run(const std::function<void()>& act);
+    // Call when the window is closed; a waiting frame() then throws.
+    void window_closed();
+
+    void frame() override;
+    void key(platform::Key key) override;
+    void move(const glm::dvec2& to) override;
+    void press(const glm::dvec2& at) override;
+    void release(const glm::dvec2& at) override;
+    [[nodiscard]] const trainer::App& app() const override { return app_; }
+    [[nodiscard]] glm::dvec2 size() const override;
+
+  private:
+    const trainer::App& app_;
+    const platform::Window& window_;
+    std::unique_ptr<WindowUser> hand_;
+    // Not a semaphore: std::counting_semaphore of libstdc++ 12 was observed not to wake up after a release.
+    enum class Turn : std::uint8_t { trainer, user };
+    void wait_for(Turn turn);
+    void pass_to(Turn turn);
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    Turn turn_ = Turn::trainer;
+    bool done_ = false, window_closed_ = false;
+};
+
+}  // namespace bolt::test

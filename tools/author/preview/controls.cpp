@@ -1,0 +1,83 @@
+#include "tools/author/preview/controls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace bolt::author {
+
+namespace {
+
+using namespace platform;
+
+constexpr std::size_t view_keys = 9;
+
+void press(Key key, PreviewCommands& commands) {
+    switch (key) {
+        case Key::escape:
+            commands.close = true;
+            break;
+        case Key::f11:
+            commands.full_screen = true;
+            break;
+        case Key::r:
+            commands.reload = true;
+            break;
+        case Key::f:
+            commands.show_all = true;
+            break;
+        case Key::l:
+            commands.toggle_level = true;
+            break;
+        default:
+            if (key >= Key::digit_1 && key <= Key::digit_9)
+                commands.select_view = static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::digit_1);
+    }
+}
+
+}  // namespace
+
+PreviewCommands PreviewControls::apply(std::span<const InputEvent> events, double height, double aspect,
+                                       view::Orbit& camera, const render::BoundingBox& box) {
+    PreviewCommands commands;
+    for (const InputEvent& event : events) {
+        if (const auto* key = std::get_if<KeyEvent>(&event)) {
+            const Modifiers& m = key->modifiers;
+            if (key->down && !key->repeated && !m.control && !m.alt && !m.super) press(key->key, commands);
+        } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
+            cursor_ = button->at;
+            // A second button is ignored while one is held.
+            if (button->down && drag_ == Drag::none && button->button != Button::other) {
+                drag_ = button->button == Button::left ? Drag::turn : Drag::pan;
+                held_ = button->button;
+            } else if (!button->down && button->button == held_) {
+                drag_ = Drag::none;
+                held_ = Button::other;
+            }
+        } else if (const auto* cursor = std::get_if<CursorEvent>(&event)) {
+            const glm::dvec2 motion = (cursor->at - cursor_) / height;
+            cursor_ = cursor->at;
+            if (drag_ == Drag::turn) view::turn(camera, {motion.x, -motion.y});
+            if (drag_ == Drag::pan) view::pan(camera, {motion.x, -motion.y});
+        } else if (const auto* wheel = std::get_if<WheelEvent>(&event)) {
+            const glm::dvec2 at(wheel->at.x / height - 0.5 * aspect, 0.5 - wheel->at.y / height);
+            view::zoom(camera, wheel->notches.y, at, box);
+        } else if (const auto* focus = std::get_if<FocusEvent>(&event)) {
+            if (!focus->focused) drag_ = Drag::none;  // the release may go to another window
+        } else if (std::holds_alternative<CloseEvent>(event)) {
+            commands.close = true;
+        } else if (!std::holds_alternative<TextEvent>(event)) {
+            commands.redraw = true;  // resize or refresh
+        }
+    }
+    return commands;
+}
+
+std::string help_line(const std::vector<view::Viewpoint>& views) {
+    std::string text = "Left drag: turn. Right or middle drag: move. Wheel: nearer. F: all.";
+    for (std::size_t i = 0; i < std::min(views.size(), view_keys); ++i)
+        text += fmt::format(" {}: {}.", i + 1, views[i].name);
+    return text + " L: far level. R: read again. F11: full screen. Esc: close.\n";
+}
+
+}  // namespace bolt::author

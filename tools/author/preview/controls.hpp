@@ -1,0 +1,35 @@
+// Maps mouse and keyboard events of the preview window to camera motion and commands.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "engine/platform/input.hpp"
+#include "game/view/camera.hpp"
+
+namespace bolt::author {
+
+struct PreviewCommands {
+    bool close = false, full_screen = false, reload = false, show_all = false, toggle_level = false;
+    bool redraw = false;                     // the window lost its picture or was resized
+    std::optional<std::size_t> select_view;  // index of a view of the assembly
+};
+
+class PreviewControls {
+  public:
+    // Moves `camera` and returns the commands of the events. `height`: of the window, pixels; `aspect`: width
+    // / height; `box`: of the model.
+    PreviewCommands apply(std::span<const platform::InputEvent> events, double height, double aspect,
+                          view::Orbit& camera, const render::BoundingBox& box);
+
+  private:
+    enum class Drag : std::uint8_t { none, turn, pan };
+    Drag drag_ = Drag::none;
+    platform::Button held_ = platform::Button::other;
+    glm::dvec2 cursor_{0.0};
+};
+
+// Returns one line that lists the keys and the names of up to nine views.
+std::string help_line(const std::vector<view::Viewpoint>& views);
+
+}  // namespace bolt::author
