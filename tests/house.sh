@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# The arrows of the house point down, every header is complete in itself by name, and nothing is left half done.
+# Checks the rules of the sources: includes point to lower layers only, headers have #pragma once, no TODO remains, all texts are
+# used, skipped tests are reported, and clang-format changes no file.
 set -euo pipefail
 cd "$1"
 . tests/support/skip.sh house
 failed=0
 bad() { echo "$1"; failed=1; }
 
-# The check itself can fail: a planted include that points upward is found.
+# The check itself can fail: it finds a planted include of a higher layer.
 planted=$(mktemp -d)
 trap 'rm -rf "$planted"' EXIT
 mkdir "$planted/engine"
@@ -26,7 +27,7 @@ done < <(find engine haptics content game tools tests -name '*.hpp')
 if grep -rnEi '\b(TODO|FIXME|XXX)\b' --include='*.hpp' --include='*.cpp' --include='*.glsl' engine haptics content game tools; then
     bad "left half done"
 fi
-# Whoever translates is asked for no text that nobody is shown.
+# Every text key is used in the code, so that translators translate no unused text.
 all_said() {
     local keys=$1 said key
     said=$(grep -rhoE '"[a-z_.0-9]+"' --include='*.hpp' --include='*.cpp' engine game tools | sort -u)
@@ -39,7 +40,7 @@ echo '    {"hint.of_nothing", ""},' > "$planted/key_rows.hpp"
 unsaid=$(all_said content/words/key_rows.hpp)
 [ -z "$unsaid" ] || bad "texts that nothing says: $unsaid"
 
-# A test that is left out says so (tests/support/skip.hpp).
+# A test reports what it skips (tests/support/skip.hpp).
 silent_skips() { grep -rnE 'sanitized\)? *\)? (return|continue);|sanitized && .*\) (return|continue);|doctest::skip\(' --include='*.cpp' --include='*.hpp' "$1" || true; }
 for line in 'if (test::sanitized) return;' 'if (test::sanitized && x) continue;' 'TEST_CASE("a" * doctest::skip(true)) {'; do
     echo "$line" > "$planted/silent.cpp"

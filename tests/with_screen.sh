@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs a command on a screen of its own that nobody sees, and ends as it ends. $BOLT_SCREEN is the file in which
-# Xvfb keeps the pixels (an XWD picture). Xvfb itself picks a number that is free.
+# Runs a command on its own virtual screen and returns the command's exit code. $BOLT_SCREEN is the file in which Xvfb stores the
+# pixels (an XWD picture). Xvfb chooses a free display number.
 set -uo pipefail
 folder=$(mktemp -d)
 mkfifo "$folder/number"

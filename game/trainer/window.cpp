@@ -22,7 +22,7 @@ VkExtent2D size_of(const platform::Window& window) {
     return {size.width, size.height};
 }
 
-// The GPU, and the window on it. What is drawn with is let go of only when nothing is being drawn.
+// The GPU and the swapchain of the window. The destructor waits until the GPU is idle.
 struct Canvas {
     view::GpuContext gpu_context;
     std::unique_ptr<gpu::Swapchain> swapchain;
@@ -52,32 +52,32 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
 }
 
 Status draw(App& app, Canvas& canvas, platform::Window& window, std::span<const platform::InputEvent> events,
-            double passed) {
+            double elapsed) {
     BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->prepare(size_of(window)));
     if (size.width == 0 || size.height == 0) return app.frame_while_hidden();
     BOLT_TRY_ASSIGN(const auto frame, canvas.gpu_context.frames->begin());
-    BOLT_TRY(app.frame(*frame, events, size, window.content_scale(), passed));
+    BOLT_TRY(app.frame(*frame, events, size, window.content_scale(), elapsed));
     const render::ImageLayer picture = canvas.gpu_context.renderer->picture(0);
     BOLT_TRY(canvas.swapchain->present(*canvas.gpu_context.frames, *frame, *picture.image, picture.layer));
     return {};
 }
 
-Status until_closed(App& app, Canvas& canvas, platform::Window& window, const WindowChoice& choice) {
+Status run_until_closed(App& app, Canvas& canvas, platform::Window& window, const WindowChoice& choice) {
     platform::Pace pace{platform::Clock::now(), platform::period_of(window.refresh_rate()), 0};
     double last = seconds();
     while (!app.closed() && !(choice.stop && choice.stop())) {
-        const bool nothing_to_see = canvas.swapchain->plan().extent.width == 0;
+        const bool minimised = canvas.swapchain->plan().extent.width == 0;
         const std::vector<platform::InputEvent> events =
-            nothing_to_see ? window.wait_for_events(0.1) : window.poll_events();
+            minimised ? window.wait_for_events(0.1) : window.poll_events();
         BOLT_TRY(window.display_status());
         for (const platform::InputEvent& event : events)
-            if (nothing_to_see && std::holds_alternative<platform::CloseEvent>(event)) return {};
-        const double now = seconds(), passed = now - last;
+            if (minimised && std::holds_alternative<platform::CloseEvent>(event)) return {};
+        const double now = seconds(), elapsed = now - last;
         last = now;
-        if (Status done = draw(app, canvas, window, events, passed); !done) {
-            // What cannot be shown for want of a display is no fault of the GPU.
-            Status there = window.display_status();
-            return there ? done : there;
+        if (Status done = draw(app, canvas, window, events, elapsed); !done) {
+            // If the display server has ended, report that instead of the failed presentation.
+            Status display = window.display_status();
+            return display ? done : display;
         }
         if (app.take_full_screen_request()) window.set_full_screen(!window.full_screen());
         (void)platform::wait_for_deadline(pace);
@@ -91,31 +91,32 @@ Status run_in_window(App& app, platform::Window& window, const gpu::Instance& in
                      const WindowChoice& choice) {
     gpu::DeviceLossPolicy loss_policy;
     for (;;) {
-        Status done;
+        Status result;
         {
             Result<Canvas> canvas = make_canvas(window, instance, choice);
             if (!canvas) {
-                done = fail(canvas.error());
+                result = fail(canvas.error());
             } else {
-                done = app.start(canvas->gpu_context);
-                if (done) done = until_closed(app, *canvas, window, choice);
+                result = app.start(canvas->gpu_context);
+                if (result) result = run_until_closed(app, *canvas, window, choice);
                 app.release();
-                (void)
-                    canvas->gpu_context.renderer->save_pipelines();  // without them the next start is slower
+                // Without the saved pipelines the next start is only slower.
+                (void)canvas->gpu_context.renderer->save_pipelines();
             }
         }
-        if (done || !done.error().lost) {
+        if (result || !result.error().lost) {
             const Status ended = app.end_lesson();
-            return done ? ended : done;
+            return result ? ended : result;
         }
         if (!loss_policy.should_restart(seconds())) {
             (void)app.end_lesson();
             return fail(ErrorCode::no_device,
                         fmt::format("the GPU was lost twice within {:.0f} s: {}",
-                                    gpu::DeviceLossPolicy::min_interval, done.error().what),
+                                    gpu::DeviceLossPolicy::min_interval, result.error().what),
                         "another GPU or driver: boltwright doctor lists them, --gpu chooses");
         }
-        (void)std::fprintf(stderr, "the GPU was lost (%s) and is started again\n", done.error().what.c_str());
+        (void)std::fprintf(stderr, "the GPU was lost (%s) and is started again\n",
+                           result.error().what.c_str());
     }
 }
 

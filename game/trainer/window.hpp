@@ -1,4 +1,4 @@
-// The trainer in a window of the desktop.
+// Runs the trainer in a desktop window.
 #pragma once
 
 #include "engine/platform/window.hpp"
@@ -8,11 +8,11 @@ namespace bolt::trainer {
 
 struct WindowChoice {
     std::string gpu;             // part of the name of the GPU to use; empty: the best
-    std::function<bool()> stop;  // asked every frame: somebody wants the program to end
+    std::function<bool()> stop;  // polled every frame; true closes the window
 };
 
-// Until it is closed; a lesson under way is then ended as it stands. A GPU that is lost is started again,
-// once in a while (gpu::DeviceLossPolicy); the lesson goes on.
+// Returns when the window is closed; a lesson that still runs is ended as it stands. A lost GPU is started
+// again and the lesson continues, unless it was lost shortly before (gpu::DeviceLossPolicy).
 Status run_in_window(App& app, platform::Window& window, const gpu::Instance& instance,
                      const WindowChoice& choice = {});
 

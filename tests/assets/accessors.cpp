@@ -27,7 +27,7 @@ const Primitive& primitive(const Model& model) { return model.meshes.at(0).primi
 
 }  // namespace
 
-TEST_CASE("Accessors: a plain triangle") {
+TEST_CASE("Accessors: a triangle keeps its positions and indices") {
     const Model model = read(triangle_document());
     const Primitive& p = primitive(model);
     CHECK(p.topology == Topology::triangles);
@@ -38,7 +38,7 @@ TEST_CASE("Accessors: a plain triangle") {
     CHECK(model.roots == std::vector<int>{0});
 }
 
-TEST_CASE("Accessors: indices of 8, 16 and 32 bits, and none") {
+TEST_CASE("Accessors: indices have 8, 16 or 32 bits and are optional") {
     for (const int component : {5121, 5123, 5125}) {
         json document = triangle_document();
         Bytes bytes;
@@ -55,7 +55,7 @@ TEST_CASE("Accessors: indices of 8, 16 and 32 bits, and none") {
     CHECK(primitive(read(document)).indices.empty());
 }
 
-TEST_CASE("Accessors: normalised integers, 255 and 65535 are one") {
+TEST_CASE("Accessors: the normalised integers 255 and 65535 are read as 1") {
     const auto u8 =
         with_attribute("TEXCOORD_0", {{"componentType", 5121}, {"normalized", true}, {"type", "VEC2"}},
                        Bytes().add<std::uint8_t>({0, 255, 51, 102, 255, 0, 0, 0}));
@@ -70,7 +70,8 @@ TEST_CASE("Accessors: normalised integers, 255 and 65535 are one") {
 }
 
 TEST_CASE(
-    "Accessors: KHR_mesh_quantization, bytes and shorts, signed, normalised or not, if it is required") {
+    "Accessors: signed bytes and shorts, normalised or not, need KHR_mesh_quantization as required "
+    "extension") {
     auto document =
         with_attribute("NORMAL", {{"componentType", 5120}, {"normalized", true}, {"type", "VEC3"}},
                        Bytes().add<std::int8_t>({127, 0, -127, 0, 0, 127, -128, 0, 0, 0, 0, 0}));
@@ -96,7 +97,7 @@ TEST_CASE(
     CHECK(primitive(read(shorts)).positions[1] == glm::vec3(1.0F, -1.0F, 1.0F / 32767.0F));
 }
 
-TEST_CASE("Accessors: interleaved positions and normals") {
+TEST_CASE("Accessors: positions and normals are read from an interleaved view") {
     json document = triangle_document();
     set_buffer(document, Bytes().add({0.F, 1.F, 2.F, 0.F, 0.F, 1.F, 3.F, 4.F, 5.F, 0.F, 1.F, 0.F, 6.F, 7.F,
                                       8.F, 1.F, 0.F, 0.F}));
@@ -126,7 +127,7 @@ TEST_CASE("Accessors: sparse accessors replace some elements of a view or of zer
     CHECK(primitive(read(document)).positions == std::vector<glm::vec3>{{5, 6, 7}, {0, 0, 0}, {8, 9, 10}});
 }
 
-TEST_CASE("Accessors: without a view all values are zero, also indices") {
+TEST_CASE("Accessors: an accessor without a view yields zeros, for indices too") {
     json document = triangle_document();
     document["accessors"][1].erase("bufferView");
     document["accessors"][1].erase("byteOffset");
@@ -142,7 +143,8 @@ TEST_CASE("Accessors: an integer may be written as 3.0") {
     CHECK(refusal(document).pointer == "/accessors/0/count");
 }
 
-TEST_CASE("Morph targets: positions, normals and tangents; weights of mesh and node") {
+TEST_CASE(
+    "Morph targets: positions, normals and tangents are read, and so are the weights of mesh and node") {
     json document = triangle_document();
     document["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}, {{"NORMAL", 0}, {"TANGENT", 0}}};
     document["meshes"][0]["weights"] = {0.25, 0.5};
@@ -156,7 +158,7 @@ TEST_CASE("Morph targets: positions, normals and tangents; weights of mesh and n
     CHECK(model.nodes[0].weights == std::vector<float>{1.0F, 0.0F});
 }
 
-TEST_CASE("Skins: the four strongest of eight influences stay, with their sum") {
+TEST_CASE("Skins: the four strongest of eight influences are kept and normalised to a sum of 1") {
     json document = triangle_document();
     Bytes bytes;
     bytes.add({0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F});
@@ -178,7 +180,7 @@ TEST_CASE("Skins: the four strongest of eight influences stay, with their sum") 
     }
     const Model model = read(document);
     CHECK(primitive(model).joints[2] == glm::u16vec4(6, 1, 5, 7));
-    // 0.375, 0.25, 0.125 and 0.125 remain of a sum of one.
+    // The four largest weights are 0.375, 0.25, 0.125 and 0.125; their sum is 0.875.
     CHECK(primitive(model).weights[2].x == doctest::Approx(0.375 / 0.875));
     CHECK(primitive(model).weights[2].w == doctest::Approx(0.125 / 0.875));
     document["meshes"][0]["primitives"][0]["attributes"].erase("WEIGHTS_1");

@@ -42,7 +42,7 @@ Result<Model> read_beside(const Folder& folder, const std::string& uri) {
 
 }  // namespace
 
-TEST_CASE("Files: a buffer beside or below the document, with a percent-encoded name") {
+TEST_CASE("Files: a buffer beside or below the document is found, also by a percent-encoded name") {
     const Folder folder;
     REQUIRE(write_file(folder.path / "model" / "sub" / "two words+ü.bin", triangle_bytes() + "more"));
     const auto model = read_beside(folder, "sub/two%20words+%C3%BC.bin");
@@ -50,7 +50,7 @@ TEST_CASE("Files: a buffer beside or below the document, with a percent-encoded 
     CHECK(model->meshes[0].primitives[0].positions[1] == glm::vec3(1, 0, 0));
 }
 
-TEST_CASE("Files: a missing buffer is an error with its name") {
+TEST_CASE("Files: a missing buffer is an error that names it") {
     const Folder folder;
     const auto model = read_beside(folder, "missing.bin");
     REQUIRE_FALSE(model);
@@ -71,7 +71,7 @@ TEST_CASE("Files: a link out of the folder is not followed") {
     CHECK(read_beside(folder, "inside.bin"));
 }
 
-TEST_CASE("Files: a document named without a folder finds its buffers beside it") {
+TEST_CASE("Files: a document whose path has no folder finds its buffers beside it") {
     const Folder folder;
     REQUIRE(write_file(folder.path / "model" / "b.bin", triangle_bytes()));
     REQUIRE(write_file(folder.path / "outside.bin", triangle_bytes()));

@@ -368,7 +368,7 @@ TEST_CASE("Hostile files: the nesting limit protects the parser's stack") {
     CHECK(parse_gltf(R"({"asset":{"version":"2.0","generator":"[[[[[[\"[["}})", "brackets.gltf"));
 }
 
-TEST_CASE("Hostile files: a truncated .glb is an error or complete") {
+TEST_CASE("Hostile files: a .glb truncated at any length is an error") {
     json document = triangle_document();
     document["buffers"][0].erase("uri");
     std::string chunk(44, '\0');

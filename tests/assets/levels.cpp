@@ -30,7 +30,7 @@ Mesh extruded(const std::vector<std::pair<glm::vec2, glm::vec2>>& profile, std::
         }
     for (std::uint32_t row = 0; row < steps; ++row)
         for (std::uint32_t i = 0; i + 1 < columns; ++i) {
-            if (profile[i].first == profile[i + 1].first) continue;  // both sides of an edge
+            if (profile[i].first == profile[i + 1].first) continue;  // the duplicated vertices of a hard edge
             const std::uint32_t a = row * columns + i, b = a + 1, c = a + columns, d = c + 1;
             mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, d});
         }
@@ -52,7 +52,7 @@ Mesh filleted(float radius) {
     return extruded(profile, 24);
 }
 
-// The same with a hard edge, whose vertices are duplicated.
+// The same flats with a hard edge instead of the fillet; the vertices on the edge are duplicated.
 Mesh edged() {
     std::vector<std::pair<glm::vec2, glm::vec2>> profile;
     for (int i = 0; i <= 12; ++i) profile.push_back({{static_cast<float>(i) / 12.0F - 1.0F, 0.0F}, {0, 1}});
@@ -130,7 +130,7 @@ TEST_CASE("Levels of detail: a hard edge stays hard") {
     CHECK(levels.back().indices.size() < mesh.indices.size() / 4);
 }
 
-TEST_CASE("Levels of detail: without welding seams are kept, and flats stay flat") {
+TEST_CASE("Levels of detail: seams are kept without welding, and flats stay flat") {
     const Mesh mesh = edged();
     const std::vector<LevelOfDetail> levels =
         coarser_levels(mesh.positions, mesh.normals, mesh.indices, {.weld = false});
@@ -153,7 +153,7 @@ TEST_CASE("Levels of detail: without normals only indices change, and no corner 
     }
 }
 
-TEST_CASE("Levels of detail: small and empty meshes have none") {
+TEST_CASE("Levels of detail: small and empty meshes have no coarser level") {
     CHECK(coarser_levels({}, {}, {}).empty());
     const Mesh mesh = extruded({{{0, 0}, {0, 1}}, {{1, 0}, {0, 1}}}, 4);
     CHECK(coarser_levels(mesh.positions, mesh.normals, mesh.indices).empty());

@@ -1,4 +1,4 @@
-// Nodes, cameras, lights, skins, animations and materials are converted from JSON to the model.
+// Conversion of nodes, cameras, lights, skins, animations and materials from JSON to the model.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,7 +8,7 @@
 using namespace bolt;
 using namespace bolt::assets;
 
-TEST_CASE("Nodes: a matrix becomes translation, rotation and scale; a reflection too") {
+TEST_CASE("Nodes: a matrix is decomposed into translation, rotation and scale, also with a reflection") {
     json document = triangle_document();
     // Rotated by 90° about Z, scaled by 2, 3, 4, moved to 5, 6, 7; by columns.
     document["nodes"][0]["matrix"] = {0, 2, 0, 0, -3, 0, 0, 0, 0, 0, 4, 0, 5, 6, 7, 1};
@@ -24,7 +24,7 @@ TEST_CASE("Nodes: a matrix becomes translation, rotation and scale; a reflection
 }
 
 TEST_CASE(
-    "Nodes: without a scene the roots are the nodes without a parent; the default scene is the named one") {
+    "Nodes: the roots are those of the default scene, or the nodes without a parent if no scene exists") {
     json document = triangle_document();
     document["nodes"] = {{{"name", "a"}}, {{"name", "b"}, {"children", {0}}}, {{"name", "c"}}};
     document.erase("scenes");
@@ -42,7 +42,7 @@ TEST_CASE("Nodes: extras are kept as JSON") {
     CHECK(json::parse(read(document).nodes[0].extras) == document["nodes"][0]["extras"]);
 }
 
-TEST_CASE("Cameras: perspective with an infinite far plane, and orthographic") {
+TEST_CASE("Cameras: perspective cameras with an infinite far plane and orthographic cameras are read") {
     json document = triangle_document();
     document["cameras"] = {
         {{"type", "perspective"}, {"perspective", {{"yfov", 0.5}, {"znear", 0.125}}}},
@@ -60,7 +60,7 @@ TEST_CASE("Cameras: perspective with an infinite far plane, and orthographic") {
     CHECK(model.nodes[0].camera == 1);
 }
 
-TEST_CASE("Lights: types, defaults and the node's reference") {
+TEST_CASE("Lights: types, defaults and the node's reference are read") {
     json document = triangle_document();
     document["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "directional"}, {"intensity", 3.5}, {"color", {1.0, 0.5, 0.25}}},
@@ -79,7 +79,7 @@ TEST_CASE("Lights: types, defaults and the node's reference") {
     CHECK(model.nodes[0].light == 1);
 }
 
-TEST_CASE("Materials: extensions and defaults") {
+TEST_CASE("Materials: extensions are read, and missing values have their defaults") {
     json document = triangle_document();
     document["images"] = {{{"uri", "data:image/png;base64,iVBORw0KGgo="}}};
     document["textures"] = {{{"source", 0}}};
@@ -118,7 +118,7 @@ TEST_CASE("Materials: extensions and defaults") {
     CHECK(plain.normal_scale == 1.0F);
 }
 
-TEST_CASE("Skins: inverse bind matrices by columns, or none") {
+TEST_CASE("Skins: inverse bind matrices are stored by columns and are optional") {
     json document = triangle_document();
     Bytes bytes;
     bytes.add({0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F});
@@ -135,9 +135,9 @@ TEST_CASE("Skins: inverse bind matrices by columns, or none") {
     CHECK(model.skins[1].inverse_bind.empty());
 }
 
-TEST_CASE("Animations: one channel per target; channels without a node are ignored") {
+TEST_CASE("Animations: every target has one channel, and channels without a node are ignored") {
     json document = triangle_document();
-    // The positions serve as two outputs, their count as three keys.
+    // Accessor 0, the positions, is the output of the sampler; accessor 2 holds three key times.
     Bytes bytes;
     bytes.add({0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F});
     bytes.add<std::uint16_t>({0, 1, 2, 0});

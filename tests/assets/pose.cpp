@@ -49,7 +49,7 @@ TEST_CASE("Animation: a rotation has constant angular velocity") {
         CAPTURE(t);
         check_near(sample(channel, 1.0F + 2.0F * t), turn(0.3F + t * 1.8F), 1e-6);
     }
-    SUBCASE("the shorter arc, for every sign of the keys") {
+    SUBCASE("the rotation follows the shorter arc for either sign of the keys") {
         std::vector<float> end = turn(2.1F);
         for (float& x : end) x = -x;
         check_near(sample(rotation(turn(0.3F), end), 2.0F), turn(1.2F), 1e-6);
@@ -60,7 +60,7 @@ TEST_CASE("Animation: a rotation has constant angular velocity") {
     }
 }
 
-TEST_CASE("Animation: steps, linear interpolation, and constant values outside the keys") {
+TEST_CASE("Animation: values are stepped or linear between the keys and constant outside them") {
     Channel channel{.node = 0, .times = {0.5F, 1.0F, 2.0F}, .values = {1, 2, 3, 5, 6, 7, -1, -2, -3}};
     check_near(sample(channel, 0.0F), {1, 2, 3}, 0.0);
     check_near(sample(channel, 0.5F), {1, 2, 3}, 0.0);
@@ -74,7 +74,7 @@ TEST_CASE("Animation: steps, linear interpolation, and constant values outside t
     check_near(sample(channel, 1.999F), {5, 6, 7}, 0.0);
 }
 
-TEST_CASE("Animation: a cubic spline through keys of a cubic reproduces it") {
+TEST_CASE("Animation: a cubic spline through keys of a cubic reproduces the cubic") {
     // Values and slopes of x³ − 2x² + 3x − 4 at three unequal steps determine the cubic spline.
     const auto f = [](double x) { return ((x - 2.0) * x + 3.0) * x - 4.0; };
     const auto slope = [](double x) { return (3.0 * x - 4.0) * x + 3.0; };
@@ -114,7 +114,7 @@ TEST_CASE("Animation: a cubic spline through keys of a cubic reproduces it") {
     }
 }
 
-TEST_CASE("Animation: moves its targets and leaves the rest at rest") {
+TEST_CASE("Animation: only the targets of the channels change; other values keep the rest pose") {
     Model model;
     model.nodes.resize(2);
     model.nodes[0] = {.name = "arm", .translation = {0, 1, 0}, .children = {1}};
@@ -142,7 +142,9 @@ TEST_CASE("Animation: moves its targets and leaves the rest at rest") {
     check_near(model.nodes[1].weights, {0.75F, 0.25F}, 1e-6);
 }
 
-TEST_CASE("Skins: joints in the bind pose move nothing; joints moved together move everything equally") {
+TEST_CASE(
+    "Skins: joints in the bind pose leave vertices unchanged, and joints moved together move all vertices "
+    "equally") {
     Random random(3);
     Model model;
     Skin skin;

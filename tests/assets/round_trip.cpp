@@ -173,7 +173,7 @@ TEST_CASE("Round trip: images, lights, cameras and animations are bit-identical"
     }
 }
 
-TEST_CASE("Round trip: the same model gives the same bytes, and another model other bytes") {
+TEST_CASE("Round trip: equal models give equal bytes, and different models give different bytes") {
     Model model = sample_model();
     const std::string bytes = bytes_of(model);
     CHECK(bytes == bytes_of(sample_model()));

@@ -22,7 +22,7 @@ using Indices = std::vector<std::uint32_t>;
 
 }  // namespace
 
-TEST_CASE("Topology: every topology is read by its number") {
+TEST_CASE("Topology: every topology number of glTF is read") {
     for (int mode = 0; mode <= 6; ++mode) {
         json document = triangle_document();
         if (mode == 1) document["accessors"][1]["count"] = 2;
@@ -34,7 +34,7 @@ TEST_CASE("Topology: every topology is read by its number") {
     CHECK(refusal(document).pointer == "/meshes/0/primitives/0/mode");
 }
 
-TEST_CASE("Topology: strips and fans are wound as specified") {
+TEST_CASE("Topology: strips and fans have the winding that glTF specifies") {
     CHECK(triangle_indices(five(Topology::triangle_strip)) == Indices{0, 1, 2, 1, 3, 2, 2, 3, 4});
     CHECK(triangle_indices(five(Topology::triangle_fan)) == Indices{1, 2, 0, 2, 3, 0, 3, 4, 0});
     CHECK(triangle_indices(five(Topology::triangles)) == Indices{0, 1, 2});

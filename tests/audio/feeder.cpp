@@ -1,4 +1,4 @@
-// Feeding samples while sound devices appear and disappear, in simulated time.
+// Tests of the feeder in simulated time, while sound devices appear and disappear.
 
 #include "engine/audio/speaker.hpp"
 
@@ -78,7 +78,7 @@ TEST_CASE("Feeder: fills the sink with every sample once and in order") {
     CHECK(room.heard.size() == max_queued_blocks * block_size);
     CHECK(room.volume == 0.5);
     feeder.update(0.01, 0.5);
-    CHECK(room.heard.size() == max_queued_blocks * block_size);  // no room, no samples
+    CHECK(room.heard.size() == max_queued_blocks * block_size);  // a full sink requests no samples
     room.free = 2;
     feeder.update(0.02, 7.0);
     CHECK(room.volume == 1.0);
@@ -145,5 +145,5 @@ TEST_CASE("Feeder: a device that fails right after opening is not reopened conti
     Counter counter;
     Feeder feeder(card_in(room), counter.fill());
     for (double now = 0.0; now < 60.0; now += 0.005) feeder.update(now, 1.0);
-    CHECK(room.attempts == 6);  // at 0, 1, 3, 7, 15, 31
+    CHECK(room.attempts == 6);  // at 0, 1, 3, 7, 15 and 31 s
 }

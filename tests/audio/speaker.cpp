@@ -1,5 +1,5 @@
-// The speaker thread and OpenAL, each test in its own process, because OpenAL reads its driver selection
-// once.
+// Tests of the speaker thread and OpenAL. Tests of OpenAL run in their own process, because OpenAL reads its
+// driver selection once.
 
 #include "engine/audio/speaker.hpp"
 

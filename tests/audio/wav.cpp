@@ -1,4 +1,4 @@
-// WAV files: their contents, and that no incomplete file appears.
+// WAV files: their contents are correct, and no incomplete file appears.
 
 #include "engine/audio/wav.hpp"
 
@@ -47,7 +47,7 @@ TEST_CASE("WavWriter: header and samples are correct for every block size") {
         0.0F, 0.5F, -0.5F, 1.0F, -1.0F, 2.0F, -inf, std::numeric_limits<float>::quiet_NaN(), 1.0F / 32767.0F};
     auto wav = WavWriter::create(path, 48000);
     REQUIRE(wav);
-    CHECK_FALSE(std::filesystem::exists(path));  // only after finish()
+    CHECK_FALSE(std::filesystem::exists(path));  // the file appears only after finish()
     REQUIRE(wav->write(std::span(samples).first(2)));
     REQUIRE(wav->write(std::span(samples).subspan(2, 0)));
     REQUIRE(wav->write(std::span(samples).subspan(2)));
@@ -68,10 +68,10 @@ TEST_CASE("WavWriter: header and samples are correct for every block size") {
     const std::vector<int> expected{0, 16384, -16384, 32767, -32767, 32767, -32767, 0, 1};
     for (std::size_t i = 0; i < samples.size(); ++i) CHECK(sample(bytes, i) == expected[i]);
     CHECK_FALSE(std::filesystem::exists(folder / "a.wav.part"));
-    CHECK_FALSE(wav->write(samples));  // no writes after finish()
+    CHECK_FALSE(wav->write(samples));  // write() fails after finish()
 }
 
-TEST_CASE("WavWriter: without finish() the previous file stays, and nothing else") {
+TEST_CASE("WavWriter: without finish() the previous file stays, and no other file remains") {
     const Folder folder;
     const auto path = folder / "a.wav";
     REQUIRE(write_file(path, "the one before"));

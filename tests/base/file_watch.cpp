@@ -24,7 +24,7 @@ TEST_CASE("FileWatch: a change is reported once, after the file has stayed uncha
     CHECK(watch.changed(0.0).empty());
     write(a, "three");
     CHECK(watch.changed(1.0).empty());  // detected now
-    CHECK(watch.changed(1.1).empty());  // too soon
+    CHECK(watch.changed(1.1).empty());  // the file has not settled
     CHECK(watch.changed(1.25) == std::vector{a});
     CHECK(watch.changed(1.3).empty());
     // Continuous writing delays the report.

@@ -48,7 +48,7 @@ expect 3 'broken/assembly.json:[0-9]+:[0-9]+: .*M8' "$bin/bolt-author" validate 
 expect 3 'friction_thread' "$bin/boltwright" train --no-pictures broken --headless --out "$work/never"
 check "bad content leaves no folder behind" test ! -e never
 expect 0 'score' "$bin/boltwright" train --no-pictures pump-cover --no-obstacles --headless --quiet --out pump
-# Only one bolt of it, tightened once, because lessons with obstacles take long.
+# The lesson has one bolt, tightened once, because lessons with obstacles take long.
 cp -r pump-cover one
 sed -i '/"id": "B[234]"/d; s/\(.*"id": "B1".*\),$/\1/; s/"order": .*/"order": ["B1"],/; /"percent": 50/d; /recheck/d
     s/\("percent": 100 }\),/\1/' one/assembly.json
@@ -188,8 +188,8 @@ nobody=(setpriv --reuid=65534 --regid=65534 --clear-groups)
 if [[ $(id -u) -eq 0 ]] && "${nobody[@]}" "$bin/boltwright" --version > /dev/null 2>&1; then
     tty=$(readlink port)
     chgrp dialout "$tty" && chmod 660 "$tty"
-    expect 4 'Permission denied; expected a user of the group dialout: sudo usermod' "${nobody[@]}" "$bin/boltwright" devices --glove "$tty"
-    expect 4 'Permission denied; expected a user of the group dialout' "${nobody[@]}" "$bin/boltwright" doctor cover-m8 --glove "$tty"
+    expect 4 'Permission denied; expected a user in the group dialout: sudo usermod' "${nobody[@]}" "$bin/boltwright" devices --glove "$tty"
+    expect 4 'Permission denied; expected a user in the group dialout' "${nobody[@]}" "$bin/boltwright" doctor cover-m8 --glove "$tty"
 fi
 kill $emulated && wait $emulated
 expect 4 'plugged in' "$bin/boltwright" devices --glove port

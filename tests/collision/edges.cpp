@@ -1,4 +1,4 @@
-// Edge on edge, and past it.
+// Edge-edge contacts, including edges that have passed each other.
 #include "haptics/collision/edges.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double mm = 1e-3;
 
-// A bar along X whose one edge points along +Y and lies in the X axis.
+// A square bar along X. One of its edges lies on the X axis and points along +Y.
 ContactMesh bar(double length, double width) {
     const double diagonal = width / std::sqrt(2.0);
     const Pose turned{Vec3(0.0, -diagonal, 0.0), rotation(Vec3(pi / 4.0, 0.0, 0.0))};
@@ -24,14 +24,15 @@ ContactMesh bar(double length, double width) {
     return transformed(box(-half, half).mesh(), turned);
 }
 
-// The other bar, across and upside down, its edge `height` above the first bar's.
+// Pose of the other bar: across the first, upside down, with its edge `height` (m) above the first bar's
+// edge.
 Pose across(double height, double along, double turn) {
     return {Vec3(along, height, 0.0), rotation(Vec3(0.0, turn, 0.0)) * rotation(Vec3(pi, 0.0, 0.0))};
 }
 
 }  // namespace
 
-TEST_CASE("edges that have passed each other further than the band are found, as deep as they are") {
+TEST_CASE("Edges: a crossing deeper than the band is reported with its exact depth") {
     const ContactMesh still = bar(60.0 * mm, 8.0 * mm);
     const ContactMesh mine = bar(50.0 * mm, 7.0 * mm);
     ToolOptions options;
@@ -51,11 +52,11 @@ TEST_CASE("edges that have passed each other further than the band are found, as
     }
 }
 
-TEST_CASE("beyond a thin rib its far edge is not taken for one that was passed") {
+TEST_CASE("Edges: the far edge of a thin rib is not reported as a crossing") {
     const ContactMesh rib = box(Vec3(-0.5, -20.0, -30.0) * mm, Vec3(0.5, 0.0, 30.0) * mm).mesh();
     const Obstacle obstacle{ObstacleId::fixed(1), &rib, {}, false};
     const CollisionWorld world = make_world({&obstacle, 1}).value();
-    // A leaf that stands beside the rib and reaches above it.
+    // A thin plate beside the rib that extends above it.
     const ContactMesh leaf = box(Vec3(0.7, -5.0, -2.0) * mm, Vec3(1.0, 5.0, 2.0) * mm).mesh();
     const ToolShape tool = make_tool({&leaf, 1}).value();
     NarrowPhaseState state = make_narrow_phase(world, tool);
@@ -69,8 +70,8 @@ TEST_CASE("beyond a thin rib its far edge is not taken for one that was passed")
         }
 }
 
-// `clear` and `turn`: whatever a piece does within them, no edge comes to be within the band.
-TEST_CASE("a piece that need not be asked again has nothing to tell") {
+// Any motion within `clear` and `turn` keeps all edges out of the band.
+TEST_CASE("Edges: a piece that moves within its certified bounds has no crossing") {
     const ContactMesh still = casing().mesh();
     const ContactMesh mine = box(Vec3(-6.0, -2.0, -3.0) * mm, Vec3(6.0, 2.0, 3.0) * mm).mesh();
     const Solid solid = make_solid({&still, 1}).value();
@@ -99,7 +100,7 @@ TEST_CASE("a piece that need not be asked again has nothing to tell") {
         for (const double band : {0.05 * mm, 0.6 * mm, 2.0 * mm}) {
             const double way = 0.999 * (first.clear - band);
             if (!(way > 0.0)) continue;
-            // Turned about the piece's middle by a share of what is allowed, shifted by what is left.
+            // Rotate about the piece's middle by a share of the permitted motion and shift by the rest.
             const double turn =
                 std::min({0.99 * first.turn, 0.5 * random.uniform() * way / tool.reach(), 1.0});
             const Quat turned = rotation(turn * random_direction(random)) * pose.orientation;

@@ -1,5 +1,5 @@
-// What was asked before never changes an answer: long ways of tools among bodies that move, turn, and come
-// and go, against finders that know nothing.
+// The result of a contact query does not depend on earlier queries: long paths of a tool among bodies that
+// move, rotate and are switched on and off, compared with queries on an empty cache.
 #include <doctest/doctest.h>
 
 #include <glm/geometric.hpp>
@@ -21,7 +21,7 @@ bool same(const Contact& a, const Contact& b) {
            a.normal == b.normal && a.obstacle == b.obstacle && a.feature == b.feature;
 }
 
-// Asks the warm one, and sometimes the one that has just forgotten everything.
+// Queries with a warm cache and, if `compare` is set, requires the same result from an empty cache.
 class Twins {
   public:
     Twins(const CollisionWorld& world, const ToolShape& tool)
@@ -54,14 +54,15 @@ class Twins {
     NarrowPhaseState warm_, cold_;
 };
 
-// Sums of sines: bounded speeds, nothing repeats.
+// One sine per axis: the speed is bounded, and the incommensurable rates never repeat a pose.
 Vec3 wave(double t, double phase) {
     return {std::sin(1.0 * t + phase), std::sin(1.618 * t + 2.0 * phase), std::sin(0.73 * t + 3.0 * phase)};
 }
 
 }  // namespace
 
-TEST_CASE("a long way among bodies that move, turn, come and go") {
+TEST_CASE(
+    "Narrow phase: a warm cache gives the same contacts among bodies that move and are switched on and off") {
     const ContactMesh still = casing().mesh();
     const ContactMesh block = box(Vec3(-4.0) * mm, Vec3(4.0) * mm).mesh();
     const ContactMesh round = ball(5.0 * mm, 12).mesh();
@@ -87,7 +88,7 @@ TEST_CASE("a long way among bodies that move, turn, come and go") {
             }
             const Pose pose{Vec3(20.0, 27.0, 15.0) * mm + 14.0 * mm * wave(t, phase),
                             rotation(1.5 * wave(0.37 * t, phase + 1.0))};
-            // Now wide, now narrow, as a god-object asks.
+            // The width of the band varies as in the god-object's queries.
             const double band = random.chance(0.2) ? random.uniform(0.1, 5.0) * mm : 0.6 * mm;
             twins.ask(pose, band, random.chance(0.2));
         }
@@ -95,13 +96,13 @@ TEST_CASE("a long way among bodies that move, turn, come and go") {
     }
 }
 
-TEST_CASE("one pose that is come to by a hundred ways has one answer") {
+TEST_CASE("Narrow phase: one pose has the same contacts whichever path leads to it") {
     const ContactMesh still = casing().mesh();
     const Obstacle obstacle{ObstacleId::fixed(1), &still, {}, false};
     const CollisionWorld world = make_world({&obstacle, 1}).value();
     const ContactMesh mine = wrench().mesh();
     const ToolShape tool = make_tool({&mine, 1}).value();
-    // Where an answer once depended on the way.
+    // Regression: the result at this pose once depended on the path.
     const Pose pose{Vec3(0.0163383333, 0.0236217280, 0.0167804633),
                     glm::normalize(Quat(0.2475874622, -0.0348768386, -0.9670378612, 0.0481853684))};
     Twins twins(world, tool);

@@ -1,4 +1,4 @@
-// The jaw and the hexagon against what paper and pencil say of them. A 24.2 mm jaw, an M16 nut.
+// The jaw and the hexagon against closed-form results, for a 24.2 mm jaw and an M16 nut.
 #include "haptics/collision/jaw.hpp"
 
 #include <doctest/doctest.h>
@@ -24,8 +24,9 @@ struct Pair {
     JawParts parts = jaw_parts(jaw);
     Convex nut = hexagon(prism);
 
-    // The jaw's middle at `at` from the nut's, turned by `yaw` about the bolt after `tilt` about the flats'
-    // length and `pitch` about the line across them.
+    // Pose of the wrench in the nut's frame. `at`: from the nut's middle to the jaw's (m). Rotations (rad)
+    // apply in the order `pitch` (about the line across the flats), `tilt` (about the flats' length), `yaw`
+    // (about the bolt).
     [[nodiscard]] Pose wrench(const Vec3& at = Vec3(0.0), double yaw = 0.0, double tilt = 0.0,
                               double pitch = 0.0) const {
         const Quat square_on = glm::angleAxis(-jaw.head_angle, Vec3(0, 0, 1));
@@ -47,7 +48,7 @@ double along(const Convex& tool, const Convex& obstacle, const Pose& pose, const
     return least - most;
 }
 
-// cos ψ + sin ψ/√3 = w/s: a corner of the hexagon on each flat of the jaw.
+// rad; solves cos ψ + sin ψ/√3 = w/s, where a corner of the hexagon touches each flat of the jaw.
 double play_of(double w, double s) { return pi / 6.0 - std::acos(0.5 * std::sqrt(3.0) * w / s); }
 
 Vec3 any_direction(Random& random) {
@@ -56,16 +57,16 @@ Vec3 any_direction(Random& random) {
 
 }  // namespace
 
-TEST_CASE("the solids are what they are made of") {
+TEST_CASE("Jaw: the solids satisfy Euler's formula and the nut has its chamfer") {
     const Pair p;
-    // Euler: corners - edges + faces.
+    // Euler: corners − edges + faces = 2.
     for (const Convex* solid : {&p.parts[0], &p.parts[1], &p.parts[2], &p.nut}) {
         CHECK(solid->edges.size() <= max_edges);
         CHECK(solid->faces.size() <= 64);
         CHECK(solid->points.size() <= 64);
         CHECK(solid->points.size() + solid->faces.size() == solid->edges.size() + 2);
     }
-    // A prism with twelve-sided ends: the flats' tops are at the cone, lowest at the corners.
+    // The ends of the prism have twelve sides. The chamfer cone cuts the flats, lowest at the corners.
     double highest_corner = 0.0;
     for (const Vec3& q : p.nut.points)
         if (std::hypot(q.x, q.y) > flats / std::sqrt(3.0) - 1e-9)
@@ -74,7 +75,7 @@ TEST_CASE("the solids are what they are made of") {
     CHECK(p.prism.corner_drop() == doctest::Approx((13.856e-3 - 11.25e-3) * std::tan(pi / 6)).epsilon(1e-3));
 }
 
-TEST_CASE("square on and in the middle there is half the clearance on both planes, and all of the bottom's") {
+TEST_CASE("Jaw: a centred jaw has half the clearance on each flat and the full clearance at the throat") {
     const Pair p;
     CHECK(separation(p.parts[0], p.nut, p.wrench(), 0.1).distance == doctest::Approx(0.1e-3).epsilon(1e-9));
     CHECK(separation(p.parts[1], p.nut, p.wrench(), 0.1).distance == doctest::Approx(0.1e-3).epsilon(1e-9));
@@ -86,7 +87,7 @@ TEST_CASE("square on and in the middle there is half the clearance on both plane
     CHECK(p.apart(p.wrench({0, 0.12e-3, 0})) == doctest::Approx(-0.02e-3).epsilon(1e-9));
 }
 
-TEST_CASE("the backlash is what the hexagon's corners leave, to either side, every 60 degrees") {
+TEST_CASE("Jaw: the backlash to either side equals the closed form, every 60 degrees") {
     const Pair p;
     const double play = play_of(opening, flats);
     CHECK(to_degrees(play) == doctest::Approx(0.8376).epsilon(1e-4));
@@ -99,7 +100,7 @@ TEST_CASE("the backlash is what the hexagon's corners leave, to either side, eve
         }
 }
 
-TEST_CASE("it tilts until its flats' edges meet the nut on both planes: w/2 cos - h sin = s/2") {
+TEST_CASE("Jaw: the tilt is limited where the flats' edges meet both planes: w/2 cos - h sin = s/2") {
     const Pair p;
     const double w = 0.5 * opening, h = p.jaw.half_flat();
     const double most = std::acos(0.5 * flats / std::hypot(w, h)) - std::atan2(h, w);
@@ -109,15 +110,14 @@ TEST_CASE("it tilts until its flats' edges meet the nut on both planes: w/2 cos 
         CHECK(p.apart(p.wrench(Vec3(0.0), 0.0, side * (most - 1e-4))) > 0.0);
         CHECK(p.apart(p.wrench(Vec3(0.0), 0.0, side * (most + 1e-4))) < 0.0);
     }
-    // About the line across the flats nothing holds an open end.
+    // The open end is free to rotate about the line across the flats.
     CHECK(p.apart(p.wrench({2e-3, 0, 0}, 0.0, 0.0, to_radians(10.0))) ==
           doctest::Approx(0.1e-3).epsilon(1e-6));
-    // Turned to half its play, less is left to tilt: an edge of the jaw against a corner of the nut.
+    // At half the backlash the jaw can tilt less: one of its edges meets a corner of the nut.
     CHECK(p.apart(p.wrench(Vec3(0.0), 0.5 * play_of(opening, flats), 0.6 * most)) < 0.0);
 }
 
-TEST_CASE(
-    "where no direction was found to part them none does, and the one found parts them as far as told") {
+TEST_CASE("Jaw: no direction separates solids that overlap, and the separation is exact along its normal") {
     const Pair p;
     Random random(5);
     double worst_own = 0.0;
@@ -147,7 +147,7 @@ TEST_CASE(
     CHECK(apart > 500);
 }
 
-TEST_CASE("while they overlap it is the depth: no direction near it is shorter out") {
+TEST_CASE("Jaw: the penetration depth is minimal among directions near its normal") {
     const Pair p;
     Random random(6);
     int touching = 0;
@@ -167,12 +167,12 @@ TEST_CASE("while they overlap it is the depth: no direction near it is shorter o
     CHECK(touching > 300);
 }
 
-TEST_CASE("flat on flat meets in four corners, and lets turn what its lines of action no longer pass") {
+TEST_CASE("Jaw: two flats meet in four contacts, and remove_axial_moment frees the rotation about the axis") {
     const Pair p;
     const Pose pose = p.wrench({0, 0.1e-3, 0});
     std::array<Contact, max_jaw_contacts> found;
     const std::size_t count = jaw_contacts(p.parts, p.nut, pose, {}, 0.15e-3, ObstacleId::nut(7), found);
-    REQUIRE(count == 4);  // one jaw only: the other is 0.2 mm away
+    REQUIRE(count == 4);  // one flat only: the other is 0.2 mm away
     for (std::size_t i = 0; i < count; ++i) {
         const Contact& c = found[i];
         CHECK(std::abs(c.distance) < 1e-12);
@@ -189,7 +189,7 @@ TEST_CASE("flat on flat meets in four corners, and lets turn what its lines of a
     }
 }
 
-TEST_CASE("whatever is found is at least as far as the separation says, and lies on both") {
+TEST_CASE("Jaw: the nearest contact is at the separation, and normals are unit vectors") {
     const Pair p;
     Random random(8);
     for (int i = 0; i < 2000; ++i) {
@@ -210,7 +210,7 @@ TEST_CASE("whatever is found is at least as far as the separation says, and lies
     }
 }
 
-TEST_CASE("how it sits: turned, half on, pulled back, tilted, turned over") {
+TEST_CASE("Jaw: the seat of a turned, raised, pulled-back, tilted or flipped jaw") {
     const Pair p;
     const double side = flats / std::sqrt(12.0), flat = 2.0 * p.jaw.half_flat();
     JawSeat seat = seat_of(p.jaw, p.prism, p.wrench());
@@ -219,24 +219,24 @@ TEST_CASE("how it sits: turned, half on, pulled back, tilted, turned over") {
     CHECK(seat.toward_throat == doctest::Approx(side).epsilon(1e-12));
     CHECK(std::abs(seat.misalignment) < 1e-12);
     CHECK(seat.surrounds(opening));
-    // Lifted so that half of its flats is on the flats of the nut.
+    // Lifted so that half the height of its flats overlaps the flats of the nut.
     const double corner_top = 0.5 * p.prism.height - p.prism.corner_drop();
     seat = seat_of(p.jaw, p.prism, p.wrench({0, 0, corner_top}));
     CHECK(seat.overlap == doctest::Approx(0.5 * flat).epsilon(1e-12));
     CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({0, 0, corner_top + p.jaw.half_flat()})).surrounds(opening));
-    // Pulled off towards the handle until only the throat's half of the flats is left, and until nothing is.
+    // Pulled towards the handle until only half of the flats' length is in contact, and then off the nut.
     seat = seat_of(p.jaw, p.prism, p.wrench({p.jaw.tip - p.jaw.lead_in, 0, 0}));
     CHECK(std::abs(seat.toward_mouth) < 1e-12);
     CHECK(seat.surrounds(opening));
     CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({p.jaw.tip + side, 0, 0})).surrounds(opening));
-    // Tightening is clockwise seen from outside; a sixth of a turn on it sits the same.
+    // Tightening is clockwise seen from outside. The seat repeats every sixth of a turn.
     for (const double yaw : {0.01, 0.01 - pi / 3.0, 0.01 + pi})
         CHECK(seat_of(p.jaw, p.prism, p.wrench(Vec3(0.0), yaw)).misalignment ==
               doctest::Approx(-0.01).epsilon(1e-9));
     seat = seat_of(p.jaw, p.prism, p.wrench({0, 0.05e-3, 0}, 0.0, 0.01));
     CHECK(seat.tilt == doctest::Approx(0.01).epsilon(1e-9));
     CHECK(seat.aside == doctest::Approx(-0.05e-3).epsilon(1e-3));
-    // Turned over, with the head to the other side.
+    // Flipped, with the head to the other side.
     Pose over = p.wrench();
     over.orientation = glm::angleAxis(pi, Vec3(1, 0, 0)) * over.orientation;
     seat = seat_of(p.jaw, p.prism, over);
@@ -245,7 +245,7 @@ TEST_CASE("how it sits: turned, half on, pulled back, tilted, turned over") {
     CHECK(p.apart(over) == doctest::Approx(0.1e-3).epsilon(1e-6));
 }
 
-TEST_CASE("looking for contacts of the jaw allocates nothing and gives the same bits twice") {
+TEST_CASE("Jaw: the contact query makes no forbidden call and repeats to the same bits") {
     const Pair p;
     std::array<Contact, max_jaw_contacts> first, second;
     std::size_t count = 0, again = 0;

@@ -12,7 +12,7 @@ using namespace bolt;
 using namespace bolt::collision;
 using namespace contact_test;
 
-TEST_CASE("a box has twelve sharp edges that stick out, and pseudonormals on the diagonals") {
+TEST_CASE("Contact mesh: a box has twelve sharp convex edges and vertex pseudonormals on the diagonals") {
     const ContactMesh mesh = box(Vec3(-1.0), Vec3(1.0)).mesh();
     CHECK(mesh.vertices.size() == 8);
     CHECK(mesh.triangles.size() == 12);
@@ -23,12 +23,12 @@ TEST_CASE("a box has twelve sharp edges that stick out, and pseudonormals on the
         CHECK(std::abs(glm::dot(edge.normals[0], edge.normals[1])) < 1e-6F);
         CHECK(glm::dot(edge.inward[0], edge.normals[1]) == doctest::Approx(-1.0));
     }
-    // Angle-weighted: each face counts with 90 degrees however it is cut into triangles.
+    // Pseudonormals are weighted by angle: each face has a weight of 90 degrees in any triangulation.
     for (std::size_t v = 0; v < 8; ++v)
         CHECK(glm::length(glm::normalize(mesh.vertex_normals[v]) - glm::normalize(mesh.vertices[v])) < 1e-6F);
 }
 
-TEST_CASE("the inner edges of a pocket do not stick out") {
+TEST_CASE("Contact mesh: the inner edges of a pocket are concave") {
     const ContactMesh mesh = casing().mesh();
     std::size_t concave = 0;
     for (const SharpEdge& edge : mesh.sharp_edges) concave += edge.convex ? 0 : 1;
@@ -38,7 +38,7 @@ TEST_CASE("the inner edges of a pocket do not stick out") {
     CHECK(ball(0.01).mesh().watertight());
 }
 
-TEST_CASE("what is wrong with a mesh is told or is an error") {
+TEST_CASE("Contact mesh: defects are counted, and invalid input is an error") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const float infinite = std::numeric_limits<float>::infinity();
     const std::vector<glm::vec3> corner{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

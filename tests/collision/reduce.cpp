@@ -1,4 +1,5 @@
-// What is merged is held by what is kept, and what waits is as if it had been found.
+// Contact reduction: kept contacts also bound motions into merged ones, and deferred contacts give the same
+// result as resolved ones.
 #include "haptics/collision/contact.hpp"
 
 #include <doctest/doctest.h>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double mm = 1e-3;
 
-// Somewhere on a few faces that are not quite flat.
+// Random contacts on four faces that are slightly curved.
 std::vector<Contact> some_contacts(Random& random, std::size_t count, double size) {
     std::vector<Contact> all;
     std::array<Vec3, 4> faces{};
@@ -58,7 +59,7 @@ double came(const Contact& c, const Twist& motion) {
 
 }  // namespace
 
-TEST_CASE("a motion that the contacts written allow goes into none that was merged but for the tolerance") {
+TEST_CASE("Contact reduction: a motion allowed by the kept contacts stays within tolerance of merged ones") {
     Random random(71);
     Space space;
     std::array<Contact, 600> out;
@@ -72,7 +73,7 @@ TEST_CASE("a motion that the contacts written allow goes into none that was merg
         REQUIRE(!found.truncated);
         merged += static_cast<int>(all.size() - kept.size());
         for (int i = 0; i < 20; ++i) {
-            // Nearly straight at one of them, and as far as all that are kept let it.
+            // A motion nearly straight towards one contact, as far as all kept contacts allow.
             const Vec3 at = -all[random.bits() % all.size()].normal;
             Twist motion{at + random.uniform(0.0, 0.2) * random_direction(random),
                          random.uniform(0.0, 1.0) * random_direction(random)};
@@ -96,7 +97,7 @@ TEST_CASE("a motion that the contacts written allow goes into none that was merg
     CHECK(moved > 100'000);
 }
 
-TEST_CASE("what waits is merged, or found, as if it had been there from the start") {
+TEST_CASE("Contact reduction: deferred contacts give the same result as contacts known from the start") {
     Random random(72);
     Space space;
     int waited = 0, asked = 0;
@@ -124,7 +125,7 @@ TEST_CASE("what waits is merged, or found, as if it had been there from the star
             c = all[w.sample];
             return true;
         };
-        // Now there is room for all, now so little that more is merged.
+        // The output alternates between enough room for all contacts and room for 32, which forces merging.
         std::array<Contact, 600> a, b;
         const std::size_t room = set % 2 == 0 ? 32 : 600;
         const ContactQueryResult x = space.reduce_contacts(all, {}, find, std::span(a).first(room));

@@ -30,7 +30,7 @@ struct Truth {
 
 }  // namespace
 
-TEST_CASE("on the reducer: what intersects by more than 0.1 mm is never missed") {
+TEST_CASE("Narrow phase: on the reducer no penetration deeper than 0.1 mm is missed") {
     const Truth truth;
     NarrowPhaseState state = make_narrow_phase(truth.reducer.world, truth.reducer.tool);
     std::array<Contact, 32> contacts;
@@ -39,7 +39,7 @@ TEST_CASE("on the reducer: what intersects by more than 0.1 mm is never missed")
             find_contacts(truth.reducer.world, truth.reducer.tool, pose, 0.6 * mm, state, contacts);
         return found.count > 0 ? contacts[0].distance : 1.0;
     };
-    // Was once told to be free by 50 um.
+    // Regression: a query once reported 50 µm of clearance at this pose.
     const Pose once{Vec3(0.32634405, 0.15625746, -0.12115136),
                     glm::normalize(Quat(0.78773209, 0.11951799, 0.22161258, -0.56221126))};
     CHECK(truth.crosses(once));
@@ -48,7 +48,7 @@ TEST_CASE("on the reducer: what intersects by more than 0.1 mm is never missed")
 
     Random random(61);
     int deep = 0;
-    double most = 0.0;  // that was not told
+    double most = 0.0;  // m, greatest depth that was not reported
     for (int i = 0; i < 300 / fewer; ++i) {
         const Pose start = truth.reducer.at_the_surface(random);
         const Vec3 way = random_direction(random);
@@ -60,7 +60,7 @@ TEST_CASE("on the reducer: what intersects by more than 0.1 mm is never missed")
             const double middle = 0.5 * (free + in);
             (truth.crosses(at(middle)) ? in : free) = middle;
         }
-        // Come to along the way, as a god-object would.
+        // Approach along the path, as the god-object does, so that the cache is warm.
         for (double s = -3.0 * mm; s < 0.0; s += 0.3 * mm) told(at(in + s));
         for (const double further : {0.05, 0.12, 0.2, 0.4, 0.8}) {
             const Pose pose = at(in + further * mm);

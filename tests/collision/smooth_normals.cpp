@@ -1,4 +1,4 @@
-// Facets that stand for something round: normals that go on evenly from one to the next, and only there.
+// Facets that approximate a round surface have continuous normals; creases keep theirs.
 #include "haptics/collision/smooth_normals.hpp"
 
 #include <doctest/doctest.h>
@@ -45,7 +45,7 @@ struct Pair {
         tool = std::move(*shape);
         near = make_narrow_phase(world, tool);
     }
-    // The nearest contact, smooth.
+    // The nearest contact, with its smooth normal.
     Contact nearest(const Pose& pose) {
         std::array<Contact, 32> contacts;
         const ContactQueryResult found = find_contacts(world, tool, pose, 0.5e-3, near, contacts);
@@ -63,7 +63,7 @@ struct Pair {
 
 double angle_between(const Vec3& a, const Vec3& b) { return std::acos(std::min(1.0, glm::dot(a, b))); }
 
-// A die with one corner down at a point.
+// Pose of a die whose lowest corner is at `point`.
 Pose die_on(const Vec3& point) {
     const Vec3 corner = glm::normalize(Vec3(-1.0)), down(0, 0, -1);
     const Quat turn = rotation(std::acos(glm::dot(corner, down)) * glm::normalize(glm::cross(corner, down)));
@@ -72,7 +72,8 @@ Pose die_on(const Vec3& point) {
 
 }  // namespace
 
-TEST_CASE("a corner over a bar of facets sees the bar's round normal, whichever of the two is the tool") {
+TEST_CASE(
+    "Smooth normals: a corner on a faceted bar gets the round normal, whichever of the two is the tool") {
     for (const int planes : {16, 24, 48}) {
         const ContactMesh round = bar(planes).mesh();
         const ContactMesh die = contact_test::box(Vec3(-5e-3), Vec3(5e-3)).mesh();
@@ -96,7 +97,7 @@ TEST_CASE("a corner over a bar of facets sees the bar's round normal, whichever 
     }
 }
 
-TEST_CASE("creases stay: over the edge of a block the normal turns as it did") {
+TEST_CASE("Smooth normals: at the crease of a block the normal is unchanged") {
     const ContactMesh block = contact_test::box(Vec3(-0.02), Vec3(0.02)).mesh();
     Pair pair(block, contact_test::box(Vec3(-5e-3), Vec3(5e-3)).mesh());
     for (int i = -100; i <= 100; ++i) {
@@ -107,7 +108,7 @@ TEST_CASE("creases stay: over the edge of a block the normal turns as it did") {
     }
 }
 
-TEST_CASE("far from the surface normals are as they were, and in between they come gradually") {
+TEST_CASE("Smooth normals: normals are unchanged far from the surface and change gradually towards it") {
     const ContactMesh round = bar(48).mesh();
     Pair pair(round, contact_test::box(Vec3(-5e-3), Vec3(5e-3)).mesh());
     const double a = 0.1 * pi / 24.0;  // near the end of a facet
@@ -123,7 +124,7 @@ TEST_CASE("far from the surface normals are as they were, and in between they co
     CHECK(last > to_radians(2.0));
 }
 
-TEST_CASE("a ball's smooth normals point away from its middle") {
+TEST_CASE("Smooth normals: a ball's smooth normals point away from its middle") {
     const ContactMesh ball = contact_test::ball(0.01, 24).mesh();
     for (std::size_t t = 0; t < ball.triangles.size(); ++t) {
         CHECK(ball.creased[t] == 0);

@@ -63,8 +63,8 @@ Triangles ball(double radius, int rings) {
 
 Triangles wrench() {
     Triangles out;
-    // The jaw: an arc of quads between an inner and an outer outline, and the handle as a prism that the arc
-    // holds.
+    // The jaw is an arc of quads between an inner and an outer outline. The handle is a prism that continues
+    // the arc.
     const double inner = 6.5 * mm;
     const double outer = 12.0 * mm;
     const auto at = [](double radius, double angle, double y) {
@@ -92,8 +92,7 @@ Triangles wrench() {
 Triangles casing() {
     Triangles out;
     const Vec3 size = Vec3(40.0, 20.0, 30.0) * mm;
-    // Two pockets beside each other, a rib of 1 mm between them; everything is cut in one grid, so that it is
-    // closed.
+    // Two adjacent pockets with a rib of 1 mm between them. All faces share one grid, so the mesh is closed.
     const std::array<double, 6> x{0.0, 5.0 * mm, 20.0 * mm, 21.0 * mm, 35.0 * mm, 40.0 * mm};
     const std::array<double, 4> z{0.0, 5.0 * mm, 25.0 * mm, 30.0 * mm};
     const double floor = 8.0 * mm;

@@ -1,4 +1,4 @@
-// Small solids and random poses for tests of contact; tools/verify/oracle gives the exact answers.
+// Small solids and random poses for contact tests. tools/verify/oracle computes the exact results.
 #pragma once
 
 #include <filesystem>
@@ -27,16 +27,16 @@ struct Triangles {
 
 Triangles box(const Vec3& low, const Vec3& high);
 Triangles ball(double radius, int rings = 24);
-// An open wrench of flat faces: a jaw with a rounded back, and a handle along +X.
+// An open-ended wrench of flat faces: a jaw with a rounded back, and a handle along +X.
 Triangles wrench();
-// A block with a pocket and a slot that leaves a rib of 1 mm, all edges sharp: concave everywhere that
-// matters.
+// A block with two pockets and a rib of 1 mm between them. All edges are sharp; the pockets have concave
+// edges.
 Triangles casing();
 
-// All meshes of a glTF file, one a node, where the nodes are; of nodes whose name begins with `prefix`.
+// The meshes of a glTF file in the file's frame, one per node whose name begins with `prefix`.
 std::vector<ContactMesh> load_parts(const std::filesystem::path& path, const std::string& prefix = {});
 
-// A turn that is uniform over all turns.
+// Uniformly distributed over all rotations.
 bolt::Quat random_turn(bolt::Random& random);
 Vec3 random_direction(bolt::Random& random);
 
@@ -45,7 +45,7 @@ using bolt::contact_oracle::ClosedSurface;
 // The triangles of one or more meshes, for the oracle.
 ClosedSurface surface_of(const ContactMesh& mesh);
 ClosedSurface surface_of(const std::vector<ContactMesh>& meshes);
-// Of all points of a surface, one that is within `far` (m) of a random one.
+// A random point within `far` (m) of a random point on the surface.
 Vec3 near_surface(const ClosedSurface& surface, double far, bolt::Random& random);
 
 }  // namespace contact_test

@@ -1,4 +1,4 @@
-// What the servo's tick asks of the finder, on the shipped reducer with the shipped wrench.
+// Requirements of the servo's tick on contact queries, with the shipped reducer and wrench.
 
 #include <doctest/doctest.h>
 
@@ -22,7 +22,7 @@ constexpr int fewer = test::sanitized ? 10 : 1;
 
 }  // namespace
 
-TEST_CASE("distances to the reducer's casing are those of brute force") {
+TEST_CASE("Narrow phase: distances to the reducer's casing equal brute force") {
     const Reducer reducer;
     std::vector<ClosedSurface> casing;
     for (const ContactMesh& part : reducer.casing) casing.push_back(surface_of(part));
@@ -37,10 +37,10 @@ TEST_CASE("distances to the reducer's casing are those of brute force") {
     CHECK(worst <= 1e-6);
 }
 
-// As a hand goes that searches with its wrench: slow and fast, turning about what it touches, no deeper than
-// a millimetre. Where thousands of points are inside there is no room for all, and which are kept is not
-// told.
-TEST_CASE("at the reducer, too, nothing depends on what was before") {
+// The motion resembles a hand that searches with its wrench: slow and fast, rotating about the contact, at
+// most 1 mm deep. At greater depths thousands of points are inside and exceed the output; which of them are
+// kept is unspecified.
+TEST_CASE("Narrow phase: on the reducer a warm cache gives the same contacts as an empty one") {
     const Reducer reducer;
     Random random(42);
     NarrowPhaseState warm = make_narrow_phase(reducer.world, reducer.tool);
@@ -86,7 +86,7 @@ TEST_CASE("at the reducer, too, nothing depends on what was before") {
     CHECK(4 * touching > compared);
 }
 
-TEST_CASE("finding contacts allocates nothing, locks nothing, reads no clock") {
+TEST_CASE("Narrow phase: a query allocates nothing, locks nothing, reads no clock") {
     const Reducer reducer;
     Random random(43);
     NarrowPhaseState state = make_narrow_phase(reducer.world, reducer.tool);
@@ -101,11 +101,11 @@ TEST_CASE("finding contacts allocates nothing, locks nothing, reads no clock") {
     });
     CHECK(found > 20);
     CHECK(seen.all() == 0);
-    // The counter counts.
+    // The counter detects allocations.
     CHECK(test::forbidden_in([&] { (void)make_narrow_phase(reducer.world, reducer.tool); }).allocations > 0);
 }
 
-TEST_CASE("where the wrench first touches the reducer it is found, and deeper") {
+TEST_CASE("Narrow phase: on the reducer first contact is detected in time and persists in depth") {
     const Reducer reducer;
     const ClosedSurface still = surface_of(reducer.casing), moving = surface_of(reducer.wrench);
     NarrowPhaseState state = make_narrow_phase(reducer.world, reducer.tool);
@@ -127,9 +127,9 @@ TEST_CASE("where the wrench first touches the reducer it is found, and deeper") 
         const ContactQueryResult touch =
             find_contacts(reducer.world, reducer.tool, at(free), 0.5 * mm, state, contacts);
         REQUIRE(touch.count > 0);
-        // Later by no more than leaves the god-object, which keeps its skin, 0.1 mm deep.
+        // Late detection leaves the god-object, which keeps its skin, at most 0.1 mm deep.
         CHECK(contacts[0].distance < GodObjectParameters{}.skin + 0.1 * mm);
-        // Half a millimetre on along a way that may be slanting: less deep, but there.
+        // After another 0.5 mm along a path that may be oblique, the depth is smaller but must be detected.
         const ContactQueryResult deep =
             find_contacts(reducer.world, reducer.tool, at(in + 0.5 * mm), 0.5 * mm, state, contacts);
         REQUIRE(deep.count > 0);

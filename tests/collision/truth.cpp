@@ -1,4 +1,4 @@
-// The finder against slow and sure answers.
+// Contact queries compared with exact but slow reference computations.
 
 #include <doctest/doctest.h>
 
@@ -19,7 +19,8 @@ using namespace contact_test;
 namespace {
 
 constexpr double mm = 1e-3;
-// Times fewer under a sanitizer; tests/truth walks the same code, and the figures are release's.
+// Divisor of the number of samples under a sanitizer. tests/contact_validation runs the same code; the limits
+// apply to the release build.
 constexpr int fewer = test::sanitized ? 10 : 1;
 
 struct Case {
@@ -48,7 +49,8 @@ Vec3 random_offset(Random& random) {
     return Vec3(random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8), random.uniform(-0.8, 0.8));
 }
 
-// Shifts the tool towards the obstacle until they just cross, then `deeper`.
+// Shifts the tool along `way` until the surfaces just cross, then by `deeper` (m). Empty if they never cross
+// or cross at the start.
 std::optional<Pose> push_in(const ClosedSurface& still, const ClosedSurface& tool, const Pose& start,
                             const Vec3& way, double deeper) {
     const auto at = [&](double s) { return Pose{start.position + s * way, start.orientation}; };
@@ -73,7 +75,7 @@ std::optional<Pose> push_in(const ClosedSurface& still, const ClosedSurface& too
 
 }  // namespace
 
-TEST_CASE("signed distances of points are those of brute force") {
+TEST_CASE("Signed distance: points have the distances of brute force") {
     Random random(11);
     for (const Case& c : cases()) {
         CAPTURE(c.name);
@@ -81,7 +83,7 @@ TEST_CASE("signed distances of points are those of brute force") {
         const ClosedSurface surface = surface_of(c.mesh);
         double worst = 0.0;
         for (int i = 0; i < 25'000 / fewer; ++i) {
-            // Half of them within a millimetre of the surface.
+            // Half of the points are within a millimetre of the surface.
             Vec3 p = c.middle + c.size * Vec3(random.normal(), random.normal(), random.normal());
             if (i % 2 == 0) p = near_surface(surface, mm, random);
             worst = std::max(worst, std::abs(collision::signed_distance(world, p) -
@@ -91,8 +93,8 @@ TEST_CASE("signed distances of points are those of brute force") {
     }
 }
 
-// The nearest contact against the distance of the two surfaces, each triangle with each.
-TEST_CASE("the distance of two solids with sharp edges is that of brute force") {
+// Compares the nearest contact with the distance of the two surfaces over all pairs of triangles.
+TEST_CASE("Narrow phase: the distance of two solids with sharp edges equals brute force") {
     Random random(12);
     const std::vector<ContactMesh> parts{box(Vec3(-0.012, -0.002, -0.005), Vec3(0.03, 0.002, 0.005)).mesh()};
     const ToolShape tool = make_tool(parts, {}).value();
@@ -127,7 +129,7 @@ TEST_CASE("the distance of two solids with sharp edges is that of brute force") 
     }
 }
 
-TEST_CASE("what is proven from before never changes the answer") {
+TEST_CASE("Narrow phase: cached bounds never change the result") {
     Random random(13);
     const std::vector<ContactMesh> parts{wrench().mesh()};
     const ToolShape tool = make_tool(parts, {}).value();
@@ -171,7 +173,7 @@ TEST_CASE("what is proven from before never changes the answer") {
     }
 }
 
-TEST_CASE("what truly meets by more than 0.1 mm is not missed; points alone miss it") {
+TEST_CASE("Narrow phase: penetration over 0.1 mm is never missed, although samples alone miss some") {
     Random random(14);
     const std::vector<ContactMesh> parts{wrench().mesh()};
     const ToolShape tool = make_tool(parts, {}).value();

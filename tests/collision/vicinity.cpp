@@ -11,7 +11,7 @@ using namespace bolt;
 using namespace bolt::collision;
 using namespace contact_test;
 
-TEST_CASE("the bounds of a octree hold everywhere, and set aside most of what is far") {
+TEST_CASE("Octree: the bounds hold everywhere and exclude most distant points") {
     Random random(21);
     for (const ContactMesh& mesh :
          {casing().mesh(), ball(0.015).mesh(),
@@ -38,7 +38,7 @@ TEST_CASE("the bounds of a octree hold everywhere, and set aside most of what is
     }
 }
 
-TEST_CASE("beyond a octree nothing is told, and without one") {
+TEST_CASE("Octree: outside the octree, or without one, the bounds are infinite") {
     const ContactMesh mesh = casing().mesh();
     const Solid solid = make_solid({&mesh, 1}).value();
     const TriangleOctree octree = make_triangle_octree(solid, 1e-3);
@@ -52,7 +52,7 @@ TEST_CASE("beyond a octree nothing is told, and without one") {
     CHECK(query({}, Vec3(0.0)).lower < -1e9);
 }
 
-TEST_CASE("near the surface the lists tell what a search through everything does") {
+TEST_CASE("Octree: near the surface a query over a leaf's list equals a full search") {
     Random random(22);
     int plain = 0;
     int several = 0;

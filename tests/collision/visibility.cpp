@@ -16,7 +16,7 @@ namespace {
 
 constexpr double mm = 1e-3;
 
-// A 20 mm cube in the origin, and walls.
+// A 20 mm cube at the origin, and walls.
 struct Room {
     ContactMesh cube = box(Vec3(-10.0) * mm, Vec3(10.0) * mm).mesh();
     std::vector<ContactMesh> walls;
@@ -39,7 +39,7 @@ ContactMesh wall(const Vec3& low, const Vec3& high) { return box(low * mm, high 
 
 }  // namespace
 
-TEST_CASE("spots are spread by area, and lie on the surface") {
+TEST_CASE("Surface samples: they lie on the surface and are distributed by area") {
     const ContactMesh slab = box(Vec3(0.0), Vec3(40.0, 10.0, 1.0) * mm).mesh();
     const std::vector<SurfacePoint> spots = sample_surface(slab, 2000);
     REQUIRE(spots.size() == 2000);
@@ -59,67 +59,67 @@ TEST_CASE("spots are spread by area, and lie on the surface") {
     CHECK(sample_surface(ContactMesh{}, 10).empty());
 }
 
-TEST_CASE("alone all of a body is seen, and it appears as large as it is") {
+TEST_CASE("Visibility: without obstacles a body is fully visible, with its exact solid angle") {
     const Room room({});
     const Vec3 eye(0.0, 0.0, 0.5);
     const Visibility seen = visibility_of(room.world, room.body, room.spots, eye);
     CHECK(seen.share == 1.0);
-    // The solid angle of a square from above its middle: 4 asin(a² / (a² + d²)), side 2a, distance d; the
-    // sides of the cube are hidden by its top from there.
+    // Solid angle of a square with side 2a at distance d, seen from above its middle: 4 asin(a² / (a² + d²)).
+    // The top of the cube hides its sides from there.
     const double a = 0.01, d = 0.49;
     CHECK(seen.angle == doctest::Approx(4.0 * std::asin(a * a / (a * a + d * d))).epsilon(0.01));
 }
 
-TEST_CASE("a wall hides what is behind it") {
+TEST_CASE("Visibility: a wall hides the part of a body behind it") {
     const Vec3 eye(0.0, 0.0, 1.0);
-    SUBCASE("half") {
+    SUBCASE("half of the body") {
         const Room room({wall({0.0, -50.0, 20.0}, {50.0, 50.0, 21.0})});
         CHECK(room.share(eye) == doctest::Approx(0.5).epsilon(0.02));
-        // From far to the left nothing is in the way.
+        // The view from the far left is unobstructed.
         CHECK(room.share(Vec3(-1.0, 0.0, 0.02)) == 1.0);
     }
-    SUBCASE("a quarter") {
+    SUBCASE("a quarter of the body") {
         const Room room({wall({0.0, 0.0, 20.0}, {50.0, 50.0, 21.0})});
         CHECK(room.share(eye) == doctest::Approx(0.75).epsilon(0.02));
     }
-    SUBCASE("all") {
+    SUBCASE("the whole body") {
         const Room room({wall({-50.0, -50.0, 20.0}, {50.0, 50.0, 21.0})});
         CHECK(room.share(eye) == 0.0);
     }
-    SUBCASE("nothing, behind the body") {
+    SUBCASE("a wall behind the body hides none of it") {
         const Room room({wall({-50.0, -50.0, -21.0}, {50.0, 50.0, -20.0})});
         CHECK(room.share(eye) == 1.0);
     }
-    SUBCASE("as much wherever body and eye are turned to") {
+    SUBCASE("the share is the same for a rotated body") {
         const Pose turned{Vec3(0.0), rotation(Vec3(0.0, 0.0, pi / 2.0))};
         const Room room({wall({0.0, -50.0, 20.0}, {50.0, 50.0, 21.0})}, turned);
         CHECK(room.share(eye) == doctest::Approx(0.5).epsilon(0.02));
     }
 }
 
-TEST_CASE("what is off hides nothing, and what faces away is not counted") {
+TEST_CASE("Visibility: a disabled body hides nothing, and the far side of the body is not counted") {
     Room room({wall({-50.0, -50.0, 20.0}, {50.0, 50.0, 21.0})});
     CHECK(room.share(Vec3(0.0, 0.0, 1.0)) == 0.0);
     CHECK(room.share(Vec3(0.0, 0.0, -1.0)) == 1.0);
     room.world.bodies[0].on = false;
     CHECK(room.share(Vec3(0.0, 0.0, 1.0)) == 1.0);
     CHECK(visibility_of(room.world, room.body, {}, Vec3(0.0, 0.0, 1.0)).share == 0.0);
-    CHECK(visibility_of(room.world, room.body, room.spots, Vec3(0.0)).share == 0.0);  // from within
+    CHECK(visibility_of(room.world, room.body, room.spots, Vec3(0.0)).share == 0.0);  // eye inside
 }
 
-TEST_CASE("what is held in the hand is seen as a body of the world would be") {
+TEST_CASE("Visibility: a held body is occluded like a body of the world") {
     const Room room({wall({0.0, -50.0, 40.0}, {50.0, 50.0, 41.0})}, Pose{Vec3(0.0, 0.0, -0.2)});
     const Solid cube = make_solid(std::span(&room.cube, 1)).value();
     const Vec3 eye(0.0, 0.0, 1.0);
     const Visibility held = visibility_of(room.world, cube, Pose{}, room.spots, eye);
     CHECK(held.share == doctest::Approx(0.5).epsilon(0.02));
     CHECK(visibility_of(room.world, cube, Pose{Vec3(-0.1, 0.0, 0.0)}, room.spots, eye).share == 1.0);
-    // And it hides what is behind it no more than air does: it is not in the world.
+    // The held body is not in the world, so it hides nothing.
     CHECK(room.share(Vec3(-1.0, 0.0, -0.2)) == 1.0);
 }
 
-TEST_CASE("of a body with a hole the spots inside it are left out") {
-    // A frame of four bars about a square hole.
+TEST_CASE("Surface samples: the outer samples exclude the inside of a hole") {
+    // A frame of four bars around a square hole.
     const std::vector<ContactMesh> bars = {
         wall({-20.0, -20.0, 0.0}, {20.0, -10.0, 10.0}), wall({-20.0, 10.0, 0.0}, {20.0, 20.0, 10.0}),
         wall({-20.0, -10.0, 0.0}, {-10.0, 10.0, 10.0}), wall({10.0, -10.0, 0.0}, {20.0, 10.0, 10.0})};

@@ -37,13 +37,13 @@ struct Places {
 
 }  // namespace
 
-TEST_CASE("bodies that move stand where still obstacles would, to what float is off by") {
+TEST_CASE("Collision world: moving bodies give the distances of fixed ones within float precision") {
     const Places places;
     const CollisionWorld still = places.world(false);
     const CollisionWorld moving = places.world(true);
     CHECK(still.bodies.size() == 1);
     CHECK(moving.bodies.size() == 6);
-    CHECK(moving.shapes.size() == 2);  // five bodies share one
+    CHECK(moving.shapes.size() == 2);  // the plate, and one that five bodies share
     const std::vector<ContactMesh> parts{wrench().mesh()};
     const ToolShape tool = make_tool(parts).value();
     NarrowPhaseState a = make_narrow_phase(still, tool);
@@ -67,14 +67,14 @@ TEST_CASE("bodies that move stand where still obstacles would, to what float is 
     CHECK(touching > 200);
 }
 
-TEST_CASE("a body that moves takes its contacts along; one that is off has none") {
+TEST_CASE("Collision world: contacts follow a moving body, and a disabled body has none") {
     const Places places;
     CollisionWorld world = places.world(true);
     const std::vector<ContactMesh> parts{box(Vec3(-1.0) * mm, Vec3(1.0) * mm).mesh()};
     const ToolShape tool = make_tool(parts).value();
     NarrowPhaseState state = make_narrow_phase(world, tool);
     const std::size_t body = find_body(world, ObstacleId::nut(3)).value();
-    CHECK_FALSE(find_body(world, ObstacleId::nut(100)));  // does not move
+    CHECK_FALSE(find_body(world, ObstacleId::nut(100)));  // 100 is a fixed obstacle
     CHECK_FALSE(find_body(world, ObstacleId::nut(77)));
     std::array<Contact, 16> contacts;
     const Pose above{places.poses[3].position + Vec3(0.0, 6.0, 0.0) * mm, Quat(1.0, 0.0, 0.0, 0.0)};
@@ -97,7 +97,7 @@ TEST_CASE("a body that moves takes its contacts along; one that is off has none"
     CHECK(find_contacts(world, tool, above, 1.5 * mm, state, contacts).count > 0);
 }
 
-TEST_CASE("lines of sight end at obstacles, wherever those are now") {
+TEST_CASE("Collision world: a line of sight is occluded by obstacles at their current poses") {
     const Places places;
     CollisionWorld world = places.world(true);
     const Vec3 left = Vec3(-100.0, 6.0, 0.0) * mm;
@@ -113,7 +113,7 @@ TEST_CASE("lines of sight end at obstacles, wherever those are now") {
     CHECK_FALSE(occluded(world, left, right));
 }
 
-TEST_CASE("deep inside, the way out is the nearest surface") {
+TEST_CASE("Collision world: deep inside a solid the contact normal points to the nearest surface") {
     const ContactMesh block = box(Vec3(-20.0) * mm, Vec3(20.0) * mm).mesh();
     const Obstacle obstacle{ObstacleId::fixed(1), &block, {}, false};
     const CollisionWorld world = make_world({&obstacle, 1}).value();
@@ -129,7 +129,7 @@ TEST_CASE("deep inside, the way out is the nearest surface") {
     CHECK(glm::length(contacts[0].normal - Vec3(1.0, 0.0, 0.0)) < 1e-9);
 }
 
-TEST_CASE("parts that touch: a point in one is inside, though it is on the other's surface") {
+TEST_CASE("Collision world: a point inside one of two touching parts is inside") {
     const ContactMesh under = box(Vec3(-10.0, -10.0, -10.0) * mm, Vec3(10.0, 0.0, 10.0) * mm).mesh();
     const ContactMesh over = box(Vec3(-5.0, 0.0, -5.0) * mm, Vec3(5.0, 4.0, 5.0) * mm).mesh();
     for (const bool over_first : {false, true}) {
@@ -142,14 +142,14 @@ TEST_CASE("parts that touch: a point in one is inside, though it is on the other
     }
 }
 
-TEST_CASE("a world or tool that cannot be is an error") {
+TEST_CASE("Collision world: an invalid obstacle or tool is an error") {
     const ContactMesh block = box(Vec3(0.0), Vec3(1.0)).mesh();
     const std::vector<Obstacle> without{{ObstacleId::fixed(1), nullptr, {}, false}};
     CHECK_FALSE(make_world(without));
     const ContactMesh empty;
     const std::vector<Obstacle> nothing{{ObstacleId::nut(1), &empty, {}, true}};
     CHECK_FALSE(make_world(nothing));
-    CHECK(make_world({}));  // nothing to bump into
+    CHECK(make_world({}));  // an empty world is valid
     CHECK_FALSE(make_tool({}));
     Triangles open;
     open.triangle(Vec3(0.0), Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0));

@@ -1,4 +1,4 @@
-// Report descriptors as devices of a class have them, written item by item.
+// Typical report descriptors of each device class, built item by item.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace bolt::test {
 
 using emulate::DescriptorBuilder;
 
-// Three reports: pushes, turns, buttons; the older pucks.
+// Older pucks: separate reports for translation, rotation and buttons.
 inline std::vector<std::uint8_t> puck_in_three() {
     DescriptorBuilder d;
     d.page(1).usage(8).begin(1);
@@ -21,7 +21,7 @@ inline std::vector<std::uint8_t> puck_in_three() {
     return d.end().out;
 }
 
-// All six axes in one report; the newer ones.
+// Newer pucks: all six axes in one report.
 inline std::vector<std::uint8_t> puck_in_one() {
     DescriptorBuilder d;
     d.page(1).usage(8).begin(1);

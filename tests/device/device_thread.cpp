@@ -1,5 +1,5 @@
-// The thread of a device and its mailboxes. What passes or fails is order and counts, on a machine of any
-// speed; how soon things happen is tested in virtual time (supervisor.cpp).
+// The thread of a device and its mailboxes. These tests check order and counts only, so they do not depend on
+// the machine's speed; supervisor.cpp tests the timing in virtual time.
 #include "haptics/device/device_thread.hpp"
 
 #include <doctest/doctest.h>
@@ -16,11 +16,11 @@ using bolt::test::eventually;
 
 namespace {
 
-// A device whose cable and whose timeout are in the test's hands.
+// Lets the test unplug the device and block its writes.
 struct Bench {
     std::atomic<bool> plugged{true};
-    std::atomic<bool> holds{false};    // from the next write on: it comes back when let go
-    std::atomic<bool> holding{false};  // a write is inside now
+    std::atomic<bool> holds{false};    // writes block until release()
+    std::atomic<bool> holding{false};  // a write is blocked now
     std::atomic<int> open{0};
     std::mutex mutex;
     std::condition_variable let_go;
@@ -124,7 +124,7 @@ TEST_CASE(
     Result<DeviceThread> line = DeviceThread::start(opens(bench));
     REQUIRE(line);
     REQUIRE(line->wait_until_open(60.0));
-    REQUIRE(eventually([&] { return bench->written().size() == 1; }));  // the zero it begins with
+    REQUIRE(eventually([&] { return bench->written().size() == 1; }));  // the initial zero
     bench->holds = true;
     double force = 0.0;
     REQUIRE(eventually([&] {
@@ -132,7 +132,7 @@ TEST_CASE(
         return bench->holding.load();
     }));
     const std::size_t before = bench->written().size();
-    // All of these are given while it hangs: it still does afterwards.
+    // The write blocks during all of these commands.
     for (int i = 1; i <= 1000; ++i) line->command({Vec3(1 + i, 0, 0), Vec3(0.0)}, true);
     CHECK(bench->holding);
     CHECK(line->snapshot().number > 0);
@@ -141,8 +141,8 @@ TEST_CASE(
     bench->release();
     REQUIRE(eventually([&] { return bench->written().size() >= before + 2; }));
     const auto written = bench->written();
-    CHECK(written[before].force.x < 1.0);  // the one that hung
-    // Then the newest; on a machine so slow that it had grown stale by then, no force.
+    CHECK(written[before].force.x < 1.0);  // the blocked command
+    // The latest command follows, or zero if a slow machine let it expire.
     CHECK((written[before + 1].force.x == 20.0 || written[before + 1].force.x == 0.0));
 }
 

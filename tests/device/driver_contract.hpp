@@ -1,5 +1,5 @@
-// What every driver has to keep, tried on any of them: the rest of the house builds on it. A test of a driver
-// calls this, and then asks what only it can know.
+// The contract that all drivers share and the rest of the program relies on. The test of a driver calls these
+// functions and adds its own checks.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -28,17 +28,17 @@ inline void check_description(const device::Description& d) {
     CHECK(glm::min(d.reach.x, glm::min(d.reach.y, d.reach.z)) >= 0.0);
     CHECK(d.buttons >= 0);
     CHECK(d.buttons <= 32);
-    // What is said to be rendered has a greatest value, and what has one is said to be rendered.
+    // A component is rendered if and only if it has a nonzero limit.
     CHECK((d.renders[0] || d.renders[1] || d.renders[2]) == (d.limits.force > 0.0));
     CHECK((d.renders[3] || d.renders[4] || d.renders[5]) == (d.limits.torque > 0.0));
     CHECK(d.limits.delay >= 0);
     CHECK(d.limits.delay <= 3);
 }
 
-// `speaks` makes the device say something, as a hand on it would.
+// `speaks` makes the device send a sample, as a hand on it would.
 template <class Speaks>
 void check_driver_contract(const device::DeviceFactory& open, const Speaks& speaks) {
-    for (int plugged = 0; plugged < 2; ++plugged) {  // it can be closed and opened again
+    for (int plugged = 0; plugged < 2; ++plugged) {  // the device can be reopened
         Result<std::unique_ptr<device::DeviceDriver>> opened = open();
         REQUIRE(opened);
         device::DeviceDriver& device = **opened;
@@ -59,11 +59,11 @@ void check_driver_contract(const device::DeviceFactory& open, const Speaks& spea
                                         description.axis * description.limits.torque};
         CHECK(device.write(most));
         CHECK(device.write({}));
-        CHECK(device.read(0.0));  // asked without timeout it comes back as well
+        CHECK(device.read(0.0));  // a zero timeout returns too
     }
 }
 
-// `pull` takes the device away: that is an error, soon, and opening it says what to do.
+// `pull` unplugs the device. Reads or writes then fail soon, and the error of open() says what to do.
 template <class Pull>
 void check_unplugged(const device::DeviceFactory& open, const Pull& pull) {
     Result<std::unique_ptr<device::DeviceDriver>> opened = open();
@@ -72,7 +72,7 @@ void check_unplugged(const device::DeviceFactory& open, const Pull& pull) {
     bool gone = false;
     for (int i = 0; i < 1000 && !gone; ++i) gone = !(*opened)->read(0.005) || !(*opened)->write({});
     CHECK(gone);
-    opened->reset();  // comes back, though nothing can be told to it
+    opened->reset();  // the destructor returns without a device
     const Result<std::unique_ptr<device::DeviceDriver>> again = open();
     REQUIRE_FALSE(again);
     CHECK(again.error().code == ErrorCode::no_device);

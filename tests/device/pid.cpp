@@ -38,7 +38,7 @@ TEST_CASE("Pid: messages for an OpenFFBoard match its firmware byte for byte") {
     CHECK(layout->start.bytes == Bytes{10, 3, 1, 1});
     CHECK(layout->stop.bytes == Bytes{10, 3, 3, 0});
     CHECK(layout->free.bytes == Bytes{11, 3});
-    // Constant force, for a second, at once, all of it, no button, direction of 90 degrees.
+    // Constant force: duration 1 s, no delay, full gain, no trigger button, direction 90 degrees.
     const unsigned direction = 35900 / 4;
     CHECK(layout->set_effect.bytes == Bytes{1, 3, 1, 0xe8, 0x03, 0, 0, 0, 0, 0, 0, 255, 0, 0x01 | 0x04,
                                             static_cast<std::uint8_t>(direction),

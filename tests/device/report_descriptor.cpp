@@ -22,7 +22,7 @@ ReportDescriptor parsed(const Bytes& bytes) {
 
 }  // namespace
 
-TEST_CASE("ReportDescriptor: a mouse has buttons, padding and two axes at their bits") {
+TEST_CASE("ReportDescriptor: the buttons, padding and axes of a mouse have the right bit offsets") {
     const ReportDescriptor d = parsed(mouse());
     CHECK(!d.numbered);
     CHECK(d.fields.size() == 5);
@@ -71,7 +71,7 @@ TEST_CASE("ReportDescriptor: pucks that report in three reports and in one decod
     CHECK(a.buttons == 2U);
     CHECK(decode_report(three, Bytes{3, 1, 0}, a));
     CHECK(a.buttons == 1U);
-    CHECK(a.share[0] == 1.0);  // a report of buttons moves nothing
+    CHECK(a.share[0] == 1.0);  // a button report causes no motion
 
     CHECK(!decode_report(three, Bytes{}, a));
     CHECK(!decode_report(three, Bytes{1, 2}, a));

@@ -20,7 +20,7 @@ std::unique_ptr<DeviceDriver> opened(const DeviceFactory& open) {
     return std::move(*device);
 }
 
-// What it says in a time, at a read a millisecond.
+// Returns the samples until the time `until`, with a read timeout of 1 ms.
 std::vector<Sample> heard(DeviceDriver& device, const VirtualTime& time, double until) {
     std::vector<Sample> samples;
     while (time.now < until) {
@@ -67,7 +67,7 @@ TEST_CASE(
     CHECK(thing.hand().pose.position.z == doctest::Approx(-1.5 / hand.stiffness).epsilon(1e-3));
     CHECK(rotation_vector(thing.hand().pose.orientation).y ==
           doctest::Approx(0.2 / hand.torsion).epsilon(1e-3));
-    // More than it can is cut to what it can.
+    // Commands beyond the limits are clamped.
     REQUIRE(device->write({Vec3(300, 0, 0), Vec3(0.0)}));
     CHECK(thing.rendered().force.x == doctest::Approx(test::arm().limits.force));
 }
@@ -95,7 +95,7 @@ TEST_CASE("SimulatedDevice: each injected fault behaves as named, for its interv
     CHECK(heard(*device, time, 1.0).size() > 990);
     REQUIRE(device->write({Vec3(1, 0, 0), Vec3(0.0)}));
     CHECK(heard(*device, time, 2.0).size() <= 1);
-    CHECK(thing.rendered().force.x == 1.0);  // silent devices keep what they have
+    CHECK(thing.rendered().force.x == 1.0);  // a silent device keeps its last force
 
     thing.inject({InjectedFault::not_a_number, 2.0, 2.5});
     for (const Sample& s : heard(*device, time, 2.4)) CHECK(std::isnan(s.pose.position.y));
@@ -155,7 +155,7 @@ TEST_CASE(
         const auto rest = heard(*device, time, 101.5);
         CHECK(rest.back().pose.position.x == 499);
         CHECK(rest.back().buttons == 0);
-        CHECK(rest.size() > 400);  // it goes on saying so
+        CHECK(rest.size() > 400);  // the last sample repeats
     }
     const auto again = opened(open);
     const auto first = again->read(1e-3);

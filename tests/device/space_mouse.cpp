@@ -27,7 +27,7 @@ struct Bench {
         REQUIRE(sample);
         return *sample;
     }
-    // The last of what it says within so long.
+    // Returns the last sample within `seconds`.
     Sample after(double seconds) {
         std::optional<Sample> last;
         for (const double until = plug.time + seconds; plug.time < until;)
@@ -50,7 +50,7 @@ TEST_CASE("SpaceMouse: deflection becomes velocity in the device frame, for ever
         CHECK(b.device->describe().sensing == Sensing::rate);
         CHECK(b.device->describe().limits.force == 0.0);
         CHECK(b.device->describe().buttons == 2);
-        // 3Dconnexion's z is down and its y towards the user; ours are up and towards the user.
+        // 3Dconnexion's z points down and its y towards the user; here y points up and z towards the user.
         const Vec3 ours[] = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
         for (std::size_t axis = 0; axis < 3; ++axis)
             for (const double way : {1.0, -1.0}) {
@@ -83,8 +83,8 @@ TEST_CASE("SpaceMouse: velocity rises continuously from zero and faster than lin
 }
 
 TEST_CASE(
-    "SpaceMouse: released it stops at once, silent while deflected it stops after the timeout, unplugged it "
-    "is lost") {
+    "SpaceMouse: motion stops at once on release and after the timeout if the device falls silent; "
+    "unplugging is a loss") {
     Bench b;
     b.puck.share[0] = 1.0;
     CHECK(b.after(0.05).velocity.x == b.feel.speed);
@@ -100,7 +100,7 @@ TEST_CASE(
     CHECK(b.plug.time - stalled <= b.feel.silence + 0.001);
     CHECK(b.plug.time - stalled > 0.5 * b.feel.silence);
 
-    // One that rests says that it rests, as often as it is asked.
+    // A device at rest returns a sample for each read.
     b.puck.stalled = false;
     b.puck.share[0] = 0.0;
     CHECK(b.after(0.05).velocity.x == 0.0);

@@ -1,4 +1,4 @@
-// How soon a device is back, how soon its forces are gone, and what is said meanwhile, in virtual time.
+// Times to reopen a device and to release its force, and the reports meanwhile, in virtual time.
 #include "haptics/device/device_thread.hpp"
 
 #include <doctest/doctest.h>
@@ -15,8 +15,7 @@ using namespace bolt::device;
 
 namespace {
 
-// A supervisor of a simulated device, and a servo that gives it an order a millisecond while it is
-// `ordering`.
+// A supervisor of a simulated device, and a servo that issues one command per millisecond while `ordering`.
 struct Kept {
     explicit Kept(Description description = test::arm(), const std::vector<FaultInterval>& troubles = {})
         : thing({std::move(description), [](double) { return Sample{}; }, std::nullopt, troubles},
@@ -48,8 +47,8 @@ struct Kept {
     std::uint64_t number_ = 0;
 };
 
-// Takes a sample a period by a clock of its own, and keeps the newest until it is read; a write takes 0.3 ms,
-// as hidraw's do.
+// Samples once per period on its own clock and keeps the latest sample until it is read. A write takes 0.3
+// ms, as in hidraw.
 class Periodic final : public DeviceDriver {
   public:
     Periodic(double period, Timer timer) : period_(period), timer_(std::move(timer)) {
@@ -85,7 +84,7 @@ class Periodic final : public DeviceDriver {
 
 }  // namespace
 
-TEST_CASE("DeviceSupervisor: a sample is returned within one device period, whatever is written meanwhile") {
+TEST_CASE("DeviceSupervisor: a sample is returned within one device period, also during writes") {
     for (const double period : {1e-3, 2e-3, 8e-3}) {
         VirtualTime time;
         DeviceSupervisor supervisor(
@@ -105,7 +104,7 @@ TEST_CASE("DeviceSupervisor: a sample is returned within one device period, what
             oldest = std::max(oldest, time.now - sample->time);
         }
         CHECK(oldest <= period);
-        CHECK(samples >= static_cast<int>(1.9 / period));  // none is left out
+        CHECK(samples >= static_cast<int>(1.9 / period));  // no sample is dropped
     }
 }
 
@@ -178,7 +177,7 @@ TEST_CASE("DeviceSupervisor: when commands stop, the force is released within 20
         kept.ordering = false;
         const double last = kept.time.now;
         kept.until(last + 0.010);
-        CHECK(kept.force() > 3.0);  // a late servo is not yet a dead one
+        CHECK(kept.force() > 3.0);  // a late command is no loss yet
         kept.until(last + 0.020);
         CHECK(kept.force() == 0.0);
         CHECK(kept.torque() == 0.0);

@@ -1,4 +1,4 @@
-// Devices for tests of what is around devices.
+// Devices for tests of the code that uses devices.
 #pragma once
 
 #include <atomic>
@@ -18,12 +18,12 @@ inline device::Description arm() {
     return arm;
 }
 
-// What a device was told; the device itself gives a sample a millisecond. For one thread but for the atomics.
+// Records the writes to an Obedient device, which returns a sample per millisecond. Not thread-safe.
 struct Written {
     device::Description description = arm();
     std::vector<force::OutputCommand> commands;
-    std::vector<double> began;  // s, of each
-    double write_takes = 0.0;   // s
+    std::vector<double> began;  // s, start of each write
+    double write_takes = 0.0;   // s, duration of a write
     bool fails_reading = false, fails_writing = false;
     int closed = 0;
 };

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Compiles a driver and its test outside the tree, with the flags of the tests inside, against what is built, and runs it.
-# $1: its source; BUILD: the build folder, build/release unless told.
+# Compiles a driver and its test outside the tree with the flags of the tests, links the built libraries and runs the program.
+# $1: the source; BUILD: the build folder, build/release by default.
 set -euo pipefail
 sources=$(cd "$(dirname "$0")/../.." && pwd)
 build=${BUILD:-$sources/build/release}
 program=$(mktemp)
 trap 'rm -f "$program"' EXIT
-# The flags with which CMake compiles the supervisor's test: compiler, warnings, sanitizers.
+# CMake's compiler, warnings and sanitizers for the supervisor's test.
 flags=$(grep -oE '"command": ".* -o tests/[^ ]*/device/supervisor\.cpp\.o ' "$build/compile_commands.json" |
     sed -E 's/^"command": "//; s/ -o .*//; s/ -Winvalid-pch//; s, -include [^ ]*cmake_pch[^ ]*,,g; s/\\"/"/g')
 [[ -n $flags ]] || { echo "nothing is built in $build"; exit 1; }

@@ -14,7 +14,7 @@ namespace {
 
 const std::filesystem::path rules = BOLT_UDEV_RULES;
 
-// Whether a rule gives the device that the kernel calls so to whoever sits at the machine.
+// Returns true if the rule grants the logged-in user access to the device with this kernel name.
 bool gives(const std::string& line, const std::string& kernel_name) {
     static const std::regex rule(R"re(^KERNEL=="hidraw\*", KERNELS=="([^"]+)", TAG\+="uaccess"$)re");
     std::smatch match;

@@ -30,7 +30,7 @@ struct Bench {
         return make(std::make_unique<emulate::EmulatedTransport>(plug), *descriptor, "Wheel", "1:2", rig,
                     [this] { return plug.time; });
     }
-    // A loop as an I/O thread has it.
+    // Reads and writes like an I/O thread.
     template <class F>
     void run(double seconds, const F& command) {
         for (const double until = plug.time + seconds; plug.time < until;) {
@@ -72,7 +72,7 @@ TEST_CASE("Wheel: the motor renders the commanded torque in both directions, up 
         CHECK(b.wheel.torque() == doctest::Approx(3.0).epsilon(0.002));
         b.run(0.01, [] { return std::numeric_limits<double>::quiet_NaN(); });
         CHECK(b.wheel.torque() == 0.0);
-        // Across the axis there is nothing to be felt.
+        // Only the torque about the axis is rendered.
         REQUIRE(b.device->write({.force = Vec3(5.0), .torque = {2.0, 2.0, 0.0}}));
         CHECK(b.wheel.torque() == 0.0);
     }
@@ -107,7 +107,7 @@ TEST_CASE("Wheel: the angle follows the hand and the torque") {
         CHECK(b.last.turn == doctest::Approx(-2.0).epsilon(0.01));
         b.wheel.hand = 0.0;
         b.run(4.0, [] { return -2.0; });
-        CHECK(b.last.turn == doctest::Approx(-0.1).epsilon(0.05));  // torque over the hand's stiffness
+        CHECK(b.last.turn == doctest::Approx(-0.1).epsilon(0.05));  // torque divided by the hand's stiffness
     }
 }
 
@@ -126,16 +126,16 @@ TEST_CASE("Wheel: a spring rendered through the driver holds the wheel still") {
     }
 }
 
-TEST_CASE("Wheel: the described stiffness is stable on a wheel with little damping") {
+TEST_CASE("Wheel: a spring of the described stiffness is stable on a wheel with little damping") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
         emulate::EmulatedWheelOptions design = design_of(board);
         design.damping = 0.1;
         Bench b(design, {.max_torque = 5.0});
         REQUIRE(b.opened);
-        b.plug.write_duration = 0.001;  // so long it is on the bus
+        b.plug.write_duration = 0.001;  // s, transfer time on the bus
         const double stiffness = b.device->describe().limits.torsion;
-        b.run(1.0, [] { return 1.0; });  // somewhere else than where the spring rests
+        b.run(1.0, [] { return 1.0; });  // moves the wheel away from the spring's rest angle
         const auto spring = [&] { return -stiffness * b.last.turn; };
         double last = 1e9;
         for (int second = 0; second < 4; ++second) {
@@ -150,11 +150,11 @@ TEST_CASE("Wheel: the described stiffness is stable on a wheel with little dampi
     }
 }
 
-TEST_CASE("Wheel: an OpenFFBoard with known counts turns without limit and is alive at rest") {
+TEST_CASE("Wheel: an OpenFFBoard with known counts per turn has no angle limit and returns samples at rest") {
     Bench b({}, {.counts_per_turn = 4000.0});
     REQUIRE(b.opened);
     b.wheel.hand_stiffness = 50.0;
-    for (double turns = 0.5; turns <= 6.0; turns += 0.5) {  // its stops are at one and a half
+    for (double turns = 0.5; turns <= 6.0; turns += 0.5) {  // the stops are at 1.5 turns
         b.wheel.hand = turns * 2.0 * pi;
         b.run(2.0, [] { return 0.0; });
         CHECK(b.last.turn == doctest::Approx(b.wheel.hand).epsilon(0.01));
@@ -238,7 +238,7 @@ TEST_CASE("Wheel: a force outlives a killed program by one second at most, and r
     }
 }
 
-TEST_CASE("Wheel: a missing or mute device is a clear error, and an unplugged one is lost") {
+TEST_CASE("Wheel: a missing or silent device gives a clear error, and an unplugged one is lost") {
     {
         emulate::EmulatedWheel dead;
         dead.stalled = true;
@@ -269,7 +269,7 @@ TEST_CASE("Wheel: corrupt reports never move the angle beyond the stops, and rea
     }
     CHECK(b.samples > 1000);
 
-    // An answer that is lost on the way is asked for again.
+    // A query is retried if its reply is lost.
     Bench counts({.faults = {.truncated = 0.1, .unknown_id = 0.1, .seed = 9}}, {.counts_per_turn = 4000.0});
     REQUIRE(counts.opened);
     counts.run(8.0, [] { return 0.0; });

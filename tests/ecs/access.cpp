@@ -49,7 +49,7 @@ TEST_CASE("Access: one function serves every registry that has its components") 
     CHECK(turned<Large>(2.0) == 3.0);
 }
 
-TEST_CASE("Access: a component that is const there cannot be written") {
+TEST_CASE("Access: a component that the access lists as const cannot be written") {
     CHECK(writes<Turn, Angle>);
     CHECK_FALSE(writes<Turn, Torque>);
     CHECK_FALSE(std::is_convertible_v<const Small&, Turn>);

@@ -1,4 +1,5 @@
-// Leading a hand to a nut: round what is in the way, without a jump, and not at all where there is no way.
+// The guide leads a hand to a nut around obstacles, with continuous force, and gives no force without a free
+// path.
 #include "haptics/force/guide.hpp"
 
 #include <doctest/doctest.h>
@@ -17,7 +18,7 @@ namespace {
 
 constexpr double dt = 1e-3;
 
-// A box in the way, as the segments see it (slabs; Kay and Kajiya's test).
+// A box obstacle with the segment test of Kay and Kajiya (slabs).
 struct Box {
     Vec3 low, high;
     [[nodiscard]] bool inside(const Vec3& p) const {
@@ -41,7 +42,7 @@ struct Box {
 
 bool all_free(const Vec3&, const Vec3&) { return true; }
 
-// A wall between the hand (x < 0) and the nut (x > 0) that one has to go over.
+// A wall between the hand (x < 0) and the nut (x > 0); the free path leads over it.
 const Box wall{Vec3(-0.05, -1.0, -1.0), Vec3(0.05, 0.25, 1.0)};
 const auto over_the_wall = [](const Vec3& a, const Vec3& b) { return !wall.crosses(a, b); };
 
@@ -59,7 +60,7 @@ GuidedTool tool_at(const Vec3& position) {
     return tool;
 }
 
-// A hand that goes where it is pulled, 0.2 m/s at most.
+// Moves the hand in the direction of the force, at most at 0.2 m/s.
 void follow(Vec3& hand, const Vec3& force) {
     const double pull = glm::length(force);
     if (pull > 0.0) hand += force * (std::min(0.2, 0.5 * pull) * dt / pull);
@@ -67,12 +68,13 @@ void follow(Vec3& hand, const Vec3& force) {
 
 }  // namespace
 
-TEST_CASE("Guide: a free path is straight; behind a wall it goes over, and each segment is free") {
+TEST_CASE(
+    "Guide: an unobstructed path is straight; a path past a wall leads over it, and each segment is free") {
     const GuideTarget target = nut_at(Vec3(0.2, 0, 0)).target;
     CHECK(plan_path(Vec3(0.22, 0.3, 0), target, all_free).count == 2);
     CHECK(plan_path(Vec3(-0.2, 0.01, 0), target, all_free).count == 2);
     CHECK(plan_path(Vec3(-0.2, 0.1, 0), target, all_free).count == 3);
-    // Where over the nut there is no room it has to be the slanting one.
+    // With no room above the nut the path is the slanted segment.
     const auto lid = [&](const Vec3& a, const Vec3& b) {
         return std::max(a.y, b.y) < 0.06 || std::min(a.x, b.x) < 0.1;
     };
@@ -89,14 +91,14 @@ TEST_CASE("Guide: a free path is straight; behind a wall it goes over, and each 
     CHECK(point_at(path, -1.0) == path.points[0]);
 }
 
-TEST_CASE("Guide: without a free path none is planned, with a bounded number of queries") {
+TEST_CASE("Guide: without a free path the plan is empty, after a bounded number of queries") {
     int asked = 0;
     const auto closed = [&](const Vec3&, const Vec3&) {
         ++asked;
         return false;
     };
     CHECK(plan_path(Vec3(-0.2, 0, 0), nut_at(Vec3(0.2, 0, 0)).target, closed).count == 0);
-    // The worst: only what goes into the very end is closed.
+    // Worst case: only the segments at the target are blocked.
     int worst = 0;
     const auto nearly = [&](const Vec3& from, const Vec3&) {
         ++worst;
@@ -117,14 +119,15 @@ TEST_CASE("Guide: the target's own nut is no obstacle, others before and behind 
     const Vec3 hand(-0.2, 0.05, 0.0);
     CHECK_FALSE(free(hand, Vec3(0.0)));
     CHECK(free_to(hand, Vec3(0.0), target, free));
-    CHECK(free_to(Vec3(0.01, 0, 0), Vec3(0.0), target, free));       // from inside it
-    CHECK_FALSE(free_to(hand, Vec3(0.1, 0.0, 0.0), target, free));   // through it and on to what is behind
-    CHECK_FALSE(free_to(Vec3(0.2, 0, 0), Vec3(0.0), target, free));  // from behind that
-    CHECK(free_to(hand, Vec3(-0.1, 0.0, 0.0), target, free));        // before it
-    CHECK(free_to(Vec3(0.0), Vec3(0.04, 0, 0), target, free));       // out of it
+    CHECK(free_to(Vec3(0.01, 0, 0), Vec3(0.0), target, free));  // from inside the nut
+    CHECK_FALSE(
+        free_to(hand, Vec3(0.1, 0.0, 0.0), target, free));  // through the nut and the obstacle behind it
+    CHECK_FALSE(free_to(Vec3(0.2, 0, 0), Vec3(0.0), target, free));  // from behind that obstacle
+    CHECK(free_to(hand, Vec3(-0.1, 0.0, 0.0), target, free));        // to a point in front of the nut
+    CHECK(free_to(Vec3(0.0), Vec3(0.04, 0, 0), target, free));       // out of the nut
 }
 
-TEST_CASE("Guide: over a wall the hand arrives without a pull into the wall and with continuous force") {
+TEST_CASE("Guide: the hand is led over a wall with continuous force that never points into the wall") {
     const GuidingParameters guiding;
     GuideState state;
     Vec3 hand(-0.2, 0, 0), last(0.0);
@@ -136,7 +139,7 @@ TEST_CASE("Guide: over a wall the hand arrives without a pull into the wall and 
         REQUIRE(glm::length(force) <= 3.0 + 1e-9);
         REQUIRE(glm::length(force - last) <= 0.35);
         last = force;
-        // Where it pulls is seen from where the tool is: along the force the wall is not met before that.
+        // The next 10 mm along the force are free of the wall.
         if (glm::length(force) > 0.0)
             REQUIRE_FALSE(wall.crosses(
                 hand, hand + glm::normalize(force) * std::min(0.01, glm::length(goal.target.point - hand))));
@@ -145,10 +148,12 @@ TEST_CASE("Guide: over a wall the hand arrives without a pull into the wall and 
         arrived += glm::length(hand - goal.target.point) < 2e-3;
     }
     CHECK(arrived == 500);
-    CHECK(glm::length(last) < 1.0);  // on the spring's bottom
+    CHECK(glm::length(last) < 1.0);  // near the equilibrium of the spring
 }
 
-TEST_CASE("Guide: in free space the force is k over the distance after 0.25 s, and aligns near the target") {
+TEST_CASE(
+    "Guide: in free space the force is k over the distance after 0.25 s, and a torque aligns near the "
+    "target") {
     const GuidingParameters guiding;
     GuideState state;
     const GuideGoal goal = nut_at(Vec3(0.0));
@@ -225,13 +230,13 @@ TEST_CASE("Guide: an obstacle on the path fades the force, which then leads arou
         REQUIRE(glm::length(now - force) < 0.005);
         force = now;
     }
-    CHECK(force.y > 0.0);  // over it
+    CHECK(force.y > 0.0);  // over the wall
     const auto walled_in = [](const Vec3&, const Vec3&) { return false; };
     for (int i = 0; i < 500; ++i) force = guide(guiding, state, tool, goal, walled_in, dt).command.force;
     CHECK(force == Vec3(0.0));
 }
 
-TEST_CASE("Guide: stuck at a corner the force fades, and returns when a path exists") {
+TEST_CASE("Guide: the force fades when the hand is stuck at a corner, and returns when a path exists") {
     const GuidingParameters guiding;
     GuideState state;
     const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
@@ -256,7 +261,7 @@ TEST_CASE("Guide: stuck at a corner the force fades, and returns when a path exi
     closed = true;
     CHECK(lead(8000));
     CHECK(hand.x < -0.1);
-    // Where there is no way it is looked for four times a second, not in every tick.
+    // Without a free path the search is repeated four times a second, not in every tick.
     asked = 0;
     lead(1000);
     CHECK(asked < 500);
@@ -281,7 +286,7 @@ TEST_CASE("Guide: a descending nut is followed without a step of force") {
     CHECK(glm::length(last - guiding_force(guiding, tool.position, goal.target.point)) < 1e-12);
 }
 
-TEST_CASE("Guide: from aside the hand is led above the nut and down, or level") {
+TEST_CASE("Guide: a hand beside the nut is led up or level until it is near the nut's axis") {
     const GuidingParameters guiding;
     const GuideGoal goal = nut_at(Vec3(0.0));
     int outside = 0;
@@ -297,7 +302,7 @@ TEST_CASE("Guide: from aside the hand is led above the nut and down, or level") 
             const Vec3 force = guide(guiding, state, tool_at(hand), goal, all_free, dt).command.force;
             REQUIRE(glm::length(force - last) < 0.4);
             last = force;
-            // Not above the approach point, which it is led to, and not yet within 6 degrees of the axis.
+            // Below the approach point and more than 6 degrees from the axis.
             if (hand.y < goal.target.approach && std::hypot(hand.x, hand.z) > 4e-3 + 0.1 * hand.y) {
                 REQUIRE(force.y > -0.05);
                 ++outside;
@@ -310,14 +315,14 @@ TEST_CASE("Guide: from aside the hand is led above the nut and down, or level") 
     CHECK(outside > 5000);
 }
 
-TEST_CASE("Guide: guiding work is not taken for generated energy") {
-    // Arms that mean to stand where they are and give way to what leads them.
+TEST_CASE("Guide: the passivity controller does not count guiding work as generated energy") {
+    // Passive arms without stiffness, which yield to the guiding force.
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         CAPTURE(seed);
         Random random(seed, 9);
         test::Arm arm;
         arm.parameters = test::random_arm(random);
-        arm.parameters.stiffness = arm.parameters.angular_stiffness = 0.0;  // it lets itself be led
+        arm.parameters.stiffness = arm.parameters.angular_stiffness = 0.0;  // the hand yields
         arm.parameters.damping = std::min(arm.parameters.damping, 3.0);
         arm.parameters.friction = arm.parameters.angular_friction = 0.0;
         arm.pose.position = Vec3(-0.2, 0.02 * random.normal(), 0.05 * random.normal());
@@ -339,12 +344,12 @@ TEST_CASE("Guide: guiding work is not taken for generated energy") {
         }
         CHECK(glm::length(arm.pose.position - goal.target.point) < 1e-3);
         CHECK(glm::length(arm.velocity) < 5e-3);
-        CHECK(arm.energy_out > 0.2);  // that is what help is
+        CHECK(arm.energy_out > 0.2);  // the guide does work on the hand
         CHECK(stage.passivity.removed < 0.15 * arm.energy_out);
     }
 }
 
-TEST_CASE("Guide: no allocation, planning included") {
+TEST_CASE("Guide: guiding and planning do not allocate") {
     const GuidingParameters guiding;
     const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
     CHECK(test::forbidden_in([&] {

@@ -21,7 +21,7 @@ TEST_CASE("Guiding law: k/d outside d_min, K d inside, continuous, at most the r
         CHECK(std::abs(at(d)) <= std::sqrt(0.02 * 800.0) * (1 + 1e-12));
         CHECK(at(d) <= 0.0);
     }
-    CHECK(at(1.0) == 0.0);  // too far to be led
+    CHECK(at(1.0) == 0.0);  // beyond the range of the guide
 }
 
 TEST_CASE("Guiding law: the cap joins spring and hyperbola") {
@@ -100,7 +100,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Guiding law: a tilted tool is turned square by the shorter rotation") {
+TEST_CASE("Guiding law: a tilted tool is squared by the shorter rotation") {
     const Hexagon h;
     const auto tilt = [&](double degrees) {
         const Quat q = glm::angleAxis(to_radians(degrees), h.flat);

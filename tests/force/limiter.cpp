@@ -1,5 +1,4 @@
-// The output stage in torque, and what it remembers over letting go and over faults.
-
+// limit_output() for torque, and its state across release and faults.
 #include "haptics/force/output_stage.hpp"
 
 #include <doctest/doctest.h>
@@ -97,7 +96,7 @@ TEST_CASE("Limiter: a state that is not finite is cleared") {
                 CHECK(out.torque == Vec3(0.0));
                 CHECK(state.strength == 0.0);
                 CHECK(state.faults == 1);
-                // And it works again.
+                // The output recovers.
                 for (int i = 0; i < 1000; ++i) out = limit_output(limits, state, wanted, true, dt);
                 CHECK(glm::length(out.force) == doctest::Approx(limits.force));
                 CHECK(glm::length(out.torque) == doctest::Approx(limits.torque));
@@ -123,7 +122,7 @@ TEST_CASE("Limiter: for any request the output is within the limits and the slew
         const OutputCommand out = limit_output(limits, state, wanted, enabled, dt);
         REQUIRE(glm::length(out.force) <= limits.force * (1 + 1e-12));
         REQUIRE(glm::length(out.torque) <= limits.torque * (1 + 1e-12));
-        // While rendering the force slews; letting go may be faster, never slower.
+        // While rendering, the slew rate bounds the change; a release may be faster, never slower.
         const double most = std::max(limits.force_rate, limits.force / limits.release) * dt;
         REQUIRE(glm::length(out.force - last) <= most * (1 + 1e-9));
         last = out.force;

@@ -1,4 +1,4 @@
-// The output stage as a whole: whatever goes wrong before it, a hand is let go of in 20 ms and never jerked.
+// The output stage as a whole: after any upstream fault it releases the hand within 20 ms, without a jerk.
 #include "haptics/force/output_stage.hpp"
 
 #include <doctest/doctest.h>
@@ -90,7 +90,7 @@ TEST_CASE("Output stage: for any input the output is finite, within the limits a
     Vec3 last(0.0);
     PortInput input = held();
     const auto wild = [&] { return random.normal() * std::pow(10.0, random.uniform(-3.0, 200.0)); };
-    // Silence leaves the least time to let go in.
+    // Silence leaves the shortest time for the release.
     const double fastest =
         std::max(limits.force_rate, limits.force / (limits.release - limits.silence - dt)) * dt;
     std::uint64_t rendered = 0;
@@ -145,12 +145,12 @@ TEST_CASE("Output stage: during missed deadlines the last command counts for as 
     };
     push(1.0);
     input.fresh = false;
-    push(3.0);  // a tick with 1 N is over
+    push(3.0);  // 1 N was applied for one tick
     input.fresh = true;
     input.missed = 2;
     input.pose.position.x = 1e-3;
     const double before = stage.passivity.balance;
-    push(0.0);  // and three with 3 N
+    push(0.0);  // 3 N was applied for three ticks
     CHECK(before - stage.passivity.balance == doctest::Approx((1.0 + 3.0 * 3.0) / 4.0 * 1e-3));
 }
 

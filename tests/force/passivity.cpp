@@ -1,4 +1,4 @@
-// The energy of the port against motions whose work is known, and what the controller may and may not do.
+// The energy balance of the port for motions with known work, and the limits of the controller.
 #include "haptics/force/output_stage.hpp"
 
 #include <doctest/doctest.h>
@@ -58,7 +58,7 @@ TEST_CASE("Passivity: with a sample every third tick the motion is charged with 
 }
 
 TEST_CASE("Passivity: an ideal spring keeps the balance at zero and causes no damping") {
-    // Fine steps: what sampling makes goes with the step.
+    // Fine steps, because the energy that sampling generates is proportional to the step.
     const double K = 1000.0, step = 1e-6;
     PassivityState s;
     double x = 0.0;
@@ -101,7 +101,7 @@ TEST_CASE("Passivity: damping stays below nine tenths of the device's limit and 
     s.balance = -10.0;
     const Motion motion = moved(Vec3(3e-4, 0, -4e-4), Vec3(0, 2e-3, 0));
     OutputCommand out;
-    for (int i = 0; i < 20; ++i) {  // it comes within 10 ms
+    for (int i = 0; i < 20; ++i) {  // the damping is complete within 10 ms
         const double before = s.damping;
         out = control(limits, s, motion, {}, 1.0, 1.0, dt);
         CHECK(s.damping - before <= damping_comes * dt + 1e-12);
@@ -132,13 +132,13 @@ TEST_CASE("Passivity: credit from dissipation decays") {
     PassivityState s;
     note_sent(s, {Vec3(-10, 0, 0), Vec3(0.0)});
     for (int i = 0; i < 1000; ++i) {
-        observe(limits, s, moved(Vec3(1e-3, 0, 0)), 1.0);  // 10 mJ a tick into a brake
+        observe(limits, s, moved(Vec3(1e-3, 0, 0)), 1.0);  // the device dissipates 10 mJ per tick
         control(limits, s, {}, {}, 1.0, 1.0, dt);
     }
     CHECK(s.balance <= saved_at_most);
     CHECK(s.balance > 0.9 * saved_at_most);
     for (int i = 0; i < 100; ++i) control(limits, s, {}, {}, 1.0, 1.0, dt);
-    CHECK(s.balance < 0.05 * saved_at_most);  // and forgotten soon
+    CHECK(s.balance < 0.05 * saved_at_most);  // the credit decays
 }
 
 TEST_CASE("Passivity: injected energy is no deficit; stored energy that grows without work is one") {
@@ -155,14 +155,15 @@ TEST_CASE("Passivity: injected energy is no deficit; stored energy that grows wi
     CHECK(s.balance == doctest::Approx(-3e-3));
 }
 
-TEST_CASE("Passivity: an excessive request is cut in force and torque alike, and its energy accordingly") {
+TEST_CASE(
+    "Passivity: an excessive request is scaled down in force and torque alike, and its energy accordingly") {
     const OutputLimits limits;
     PassivityState s;
     ForceRequest request{{Vec3(2.0 * limits.force, 0, 0), Vec3(0, 1, 0)}, 1.0};
     const OutputCommand out = control(limits, s, {}, request, 1.0, 1.0, dt);
     CHECK(out.force.x == doctest::Approx(limits.force));
     CHECK(out.torque.y == doctest::Approx(0.5));
-    CHECK(s.stored_energy == doctest::Approx(0.75));  // of a spring that is held at half of its force
+    CHECK(s.stored_energy == doctest::Approx(0.75));  // a spring held at half of its force
 
     request = {{Vec3(10, 0, 0), Vec3(0, 4.0 * limits.torque, 0)}, 0.0};
     CHECK(control(limits, s, {}, request, 1.0, 1.0, dt).force.x == doctest::Approx(2.5));

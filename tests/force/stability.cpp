@@ -1,8 +1,8 @@
-// Forty arms against forty walls, 1 sample late and through an encoder: with the controller no energy comes
-// out and nothing trembles on. Without it the same scenes run away, which shows that this test can fail.
+// Forty simulated arms press against forty walls, with one sample of delay and a quantised position. With the
+// passivity controller the port delivers no net energy and the tool does not keep oscillating. Without it the
+// same scenes are unstable, which shows that this test can fail.
 //
-// The walls are contact points on springs, undamped: nothing but the output stage stands between them and
-// trembling.
+// The walls are contact points on undamped springs, so only the output stage prevents oscillation.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -17,17 +17,17 @@ using namespace bolt::force;
 
 namespace {
 
-constexpr double clear = 0.08;  // m from the wall, where the hand begins
+constexpr double clear = 0.08;  // m, initial distance of the hand from the wall
 
-// A tool with three points that touch, before a plane through the origin or in a corner of two.
+// A tool with three contact points in front of a plane through the origin, or in the corner of two planes.
 struct Scene {
     Vec3 points[3] = {Vec3(0.0, 0.012, 0.0), Vec3(0.01, -0.012, 0.004), Vec3(0.04, 0.0, 0.0)};
     Vec3 normals[2];
     int walls = 1;
     double stiffness = 1500.0;  // N/m of each contact
-    Vec3 way{0.0};              // from the wall to where the hand begins
-    double speed = 0.2;         // m/s of the hand's intention
-    double press = 5.0;         // N
+    Vec3 way{0.0};              // unit vector from the wall to the initial position of the hand
+    double speed = 0.2;         // m/s of the hand's intended position
+    double press = 5.0;         // N, intended force on the wall
     test::ArmParameters arm;
 };
 
@@ -66,13 +66,13 @@ ForceRequest wall_of(const Scene& scene, const Pose& tool) {
 }
 
 struct Felt {
-    double greatest_energy = 0.0, energy = 0.0;  // J that came out: at any time, at the end
-    double early_swing = 0.0, late_swing = 0.0;  // m of the tool's way to and fro while the hand holds still
+    double greatest_energy = 0.0, energy = 0.0;  // J delivered to the hand: maximum, and at the end
+    double early_swing = 0.0, late_swing = 0.0;  // m, range of the tool's motion while the hand is still
 };
 
 enum class Energy { told, not_told };
 
-// Comes, presses, shakes half a second at 6 Hz, holds still for 1.5 s.
+// The hand approaches, presses, shakes for half a second at 6 Hz and holds still for 1.5 s.
 Felt feel(const Scene& scene, const OutputLimits& limits, Energy energy, double dt) {
     test::Arm arm;
     arm.parameters = scene.arm;
@@ -106,7 +106,7 @@ Felt feel(const Scene& scene, const OutputLimits& limits, Energy energy, double 
 
 OutputLimits device() {
     OutputLimits limits;
-    limits.ramp_up = 1e-3;  // the scenes begin with the first tick
+    limits.ramp_up = 1e-3;  // so that the force is at full strength from the first tick
     return limits;
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("Stability: no net energy and no lasting oscillation for forty arms an
             const Felt felt = feel(scene, device(), Energy::told, dt);
             CHECK(felt.energy <= 0.0);
             CHECK(felt.greatest_energy <=
-                  5e-3);  // on the way: what a slew-limited force cannot take back at once
+                  5e-3);  // transient, because a slew-limited force cannot recover the energy at once
             CHECK_FALSE(swings_on(felt));
             most = std::max(most, felt.greatest_energy);
         }
@@ -138,11 +138,12 @@ TEST_CASE("Stability: a wall of 1 N/mm is rendered with at least 0.8 N/mm for ev
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         CAPTURE(seed);
         Scene scene = random_scene(seed);
-        scene.arm.friction = 0.0;  // it would carry a part of the force
+        scene.arm.friction = 0.0;  // friction would carry a part of the force
         test::Arm arm;
         arm.parameters = scene.arm;
         OutputStage stage;
-        // Pressed with 3 N, then 5 N, for three seconds each; what counts is how far the hand gives way.
+        // Press with 3 N, then 5 N, for three seconds each. The stiffness is the difference of force over the
+        // difference of penetration.
         const Vec3& n = scene.normals[0];
         double stood[2] = {}, pushed[2] = {};
         for (int k = 0; k < 6000; ++k) {
@@ -163,7 +164,7 @@ TEST_CASE("Stability: a wall of 1 N/mm is rendered with at least 0.8 N/mm for ev
     }
 }
 
-TEST_CASE("Stability: as stable without the springs' stored energy in the request") {
+TEST_CASE("Stability: the result is as stable if requests omit the springs' stored energy") {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         CAPTURE(seed);
         const Felt felt = feel(random_scene(seed), device(), Energy::not_told, 1e-3);

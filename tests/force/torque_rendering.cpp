@@ -33,7 +33,7 @@ TEST_CASE("Torque rendering: resistance to tightening turns the hand about +axis
     CHECK(torque.force == Vec3(0.0));
     const OutputCommand force = render_torque({0.0, 0.05}, 100.0, axis, handle);
     CHECK(force.torque == Vec3(0.0));
-    // A turn about the axis moves the grip along axis x handle.
+    // A rotation about the axis moves the grip along axis x handle.
     CHECK(force.force == 5.0 * glm::cross(axis, handle));
 }
 

@@ -1,4 +1,4 @@
-// What the watchdog holds off, for how long, and that it says so.
+// The inputs that the watchdog rejects, the recovery times and the reported faults.
 #include "haptics/force/output_stage.hpp"
 
 #include <doctest/doctest.h>
@@ -22,7 +22,7 @@ struct Device {
     Device() { input.enabled = true; }
 
     bool step() { return watch(limits, state, input, true, dt); }
-    // Moves along x at a speed for some ticks; the last answer.
+    // Moves along x at `speed` (m/s) for `ticks`; returns the last result of step().
     bool move(double speed, int ticks) {
         bool may = false;
         for (int i = 0; i < ticks; ++i) {
@@ -52,10 +52,10 @@ TEST_CASE("Watchdog: hand motion is accepted from the first sample, up to 2 m/s"
     for (const std::uint64_t n : device.state.counts) CHECK(n == 0);
 }
 
-TEST_CASE("Watchdog: it reports shift, turn and velocity") {
+TEST_CASE("Watchdog: the motion has shift, turn and velocity") {
     Device device;
     device.step();
-    CHECK_FALSE(device.state.motion.fresh);  // one sample is no motion
+    CHECK_FALSE(device.state.motion.fresh);  // a motion needs two samples
     device.move(0.5, 20);
     CHECK(device.state.motion.fresh);
     CHECK(device.state.motion.shift.x == doctest::Approx(0.5e-3));
@@ -67,7 +67,7 @@ TEST_CASE("Watchdog: it reports shift, turn and velocity") {
     }
     CHECK(device.state.motion.turn.z == doctest::Approx(2e-3));
     CHECK(device.state.motion.angular_velocity.z == doctest::Approx(2.0).epsilon(1e-4));
-    // A tick later, and another: the shift is that of three ticks, the velocity what it was.
+    // After a silent tick and a missed one the turn covers three ticks; the velocity is unchanged.
     device.input.fresh = false;
     device.step();
     CHECK_FALSE(device.state.motion.fresh);
@@ -93,7 +93,7 @@ TEST_CASE("Watchdog: eight silent milliseconds are accepted, nine are a fault; m
     CHECK(device.count(Fault::silent) == 1);
 
     device.input.fresh = false;
-    device.input.missed = 8;  // the loop itself stood still for nine
+    device.input.missed = 8;  // the loop paused for nine ticks
     CHECK_FALSE(device.step());
     CHECK(device.state.fault == Fault::silent);
 }
@@ -118,7 +118,7 @@ TEST_CASE("Watchdog: an invalid pose is a fault, counted once, with recovery") {
         CHECK(device.state.fault == Fault::no_pose);
         CHECK(device.count(Fault::no_pose) == 1);
         device.input = good;
-        device.input.pose.position.x += 0.2;  // wherever it is now: that is a beginning, not a jump
+        device.input.pose.position.x += 0.2;  // the first valid pose is a start, not a jump
         CHECK(device.ticks_until(true) == 100);
         CHECK(device.count(Fault::jumped) == 0);
         CHECK(glm::length(device.state.motion.velocity) == 0.0);
@@ -138,7 +138,7 @@ TEST_CASE("Watchdog: a jump is a fault without velocity; the new pose is accepte
     CHECK_FALSE(device.step());
     CHECK(device.state.fault == Fault::jumped);
     CHECK(device.count(Fault::jumped) == 2);
-    // A sample that flickers between two places never gets through.
+    // A pose that alternates between two positions is never accepted.
     for (int i = 0; i < 500; ++i) {
         device.input.pose.position.x = i % 2 == 0 ? 0.0 : 0.1;
         CHECK_FALSE(device.step());
@@ -165,7 +165,7 @@ TEST_CASE("Watchdog: excess speed is a fault within 20 ms, until it falls to hal
     device.move(0.1, 10);
     const int held_off = device.ticks_until(false, 3.5);
     CHECK(held_off > 1);
-    CHECK(held_off <= 10);  // 10 ms to see it leaves 10 of the 20 for a runaway at twice the speed
+    CHECK(held_off <= 10);  // detection within 10 ms leaves 10 of the 20 ms for a runaway at twice the speed
     CHECK(device.state.fault == Fault::too_fast);
     CHECK_FALSE(device.move(2.0, 300));
     CHECK(device.move(1.0, 300));
@@ -196,10 +196,10 @@ TEST_CASE(
     device.input.stop = false;
     CHECK_FALSE(device.move(0.0, 5000));
     CHECK(device.state.fault == Fault::stopped);
-    device.input.reset = true;  // with the dead-man held: it would start by itself
+    device.input.reset = true;  // a reset with the dead-man switch held would start by itself
     CHECK_FALSE(device.move(0.0, 10));
     device.input.enabled = false;
-    device.input.stop = true;  // while it is still pressed
+    device.input.stop = true;  // the stop is still pressed
     CHECK_FALSE(device.move(0.0, 10));
     device.input.stop = false;
     CHECK(device.move(0.0, 1));
@@ -210,7 +210,7 @@ TEST_CASE(
     device.input.pose.position.x = std::numeric_limits<double>::quiet_NaN();
     device.step();
     CHECK(device.state.fault == Fault::stopped);
-    device.input.stop = false;  // a fault of the device does not take the stop away
+    device.input.stop = false;  // a device fault does not clear the stop
     device.step();
     CHECK(device.state.fault == Fault::stopped);
 }

@@ -32,7 +32,7 @@ double apart(const Pose& a, const Pose& b) {
 }  // namespace
 
 TEST_CASE(
-    "Workspace: the tool begins where it is placed, and follows the scaled and rotated motion of the hand") {
+    "Workspace: the tool starts at the given pose and follows the scaled and rotated motion of the hand") {
     Random random(1);
     for (int i = 0; i < 100; ++i) {
         const Workspace w = any_workspace(random);
@@ -65,7 +65,7 @@ TEST_CASE("Workspace: the clutch holds the tool, and releasing it moves nothing"
         if (clutch) {
             REQUIRE(way == 0.0);
         } else {
-            // Also in the tick in which the clutch opens: no farther than the hand itself.
+            // Also in the tick that releases the clutch the tool moves no farther than the hand.
             REQUIRE(way <= (w.scale * glm::length(shift) + glm::length(turn)) * (1 + 1e-6) + 1e-12);
         }
         moved += way;
@@ -143,7 +143,7 @@ TEST_CASE("Workspace: a command at the device's limit is at the mapped limit") {
         const OutputCommand out = to_device(w, {}, {limits.force * way, limits.torque * way});
         CHECK(glm::length(out.force) == doctest::Approx(device.force));
         CHECK(glm::length(out.torque) == doctest::Approx(device.torque));
-        // A spring of the stiffness allowed, pressed by 1 mm of the tool.
+        // A spring of the permitted stiffness, compressed by 1 mm of tool motion.
         const double pressed =
             glm::length(to_device(w, {}, {limits.stiffness * 1e-3 * way, Vec3(0.0)}).force);
         CHECK(pressed / (1e-3 / w.scale) == doctest::Approx(device.stiffness));

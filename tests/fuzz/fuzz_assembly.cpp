@@ -1,5 +1,4 @@
-// Feeds the assembly loader with what it never expects. It must end, and say where a text is wrong that it
-// refuses.
+// The assembly loader with arbitrary bytes: it returns, and each error of a rejected text has a position.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -10,7 +9,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
-    // "stainless" is there in some files only: what was asked for and is missing is an error too.
+    // Only some files define "stainless"; a missing variant is an error too.
     for (const char* variant : {"", "stainless"}) {
         const auto loaded = bolt::content::parse_assembly(text, "fuzz", variant);
         if (loaded.ok() && loaded.assembly.joints.empty()) std::abort();

@@ -1,4 +1,4 @@
-// Calibration files: any bytes end in a calibration or in an error that names a line, never in a crash.
+// Calibration files: any bytes give a calibration or an error with a line number, never a crash.
 
 #include <cmath>
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Kept calibrations: any bytes end in a calibration that is written and read as itself, or in an error that
-// names a place, never in a crash.
+// Stored calibrations: any bytes give a calibration that survives a write and read, or an error with a
+// position, never a crash.
 
 #include <cmath>
 #include <cstddef>

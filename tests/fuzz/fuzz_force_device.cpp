@@ -1,5 +1,5 @@
-// Wheels and pucks: whatever a device says of itself and sends, its driver opens it or says why not, never
-// leaves a report's bounds, and tells angles and speeds that can be.
+// Wheels and pucks: for any descriptor and reports the driver opens the device or returns an error, stays
+// within the bounds of each report, and returns plausible angles and speeds.
 
 #include <cmath>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace {
 using namespace bolt;
 using namespace bolt::device;
 
-// Gives the input away piece by piece, the first byte of a piece being its length.
+// Returns the input in pieces; the first byte of each gives its length.
 class DeviceThread : public HidTransport {
   public:
     DeviceThread(std::span<const std::uint8_t>& left, double& time) : left_(left), time_(time) {}
@@ -56,7 +56,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const ReportDescriptor other = *parse_report_descriptor(emulate::other_wheel_descriptor());
     std::span<const std::uint8_t> left(data + 1, size - 1);
     std::optional<ReportDescriptor> own;
-    if (data[0] % 4 >= 2) {  // a descriptor of the input's own, before the reports
+    if (data[0] % 4 >= 2) {  // the input begins with a descriptor
         const std::size_t n = std::min<std::size_t>(left[0] * 2U, left.size() - 1);
         const auto parsed = parse_report_descriptor(left.subspan(1, n));
         left = left.subspan(1 + n);

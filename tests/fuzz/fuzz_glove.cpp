@@ -1,5 +1,5 @@
-// A glove's line: whatever comes in, however it is cut, is greeted and read without a crash, and every frame
-// that is told is one.
+// The serial protocol of a glove: the session handles any bytes, split anywhere, without a crash, and returns
+// only valid frames.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::span<const std::uint8_t> left(data, size);
     double now = 0.0;
     while (!left.empty()) {
-        // The first byte of each cut says how many come, and how long after those before.
+        // The first byte of each piece gives its length and its delay after the previous piece.
         const std::size_t n = std::min<std::size_t>(1 + left[0] % 24, left.size());
         now += (left[0] & 0x80) != 0 ? 0.1 : 0.002;
         const auto cut = left.subspan(1, n - 1);

@@ -1,5 +1,5 @@
-// glTF files: any bytes end in a model that holds together or in an error that says what is wrong, never in a
-// crash. A model that was read can be written, and what was written can be read.
+// glTF files: any bytes give a consistent model or an error that names the problem, never a crash. A loaded
+// model can be written and read again.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -53,7 +53,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     auto model = parse_gltf(bytes, "/nowhere/fuzz.gltf");
     if (!model) {
         require(!model.error().what.empty() && !model.error().file.empty(), "an error that says nothing");
-        // tinygltf gets to see only what was checked, so it finds nothing wrong that has no pointer.
+        // tinygltf receives only checked input, so its own errors, which lack a JSON pointer, must not occur.
         require(!model.error().what.starts_with("tinygltf"), model.error().message());
         return 0;
     }

@@ -1,4 +1,4 @@
-// Measured records: any bytes end in a record or in an error that names a line, never in a crash.
+// Measured records: any bytes give a record or an error with a line number, never a crash.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Report descriptors: any bytes end in fields or in an error; fields then read and write reports of any
-// length without leaving them.
+// Report descriptors: any bytes give fields or an error. The fields then read and write reports of any length
+// within bounds.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Kept settings: any bytes end in settings that are written and read as themselves, or in an error that names
-// a place, never in a crash.
+// Stored settings: any bytes give settings that survive a write and read, or an error with a position, never
+// a crash.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,4 @@
-// Languages: any bytes end in words that can be said, or in mistakes that each have a place, never in a
-// crash.
+// Language files: any bytes give texts that can be formatted, or errors that each have a line, never a crash.
 
 #include <cstddef>
 #include <cstdint>

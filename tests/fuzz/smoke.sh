@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every fuzzer for a fixed number of runs and a fixed seed, from the corpus that is shipped. $1: folder of the programs.
+# Runs every fuzzer with a fixed number of runs and a fixed seed on the shipped corpus. $1: folder of the programs.
 set -euo pipefail
 bin=$1
 here=$(cd "$(dirname "$0")" && pwd)

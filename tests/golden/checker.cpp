@@ -34,7 +34,7 @@ test::Gallery with_reference(const Folder& folder, const render::Picture& pictur
 
 }  // namespace
 
-TEST_CASE("Golden: on the pinned driver one pixel that differs by one level is found and shown") {
+TEST_CASE("Golden: on the pinned driver one pixel that differs by one level fails and is shown") {
     const Folder folder;
     render::Picture picture = noise();
     const test::Gallery gallery = with_reference(folder, picture);

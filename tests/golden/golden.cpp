@@ -81,13 +81,13 @@ Verdict failed(const Gallery& gallery, const std::string& name, const std::strin
 
 namespace {
 
-// For software drivers: reciprocals and roots are approximated, and each processor family has its own
-// approximations.
+// Returns the vendor, family and model of the first processor. Software drivers approximate reciprocals and
+// roots, and each processor family has its own approximations.
 std::string processor() {
     std::ifstream cpuinfo("/proc/cpuinfo");
     const std::array<std::string, 3> wanted{"vendor_id", "cpu family", "model"};
     std::string named;
-    for (std::string line; std::getline(cpuinfo, line) && !line.empty();) {  // of the first processor
+    for (std::string line; std::getline(cpuinfo, line) && !line.empty();) {
         const std::string key = line.substr(0, line.find_last_not_of("\t ", line.find(':') - 1) + 1);
         if (std::find(wanted.begin(), wanted.end(), key) != wanted.end())
             named += line.substr(line.find(':') + 1);

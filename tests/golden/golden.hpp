@@ -14,8 +14,8 @@ namespace bolt::test {
 // differ, so that a pixel at an edge may change sides.
 struct Tolerance {
     double mean_flip = 0.03;
-    int channel = 24;      // of 255: a larger difference counts
-    double share = 0.015;  // of the pixels may differ
+    int channel = 24;      // of 255; a pixel differs if a channel differs by more
+    double share = 0.015;  // fraction of the pixels that may differ
 };
 
 struct Gallery {
@@ -25,7 +25,7 @@ struct Gallery {
     bool update = false;        // write the reference instead of comparing
 };
 
-// This project's checker for pictures of this device.
+// Returns this project's checker for pictures of the device.
 Gallery gallery(const gpu::Device& device);
 
 std::string driver_of(const gpu::Device& device);
@@ -35,11 +35,12 @@ struct Verdict {
     std::string why;  // figures, and the paths of the pictures
 };
 
-// A failure writes NAME.actual.png and NAME.difference.png (per channel, stretched to the full range).
+// Compares a picture with its reference. A failure writes NAME.actual.png and NAME.difference.png (per
+// channel, stretched to the full range).
 Verdict hold(const Gallery& gallery, const std::string& name, const render::Picture& picture,
              const Tolerance& tolerance = {});
 
-// Compares two pictures.
+// Joins pictures of equal height side by side.
 render::Picture joined(const std::vector<render::Picture>& pictures);
 
 }  // namespace bolt::test

@@ -31,7 +31,7 @@ Eye above() { return eye_at({1.5F, 4.2F, 7.5F}, {0, 0.3F, 0}); }
 
 }  // namespace
 
-TEST_CASE("Golden: shadows of a lamp; ghosts and marks cast none") {
+TEST_CASE("Golden: a lamp casts shadows of objects, but not of ghosts and marks") {
     Stage stage;
     const Table table(stage);
     Scene scene = stage.scene();
@@ -45,7 +45,7 @@ TEST_CASE("Golden: shadows of a lamp; ghosts and marks cast none") {
     stage.shoot("shadow", scene, above());
 }
 
-TEST_CASE("Golden: ambient occlusion under and between objects") {
+TEST_CASE("Golden: ambient occlusion darkens the floor under and between objects") {
     Stage stage;
     const Table table(stage);
     Scene scene = stage.scene();
@@ -55,7 +55,7 @@ TEST_CASE("Golden: ambient occlusion under and between objects") {
     stage.shoot("occlusion", scene, above());
 }
 
-TEST_CASE("Golden: a point light, a spot light and a range") {
+TEST_CASE("Golden: a point light with a range and a spot light illuminate objects") {
     Stage stage;
     const Table table(stage);
     Scene scene = stage.scene();
@@ -82,7 +82,7 @@ TEST_CASE("Golden: a point light, a spot light and a range") {
     stage.shoot("lamps", scene, above());
 }
 
-TEST_CASE("Golden: the sky and its reflection, rotated, brighter, and dimmed by the exposure") {
+TEST_CASE("Golden: the sky and its reflection follow rotation, intensity and exposure") {
     Stage stage;
     assets::Model ball = globe(metal(glm::vec3(0.95F), 0.0F));
     const GpuModel gpu_ball = stage.studio.upload(ball);

@@ -54,7 +54,7 @@ glm::vec4 tiles(int x, int y) {
     return {grey, grey, 0.9F * grey, 1.0F};
 }
 
-// All maps at once. Occlusion in red, roughness in green, metallic in blue, as in glTF.
+// Adds all maps to the first material. Occlusion in red, roughness in green, metallic in blue, as in glTF.
 void texture_all(assets::Model& model) {
     assets::Material& m = model.materials[0];
     m.base_color_texture.texture = add_texture(model, 64, tiles);

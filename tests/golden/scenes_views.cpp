@@ -1,4 +1,4 @@
-// Golden pictures of several views, and of the reducer.
+// Golden pictures of several views and of the ZQ350 reducer.
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -14,7 +14,7 @@ using namespace bolt::test;
 
 namespace {
 
-// Set up as in `boltwright render`.
+// The ZQ350 with the set-up of `boltwright render`.
 struct Reducer {
     Stage stage;
     assets::Model model;
@@ -70,7 +70,7 @@ TEST_CASE("Golden: three walls at right angles, off-axis from one eye") {
     const GpuModel gpu_floor = stage.studio.upload(floor), gpu_ball = stage.studio.upload(ball);
     Scene scene = stage.scene();
     add_model(scene, floor, gpu_floor, at({0, -1, 0}, glm::vec3(6.0F)));
-    // Two of them on the edges between the walls.
+    // Two of the balls are on the edges between the walls.
     for (const float x : {-4.0F, -2.4F, 0.0F, 2.4F, 4.0F})
         add_model(scene, ball, gpu_ball, at({x, -0.3F, x * x < 9.0F ? -3.0F : 0.5F}, glm::vec3(0.7F)));
     const glm::vec3 eye(0.4F, 0.2F, 0.3F);

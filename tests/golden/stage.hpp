@@ -13,7 +13,7 @@ struct Stage {
 
     // An empty scene with this light on grey.
     render::Scene scene();
-    // Renders it and compares it with its reference.
+    // Renders the scene and compares the picture with its reference.
     void shoot(const std::string& name, const render::Scene& scene, const render::Eye& eye,
                VkExtent2D extent = {192, 144});
     void check(const std::string& name, const render::Picture& picture);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Draws the golden pictures anew, after a change that is meant to change them. Look at every one that git says has changed, and
-# at `bolt-imagediff OLD NEW`, before you commit it. $1: the build to take, build/release by default.
+# Redraws the golden pictures after an intended change of their appearance. Before you commit, inspect every picture that git
+# lists as changed, and the output of `bolt-imagediff OLD NEW`. $1: the build folder, build/release by default.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=${1:-build/release}

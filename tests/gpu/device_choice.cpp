@@ -49,7 +49,7 @@ TEST_CASE("Device choice: unusable devices are excluded, and every candidate has
           "Intel UHD (integrated GPU, driver 1): can be used, but is not the fastest");
 }
 
-TEST_CASE("Device choice: a wanted name selects matching devices, case-insensitively") {
+TEST_CASE("Device choice: a requested name selects matching devices, case-insensitively") {
     CHECK(choose_device(std::vector{large, lavapipe}, "LLVM").index == 1);
     const DeviceChoice none = choose_device(std::vector{large, lavapipe}, "radeon");
     CHECK(none.index == -1);

@@ -40,7 +40,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Memory types: lavapipe has one; types that are not allowed, protected or not coherent are not chosen") {
+    "Memory types: lavapipe's only type serves every use; disallowed, protected or incoherent types are not "
+    "chosen") {
     const auto one = machine({local | visible | cached});
     for (const MemoryUse use : {MemoryUse::device, MemoryUse::upload, MemoryUse::readback}) {
         CHECK(memory_type(one, ~0U, use) == 0U);
@@ -52,7 +53,7 @@ TEST_CASE(
     CHECK(memory_type(odd, ~0U, MemoryUse::readback) == 2U);
 }
 
-TEST_CASE("FreeList: ranges never overlap, are aligned, and merge into one in the end") {
+TEST_CASE("FreeList: allocated ranges are aligned and never overlap, and freed ranges merge into one") {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
         Random random(seed);
         constexpr std::uint64_t size = 1 << 20;

@@ -9,7 +9,8 @@ using namespace bolt;
 using namespace bolt::gpu;
 
 TEST_CASE(
-    "Reflection: bindings with type and count, vertex inputs with location and format, push constants") {
+    "Reflection: finds bindings with type and count, vertex inputs with location and format, and push "
+    "constants") {
     test::Gpu gpu;
     const Shader vertex = gpu.need(make_shader("triangle.vert", test_shaders("triangle.vert")));
     CHECK(vertex.reflection.stage == VK_SHADER_STAGE_VERTEX_BIT);

@@ -10,7 +10,7 @@ Gpu::Gpu() {
 }
 
 Gpu::~Gpu() {
-    device_.reset();  // objects that still exist are reported too
+    device_.reset();  // validation also reports objects that still exist
     if (expects_messages_) return;
     for (const std::string& message : log().messages) CHECK_MESSAGE(false, message);
 }

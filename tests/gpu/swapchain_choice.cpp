@@ -32,7 +32,9 @@ SwapchainPlan plan(const SurfaceSupport& offer, const SwapchainRequest& wish = {
 
 }  // namespace
 
-TEST_CASE("Swapchain: 8-bit sRGB, RGBA preferred; otherwise the error lists the supported formats") {
+TEST_CASE(
+    "Swapchain: the format is 8-bit sRGB, RGBA preferred; without one the error lists the supported "
+    "formats") {
     SurfaceSupport offer = desktop();
     CHECK(plan(offer).format.format == VK_FORMAT_B8G8R8A8_SRGB);
     offer.formats.push_back({VK_FORMAT_R8G8B8A8_SRGB, VK_COLOR_SPACE_SRGB_NONLINEAR_KHR});
@@ -50,7 +52,7 @@ TEST_CASE("Swapchain: 8-bit sRGB, RGBA preferred; otherwise the error lists the 
     CHECK_FALSE(plan_swapchain(offer, {}).has_value());
 }
 
-TEST_CASE("Swapchain: mailbox, otherwise fifo; immediate only if tearing is allowed") {
+TEST_CASE("Swapchain: the present mode is mailbox, otherwise fifo; immediate only if tearing is allowed") {
     SurfaceSupport offer = desktop();
     CHECK(plan(offer).mode == VK_PRESENT_MODE_MAILBOX_KHR);
     CHECK(plan(offer, {{}, true, 2}).mode == VK_PRESENT_MODE_IMMEDIATE_KHR);
@@ -60,7 +62,8 @@ TEST_CASE("Swapchain: mailbox, otherwise fifo; immediate only if tearing is allo
     CHECK(plan(offer).reasons[1].starts_with("fifo: mailbox is not available"));
 }
 
-TEST_CASE("Swapchain: enough images for presentation, queue and drawing, within the limits of the surface") {
+TEST_CASE(
+    "Swapchain: the images suffice for presentation, queue and drawing, within the limits of the surface") {
     SurfaceSupport offer = desktop();
     CHECK(plan(offer).images == 3);
     offer.capabilities.minImageCount = 4;
@@ -87,7 +90,7 @@ TEST_CASE(
     CHECK(plan(offer, {window, false, 2}).extent.height == 0);
 }
 
-TEST_CASE("Swapchain: identity transform and opaque composition if available") {
+TEST_CASE("Swapchain: the transform is identity and the composition opaque if available") {
     SurfaceSupport offer = desktop();
     CHECK(plan(offer).alpha == VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR);
     offer.capabilities.supportedCompositeAlpha = VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;

@@ -69,7 +69,7 @@ TEST_CASE("Compute: a shader doubles numbers in every frame, and transient memor
     CHECK(frames->timings()[0].milliseconds >= 0.0);
 }
 
-TEST_CASE("Frames: descriptor sets and retired resources of many frames do not run out") {
+TEST_CASE("Frames: many descriptor sets can be allocated, and retired resources are freed") {
     test::Gpu gpu;
     Device& device = gpu.device();
     const PipelineCache cache = gpu.need(PipelineCache::open(device, {}));
@@ -220,7 +220,7 @@ TEST_CASE("Drawing: a triangle covers the expected pixels with multisampling, de
     };
     // Rows go down: red is below the diagonal from the upper left, green the same shifted by half a picture.
     CHECK(at(2, 40) == std::array{255, 0, 0, 255});
-    CHECK(at(40, 50) == std::array{255, 0, 0, 255});  // both cover this pixel: red is nearer
+    CHECK(at(40, 50) == std::array{255, 0, 0, 255});  // both triangles cover this pixel, and red is nearer
     CHECK(at(50, 30) == std::array{0, 255, 0, 255});
     CHECK(at(60, 10) == std::array{0, 0, 255, 255});
     CHECK(at(20, 10) == std::array{0, 0, 255, 255});
@@ -230,7 +230,7 @@ TEST_CASE("Drawing: a triangle covers the expected pixels with multisampling, de
     CHECK(edge[0] < 255);
 }
 
-TEST_CASE("Transfer: images are read back unchanged, and mips are means") {
+TEST_CASE("Transfer: images are read back unchanged, and mip levels are means of their texels") {
     test::Gpu gpu;
     Device& device = gpu.device();
     ImageInfo info{
@@ -258,7 +258,7 @@ TEST_CASE("Transfer: images are read back unchanged, and mips are means") {
     }
 }
 
-TEST_CASE("PipelineCache: it is restored, and a foreign or damaged one is ignored") {
+TEST_CASE("PipelineCache: a saved cache is restored, and a foreign or damaged one is ignored") {
     test::Gpu gpu;
     const test::Folder folder;
     const auto file = folder / "deep" / "pipelines.bin";

@@ -1,6 +1,5 @@
-// A click-type torque wrench: where it trips, how the torque falls, when it is armed again; and that swinging
-// it to and fro takes energy, whatever the hand does.
-
+// A click-type torque wrench: trip torque, fall of the torque, re-arming, and energy dissipation for any
+// motion of the hand.
 #include "haptics/joint/nut.hpp"
 
 #include <doctest/doctest.h>
@@ -13,7 +12,7 @@ using namespace bolt::joint;
 namespace {
 
 constexpr double stiffness = 2000.0, setting = 40.0, swing = to_radians(4.0), play = 0.01;
-constexpr double fixed = 1e9;  // N·m: what holds a nut that is not to turn
+constexpr double fixed = 1e9;  // N·m, resistance of a nut that must not turn
 
 Resistance constant(double torque) {
     Resistance r;
@@ -22,14 +21,14 @@ Resistance constant(double torque) {
     return r;
 }
 
-// A wrench on a nut that a constant torque holds.
+// A wrench on a nut with a constant resistance.
 struct Bench {
     double dt = 1e-3;
     Resistance held_by = constant(fixed);
     DriveHandle handle;
     NutMotion nut;
     NutStep last;
-    double hand = 0.0, work = 0.0;  // rad, and J that the hand put in
+    double hand = 0.0, work = 0.0;  // rad; J of work by the hand
     int clicks = 0;
 
     explicit Bench(double tick = 1e-3) : dt(tick) {
@@ -39,7 +38,7 @@ struct Bench {
         handle.click.setting = setting;
         handle.click.swing = swing;
     }
-    // One tick, in which the hand goes to an angle.
+    // Runs one tick with the hand at `angle` (rad); returns the torque, N·m.
     double to(double angle) {
         handle.angle = angle;
         last = step_nut(held_by, coupling_inertia(stiffness, dt), nut, handle, dt);
@@ -56,7 +55,7 @@ struct Bench {
         const int n = static_cast<int>(std::abs(angle - from) / (speed * dt)) + 1;
         for (int i = 1; i <= n; ++i) to(from + (angle - from) * i / n);
     }
-    // What the spring of the wrench holds, and the mechanism's own, which brings it back.
+    // Energy in J stored in the wrench's spring and in the return spring of the mechanism.
     [[nodiscard]] double stored() const {
         const Click& c = handle.click;
         const double wound = last.torque / stiffness;
@@ -66,7 +65,7 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("Torque wrench: up to its setting it is the plain wrench, bit for bit, and loosening always") {
+TEST_CASE("Torque wrench: below its setting and when loosening it equals the plain wrench bit for bit") {
     Bench click, plain;
     plain.handle.click = {};
     Random random(5);
@@ -80,7 +79,7 @@ TEST_CASE("Torque wrench: up to its setting it is the plain wrench, bit for bit,
     CHECK(click.clicks == 1);
 }
 
-TEST_CASE("Torque wrench: it trips at play + setting / stiffness, within what the hand goes in a tick") {
+TEST_CASE("Torque wrench: it trips at play + setting / stiffness, within the hand's motion of one tick") {
     for (const double dt : {1e-3, 2.5e-4}) {
         Bench bench(dt);
         const double speed = 0.2;
@@ -94,7 +93,7 @@ TEST_CASE("Torque wrench: it trips at play + setting / stiffness, within what th
 }
 
 TEST_CASE(
-    "Torque wrench: held still it swings with its time constant, continuously, until the torque has fallen") {
+    "Torque wrench: in a still hand the torque falls continuously, with the time constant of the mechanism") {
     for (const double dt : {1e-3, 2.5e-4}) {
         Bench bench(dt);
         while (bench.clicks == 0) bench.to(bench.hand + 0.05 * dt);
@@ -120,7 +119,7 @@ TEST_CASE("Torque wrench: a further pull reaches the end of the swing and exceed
     const double low = bench.handle.click.falls_to * setting;
     const double speed = 0.02, extra = stiffness * bench.handle.click.settles * speed;
     bench.slowly_to(play + low / stiffness + 0.9 * swing, speed);
-    CHECK(bench.last.torque == doctest::Approx(low + extra).epsilon(0.01));  // swings against this
+    CHECK(bench.last.torque == doctest::Approx(low + extra).epsilon(0.01));  // torque while it swings
     CHECK(bench.handle.swung < swing);
     bench.slowly_to(play + swing + 1.5 * setting / stiffness, speed);
     CHECK(bench.handle.swung == swing);
@@ -129,8 +128,8 @@ TEST_CASE("Torque wrench: a further pull reaches the end of the swing and exceed
 }
 
 TEST_CASE(
-    "Torque wrench: released it swings back only below its lower torque, and then holds up to its setting "
-    "again") {
+    "Torque wrench: after release it swings back only below the re-arming torque, then holds up to its "
+    "setting again") {
     Bench bench;
     const Click& c = bench.handle.click;
     bench.slowly_to(play + 0.5 * swing + c.falls_to * setting / stiffness);
@@ -138,7 +137,7 @@ TEST_CASE(
     const double swung = bench.handle.swung;
     REQUIRE(swung > 0.3 * swing);
     bench.slowly_to(play + swung + 1.05 * c.rearms_at * setting / stiffness);
-    CHECK(bench.handle.swung == swung);  // between its torques it stands
+    CHECK(bench.handle.swung == swung);  // it does not move between the two torques
     bench.slowly_to(play);
     for (int i = 0; i < 2000; ++i) bench.to(bench.hand);
     CHECK(bench.handle.swung == 0.0);
@@ -151,8 +150,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Torque wrench: a nut that turns below the setting never clicks; one that needs more stops at the "
-    "click") {
+    "Torque wrench: a nut that turns below the setting never trips it; a tighter nut stops at the click") {
     Bench loose;
     loose.held_by = constant(0.9 * setting);
     loose.slowly_to(2.0);
@@ -188,7 +186,7 @@ TEST_CASE("Torque wrench: it never generates energy with random hands and nuts a
         for (int leg = 0; leg < 12; ++leg) {
             const double stored = bench.stored(), work = bench.work;
             bench.slowly_to(bench.nut.angle + random.uniform(-0.1, 0.2), random.uniform(0.02, 4.0));
-            for (int i = 0; i < 200; ++i) bench.to(bench.hand);  // until nothing moves any more
+            for (int i = 0; i < 200; ++i) bench.to(bench.hand);  // until all motion has stopped
             const double lost = bench.work - work - (bench.stored() - stored);
             REQUIRE(lost >= -1e-9);
             REQUIRE(bench.handle.swung >= 0.0);
@@ -198,7 +196,7 @@ TEST_CASE("Torque wrench: it never generates energy with random hands and nuts a
     }
 }
 
-TEST_CASE("Torque wrench: under every law a joint is tightened to the click, the same to the bit each time") {
+TEST_CASE("Torque wrench: under every law tightening stops at the click and is reproducible bit for bit") {
     const auto run = [](const GroupParameters& group, double dt, double trips) {
         std::vector<JointState> joints = initial_state(group, 1);
         DriveHandle handle;

@@ -16,7 +16,7 @@ TEST_CASE("Compliance: a fully threaded M16 in steel needs 23, 35 and 56 degrees
     }
 }
 
-TEST_CASE("Compliance: a sleeve: when the member is as wide as the bearing the cone is a cylinder") {
+TEST_CASE("Compliance: the cone of a member as wide as the bearing is a cylinder") {
     const Member layer{0.05, 110e9};
     const double sleeve = 0.05 / 110e9 / (0.25 * pi * (square(0.0225) - square(0.0175)));
     CHECK(member_compliance({&layer, 1}, 0.0225, 0.0175, 0.0225) / sleeve ==

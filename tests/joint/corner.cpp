@@ -18,14 +18,14 @@ CornerGrip whole() {
 }  // namespace
 
 TEST_CASE("Corner: the pressure on a corner of 120 degrees lies between a column's and a punch's") {
-    const double hardness = 3.0;  // of a flow stress of 1
+    const double hardness = 3.0;  // for a flow stress of 1
     const double column = 2.0 / std::sqrt(3.0), punch = column * (1.0 + 0.5 * pi);
     CHECK(corner_pressure(hardness) == doctest::Approx(column * (1.0 + pi / 6.0)).epsilon(1e-12));
     CHECK(corner_pressure(hardness) > column);
     CHECK(corner_pressure(hardness) < punch);
 }
 
-TEST_CASE("Corner: hardness as ISO 898-2 asks of the nut that belongs to the bolt") {
+TEST_CASE("Corner: the nut's hardness is the ISO 898-2 value for the bolt's property class") {
     const auto of = [](const char* name, double d) {
         return nut_hardness(property_class(name, d).value(), d) / 9.80665e6;
     };
@@ -38,11 +38,10 @@ TEST_CASE("Corner: hardness as ISO 898-2 asks of the nut that belongs to the bol
 }
 
 TEST_CASE(
-    "Corner: the load is proportional to the overlap: half overlap half, half the spread a quarter, none "
-    "zero") {
+    "Corner: half the overlap height gives half the torque, half the width a quarter, no overlap zero") {
     const double p = corner_pressure(130 * 9.80665e6);
     const double full = corner_torque(p, whole());
-    // p e s²/12.
+    // Closed form p e s²/12.
     CHECK(full == doctest::Approx(p * 10e-3 * square(24e-3) / 12.0).epsilon(1e-12));
     CHECK(full > 200.0);  // more than the joint's 78 N·m
     CornerGrip grip = whole();
@@ -61,7 +60,7 @@ TEST_CASE(
     CHECK(corner_torque(p, grip) == 0.0);
 }
 
-TEST_CASE("Corner: a tilted jaw bears less, and continuously so") {
+TEST_CASE("Corner: the torque falls continuously with the tilt of the jaw") {
     const double p = 1e9;
     CornerGrip grip = whole();
     const double full = corner_torque(p, grip);
@@ -79,7 +78,7 @@ TEST_CASE("Corner: a tilted jaw bears less, and continuously so") {
     }
 }
 
-TEST_CASE("Corner: backlash of an intact nut, and its growth with the lost corner") {
+TEST_CASE("Corner: the backlash is exact for an intact nut and grows with the lost corner") {
     const double w = 24.2e-3, s = 24e-3;
     const double whole_play = rounded_half_play(w, s, 0.0);
     CHECK(std::cos(whole_play) + std::sin(whole_play) / std::sqrt(3.0) ==

@@ -1,4 +1,4 @@
-// The hand's spring on the nut, step by step, and the ends of its range.
+// Single steps of the coupling spring between hand and nut, and the limits of its range.
 
 #include <doctest/doctest.h>
 
@@ -34,10 +34,8 @@ double stored(const DriveHandle& handle, double nut) {
 
 }  // namespace
 
-TEST_CASE(
-    "Hand and nut: a torque below the lead's is held by friction that points on, above it by friction that "
-    "points back") {
-    const Resistance r = constant(100.0, -70.0, 20.0);  // 80 of friction on, 90 off
+TEST_CASE("Hand and nut: friction acts in tightening below the lead torque, and in loosening above it") {
+    const Resistance r = constant(100.0, -70.0, 20.0);  // N·m: friction 80 in tightening, 90 in loosening
     const double inertia = coupling_inertia(2000.0, 1e-3);
     const std::pair<double, double> torques[] = {{0.0, -20.0 / 90.0},   {10.0, -10.0 / 90.0},
                                                  {20.0, 0.0},           {50.0, 30.0 / 80.0},
@@ -59,7 +57,8 @@ TEST_CASE("Hand and nut: at the end of the bolt the nut stops and the hand winds
         step_group(group, joints, 0, spring(hand, 0.01), 1e-3);
         REQUIRE(joints[0].nut.angle == 0.0);
         REQUIRE(joints[0].nut.speed == 0.0);
-        // Below a few tenths of a newton metre the thread's drag may hold it as well: the torque is the same.
+        // Below a few tenths of a newton metre the thread's drag may also hold the nut; the torque is the
+        // same.
         REQUIRE(joints[0].torque == doctest::Approx(-2000.0 * std::max(0.0, -hand - 0.01)));
     }
 }
@@ -76,7 +75,7 @@ TEST_CASE("Hand and nut: a nut that leaves the jaw face for the backlash stops a
 }
 
 TEST_CASE(
-    "Hand and nut: the coupling gives back no more than the hand put in, with a nearly free nut in a wide "
+    "Hand and nut: the coupling returns no more energy than the hand put in, for a nearly free nut with wide "
     "play") {
     Random random(17);
     for (const double dt : {2.5e-4, 1e-3, 4e-3}) {

@@ -1,4 +1,5 @@
-// What is derived from a design, against closed forms, and the marks at which the law changes.
+// Parameters derived from a design, compared with closed forms, and the boundaries between the stages of the
+// law.
 
 #include <doctest/doctest.h>
 
@@ -12,7 +13,7 @@ using namespace bolt::joint;
 
 namespace {
 
-// Nothing but the elastic joint: no drag, no breakaway, no settling.
+// The elastic joint only: no drag, no breakaway, no embedding.
 JointDesign plain() {
     JointDesign d = test::m16_flange_joint();
     d.friction.static_ratio = 1.0;
@@ -22,7 +23,7 @@ JointDesign plain() {
     return d;
 }
 
-// Angle at which the joint alone, settled as it is, carries this clamp force.
+// Angle (rad) at which the joint alone carries the clamp force `force`, with its present plastic deformation.
 double angle_at(const MechanisticParameters& p, const MechanisticState& s, double force) {
     return (p.seat.closure(force) + p.gap + s.plastic + s.stripped + s.embedding) / p.levers.lead;
 }
@@ -68,8 +69,8 @@ TEST_CASE("Derive: joints couple as far as ten lengths of the plate and no furth
     CHECK(std::abs(plate.deflection_per_force(10.0 * l)) < 1e-3 * plate.deflection_per_force(0.0));
 }
 
-// Compliances are of the order of 1e-9 m/N, and doctest's Approx adds 1 to what its epsilon is of: such small
-// numbers are compared as ratios.
+// Compliances are of the order of 1e-9 m/N. They are compared as ratios, because the tolerance of doctest's
+// Approx is epsilon times (1 + value).
 TEST_CASE("Derive: the deflection under one bolt equals Hertz's l2/8D") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     const double hertz = square(plate.length()) / (8.0 * plate.rigidity);
@@ -114,7 +115,7 @@ TEST_CASE("Derive: less thread torque raises the yield load, at rest and while l
         return last;
     };
     const auto expected = [&](double share) {
-        // tan(phi + rho'), written out; d0 is the diameter of the stress area.
+        // tan(phi + rho'); d0 is the diameter of the stress area.
         const double phi = std::atan(0.002 / (pi * p.thread.d2));
         const double rho = std::atan(share * 0.12 / std::cos(pi / 6.0));
         const double shear = 1.5 * p.thread.d2 / p.thread.d0() * std::tan(phi + rho);
@@ -130,7 +131,7 @@ TEST_CASE("Derive: linearity begins at three quarters of the elastic stiffness, 
     const GroupParameters group = test::single(plain());
     const MechanisticParameters& p = group.joints[0];
     MechanisticState s;
-    // Steps so long that plastic flow is over in each: the law free of rate.
+    // Plastic flow is complete within each long step, so the rate has no effect.
     const double step = 2e-4, dt = 1.0;
     double clamp[3] = {0.0, 0.0, 0.0};
     int changes = 0;
@@ -206,7 +207,7 @@ TEST_CASE("Derive: a tenth of the reference load causes a tenth of the embedding
     }
 }
 
-TEST_CASE("Derive: the weight of the nut helps it down and hinders it up") {
+TEST_CASE("Derive: the nut's weight lowers the torque downward, raises it upward and adds friction") {
     JointDesign design = plain();
     design.nut_mass = 0.05;
     const auto on = [&](const Vec3& axis) {
@@ -226,8 +227,8 @@ TEST_CASE("Derive: the weight of the nut helps it down and hinders it up") {
 }
 
 TEST_CASE(
-    "Derive: a locking nut breaks away with the static ratio of its prevailing torque and then runs with "
-    "it") {
+    "Derive: a locking nut breaks away at the static ratio times its prevailing torque, then runs at that "
+    "torque") {
     JointDesign design = plain();
     design.prevailing_torque = 32.0;
     design.friction.static_ratio = 1.25;
@@ -262,12 +263,12 @@ TEST_CASE("Derive: friction of thread and bearing scatter independently with the
 }
 
 TEST_CASE(
-    "Derive: the published law loosens in its yield stage with the loosening lever of the clamp force "
-    "there") {
+    "Derive: loosening in the yield stage of the published law takes the clamp force times the loosening "
+    "lever") {
     const PublishedParameters p;
     const GroupParameters group = make_published_group(p);
     const PublishedBoundaries b = published_boundaries(p);
-    // Friction as printed, less the lead.
+    // The published friction levers minus the lead.
     const double lever = (-2.0 / (2.0 * pi) + 0.3 * 14.7 / (2.0 * std::cos(pi / 6.0)) + 0.4 * 24.0) * 1e-3;
     for (const double further : {0.0, 45.0, 90.0}) {
         const PublishedReading off = published_read(p, {}, b.yield + further, Direction::loosen);

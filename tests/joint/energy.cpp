@@ -1,7 +1,5 @@
-// Invariants over random joints and random motions: what is put into a closed cycle of the nut never comes
-// back whole, clamp force is never negative, what is irreversible never goes back, and equal runs have equal
-// bits.
-
+// Invariants over random joints and motions: a closed cycle of the nut generates no energy, the clamp force
+// is never negative, irreversible quantities never decrease, and equal runs are equal bit for bit.
 #include <doctest/doctest.h>
 
 #include "tests/joint/support.hpp"
@@ -12,8 +10,8 @@ using namespace bolt::joint;
 namespace {
 
 struct Cycle {
-    double work = 0.0;     // N·m·rad put in over the closed cycle
-    double largest = 0.0;  // of |torque · dθ|, for scale
+    double work = 0.0;     // J put in over the closed cycle
+    double largest = 0.0;  // maximum of |torque · dθ|, for scale
     double friction = 0.0;
 };
 
@@ -42,8 +40,7 @@ Cycle random_cycle(const GroupParameters& group, Random& random, bool take_frict
             REQUIRE(s.stripped >= before.stripped);
             double torque = joints[0].torque;
             if (take_friction_off) torque = resistance(p, s).lead;
-            // Midpoint of the conservative part, end point of friction: an upper and not a lower estimate is
-            // no use.
+            // Rectangle rule with the torque at the end of the step.
             const double work = torque * (next - angle);
             cycle.work += work;
             cycle.largest = std::max(cycle.largest, std::abs(work));
@@ -69,9 +66,8 @@ TEST_CASE("Energy: no closed cycle of 300 random joints and motions generates en
 }
 
 TEST_CASE("Energy: plasticity and embedding without friction only dissipate") {
-    // The clamp force is sampled at the end of a step, so a closed elastic cycle sums to zero only to the
-    // step's order; one step of the largest is allowed for that, and shrinking the steps must shrink what is
-    // found.
+    // The clamp force is sampled at the end of each step, so the sum over a closed elastic cycle has an error
+    // of the order of a step. The tolerance is the largest work of one step.
     Random random(12);
     for (int trial = 0; trial < 200; ++trial) {
         CAPTURE(trial);
@@ -81,7 +77,7 @@ TEST_CASE("Energy: plasticity and embedding without friction only dissipate") {
     }
 }
 
-TEST_CASE("Energy: the check can fail: it detects friction of the wrong sign") {
+TEST_CASE("Energy: the check detects friction of the wrong sign") {
     Random random(11);
     GroupParameters group = test::single(test::m16_flange_joint());
     group.joints[0].levers.thread *= -1.0;
@@ -89,7 +85,7 @@ TEST_CASE("Energy: the check can fail: it detects friction of the wrong sign") {
     CHECK(random_cycle(group, random, false).work < 0.0);
 }
 
-TEST_CASE("Energy: equal runs have equal bits") {
+TEST_CASE("Energy: equal runs are equal bit for bit") {
     const auto run = [] {
         Random random(21);
         std::vector<double> out;

@@ -67,7 +67,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Fasteners: ISO 4014 thread lengths of the reducer's bolts") {
+TEST_CASE("Fasteners: the reducer's bolts have the thread lengths of ISO 4014") {
     CHECK(thread_length(0.016, 0.180) == doctest::Approx(0.044));
     CHECK(thread_length(0.016, 0.075) == doctest::Approx(0.038));
     CHECK(thread_length(0.016, 0.030) == doctest::Approx(0.030));
@@ -91,7 +91,7 @@ double half_unit(const std::string& printed) {
 
 }  // namespace
 
-TEST_CASE("VDI 2230 table A1: every row") {
+TEST_CASE("Fasteners: preload and torque agree with every row of VDI 2230 table A1") {
     int rows = 0;
     for (const test::Row& row : test::read_table("oracles/vdi2230_a1.csv")) {
         const std::string& size = row.at("size");
@@ -101,7 +101,7 @@ TEST_CASE("VDI 2230 table A1: every row") {
         const AssemblyPreload p = preload_of(row);
         const double force = test::number(row, "FM_kN");
         const bool small = size == "M4" || size == "M5" || size == "M6";
-        // Below M8 the table's rounding is most of the figure; 0.2 % more for the rounding of its own inputs.
+        // Below M8 the rounding of the table dominates; 0.2 % is added for the rounding of its inputs.
         const double force_tolerance = small ? half_unit(row.at("FM_kN")) + 0.002 * force : 0.01 * force;
         CHECK(std::abs(p.force / 1e3 - force) <= force_tolerance);
         if (row.at("MA_Nm").empty()) continue;
@@ -113,7 +113,7 @@ TEST_CASE("VDI 2230 table A1: every row") {
     CHECK(rows == 223);
 }
 
-TEST_CASE("Fasteners: fine threads within 2 %") {
+TEST_CASE("Fasteners: fine threads agree with VDI 2230 table A2 within 2 %") {
     int rows = 0;
     for (const test::Row& row : test::read_table("oracles/vdi2230_a2_fine.csv")) {
         CAPTURE(row.at("size"));
@@ -126,7 +126,7 @@ TEST_CASE("Fasteners: fine threads within 2 %") {
     CHECK(rows == 81);
 }
 
-TEST_CASE("Fasteners: stainless with elastic torsion agrees within 2 % of the printed value") {
+TEST_CASE("Fasteners: stainless bolts with elastic torsion agree with the printed values within 2 %") {
     int numbers = 0;
     for (const test::Row& row : test::read_table("oracles/stainless.csv")) {
         CAPTURE(row.at("size"));
@@ -156,7 +156,7 @@ TEST_CASE("Fasteners: the exact tangent and VDI's closed form agree to first ord
     }
 }
 
-TEST_CASE("Fasteners: loosening over tightening torque of M16") {
+TEST_CASE("Fasteners: the ratio of loosening to tightening torque of M16 is the published one") {
     const ThreadSize m16 = parse_thread("M16").value();
     const double D_Km = bearing_mean_diameter(m16.size.head_bearing, m16.size.hole);
     const std::pair<double, double> published[] = {

@@ -7,14 +7,14 @@
 using namespace bolt;
 using namespace bolt::joint;
 
-TEST_CASE("Flange: kei against Abramowitz and Stegun, table 9.12") {
+TEST_CASE("Flange: kei agrees with Abramowitz and Stegun, table 9.12") {
     const std::pair<double, double> published[] = {{0.0, -0.7853981634}, {1.0, -0.4949946365},
                                                    {2.0, -0.2024000678}, {3.0, -0.0511218840},
                                                    {4.0, 0.0021983995},  {5.0, 0.0111875865}};
     for (const auto& [x, value] : published) CHECK(std::abs(kelvin_kei(x) - value) < 1e-9);
 }
 
-TEST_CASE("Flange: own deflection is Hertz's closed form l2/8D") {
+TEST_CASE("Flange: the deflection at the load is Hertz's closed form l2/8D") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     CHECK(plate.rigidity == doctest::Approx(110e9 * 0.024 * 0.024 * 0.024 / (12 * (1 - 0.0625))));
     const double hertz = square(plate.length()) / (8 * plate.rigidity);
@@ -27,7 +27,7 @@ TEST_CASE("Flange: neighbours are pressed down nearby and lifted farther out") {
     CHECK(plate.deflection_per_force(5.0 * plate.length()) < 0.0);
 }
 
-TEST_CASE("Flange: the coupling is symmetric and stores energy: positive for any forces") {
+TEST_CASE("Flange: the coupling is symmetric and its energy is positive for any forces") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     Random random(5);
     std::vector<Vec3> seats;
@@ -95,7 +95,7 @@ TEST_CASE("Flange: the sweep converges to the solution of the coupled equations"
     std::vector<JointDesign> designs;
     for (int i = 0; i < 6; ++i) {
         JointDesign d = test::m16_flange_joint();
-        d.embedding_time = 1e9;  // nothing creeps while we look
+        d.embedding_time = 1e9;  // no creep during the test
         d.seat = Vec3(0.05 * (i % 3), 0.0, 0.07 * (i / 3));
         designs.push_back(d);
     }
@@ -112,6 +112,6 @@ TEST_CASE("Flange: the sweep converges to the solution of the coupled equations"
         double left = p.levers.lead * s.angle - p.gap - s.plastic - s.embedding - p.seat.closure(s.clamp);
         for (std::uint32_t k = group.coupling.row_begin[i]; k < group.coupling.row_begin[i + 1]; ++k)
             left -= group.coupling.value[k] * joints[group.coupling.column[k]].clamp;
-        CHECK(std::abs(left) < 1e-12);  // metres
+        CHECK(std::abs(left) < 1e-12);  // m
     }
 }

@@ -12,13 +12,13 @@ using namespace bolt::joint;
 
 namespace {
 
-// Largest jump of torque and of its slope between neighbouring samples of a path of the nut's angle over
-// time.
+// Largest jumps of torque, slope and clamp force between neighbouring samples along a path of the nut's
+// angle.
 struct Jumps {
     double torque = 0.0, slope = 0.0, clamp = 0.0;
 };
 
-// `angle(t)` for t in [0, duration], its direction known; torque taken in the direction of motion only.
+// Samples the tightening path(t) (rad) for t in [0, duration] s; jumps count from `from` s on.
 template <class Path>
 Jumps jumps_of(const GroupParameters& group, const Path& path, double duration, double dt, double from) {
     std::vector<JointState> joints = initial_state(group, 1);
@@ -44,8 +44,7 @@ Jumps jumps_of(const GroupParameters& group, const Path& path, double duration, 
 }
 
 JointDesign steady(JointDesign d) {
-    d.friction.static_ratio =
-        1.0;  // breakaway is tested apart; here the slope of the running torque is looked at
+    d.friction.static_ratio = 1.0;  // no breakaway, because these tests check the slope of the running torque
     d.running_torque = 0.0;
     return d;
 }
@@ -55,7 +54,7 @@ JointDesign steady(JointDesign d) {
 TEST_CASE(
     "Mechanistic law: tightening is continuous with a continuous slope from the first turn to far past "
     "yield") {
-    // By refinement: where a quantity is continuous its jumps fall with the step; at a real jump they stay.
+    // Refinement: the jumps of a continuous quantity shrink with the step; a real jump does not.
     const GroupParameters group = test::single(steady(test::m16_flange_joint()));
     const double speed = to_radians(60.0);
     const auto path = [&](double t) { return speed * t; };
@@ -71,7 +70,7 @@ TEST_CASE(
     CHECK(fine.clamp < 0.1 * coarse.clamp);
 }
 
-TEST_CASE("Mechanistic law: unloading and tightening past the old peak has no kink either") {
+TEST_CASE("Mechanistic law: re-tightening past the previous peak has a continuous slope") {
     const GroupParameters group = test::single(steady(test::m16_flange_joint()));
     // 500 degrees: well past yield. Back 20 degrees, on again to 540, all with a smooth speed.
     const auto go_on = [&](double dt) {
@@ -97,7 +96,7 @@ TEST_CASE("Mechanistic law: unloading and tightening past the old peak has no ki
     CHECK(fine < 0.4 * coarse);
 }
 
-TEST_CASE("Mechanistic law: the refinement check can fail: it detects the jumps of the published law") {
+TEST_CASE("Mechanistic law: the refinement check detects the jumps of the published law") {
     PublishedParameters p;
     p.theta_max_deg = 360.0;
     const GroupParameters group = make_published_group(p);
@@ -109,8 +108,8 @@ TEST_CASE("Mechanistic law: the refinement check can fail: it detects the jumps 
 }
 
 TEST_CASE(
-    "Mechanistic law: running torque over clamp force is Motosh's, tightening and loosening, and their ratio "
-    "as published") {
+    "Mechanistic law: torque over clamp force follows Motosh, and the ratio of loosening to tightening is as "
+    "published") {
     const std::pair<double, double> published[] = {
         {0.08, 0.646}, {0.12, 0.749}, {0.14, 0.781}, {0.20, 0.841}, {0.30, 0.891}};
     for (const auto& [mu, ratio] : published) {
@@ -118,7 +117,7 @@ TEST_CASE(
         design.friction.lubrication = Lubrication::mos2;
         design.misfit = 1e-6;
         GroupParameters group = test::single(design);
-        group.joints[0].wear_per_use = 0.0;  // the ratio of one and the same face
+        group.joints[0].wear_per_use = 0.0;  // both directions must have the same friction
         group.joints[0].weight_friction = group.joints[0].weight_lead = 0.0;
         std::vector<JointState> joints = initial_state(group, 1);
         while (joints[0].clamp < 40e3) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
@@ -135,7 +134,7 @@ TEST_CASE(
     "m") {
     for (const double static_ratio : {1.0, 1.2}) {
         JointDesign design = test::m16_flange_joint();
-        design.friction.static_ratio = static_ratio;  // what breaks away has slid long before
+        design.friction.static_ratio = static_ratio;  // no effect here, because the nut already slides
         const GroupParameters group = test::single(design);
         std::vector<JointState> joints = initial_state(group, 1);
         while (joints[0].clamp < 80.9e3) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
@@ -144,8 +143,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Mechanistic law: breakaway: after a rest the first torque is the static ratio's, and it is gone after "
-    "some degrees") {
+    "Mechanistic law: after a rest the torque starts at the static ratio, and the rise ends after some "
+    "degrees") {
     JointDesign design = test::m16_flange_joint();
     design.friction.static_ratio = 1.25;
     design.running_torque = 0.0;
@@ -169,7 +168,7 @@ TEST_CASE(
     CHECK(joints[0].mechanistic.dwell < 0.01);
 }
 
-TEST_CASE("Mechanistic law: snug to 80.9 kN: the elastic part of the law gives VDI's angles") {
+TEST_CASE("Mechanistic law: the elastic angles from snug to 80.9 kN are VDI's") {
     const std::pair<double, double> published[] = {{20e-3, 23.0}, {40e-3, 35.0}, {80e-3, 56.0}};
     for (const auto& [grip, degrees] : published) {
         JointDesign design = test::m16_flange_joint();
@@ -180,7 +179,7 @@ TEST_CASE("Mechanistic law: snug to 80.9 kN: the elastic part of the law gives V
         design.embedding_time = 1e9;
         GroupParameters group = test::single(design);
         std::vector<JointState> joints = initial_state(group, 1);
-        // Well into the line, so that the seat's closing is over: the slope there times the force.
+        // In the linear range the seat has closed; the angle is the slope there times the force.
         const auto angle_at = [&](double force) {
             while (joints[0].clamp < force) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
             return joints[0].nut.angle;
@@ -203,7 +202,7 @@ TEST_CASE(
     while (joints[0].mechanistic.plastic == 0.0)
         turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
     CHECK(joints[0].clamp * q == doctest::Approx(p.bolt.elastic_load).epsilon(1e-3));
-    // 90 % of yield is just before it (class 8.8: S_p = 0.91 R_p0.2).
+    // VDI's 90 % of yield is just below the elastic limit (class 8.8: S_p = 0.91 R_p0.2).
     CHECK(joints[0].clamp == doctest::Approx(80.9e3 * 0.91 / 0.90).epsilon(0.01));
 
     const double more = joints[0].nut.angle + to_radians(60.0);
@@ -211,7 +210,7 @@ TEST_CASE(
     CHECK(joints[0].stage == Stage::yield);
     const double set = joints[0].mechanistic.plastic;
     const double peak = joints[0].clamp;
-    // Back: the elastic line, no more set.
+    // Unloading follows the elastic line without further plastic set.
     for (int i = 0; i < 500; ++i) turn_nut(group, joints, 0, joints[0].nut.angle - 1e-4, -1.0, 1e-3);
     CHECK(joints[0].mechanistic.plastic - set < 0.02 * set);
     CHECK(joints[0].stage != Stage::yield);
@@ -263,7 +262,8 @@ TEST_CASE("Mechanistic law: embedding takes f_Z/(delta_S + delta_P) of the clamp
     design.roughness_Rz = 16e-6;
     const GroupParameters group = test::single(design);
     const MechanisticParameters& p = group.joints[0];
-    CHECK(p.embedding * 1e6 == doctest::Approx(3.0 + 2 * 4.5 + 3 * 2.5));  // four layers: three interfaces
+    CHECK(p.embedding * 1e6 ==
+          doctest::Approx(3.0 + 2 * 4.5 + 3 * 2.5));  // µm; four layers have three interfaces
     std::vector<JointState> joints = initial_state(group, 1);
     while (joints[0].clamp < p.reference_load * 1.0001)
         turn_nut(group, joints, 0, joints[0].nut.angle + 2e-3, 1.0, 1e-3);
@@ -273,7 +273,7 @@ TEST_CASE("Mechanistic law: embedding takes f_Z/(delta_S + delta_P) of the clamp
     const double settled = joints[0].mechanistic.embedding - already;
     CHECK(loss == doctest::Approx(settled / p.seat.compliance).epsilon(0.05));
     CHECK(joints[0].mechanistic.embedding <= p.embedding);
-    // It ends where the load that is left no longer flattens more.
+    // Embedding stops at the value for the remaining load.
     const double left = p.embedding * joints[0].clamp / p.reference_load;
     CHECK(joints[0].mechanistic.embedding / left == doctest::Approx(1.0).epsilon(0.25));
 }
@@ -291,9 +291,9 @@ TEST_CASE("Mechanistic law: prevailing torque acts from the first turn in both d
 }
 
 TEST_CASE(
-    "Mechanistic law: re-use follows the measurements: oiled falls and stays, dry rises at once, MoS2 wears "
-    "off") {
-    // M8 10.9, 20 N m, twenty times: K = T/(F d) of the measured series and of the law.
+    "Mechanistic law: friction under re-use follows the measurements: oiled falls and stays, dry rises at "
+    "once, MoS2 wears off") {
+    // M8 10.9 tightened to 20 N m twenty times: K = T/(F d), measured and computed.
     std::map<std::string, std::vector<double>> measured;
     for (const test::Row& row : test::read_table("oracles/repeated_tightening_m8.csv"))
         measured[row.at("lube")].push_back(test::number(row, "K=T/(F d)"));
@@ -344,7 +344,7 @@ TEST_CASE("Mechanistic law: each bolt has its own friction, reproducible by the 
     CHECK(deviation / mean == doctest::Approx(0.06).epsilon(0.15));
 }
 
-TEST_CASE("Mechanistic law: tightening passes the stages in order and none twice") {
+TEST_CASE("Mechanistic law: tightening passes each stage once, in order") {
     const GroupParameters group = test::single(test::m16_flange_joint());
     const std::vector<CurveSample> run = torque_angle_curve(group, CurveOptions{});
     int stage = 0, changes = 0;

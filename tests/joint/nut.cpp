@@ -18,7 +18,7 @@ DriveHandle spring(double angle, double half_play = 0.0) {
     return handle;
 }
 
-// A nut tight at about 40 kN.
+// A nut tightened to about 40 kN.
 struct Tight {
     GroupParameters group = test::single([] {
         JointDesign d = test::m16_flange_joint();
@@ -36,7 +36,7 @@ struct Tight {
 
 }  // namespace
 
-TEST_CASE("Nut: the nut stays, to the bit, until the torque exceeds the resistance") {
+TEST_CASE("Nut: the angle is unchanged to the bit until the torque exceeds the resistance") {
     Tight tight;
     const double stands_at = tight.joints[0].nut.angle;
     const Resistance r = resistance(tight.group, 0, tight.joints[0]);
@@ -65,7 +65,7 @@ TEST_CASE("Nut: a constant torque below the resistance never moves it") {
     }
 }
 
-TEST_CASE("Nut: turned slowly it follows the hand at exactly the running torque") {
+TEST_CASE("Nut: a slowly turned nut follows the hand at exactly the running torque") {
     Tight tight;
     double hand = tight.joints[0].nut.angle;
     for (int i = 0; i < 3000; ++i) {
@@ -78,7 +78,7 @@ TEST_CASE("Nut: turned slowly it follows the hand at exactly the running torque"
     CHECK(tight.joints[0].mechanistic.share == 1.0);
 }
 
-TEST_CASE("Nut: after release it stays: tension does not unscrew it") {
+TEST_CASE("Nut: tension does not unscrew a released nut") {
     Tight tight;
     const double stands_at = tight.joints[0].nut.angle;
     for (int i = 0; i < 10'000; ++i) step_group(tight.group, tight.joints, 0, DriveHandle{}, 1e-3);
@@ -86,7 +86,7 @@ TEST_CASE("Nut: after release it stays: tension does not unscrew it") {
     CHECK(tight.joints[0].torque == 0.0);
 }
 
-TEST_CASE("Nut: there is no torque within the backlash, and it rises continuously from its edge") {
+TEST_CASE("Nut: the torque is zero within the backlash and rises continuously from its edge") {
     Tight tight;
     const double nut = tight.joints[0].nut.angle, play = 0.015;
     double last = 0.0;
@@ -111,7 +111,7 @@ TEST_CASE("Nut: fingers slip at their limit torque") {
     CHECK(tight.joints[0].nut.speed == 0.0);
 }
 
-TEST_CASE("Nut: a jaw pushes and never pulls, whatever the nut does") {
+TEST_CASE("Nut: a jaw pushes and never pulls, for any motion of the nut") {
     Random random(9);
     Tight tight;
     double hand = tight.joints[0].nut.angle;
@@ -125,7 +125,7 @@ TEST_CASE("Nut: a jaw pushes and never pulls, whatever the nut does") {
 }
 
 TEST_CASE("Nut: the wrench generates no energy over any motion of the hand") {
-    // Work of the coupling on the nut minus what the joint can store stays positive.
+    // The work of the coupling on the nut exceeds the energy that the joint can store.
     Random random(10);
     for (int trial = 0; trial < 20; ++trial) {
         Tight tight;

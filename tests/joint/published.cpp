@@ -1,4 +1,4 @@
-// Every figure that the paper prints, recomputed; and where the print differs, by which rounding or slip.
+// Recomputes every figure that the paper prints, and names the rounding or error where the print differs.
 
 #include "haptics/joint/published.hpp"
 
@@ -14,7 +14,7 @@ const PublishedParameters p;
 constexpr auto on = Direction::tighten;
 constexpr auto off = Direction::loosen;
 
-// To four significant digits.
+// Compares to four significant digits.
 doctest::Approx four(double value) { return doctest::Approx(value).epsilon(1e-4).scale(0.0); }
 
 double per_area(double (*torque)(const PublishedParameters&, double, Direction)) {
@@ -31,7 +31,7 @@ TEST_CASE(
     CHECK(published_navigation_torque(p, off) * 1e3 == four(-1.8225));
 }
 
-TEST_CASE("Published law: eq. 2, bearing: -492.27 A h' + 5.149; the print takes mu1 = 0.3 and calls it T1") {
+TEST_CASE("Published law: eq. 2, bearing: -492.27 A h' + 5.149; the print uses mu1 = 0.3 and names it T1") {
     CHECK(per_area(published_bearing_torque) == four(-492.27));
     CHECK(published_bearing_torque(p, 0.0, on) * 1e3 == four(5.149));
     PublishedParameters slip = p;
@@ -42,7 +42,7 @@ TEST_CASE("Published law: eq. 2, bearing: -492.27 A h' + 5.149; the print takes 
 }
 
 TEST_CASE(
-    "Published law: eq. 2, thread: 348.478 A h' - 3.645; the print takes cos 30 degrees = 0.86 and calls it "
+    "Published law: eq. 2, thread: 348.478 A h' - 3.645; the print uses cos 30 degrees = 0.86 and names it "
     "T2") {
     CHECK(per_area(published_thread_torque) == four(348.478));
     CHECK(published_thread_torque(p, 0.0, on) * 1e3 == doctest::Approx(-3.645).epsilon(1e-4));
@@ -62,7 +62,7 @@ TEST_CASE("Published law: eq. 3: 14.354 N m per degree, lever arm 12.464 mm; the
     CHECK(published_lever(p, on) * 1e3 == four(12.464));
     CHECK(published_degrees_per_newton(p) == doctest::Approx(0.868e-3).epsilon(1e-3));
     CHECK(std::round(published_linear_slope(p) * 10) / 10 == 14.4);
-    // r_b is a diameter there; with effective radii the arm is 6.734 mm.
+    // The paper inserts a diameter for r_b; with effective radii the arm is 6.734 mm.
     PublishedParameters radii = p;
     radii.r_b_mm = (24.0 + 14.7) / 4;
     CHECK(published_lever(radii, on) * 1e3 == four(6.734));
@@ -73,7 +73,7 @@ TEST_CASE("Published law: eq. 4: 59.976 N m a quarter turn before the end, 72.12
     CHECK(published_yield_torque(p, 7218.0) == four(72.126));
     CHECK(p.theta_max_deg / 360.0 == four(20.05));
     CHECK(to_radians(p.theta_max_deg) / pi == four(40.1));
-    // In radians the whole stage would move 0.004 N m.
+    // With angles in radians the torque would change by only 0.004 N m over the whole stage.
     CHECK(0.0015 * square(to_radians(90.0)) == doctest::Approx(0.0037).epsilon(0.01));
 }
 
@@ -98,7 +98,7 @@ TEST_CASE(
     CHECK((torque(b.yield + 1e-4) - torque(b.yield)) / 1e-4 == doctest::Approx(0.27).epsilon(1e-3));
 }
 
-TEST_CASE("Published law: the stages follow in order over the angle and are read off the state") {
+TEST_CASE("Published law: the stages follow in order of the angle") {
     const PublishedBoundaries b = published_boundaries(p);
     const PublishedState s;
     CHECK(published_read(p, s, 0.0, on).stage == Stage::navigation);
@@ -108,19 +108,20 @@ TEST_CASE("Published law: the stages follow in order over the angle and are read
 }
 
 TEST_CASE(
-    "Published law: loosening differs: less torque by the lead, and along a set elastic line after yield") {
+    "Published law: the loosening torque is lower by the lead and follows a shifted elastic line after "
+    "yield") {
     const PublishedBoundaries b = published_boundaries(p);
     PublishedState s;
     CHECK(published_lever(p, on) - published_lever(p, off) == doctest::Approx(2e-3 / pi).epsilon(1e-9));
     published_advance(p, s, p.theta_max_deg);
     const double clamp = published_read(p, s, p.theta_max_deg, on).clamp;
     CHECK(clamp == doctest::Approx(72.126 / published_lever(p, on)).epsilon(1e-9));
-    // Back by the elastic angle of that clamp force: free.
+    // Turning back by the elastic angle of that clamp force removes it.
     const double back = clamp * published_degrees_per_newton(p);
     CHECK(s.set_deg == doctest::Approx(p.theta_max_deg - back - b.linearity).epsilon(1e-9));
     CHECK(published_read(p, s, p.theta_max_deg - back + 0.01, off).clamp < 0.01 * clamp);
     CHECK(published_read(p, s, p.theta_max_deg - 1.0, off).torque < 0.0);
-    // And on again: the elastic line up to where it was, then on along the yield curve.
+    // Re-tightening follows the elastic line up to the previous angle, then the yield curve.
     CHECK(published_read(p, s, p.theta_max_deg - 1e-6, on).clamp == doctest::Approx(clamp).epsilon(1e-3));
 }
 

@@ -1,4 +1,4 @@
-// Joints that the tests use.
+// Joint designs for tests.
 #pragma once
 
 #include "haptics/joint/design.hpp"
@@ -21,7 +21,7 @@ inline joint::JointDesign m16_flange_joint(double mu = 0.12) {
     return d;
 }
 
-// A random joint that an author could have written.
+// A random joint within the range of the assembly format.
 inline joint::JointDesign random_joint(Random& random) {
     joint::JointDesign d = m16_flange_joint(random.uniform(0.06, 0.35));
     const auto names = joint::thread_names();
@@ -41,7 +41,7 @@ inline joint::JointDesign random_joint(Random& random) {
     d.embedding_time = random.uniform(0.5, 20.0);
     d.prevailing_torque = random.chance(0.3) ? random.uniform(0.1, 10.0) : 0.0;
     d.start_gap = random.uniform(0.0, 2.0) * d.thread.thread.pitch;
-    if (random.chance(0.1)) d.nut_strength = 0.5 * d.bolt_class.R_m;  // strips
+    if (random.chance(0.1)) d.nut_strength = 0.5 * d.bolt_class.R_m;  // the nut strips
     return d;
 }
 

@@ -16,7 +16,7 @@ TEST_CASE("Wright omega: omega(1) = 1, omega(0) = 0.567143..., omega(1 + e) = e"
     CHECK(wright_omega(-1000.0) == 0.0);
 }
 
-TEST_CASE("Wright omega: omega + ln omega = x over its whole range, and it never falls") {
+TEST_CASE("Wright omega: omega + ln omega = x over the whole range, and omega is monotonic") {
     Random random(3);
     for (int i = 0; i < 200'000; ++i) {
         const double x = i < 100'000 ? random.uniform(-40.0, 40.0) : random.uniform(-600.0, 1e7);
@@ -32,7 +32,7 @@ TEST_CASE("Wright omega: omega + ln omega = x over its whole range, and it never
     }
 }
 
-TEST_CASE("Wright omega: a bad starting value changes the effort, not the result") {
+TEST_CASE("Wright omega: a bad initial value changes the number of steps, not the result") {
     Random random(4);
     for (int i = 0; i < 200'000; ++i) {
         const double x = i < 100'000 ? random.uniform(-40.0, 40.0) : random.uniform(0.0, 1e4);
@@ -45,14 +45,13 @@ TEST_CASE("Wright omega: a bad starting value changes the effort, not the result
     CHECK(wright_omega(2.0, std::nan("")) == wright_omega(2.0));
 }
 
-TEST_CASE(
-    "Wright omega: the seat spring inverts its own closure, is positive, and ends as the elastic line") {
+TEST_CASE("Wright omega: the seat spring inverts its closure, is positive, and approaches the elastic line") {
     const SeatSpring seat{5.5e-9, 6.5e-6, 31.4};
     for (const double force : {1e-6, 1.0, 31.4, 1e3, 3e4, 1e5}) {
         CHECK(seat.at(seat.closure(force)).force == doctest::Approx(force).epsilon(1e-12));
     }
     CHECK(seat.at(0.0).force < seat.touch_force);
-    CHECK(seat.at(-1.0).force == 0.0);  // a metre away: nothing, and no denormal
+    CHECK(seat.at(-1.0).force == 0.0);  // 1 m away: exactly zero, no denormal
     CHECK(seat.at(1e-3).stiffness == doctest::Approx(1.0 / seat.compliance).epsilon(0.01));
     for (double x = -1e-4; x < 4e-4; x += 1e-6) {
         const double h = 1e-10;

@@ -1,5 +1,5 @@
-// No shock: what the hand is given while a wrench collides, beside what plain penalty contact would give it.
-// Leaves steps.csv and no-shock.svg in the build folder.
+// No shock: the force on the hand while a wrench collides, compared with plain penalty contact. Writes
+// steps.csv and no-shock.svg to the build folder.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -65,7 +65,7 @@ std::string csv(const std::vector<Result>& results) {
     return text;
 }
 
-// One line a collision: greatest step over the speed.
+// One line per collision: greatest step over the speed.
 plot::Plot step_plot(const std::vector<Result>& results) {
     plot::Plot plot;
     plot.width = 760.0;
@@ -132,9 +132,7 @@ std::string figure(const std::vector<Result>& results, const Script& script, dou
 
 }  // namespace
 
-TEST_CASE(
-    "collisions at 0.05 to 0.5 m/s: never a tenth of the greatest force in a millisecond, never a step to be "
-    "noticed") {
+TEST_CASE("No shock: at 0.05 to 0.5 m/s force steps stay below a tenth of the maximum and imperceptible") {
     const std::vector<Result> results = run_all(1e-3, speeds);
     Shock worst, worst_every, worst_deepest;
     for (const Result& r : results) {
@@ -156,7 +154,7 @@ TEST_CASE(
         "{:.0f} %",
         100 * worst.step, 100 * worst_every.step, 100 * worst_deepest.step, 100 * worst.event,
         100 * worst_every.event, 100 * worst_deepest.event));
-    // The measure can fail: plain penalty contact does, also the kinder kind.
+    // Control: plain penalty contact exceeds the limits, also with only the deepest points.
     CHECK(worst_every.step > 0.5);
     CHECK(worst_deepest.step > 0.3);
     CHECK(worst_deepest.event > 0.07);
@@ -169,7 +167,7 @@ TEST_CASE(
     write(std::filesystem::path(BOLT_NO_SHOCK) / "no-shock.svg", figure(results, *edge, 1e-3));
 }
 
-TEST_CASE("the same at 4 kHz, per millisecond") {
+TEST_CASE("No shock: the limits per millisecond hold at 4 kHz") {
     for (const Result& r : run_all(0.25e-3, std::array{0.1, 0.5})) {
         CAPTURE(r.name);
         CAPTURE(r.speed);

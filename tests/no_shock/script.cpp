@@ -32,8 +32,8 @@ Vec3 mm(double x, double y, double z) { return 1e-3 * Vec3(x, y, z); }
 
 }  // namespace
 
-// The wrench lies in its own x–y plane: handle at x = 20 … 160 mm, 8 mm thick; jaw 10 mm thick around the
-// origin.
+// The wrench lies in its own x–y plane: the handle at x = 20 … 160 mm is 8 mm thick, the jaw around the
+// origin 10 mm.
 std::vector<Script> collisions() {
     const HalfSpace floor{Vec3(0, 0, 1), 0.0};
     std::vector<Script> all;
@@ -89,7 +89,7 @@ Run with_penalty(const proxy::Coupling& coupling, const Script& script, double s
     for (const Pose& device : device_poses(script, speed, dt)) {
         const ContactQueryResult found = script.scene(device, 1e-6, contacts);
         proxy::Offset sum;
-        std::uint64_t bodies = 0;  // a bit each; the deepest come first
+        std::uint64_t bodies = 0;  // one bit per obstacle; contacts are sorted, the deepest first
         for (std::size_t i = 0; i < found.count; ++i) {
             const Contact& c = contacts[i];
             const std::uint64_t body = std::uint64_t{1} << c.obstacle.index();

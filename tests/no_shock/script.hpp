@@ -1,4 +1,4 @@
-// Collisions by script: a wrench is led along straight ways at a constant speed into obstacles and over them.
+// Scripted collisions: a wrench moves at constant speed along straight legs into obstacles and over them.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@ namespace bolt::test {
 struct Script {
     std::string name;
     Scene scene;
-    std::vector<Vec3> way;  // m, of the device
-    Vec3 turn{0.0};         // rad, of the wrench all along
+    std::vector<Vec3> way;  // m, corners of the device's path
+    Vec3 turn{0.0};         // rad, constant rotation of the wrench
 };
 
 std::vector<Script> collisions();
 
-// The device at each tick of dt, the ends of the straight ways among them.
+// Poses of the device at each tick of dt (s), the ends of the legs included.
 std::vector<Pose> device_poses(const Script& script, double speed, double dt);
 
-// What the hand is given in a run, a line a tick.
+// Device position (m) and output on the hand in one tick.
 struct Felt {
     Vec3 device{0.0};
     force::OutputCommand command;
@@ -29,17 +29,19 @@ using Run = std::vector<Felt>;
 
 Run with_god_object(const GodObjectParameters& parameters, const Script& script, double speed, double dt);
 
-// For comparison, forces at the device's own pose: a spring of the coupling's stiffness at every point that
-// is inside, or, kinder, only at the deepest point in each obstacle. The sum is bounded as the coupling's is.
+// For comparison, penalty forces at the device's own pose: a spring of the coupling's stiffness at every
+// penetrating point, or, which is smoother, only at the deepest point in each obstacle. The sum saturates
+// like the coupling's force.
 enum class Penalty { every_point, deepest };
 Run with_penalty(const proxy::Coupling& coupling, const Script& script, double speed, double dt,
                  Penalty which);
 
 struct Shock {
-    double step = 0.0;  // greatest change of force in a millisecond, of the greatest force
+    double step = 0.0;  // greatest change of force in 1 ms, as a share of the greatest force
     double torque_step = 0.0;
-    double event = 0.0;  // greatest change beyond what the hand's own motion makes of a spring, of the force
-                         // felt, while more than a tenth of the greatest force is felt
+    // Greatest change in 1 ms beyond the change that the hand's own motion causes through the spring, as a
+    // share of the rendered force, while that exceeds a tenth of the greatest force.
+    double event = 0.0;
 };
 Shock shock_of(const Run& run, const proxy::Coupling& coupling, double dt);
 

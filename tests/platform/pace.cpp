@@ -22,7 +22,7 @@ TEST_CASE("Pace: deadlines are whole periods after the start, without drift in a
     for (int i = 1; i <= beats; ++i) {
         const FrameDeadline due = next_deadline(pace, now);
         REQUIRE(due.missed == 0);
-        now = due.time;                                         // woken exactly then
+        now = due.time;                                         // wakes up exactly at the deadline
         if (i % 3 == 0) now += std::chrono::microseconds(900);  // or slightly late
     }
     CHECK(std::abs(seconds(now) - 100.0 - beats / 59.94) < 0.0011);
@@ -33,7 +33,8 @@ TEST_CASE("Pace: a long frame skips deadlines, and the next one is on the grid a
     Pace pace{at(10.0), 0.010, 0};
     CHECK(seconds(next_deadline(pace, at(10.001)).time) == doctest::Approx(10.010));
     CHECK(seconds(next_deadline(pace, at(10.012)).time) == doctest::Approx(10.020));
-    const FrameDeadline late = next_deadline(pace, at(10.047));  // 30 and 40 are over
+    const FrameDeadline late =
+        next_deadline(pace, at(10.047));  // the deadlines at 10.030 and 10.040 have passed
     CHECK(seconds(late.time) == doctest::Approx(10.050));
     CHECK(late.missed == 2);
     CHECK(next_deadline(pace, at(10.0501)).missed == 0);
@@ -42,7 +43,7 @@ TEST_CASE("Pace: a long frame skips deadlines, and the next one is on the grid a
     CHECK(pace.index == 8640001);
 }
 
-TEST_CASE("Pace: a deadline is never in the past, for every hour and period") {
+TEST_CASE("Pace: a deadline is never in the past, at any time and for any period") {
     for (const double period : {1.0 / 24.0, 1.0 / 60.0, 1.0 / 144.0, 1.0 / 999.0})
         for (int i = 0; i < 2000; ++i) {
             const double offset = 0.001 * i * std::sqrt(2.0) * i;
@@ -54,7 +55,7 @@ TEST_CASE("Pace: a deadline is never in the past, for every hour and period") {
         }
 }
 
-TEST_CASE("Pace: periods of displays, with a default for implausible rates") {
+TEST_CASE("Pace: the period follows the display rate, with a default for implausible rates") {
     CHECK(period_of(144.0) == doctest::Approx(1.0 / 144.0));
     for (const double nonsense : {0.0, -1.0, 5.0, 1e9, std::nan("")})
         CHECK(period_of(nonsense) == 1.0 / 60.0);

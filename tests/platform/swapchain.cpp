@@ -1,4 +1,4 @@
-// Presentation, also after window changes and losses.
+// Presentation, also after changes of the window and after loss of surface or device.
 #include "engine/gpu/swapchain.hpp"
 
 #include <map>
@@ -38,12 +38,13 @@ TEST_CASE("Swapchain: a picture fills the window with exact values, frame after 
     CHECK(fills_window({39, 234, 216}, 320, 240));
     CHECK(show.swapchain().creations() == 1);
     CHECK(show.swapchain().plan().reasons.size() == 3);
-    CHECK(comes_to_be({0, 0, 0}, 400, 300));  // nothing beside the window
+    CHECK(comes_to_be({0, 0, 0}, 400, 300));  // the screen beside the window is black
 }
 
 namespace {
 
-// Records the swapchain's Vulkan calls. No driver here fails if a semaphore is used too early.
+// Records the swapchain's Vulkan calls. The test drivers do not detect a semaphore that is used too
+// early, so the tests check the recorded calls.
 struct Record {
     std::vector<VkSemaphore> acquired;                // in order
     std::map<std::uint32_t, VkSemaphore> shown_with;  // by image
@@ -83,7 +84,7 @@ VKAPI_ATTR VkResult VKAPI_CALL recorded_present(VkQueue queue, const VkPresentIn
 
 }  // namespace
 
-TEST_CASE("Swapchain: one acquire semaphore per frame in flight, one present semaphore per image") {
+TEST_CASE("Swapchain: each frame in flight has one acquire semaphore, and each image one present semaphore") {
     test::ShowCase show("semaphores");
     show.show_surely(red);
     Record written;
@@ -146,7 +147,7 @@ TEST_CASE("Swapchain: out-of-date images drop one picture and are recreated") {
     }
     CHECK(show.swapchain().creations() == 3);
     CHECK(fills_window(blue, 320, 240));
-    // No image for a while: pictures are dropped, nothing is recreated.
+    // While acquiring times out, pictures are dropped, and the swapchain is kept.
     {
         const test::Fault<&vkAcquireNextImageKHR> fault(VK_TIMEOUT, 3);
         for (int i = 0; i < 3; ++i) CHECK_FALSE(test::need(show.show(red)));
@@ -156,7 +157,8 @@ TEST_CASE("Swapchain: out-of-date images drop one picture and are recreated") {
 }
 
 TEST_CASE(
-    "Swapchain: suboptimal images are presented and recreated once, but not again if that does not help") {
+    "Swapchain: suboptimal images are presented, and a swapchain that stays suboptimal is recreated only "
+    "once") {
     test::ShowCase show("suboptimal");
     show.show_surely(red);
     const test::Fault<&vkQueuePresentKHR> fault(VK_SUBOPTIMAL_KHR, 1000, test::Happens::afterwards);
@@ -201,7 +203,7 @@ TEST_CASE("Swapchain: a lost surface is replaced, wherever the loss is detected"
     CHECK(fills_window(green, 200, 150));
 }
 
-TEST_CASE("Swapchain: a surface that is lost repeatedly is an error, but no lost device") {
+TEST_CASE("Swapchain: a surface that is lost repeatedly is an error but not a lost device") {
     test::ShowCase show("lost for good");
     const test::Fault<&vkAcquireNextImageKHR> fault(VK_ERROR_SURFACE_LOST_KHR, 1000);
     Result<bool> shown = true;
@@ -225,7 +227,7 @@ VKAPI_ATTR VkResult VKAPI_CALL minimised(VkPhysicalDevice gpu, VkSurfaceKHR surf
 
 }  // namespace
 
-TEST_CASE("Swapchain: a window without an area shows nothing until it has one again") {
+TEST_CASE("Swapchain: a window with zero area is presented to only after it has an area again") {
     test::ShowCase show("minimised");
     show.show_surely(red);
     real_capabilities = std::exchange(vkGetPhysicalDeviceSurfaceCapabilitiesKHR, minimised);

@@ -1,4 +1,4 @@
-// Window input arrives as values.
+// Windows: input events, size, full screen and keys.
 #include "engine/platform/window.hpp"
 
 #include <doctest/doctest.h>
@@ -165,7 +165,7 @@ TEST_CASE("Window: can start in full screen or hidden") {
     CHECK(Window::open(*open.desktop, options).has_value());
 }
 
-TEST_CASE("Desktop: without a display the error says what is missing") {
+TEST_CASE("Desktop: without a display the error names DISPLAY") {
     const std::string display = std::getenv("DISPLAY");
     unsetenv("DISPLAY");
     const Result<Desktop> none = Desktop::open();
@@ -177,7 +177,7 @@ TEST_CASE("Desktop: without a display the error says what is missing") {
     CHECK(Desktop::open().has_value());  // with a display it opens again
 }
 
-TEST_CASE("Keys: letters by the layout, other keys by position") {
+TEST_CASE("Keys: letters follow the layout, and other keys follow their position") {
     // GLFW's numbers: A is 65, Q is 81, 1 is 49, keypad 1 is 321, F1 is 290, Escape is 256.
     CHECK(key_of(65, "q") == Key::q);  // a French keyboard
     CHECK(key_of(65, "Q") == Key::q);

@@ -6,7 +6,7 @@
 
 namespace bolt::test {
 
-// Sends the events of the X server to the window with this title.
+// Sends X events to the window with this title.
 class WindowUser {
   public:
     explicit WindowUser(const std::string& title);
@@ -16,7 +16,7 @@ class WindowUser {
 
     void key(const char* keysym);  // press and release: "F11", "r", "Escape"
     void move(int x, int y);
-    void point(int x, int y);                       // the same with the real pointer, which is visible
+    void point(int x, int y);                       // moves the real, visible pointer
     void press(int x, int y, unsigned button = 1);  // 1 left, 2 middle, 3 right; 4 and 5 are the wheel
     void release(int x, int y, unsigned button = 1);
     void close();  // the window manager's close request

@@ -29,7 +29,7 @@ double approach(const Constraint& c, const Twist& u) {
     return glm::dot(c.normal, u.linear + glm::cross(u.angular, c.arm));
 }
 
-// Gauss with full pivoting; false: singular.
+// Gaussian elimination with full pivoting. Returns false for a singular matrix.
 bool solve(std::vector<std::vector<double>> a, std::vector<double> b, std::vector<double>& x) {
     const std::size_t n = b.size();
     std::vector<std::size_t> column(n);
@@ -59,8 +59,7 @@ bool solve(std::vector<std::vector<double>> a, std::vector<double> b, std::vecto
     return true;
 }
 
-// The frictionless optimum by trying every set of up to six contacts as the ones that bear: the only truth
-// that needs no algorithm.
+// Reference for the frictionless optimum: tries every set of up to six contacts as the active set.
 Twist by_enumeration(const Metric& metric, const Twist& wanted, const std::vector<Constraint>& rows) {
     const double scale[6] = {1, 1, 1, std::sqrt(metric.linear / metric.angular), 0, 0};
     const double turn = scale[3];
@@ -104,8 +103,8 @@ Twist by_enumeration(const Metric& metric, const Twist& wanted, const std::vecto
     return best;
 }
 
-// Contacts around a body in which the body has room: every slack is ≥ 0. `tilt` is how nearly parallel some
-// are.
+// Random contacts around a body that penetrates none of them: every slack is ≥ 0. `tilt`: deviation (rad,
+// approximate) of nearly parallel normals.
 std::vector<Constraint> random_contacts(Random& random, std::size_t count, double friction,
                                         double tilt = 1e-6) {
     std::vector<Constraint> rows;
@@ -116,10 +115,10 @@ std::vector<Constraint> random_contacts(Random& random, std::size_t count, doubl
         c.slack = random.chance(0.5) ? 0.0 : random.uniform(0.0, 2e-3);
         c.friction = friction;
         const double kind = random.uniform();
-        if (i > 0 && kind < 0.15) c = rows.back();                               // twice the same
+        if (i > 0 && kind < 0.15) c = rows.back();                               // a duplicate
         if (i > 0 && kind >= 0.15 && kind < 0.3) c.normal = rows.back().normal;  // a face
         if (i > 0 && kind >= 0.3 && kind < 0.4) c.normal = -rows.back().normal;  // a gap
-        if (i > 0 && kind >= 0.4 && kind < 0.5)                                  // nearly the same
+        if (i > 0 && kind >= 0.4 && kind < 0.5)                                  // nearly parallel
             c.normal = glm::normalize(rows.back().normal + tilt * c.normal);
         rows.push_back(c);
     }
@@ -133,14 +132,14 @@ Twist random_motion(Random& random) {
 
 }  // namespace
 
-TEST_CASE("without contacts the motion is the wanted one") {
+TEST_CASE("Constraint solver: without contacts the motion equals the desired one") {
     const Twist wanted{Vec3(1e-3, -2e-3, 3e-3), Vec3(0.01, 0.02, -0.03)};
     const ConstrainedMotion result = constrain({}, wanted, {});
     CHECK(glm::length(result.motion.linear - wanted.linear) == 0.0);
     CHECK(glm::length(result.motion.angular - wanted.angular) < 1e-15);
 }
 
-TEST_CASE("one, two and three planes through the origin: the projection on what is left") {
+TEST_CASE("Constraint solver: one, two and three planes give the projection onto the remaining directions") {
     const Twist wanted{Vec3(1e-3, -2e-3, -3e-3), Vec3(0.0)};
     std::vector<Constraint> rows{{Vec3(0.0), Vec3(0, 0, 1), 0.0, 0.0}};
     CHECK(glm::length(constrain({}, wanted, rows).motion.linear - Vec3(1e-3, -2e-3, 0)) < 1e-10);
@@ -150,7 +149,7 @@ TEST_CASE("one, two and three planes through the origin: the projection on what 
     CHECK(glm::length(constrain({}, wanted, rows).motion.linear - Vec3(0, -1e-3, 0)) < 1e-10);
 }
 
-TEST_CASE("a point at a lever shares the motion between shift and turn as the metric says") {
+TEST_CASE("Constraint solver: at a lever the metric distributes the motion over translation and rotation") {
     // Pressed down by d against a stop at arm r: u_z + θ r ≥ 0 with k u' = f, κ θ = f r, so
     // f = d / (1/k + r²/κ).
     const Metric metric{800.0, 5.0};
@@ -164,7 +163,7 @@ TEST_CASE("a point at a lever shares the motion between shift and turn as the me
     CHECK(u.angular.x == doctest::Approx(f * r / 5.0).epsilon(1e-6));
 }
 
-TEST_CASE("frictionless: the optimum of a brute-force search over all sets of contacts") {
+TEST_CASE("Constraint solver: without friction the result equals brute force over all active sets") {
     Random random(5);
     std::vector<double> offs;
     int most = 0;
@@ -188,12 +187,13 @@ TEST_CASE("frictionless: the optimum of a brute-force search over all sets of co
                                                     << "; most factorisations " << most);
     CHECK(offs[1500] < 1e-7);
     CHECK(offs[2970] < 1e-4);
-    // In wedges of a few degrees the violation of less than a micrometre that is left is a way along them.
+    // In wedges of a few degrees a residual violation below 1 µm corresponds to a longer motion along the
+    // wedge.
     CHECK(offs.back() < 0.02);
     CHECK(most <= 96);
 }
 
-TEST_CASE("friction: every contact's force keeps Coulomb's law, and the forces are the deviation's") {
+TEST_CASE("Constraint solver: each force satisfies Coulomb's law, and the sum balances the deviation") {
     Random random(6);
     std::vector<double> residuals;
     double worst_balance = 0.0, worst_depth = 0.0;
@@ -221,7 +221,7 @@ TEST_CASE("friction: every contact's force keeps Coulomb's law, and the forces a
             const double slack = (glm::dot(u, c.normal) + c.slack) * metric.linear / size;
             const double room = (c.friction * normal - glm::length(tangential)) / size;
             worst_depth = std::max(worst_depth, -slack);
-            // Slack and force: never both. Slip and room in the cone: never both.
+            // Complementarity: slack excludes force, and slip excludes a margin in the friction cone.
             residual = std::max(residual, std::min(normal / size, slack));
             residual = std::max(residual, std::min(room, glm::length(slip) * metric.linear / size));
             if (glm::length(slip) * metric.linear > 1e-3 * size && normal > 1e-3 * size) {
@@ -247,7 +247,7 @@ TEST_CASE("friction: every contact's force keeps Coulomb's law, and the forces a
     CHECK(residuals[1500] < 1e-6);
     CHECK(residuals[2850] < 1e-3);
     CHECK(residuals[2970] < 5e-3);
-    // Wedged between contacts Coulomb's law may have no single answer; what is not settled is slip, not
+    // Between wedging contacts Coulomb's law may have no unique solution. The residual is then slip, not
     // depth.
     CHECK(residuals.back() < 0.2);
     CHECK(worst_depth < 0.01);
@@ -256,7 +256,7 @@ TEST_CASE("friction: every contact's force keeps Coulomb's law, and the forces a
     CHECK(sticking > 100);
 }
 
-TEST_CASE("who knows about what comes of it comes to the same, with half the work") {
+TEST_CASE("Constraint solver: a warm start gives the same motion with half the factorisations") {
     Random random(9);
     std::vector<double> offs;
     int with = 0, without = 0, most = 0;
@@ -292,7 +292,7 @@ TEST_CASE("who knows about what comes of it comes to the same, with half the wor
     CHECK(2 * with < without);
 }
 
-TEST_CASE("contacts that contradict each other end in a compromise, not in a crash or a leap") {
+TEST_CASE("Constraint solver: contradicting contacts give a bounded compromise") {
     const std::vector<Constraint> rows{{Vec3(0.0), Vec3(0, 0, 1), -1e-3, 0.3},
                                        {Vec3(0.0), Vec3(0, 0, -1), -1e-3, 0.3}};
     const ConstrainedMotion found = constrain({}, {Vec3(1e-3, 0, 0), Vec3(0.0)}, rows);
@@ -301,7 +301,7 @@ TEST_CASE("contacts that contradict each other end in a compromise, not in a cra
     CHECK(found.violation == doctest::Approx(1e-3).epsilon(1e-3));
 }
 
-TEST_CASE("the answer is continuous: a millionth more asked, never a leap") {
+TEST_CASE("Constraint solver: the motion is continuous in the desired motion") {
     Random random(7);
     for (int trial = 0; trial < 300; ++trial) {
         const auto rows = random_contacts(random, 1 + random.bits() % 12, 0.0);
@@ -313,7 +313,7 @@ TEST_CASE("the answer is continuous: a millionth more asked, never a leap") {
             const double t = i / 200.0;
             const Twist wanted{glm::mix(from.linear, to.linear, t), glm::mix(from.angular, to.angular, t)};
             const Twist u = constrain({}, wanted, rows).motion;
-            // A projection onto a convex set is no longer than what is projected.
+            // A projection onto a convex set never increases distances.
             if (i > 0)
                 CHECK(std::hypot(glm::length(u.linear - last.linear),
                                  0.1 * glm::length(u.angular - last.angular)) <= 1.01 * size / 200.0 + 1e-8);
@@ -322,7 +322,7 @@ TEST_CASE("the answer is continuous: a millionth more asked, never a leap") {
     }
 }
 
-TEST_CASE("forty-eight contacts at once, and the same bits twice") {
+TEST_CASE("Constraint solver: the full set of 48 constraints is solved and repeats to the same bits") {
     Random random(8);
     int most = 0;
     for (int trial = 0; trial < 200; ++trial) {

@@ -16,8 +16,7 @@ Offset along(const Vec3& linear, const Vec3& angular = Vec3(0.0)) { return {line
 
 }  // namespace
 
-TEST_CASE(
-    "a coupling for a device: passive with its damping, no stiffer than it may be, no shock at 0.5 m/s") {
+TEST_CASE("Coupling: passive with the device's damping, within its stiffness, no shock at 0.5 m/s") {
     for (const double dt : {1e-3, 0.25e-3})
         for (const double force : {3.3, 7.9, 12.0, 20.0, 40.0})
             for (const double stiffness : {400.0, 1000.0, 3000.0, 8000.0})
@@ -35,11 +34,11 @@ TEST_CASE(
                     CHECK(c.stiffness >= 0.0);
                     CHECK(c.damping >= 0.0);
                 }
-    // A desktop device of 20 N feels a wall of at least 0.8 N/mm.
+    // A desktop device of 20 N renders a wall of at least 0.8 N/mm.
     CHECK(make_coupling({}).stiffness >= 800.0);
 }
 
-TEST_CASE("the coupling is a spring for small offsets and never more than the greatest force") {
+TEST_CASE("Coupling: a linear spring for small offsets that never exceeds the greatest force") {
     Coupling c;
     c.stiffness = 2000.0;
     c.torsion = 20.0;
@@ -63,14 +62,14 @@ TEST_CASE("the coupling is a spring for small offsets and never more than the gr
     CHECK(at(along(Vec3(0.0), Vec3(0.5, 0, 0))).torque == Vec3(0.0));
 }
 
-TEST_CASE("damping pushes against the change of the offset") {
+TEST_CASE("Coupling: damping opposes the change of the offset") {
     Coupling c;
     c.damping = 2.0;
     const OutputCommand command = coupling_force(c, along(Vec3(1e-3, 0, 0)), along(Vec3(0.5e-3, 0, 0)), 1e-3);
     CHECK(command.force.x == doctest::Approx(1.0 + 2.0 * 0.5).epsilon(1e-3));
 }
 
-TEST_CASE("the offset of a turned device has no leap, not even over half a turn") {
+TEST_CASE("Coupling: the angular offset is continuous, also across half a turn") {
     const Vec3 axis = glm::normalize(Vec3(1, 2, -1));
     Vec3 last(0.0);
     for (int i = 0; i <= 3600; ++i) {
@@ -82,8 +81,8 @@ TEST_CASE("the offset of a turned device has no leap, not even over half a turn"
     }
 }
 
-TEST_CASE("a device thrown at the wall comes back no faster: the stated damping pays for sampling") {
-    // Mass and the device's own damper, integrated finely; the coupling is sampled and held for dt.
+TEST_CASE("Coupling: a device thrown at a wall rebounds no faster, since its damping covers sampling") {
+    // Mass and the device's own damper, integrated at 10 µs. The coupling is sampled and held for dt.
     CouplingRange range;
     const Coupling c = make_coupling(range);
     const auto rebound = [&](const Coupling& coupling, double damping) {
@@ -103,14 +102,14 @@ TEST_CASE("a device thrown at the wall comes back no faster: the stated damping 
         return v;
     };
     CHECK(rebound(c, range.damping) < 0.2);
-    // Undamped and three times as stiff it gains: the check can fail.
+    // Control: undamped and three times as stiff, the device gains speed.
     Coupling stiff = c;
     stiff.stiffness *= 3.0;
     stiff.force = 1e3;
     CHECK(rebound(stiff, 0.0) > 0.2);
 }
 
-TEST_CASE("the energy stored is that of the springs, and never more than they give back") {
+TEST_CASE("Coupling: the stored energy equals that of the springs and never exceeds the work done on them") {
     Coupling c;
     c.stiffness = 1500.0;
     c.torsion = 12.0;
@@ -119,7 +118,7 @@ TEST_CASE("the energy stored is that of the springs, and never more than they gi
     CHECK(stored_energy(c, along(Vec3(1e-3, 0, 0))) == doctest::Approx(0.75e-3).epsilon(1e-3));
     CHECK(stored_energy(c, along(Vec3(0.0), Vec3(0, 0.01, 0))) == doctest::Approx(0.6e-3).epsilon(1e-3));
     CHECK(stored_energy(c, {}) == 0.0);
-    // Drawn out and let back slowly, up to three times what saturates it.
+    // Extend the linear spring slowly, up to three times its saturation offset, and swing the angular one.
     double work = 0.0, turned = 0.0;
     const double step = 1e-6;
     for (double x = 0.5 * step; x < 0.04; x += step) {
@@ -131,7 +130,7 @@ TEST_CASE("the energy stored is that of the springs, and never more than they gi
     }
 }
 
-TEST_CASE("a coupling that renders no force weighs a tool's motions all the same, and holds no energy") {
+TEST_CASE("Coupling: without force output it keeps its stiffness as a weight and stores no energy") {
     CouplingRange range;
     range.force = range.torque = 0.0;
     const Coupling c = make_coupling(range);

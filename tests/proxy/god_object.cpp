@@ -18,13 +18,13 @@ constexpr double dt = 1e-3;
 
 GodObjectParameters frictionless() {
     GodObjectParameters p;
-    p.coupling = {1000.0, 10.0, 0.0, 0.0, 1e6, 1e6};  // linear: what is felt is the spring
+    p.coupling = {1000.0, 10.0, 0.0, 0.0, 1e6, 1e6};  // linear: the rendered force is the spring's
     p.friction = 0.0;
     p.radius = 0.25;
     return p;
 }
 
-// Leads the device to a pose in `ticks` and holds it there a while.
+// Moves the device to a pose in `ticks` and holds it there for `hold` ticks.
 GodObjectStep lead(const GodObjectParameters& p, GodObjectState& state, const Pose& to, const Scene& scene,
                    int ticks = 200, int hold = 300) {
     const Pose from = state.device;
@@ -51,7 +51,7 @@ Scene point_among(std::vector<Obstacle> obstacles) {
 
 }  // namespace
 
-TEST_CASE("in the free the tool is where the device is and nothing is felt") {
+TEST_CASE("God-object: in free space the tool follows the device without force") {
     const GodObjectParameters p = frictionless();
     const Scene scene = point_among({HalfSpace{}});
     GodObjectState state = start_god_object(at(Vec3(0, 0, 0.09)));
@@ -67,9 +67,7 @@ TEST_CASE("in the free the tool is where the device is and nothing is felt") {
     }
 }
 
-TEST_CASE(
-    "pressed on a plane the tool slides along it under the device; the force is the depth times the "
-    "stiffness") {
+TEST_CASE("God-object: on a plane the tool slides under the device; force equals depth times stiffness") {
     const GodObjectParameters p = frictionless();
     for (const Vec3& n : {Vec3(0, 0, 1), glm::normalize(Vec3(1, -2, 3))}) {
         const Scene scene = point_among({HalfSpace{n, 0.02}});
@@ -85,9 +83,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "in a corner of two planes one direction is left, of three none; between skewed planes it holds in the "
-    "wedge") {
+TEST_CASE("God-object: two planes leave one direction, three leave none, and a wedge holds the tool") {
     const GodObjectParameters p = frictionless();
     const double s = p.skin;
     Scene scene = point_among({HalfSpace{Vec3(0, 0, 1)}, HalfSpace{Vec3(1, 0, 0)}});
@@ -105,7 +101,7 @@ TEST_CASE(
         lead(p, state, at(Vec3(-0.004, 0.02, -0.003)), scene);
         CHECK(glm::length(state.tool.position - Vec3(s, 0.01 - s, s)) < 2e-6);
     }
-    // 30° wedge along y: pressed into it, held by both faces.
+    // 30° wedge along y: the tool is pressed into it, and both faces hold it.
     const Vec3 tilted(-std::cos(to_radians(60.0)), 0, -std::sin(to_radians(60.0)));
     scene = point_among({HalfSpace{Vec3(0, 0, 1)}, HalfSpace{-tilted * -1.0, -0.0}});
     scene.obstacles[1] =
@@ -118,9 +114,9 @@ TEST_CASE(
     CHECK(state.felt.force.x == doctest::Approx(1000.0 * (state.tool.position.x + 0.005)).epsilon(1e-3));
 }
 
-TEST_CASE("a bar pressed down on a pin off its middle tilts as the lever says") {
-    // Bar along x, its bottom on a ball under x = l: the force f lifts by f/k and turns by f l/κ (small
-    // turns).
+TEST_CASE("God-object: a bar pressed on an off-centre pin tilts by the closed form") {
+    // Bar along x with its bottom on a ball under x = l. The force f lifts it by f/k and rotates it by f l/κ
+    // (small angles).
     GodObjectParameters p = frictionless();
     p.coupling.torsion = 40.0;
     Scene scene;
@@ -132,12 +128,12 @@ TEST_CASE("a bar pressed down on a pin off its middle tilts as the lever says") 
     const double l = 0.1, k = 1000.0, kappa = 40.0;
     const double f = (depth + p.skin) / (1.0 / k + l * l / kappa);
     CHECK(state.felt.force.z == doctest::Approx(f).epsilon(0.01));
-    // The turn about −y lifts what lies at +x; felt at the device it is a torque about −y.
+    // The rotation about −y lifts the end at +x. The device renders it as a torque about −y.
     CHECK(state.felt.torque.y == doctest::Approx(-f * l).epsilon(0.02));
     CHECK(-rotation_vector(state.tool.orientation).y == doctest::Approx(f * l / kappa).epsilon(0.02));
 }
 
-TEST_CASE("a bar between two pins cannot be turned: a pure torque is felt, and no force") {
+TEST_CASE("God-object: a bar held between two pins gives a pure torque without force") {
     const GodObjectParameters p = frictionless();
     Scene scene;
     add_box(scene, {Pose{}, Vec3(0.15, 0.01, 0.005)}, 0.01);
@@ -146,14 +142,14 @@ TEST_CASE("a bar between two pins cannot be turned: a pure torque is felt, and n
     GodObjectState state = start_god_object(Pose{});
     const double turn = 0.05;
     lead(p, state, at(Vec3(0.0), Vec3(0, 0, turn)), scene);
-    // Gap of 0.1 mm, less the skin, at a lever of 0.1 m.
+    // Gap of 0.1 mm minus the skin, at a lever of 0.1 m.
     const double turned = rotation_vector(state.tool.orientation).z;
     CHECK(turned == doctest::Approx((0.1e-3 - p.skin) / 0.1).epsilon(0.05));
     CHECK(state.felt.torque.z == doctest::Approx(-10.0 * std::sin(turn - turned)).epsilon(1e-3));
     CHECK(glm::length(state.felt.force) < 0.01);
 }
 
-TEST_CASE("friction holds below its angle and slips above; slipping the force leans by exactly the angle") {
+TEST_CASE("God-object: friction sticks within its cone, and a slipping force lies on the cone") {
     GodObjectParameters p = frictionless();
     const Scene scene = point_among({HalfSpace{}});
     for (const double mu : {0.1, 0.3, 0.6}) {
@@ -173,7 +169,7 @@ TEST_CASE("friction holds below its angle and slips above; slipping the force le
     }
 }
 
-TEST_CASE("round obstacles: the tool sits on the line from the centre to the device") {
+TEST_CASE("God-object: on a ball the tool is on the line from the centre to the device") {
     const GodObjectParameters p = frictionless();
     const Scene scene = point_among({Ball{Vec3(0, 0, 0), 0.02}});
     GodObjectState state = start_god_object(at(Vec3(0, 0, 0.03)));
@@ -186,7 +182,7 @@ TEST_CASE("round obstacles: the tool sits on the line from the centre to the dev
     }
 }
 
-TEST_CASE("an obstacle that comes at the tool pushes it along; the tool is inside by less than 0.1 mm") {
+TEST_CASE("God-object: an approaching obstacle pushes the tool and penetrates by less than 0.1 mm") {
     const GodObjectParameters p = frictionless();
     Scene scene = point_among({HalfSpace{}});
     GodObjectState state = start_god_object(at(Vec3(0, 0, 1e-3)));
@@ -198,7 +194,7 @@ TEST_CASE("an obstacle that comes at the tool pushes it along; the tool is insid
     }
     CHECK(deepest < 1e-4);
     CHECK(state.tool.position.z == doctest::Approx(5e-5 * 399 + p.skin).epsilon(1e-3));
-    // What suddenly stands in the tool pushes it out at the rate of recovery, not in one leap.
+    // An obstacle that jumps into the tool pushes it out at the recovery speed, not in one step.
     std::get<HalfSpace>(scene.obstacles[0]).offset += 0.01;
     Vec3 last = state.tool.position;
     int ticks = 0;
@@ -211,7 +207,7 @@ TEST_CASE("an obstacle that comes at the tool pushes it along; the tool is insid
     CHECK(ticks == doctest::Approx(0.01 / (p.recovery * dt)).epsilon(0.1));
 }
 
-TEST_CASE("a pose that is none moves nothing") {
+TEST_CASE("God-object: an invalid device pose changes neither tool nor force") {
     const GodObjectParameters p = frictionless();
     const Scene scene = point_among({HalfSpace{}});
     GodObjectState state = start_god_object(at(Vec3(0, 0, 0.01)));

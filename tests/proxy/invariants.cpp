@@ -1,4 +1,4 @@
-// What holds whatever the device does: never inside, never through, continuous, repeatable, without a heap.
+// Invariants for any motion of the device: no penetration, no tunnelling, continuous, repeatable, no heap.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ GodObjectParameters for_wrench() {
     return p;
 }
 
-// Things of every kind around the origin, none of them where the wrench starts.
+// Obstacles of every kind around the origin, at least 1 mm from the wrench's start pose.
 Scene random_scene(std::uint64_t seed, const Pose& start) {
     Random random(seed);
     Scene scene;
@@ -62,7 +62,7 @@ Scene random_scene(std::uint64_t seed, const Pose& start) {
 
 struct Tally {
     double deepest = 0.0;
-    double fastest = 0.0;  // m, a tick
+    double fastest = 0.0;  // m per tick
     int in_contact = 0;
     int most_queries = 0, most_solves = 0;
     int spent = 0, settled = 0;
@@ -96,7 +96,7 @@ Tally wander(const Scene& scene, const GodObjectParameters& p, std::uint64_t see
 
 }  // namespace
 
-TEST_CASE("random scenes: never inside, never a leap, within the budget of queries") {
+TEST_CASE("God-object: in random scenes it never penetrates and keeps the query budget") {
     const GodObjectParameters p = for_wrench();
     Tally sum;
     for (std::uint64_t seed = 1; seed <= 18; ++seed) {
@@ -120,7 +120,7 @@ TEST_CASE("random scenes: never inside, never a leap, within the budget of queri
     CHECK(sum.in_contact > 5000);
 }
 
-TEST_CASE("where looking is dear a tick looks less often; the tool is late then, and nothing else") {
+TEST_CASE("God-object: expensive queries only delay the tool") {
     GodObjectParameters p = for_wrench();
     p.work = 1000;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -148,7 +148,7 @@ TEST_CASE("where looking is dear a tick looks less often; the tool is late then,
         }
         CHECK(most >= 3);
         CHECK(most < p.queries);
-        // The hand rests: in the end there is nothing more to do.
+        // The hand rests: the tool finally reaches its constrained pose.
         bool arrived = false;
         for (int i = 0; i < 1000 && !arrived; ++i) {
             const GodObjectStep step = step_god_object(p, state, device, dear, dt);
@@ -158,14 +158,14 @@ TEST_CASE("where looking is dear a tick looks less often; the tool is late then,
     }
 }
 
-TEST_CASE("the same scene twice: the same bits") {
+TEST_CASE("God-object: the same scene repeats to the same bits") {
     const Tally a = wander(random_scene(4, Pose{}), for_wrench(), 4, 0.5, 1000);
     const Tally b = wander(random_scene(4, Pose{}), for_wrench(), 4, 0.5, 1000);
     for (std::size_t i = 0; i < a.states.size(); ++i)
         REQUIRE(std::memcmp(&a.states[i], &b.states[i], sizeof(GodObjectState)) == 0);
 }
 
-TEST_CASE("a step allocates nothing, locks nothing, reads no clock, and the watch would see it if it did") {
+TEST_CASE("God-object: a step allocates nothing, locks nothing, reads no clock, and the counter works") {
     const Scene scene = random_scene(5, Pose{});
     Random random(5, 7);
     const Wandering hand(random, Vec3(0.0), 0.08, 1.2, 0.5);
@@ -179,7 +179,7 @@ TEST_CASE("a step allocates nothing, locks nothing, reads no clock, and the watc
     CHECK(forbidden_in([] { std::vector<int> memory(100); }).allocations > 0);
 }
 
-TEST_CASE("a flick at 2 m/s does not go through a rib of 1 mm, at any angle and phase") {
+TEST_CASE("God-object: a flick at 2 m/s does not tunnel through a rib of 1 mm at any angle or phase") {
     GodObjectParameters p = for_wrench();
     Random random(11);
     for (const double thickness : {1e-3, 0.5e-3}) {
@@ -188,7 +188,7 @@ TEST_CASE("a flick at 2 m/s does not go through a rib of 1 mm, at any angle and 
             add_wrench(scene);
             scene.nearest_only = trial % 2 == 0;
             scene.obstacles.push_back(Box{placed(Vec3(0.0)), Vec3(0.5 * thickness, 0.6, 0.6)});
-            if (trial % 3 == 0)  // along a floor that the wrench slides on
+            if (trial % 3 == 0)  // a floor that the wrench slides on
                 scene.obstacles.push_back(HalfSpace{Vec3(0, 0, 1), -0.3});
             const Vec3 turn = 3.0 * any_direction(random);
             const Vec3 spin = trial % 4 == 0 ? 8.0 * any_direction(random) : Vec3(0.0);
@@ -211,7 +211,7 @@ TEST_CASE("a flick at 2 m/s does not go through a rib of 1 mm, at any angle and 
     }
 }
 
-TEST_CASE("the tip of a tool in a gap of 1 mm stays in it, however it is pulled about") {
+TEST_CASE("God-object: a tip in a gap of 1 mm stays in it under any pull") {
     GodObjectParameters p = for_wrench();
     p.radius = 0.04;
     Scene scene;
@@ -239,11 +239,11 @@ TEST_CASE("the tip of a tool in a gap of 1 mm stays in it, however it is pulled 
         }
         CHECK(deepest <= 0.0);
         CHECK(aside < 0.1e-3);
-        CHECK(along > 0.5e-3);  // but along the gap it moves
+        CHECK(along > 0.5e-3);  // it is free to move along the gap
     }
 }
 
-TEST_CASE("without friction a wall pushes along its normal and nowhere else, and never pulls") {
+TEST_CASE("God-object: a frictionless wall pushes only along its normal and never pulls") {
     GodObjectParameters p = for_wrench();
     p.friction = 0.0;
     p.coupling.damping = p.coupling.torsion_damping = 0.0;
@@ -264,16 +264,17 @@ TEST_CASE("without friction a wall pushes along its normal and nowhere else, and
             device.orientation = rotation(ease * rotation_vector(device.orientation));
             const GodObjectStep step = step_god_object(p, state, device, scene, dt);
             const double push = glm::dot(state.felt.force, n);
-            // But for what a turn that waits for its torque holds back on the way off: under a per cent.
+            // Tolerance below 1 %: when the tool leaves the wall, a rotation delayed by the torque's rate
+            // limit holds it back.
             REQUIRE(push >= -0.0075 * p.coupling.force);
-            // What settles is still on its way.
+            // Rate-limited steps are excluded: the tool has not reached its constrained pose.
             if (!step.settled && !step.spent)
                 REQUIRE(glm::length(state.felt.force - push * n) < 0.02 + 0.01 * push);
         }
     }
 }
 
-TEST_CASE("a round trip against obstacles gives the hand no work, beyond what a sampled spring does") {
+TEST_CASE("God-object: a round trip yields no more energy than a sampled spring") {
     GodObjectParameters p = for_wrench();
     p.coupling.damping = p.coupling.torsion_damping = 0.0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
@@ -289,7 +290,7 @@ TEST_CASE("a round trip against obstacles gives the hand no work, beyond what a 
             device.position *= ease;
             device.orientation = rotation(ease * rotation_vector(device.orientation));
             const Twist moved = twist_between(last, device);
-            // The force of the last tick holds while the hand moves.
+            // The force of the last tick acts while the hand moves.
             const double share =
                 glm::dot(state.felt.force, moved.linear) + glm::dot(state.felt.torque, moved.angular);
             work += share;

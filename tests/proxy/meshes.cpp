@@ -1,4 +1,4 @@
-// The god-object with the finder it is made for, on meshes; what is inside is told by brute force.
+// The god-object with the mesh narrow phase. Brute force decides whether the tool penetrates.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -47,7 +47,7 @@ struct Bench {
             dt);
     }
 
-    // Where the surfaces meet, and a point lies deeper than 0.1 mm.
+    // Returns true if the tool penetrates by more than 0.1 mm.
     [[nodiscard]] bool deep(const Pose& pose) const {
         return contact_oracle::depth(obstacle, moving, pose, contact_oracle::from_50_um) > 1e-4;
     }
@@ -62,7 +62,7 @@ GodObjectParameters for_tool(const ToolShape& tool) {
 
 }  // namespace
 
-TEST_CASE("meshes: a wrench flicked at 2 m/s does not go through a rib of 1 mm") {
+TEST_CASE("God-object on meshes: a wrench flicked at 2 m/s does not tunnel through a rib of 1 mm") {
     Bench bench(contact_test::box(Vec3(-0.5e-3, -0.2, -0.2), Vec3(0.5e-3, 0.2, 0.2)).mesh());
     const GodObjectParameters p = for_tool(bench.tool);
     Random random(21);
@@ -83,7 +83,7 @@ TEST_CASE("meshes: a wrench flicked at 2 m/s does not go through a rib of 1 mm")
     CHECK(deep == 0);
 }
 
-TEST_CASE("meshes: a wrench led about a casing with a rib, pockets and sharp edges is never in it") {
+TEST_CASE("God-object on meshes: a wrench never penetrates a casing with a rib, pockets and sharp edges") {
     Bench bench(contact_test::casing().mesh());
     const GodObjectParameters p = for_tool(bench.tool);
     int touching = 0, deep = 0, most = 0;
@@ -105,7 +105,7 @@ TEST_CASE("meshes: a wrench led about a casing with a rib, pockets and sharp edg
             --left;
             Pose device{glm::mix(to, from, static_cast<double>(left) / total),
                         rotation(0.6 * Vec3(std::sin(3e-3 * i), std::sin(2e-3 * i), 0)) * turn};
-            // A hand gives way: it presses with no more than some 20 N.
+            // A hand yields: it leads the tool by at most 8 mm, so it presses with no more than about 20 N.
             const Vec3 ahead = device.position - state.tool.position;
             device.position = state.tool.position + ahead * std::min(1.0, 8e-3 / (1e-9 + glm::length(ahead)));
             const GodObjectStep step = bench.step(p, state, device);
@@ -121,7 +121,7 @@ TEST_CASE("meshes: a wrench led about a casing with a rib, pockets and sharp edg
     CHECK(deep == 0);
 }
 
-TEST_CASE("meshes: a step with the real finder does nothing that a tick must not") {
+TEST_CASE("God-object on meshes: a step makes no call that is forbidden in a tick") {
     Bench bench(contact_test::casing().mesh());
     const GodObjectParameters p = for_tool(bench.tool);
     GodObjectState state = start_god_object({Vec3(0.02, 0.06, 0.015), Quat(1, 0, 0, 0)});

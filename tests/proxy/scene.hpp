@@ -1,4 +1,4 @@
-// Obstacles with exact distances and a finder over them: what a god-object is tested against.
+// Test scenes for the god-object: obstacles with exact distances, and a contact query over them.
 #pragma once
 
 #include <algorithm>
@@ -41,27 +41,27 @@ struct Closest {
 
 Closest closest(const Obstacle& obstacle, const Vec3& to);
 
-// A tool made of points and, for what points miss, of boxes that are tested against pins (points, edges and
-// round pins of the obstacles).
+// Obstacles and a tool. The tool consists of points and of boxes; boxes are tested against pins (points,
+// edges and round pins of the obstacles), which the points miss.
 struct Scene {
     std::vector<Obstacle> obstacles;
     std::vector<Ball> pins;
     std::vector<Vec3> points;
     std::vector<Box> parts;
-    // Only the nearest obstacle of each point is told, as a query over one mesh would.
+    // Report only the nearest obstacle of each point, as a query over one mesh does.
     bool nearest_only = false;
     mutable int looks = 0;
 
     ContactQueryResult operator()(const Pose& pose, double band, std::span<Contact> contacts) const;
 };
 
-// Exact, over everything in the scene: below 0 the tool is inside.
+// m; exact minimum over the scene. Negative: penetration.
 double clearance(const Scene& scene, const Pose& pose);
 
-// Points on the faces of a box, at most `spacing` apart, edges and corners among them.
+// Adds points on the faces of a box, edges and corners included, at most `spacing` (m) apart.
 void add_box(Scene& scene, const Box& box, double spacing);
 
-// Its twelve edges as pins of no radius.
+// Adds the box's twelve edges as pins of zero radius, at most `spacing` (m) apart.
 void add_edges_as_pins(Scene& scene, const Box& box, double spacing);
 
 inline Vec3 any_direction(Random& random) {

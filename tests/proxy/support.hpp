@@ -1,4 +1,4 @@
-// A wrench, and a hand that moves it about.
+// A wrench, and a random motion of the hand that moves it.
 #pragma once
 
 #include "tests/proxy/scene.hpp"
@@ -7,14 +7,14 @@ namespace bolt::test {
 
 inline Pose placed(const Vec3& position, const Vec3& turn = Vec3(0.0)) { return {position, rotation(turn)}; }
 
-// Handle and two prongs, 20 mm apart, of boxes; the origin between the prongs, the handle along x.
+// Adds a wrench of boxes: a handle along x and two prongs 20 mm apart. The origin is between the prongs.
 inline void add_wrench(Scene& scene) {
     add_box(scene, {placed(Vec3(0.09, 0, 0)), Vec3(0.07, 0.008, 0.004)}, 0.015);
     add_box(scene, {placed(Vec3(0.0, 0.014, 0)), Vec3(0.016, 0.004, 0.005)}, 0.009);
     add_box(scene, {placed(Vec3(0.0, -0.014, 0)), Vec3(0.016, 0.004, 0.005)}, 0.009);
 }
 
-// A smooth seeded motion about a centre: sums of sines, so that speeds are bounded and nothing repeats.
+// A smooth seeded motion around a centre. Sums of sines bound the speed and never repeat.
 class Wandering {
   public:
     Wandering(Random& random, const Vec3& centre, double reach, double turn, double speed)

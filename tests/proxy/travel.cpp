@@ -15,7 +15,7 @@ Vec3 any(Random& random, double size) {
 
 }  // namespace
 
-TEST_CASE("no point of a tool in its box travels farther than is told, and its worst corner hardly less") {
+TEST_CASE("Travel bound: no point of the tool's box exceeds it, and the farthest corner nearly reaches it") {
     Random random(7);
     double closest = 0.0, saved = 0.0;
     for (int trial = 0; trial < 2000; ++trial) {
@@ -28,7 +28,7 @@ TEST_CASE("no point of a tool in its box travels farther than is told, and its w
         double furthest = 0.0;
         for (int i = 0; i < 40; ++i) {
             const Vec3 share(random.uniform(), random.uniform(), random.uniform());
-            // The corners first.
+            // The first eight points are the corners.
             const Vec3 at = i < 8 ? Vec3(i & 1, i >> 1 & 1, i >> 2) : share;
             const Vec3 point = box.low + at * (box.high - box.low);
             for (const double part : {1.0, random.uniform()})
@@ -38,6 +38,6 @@ TEST_CASE("no point of a tool in its box travels farther than is told, and its w
         if (trial % 2 == 0) closest = std::max(closest, 1.0 - furthest / told);
         saved += told / travel(twist, radius) / 2000.0;
     }
-    CHECK(closest < 0.02);  // of small motions
+    CHECK(closest < 0.02);  // small motions only
     CHECK(saved < 0.95);
 }

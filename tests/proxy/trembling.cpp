@@ -1,5 +1,5 @@
-// What a hand feels that slides over facets: of a round thing cut into facets the round thing, and of what
-// changes to and fro from tick to tick little.
+// Forces while the tool slides over a faceted cylinder: smooth normals render it round, and the rate limits
+// reduce changes that alternate from tick to tick.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double dt = 1e-3;
 
-// How much the force goes to and fro: of all ticks the change of its change, and the worst, N.
+// N; second difference of the force over the ticks: root mean square and maximum.
 class Trembling {
   public:
     void add(const Vec3& force) {
@@ -57,7 +57,7 @@ ContactMesh cylinder(double radius, int sides) {
 
 constexpr ForceRateLimits any{.of_rendered = 10.0, .of_maximum = 10.0, .maximum = 10.0, .at_once = 1.0};
 
-// A die that touches with a corner, led about the cylinder inside its surface.
+// Moves the device around the cylinder below its surface; the tool is a die that touches with one corner.
 Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_limits) {
     constexpr double radius = 0.02, depth = 4e-3, speed = 0.08, furthest = 0.4;
     const ContactMesh round = cylinder(radius, sides);
@@ -78,7 +78,7 @@ Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_lim
     p.radius = tool->reach();
     p.rate_limits = rate_limits;
     p.friction = 0.1;
-    // With a corner down.
+    // One corner points down.
     const Vec3 corner = glm::normalize(Vec3(-1.0)), down(0, 0, -1);
     const Quat turn = rotation(std::acos(glm::dot(corner, down)) * glm::normalize(glm::cross(corner, down)));
     const auto device = [&](double angle, double height) {
@@ -102,7 +102,7 @@ Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_lim
 
 }  // namespace
 
-TEST_CASE("a round bar cut into facets feels round where the finder's contacts are smooth") {
+TEST_CASE("God-object: with smooth normals a faceted bar renders as a round one") {
     for (const int sides : {16, 24, 48, 96}) {
         const Trembling facets = about_cylinder(sides, false, any), smooth = about_cylinder(sides, true, any);
         MESSAGE(
@@ -115,7 +115,7 @@ TEST_CASE("a round bar cut into facets feels round where the finder's contacts a
     }
 }
 
-TEST_CASE("what changes to and fro is held back, also where contacts are not smooth") {
+TEST_CASE("God-object: the rate limits reduce alternating forces, also without smooth normals") {
     for (const int sides : {16, 24, 48, 96}) {
         const Trembling free = about_cylinder(sides, false, any), held = about_cylinder(sides, false, {}),
                         leaping = about_cylinder(sides, false, {.at_once = 1.0});

@@ -11,7 +11,7 @@ struct Bent {
     std::vector<glm::dvec3> positions, normals, tangents;  // in the object's frame; unit length
 };
 
-// glTF 2.0, 3.7.2.2 and 3.7.3.3. Normals by the inverse transpose.
+// glTF 2.0, 3.7.2.2 and 3.7.3.3. Normals are transformed by the inverse transpose.
 inline Bent bent(const assets::Primitive& p, const render::Deformation& deformation) {
     Bent result;
     const auto morphed = [&](glm::dvec3 rest, std::size_t i, auto stream) {

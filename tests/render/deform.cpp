@@ -70,7 +70,7 @@ std::vector<std::byte> read_back(test::Studio& studio, const gpu::Buffer& from) 
 
 glm::dvec3 unpacked(const std::int16_t (&v)[4]) { return glm::dvec3(v[0], v[1], v[2]) / 32767.0; }
 
-// Downloads the deformed vertices of the last frame, part by part.
+// The deformed vertices of one part, downloaded from the last frame.
 struct Seen {
     std::vector<glm::vec3> positions;
     std::vector<VertexAttributes> attributes;
@@ -87,7 +87,7 @@ Seen seen(test::Studio& studio, const Object& object, const MeshPart& part) {
 }
 
 // Compares every vertex of an object with the reference. Positions must agree within `near` (16-bit weights:
-// 1e-5 of the distance between joint motions), directions within 2e-4 rad (16 bits too).
+// 1e-5 of the distance between joint motions), directions within 2e-4 rad (16-bit components).
 void check_bent(test::Studio& studio, const assets::Mesh& mesh, const Object& object, double near) {
     const MeshRange range = object.model->meshes[object.mesh];
     REQUIRE(range.count == mesh.primitives.size());
@@ -165,7 +165,8 @@ assets::Model baked(const assets::Model& model, const Object& object) {
     return stiff;
 }
 
-// Returns how many pixels per thousand differ by more than the limit; 6 allows for rounding.
+// Returns the pixels per thousand with a channel that differs by more than `more` of 255; 6 allows for
+// rounding.
 double different(const Picture& a, const Picture& b, int more = 6) {
     REQUIRE(a.rgba.size() == b.rgba.size());
     int count = 0;
@@ -180,7 +181,7 @@ double different(const Picture& a, const Picture& b, int more = 6) {
 
 }  // namespace
 
-TEST_CASE("Deform: joints and morph targets move vertices as in double precision, frame after frame") {
+TEST_CASE("Deform: joints and morph targets agree with the double-precision reference in every frame") {
     Random random(11);
     test::Studio studio;
     const assets::Model model = rubber_ball(random);
@@ -230,16 +231,16 @@ TEST_CASE("Deform: a hand with curled fingers is drawn, lit and shadowed like a 
     const Picture expected = studio.shoot(stiff, eye, extent);
     CHECK(different(picture, expected) < 1.0);
 
-    SUBCASE("and unlike the hand at rest") {
+    SUBCASE("the hand at rest has another picture") {
         scene.objects.pop_back();
         add_model(scene, model, gpu_model);
         CHECK(different(studio.shoot(scene, eye, extent), expected) > 40.0);
     }
-    SUBCASE("as a ghost") {
+    SUBCASE("a curled ghost equals the modelled ghost") {
         scene.objects.back().opacity = stiff.objects.back().opacity = 0.5F;
         CHECK(different(studio.shoot(scene, eye, extent), studio.shoot(stiff, eye, extent)) < 1.0);
     }
-    SUBCASE("moving, with its shadow over a static one") {
+    SUBCASE("the shadow of a moving hand is added to the static shadow map") {
         for (Scene* one : {&scene, &stiff}) one->objects.back().moves = true;
         CHECK(different(studio.shoot(scene, eye, extent), studio.shoot(stiff, eye, extent)) < 1.0);
         scene.objects.back().deformation = std::make_shared<const Deformation>(Deformation{
@@ -258,7 +259,7 @@ TEST_CASE("Deform: a hand with curled fingers is drawn, lit and shadowed like a 
         scene.objects.back().moves = true;
         CHECK(test::largest_difference(fresh.shoot(scene, eye, extent), open) == 0);
     }
-    SUBCASE("static, its shadow is redrawn when the pose changes") {
+    SUBCASE("the shadow of a static hand is redrawn when the pose changes") {
         (void)studio.shoot(scene, eye, extent);
         const Picture before = studio.shoot(scene, eye, extent);
         CHECK_FALSE(studio.renderer().statistics().shadow_drawn);
@@ -358,7 +359,7 @@ TEST_CASE("Deform: frames in flight do not overwrite each other's vertices") {
         scenes[i].lights = {sun()};
     }
     const Eye eye = front(6.0F);
-    for (const Scene& scene : scenes) {  // without waiting in between
+    for (const Scene& scene : scenes) {  // without a wait between frames
         auto frame = studio.frames().begin();
         REQUIRE(frame.has_value());
         REQUIRE(studio.renderer().render(**frame, scene, {&eye, 1}, {64, 64}).has_value());
@@ -391,7 +392,7 @@ TEST_CASE("Deform: a deformation with too few joints is an error") {
     REQUIRE(studio.frames().finish().has_value());
 }
 
-TEST_CASE("Deform: a mirrored ball looks like the ball, however it is mirrored") {
+TEST_CASE("Deform: a ball mirrored by its object, its joint or both looks like the ball") {
     test::Studio studio;
     const assets::Model model = test::sphere({}, 32);
     const GpuModel gpu_model = studio.upload(model);
@@ -411,7 +412,8 @@ TEST_CASE("Deform: a mirrored ball looks like the ball, however it is mirrored")
     const GpuModel gpu_skinned = studio.upload(skinned);
     scene.objects[0].model = &gpu_skinned;
     scene.objects[0].deformation = std::make_shared<const Deformation>(Deformation{{mirror}, {}});
-    CHECK(different(studio.shoot(scene, front(5.0F), extent), plain) < 1.0);  // mirrored twice
+    CHECK(different(studio.shoot(scene, front(5.0F), extent), plain) <
+          1.0);  // mirrored by the joint and by the object
     scene.objects[0].world = glm::mat4(1.0F);
     CHECK(different(studio.shoot(scene, front(5.0F), extent), plain) < 1.0);
 }

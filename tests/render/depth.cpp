@@ -129,7 +129,7 @@ TEST_CASE(
         // sides.
         CHECK(result.silhouette < 1e-3);
 
-        // The comparison can fail: from an eye two millimetres aside or nearer, or shifted by a pixel.
+        // Negative control: an eye 2 mm aside or 1 mm nearer, or a shift by a pixel, is detected.
         Point aside = from;
         aside.eye += glm::vec3(0.002F, 0.0F, 0.0F);
         aside.target += glm::vec3(0.002F, 0.0F, 0.0F);

@@ -20,7 +20,6 @@ int brightness(const glm::ivec4& p) { return (p.x + 2 * p.y + p.z) / 4; }
 
 // Returns the brightest value of the larger picture around this pixel of the small one, with a margin of half
 // a small pixel.
-// it too.
 int brightest(const Picture& picture, std::uint32_t x, std::uint32_t y) {
     const auto range = [](std::uint32_t at, std::uint32_t size) {
         const std::uint32_t first = at * scale, margin = scale / 2;
@@ -35,7 +34,7 @@ int brightest(const Picture& picture, std::uint32_t x, std::uint32_t y) {
     return most;
 }
 
-// Returns the pixels that are much brighter than everything in the scene.
+// Returns the number of pixels that are much brighter than everything in the scene.
 int sparks(const Picture& picture, const Picture& reference) {
     int count = 0;
     for (std::uint32_t y = 0; y < picture.height; ++y)
@@ -70,7 +69,7 @@ TEST_CASE("Edges: rounded edges cause no pixel brighter than the scene") {
         const Picture reference = studio.shoot(scene, eye, large);
         const int here = sparks(picture, reference);
         count += here;
-        // The check can fail: it finds one bright pixel.
+        // Negative control: one bright pixel is found.
         picture.rgba[4 * (40 * small.width + 50) + 1] = 255;
         CHECK(sparks(picture, reference) == here + 1);
     }

@@ -38,7 +38,7 @@ struct Copy {
     }
 };
 
-// Polls after the files have settled.
+// Polls twice, one second apart, so that changed files have settled.
 std::optional<Result<ShaderCode>> later(HotShaders& hot, double& now) {
     auto code = hot.changed(now += 1.0);
     return code ? std::move(code) : hot.changed(now += 1.0);

@@ -1,4 +1,4 @@
-// Labels: compared with a rasteriser, sharp at every distance, hidden by parts in front.
+// Labels: agreement with a rasteriser, sharpness at every distance, and occlusion by parts in front.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace bolt::render;
 
 namespace {
 
-// Looks at the origin, the corner between the four centre pixels.
+// The origin is at the corner between the four centre pixels.
 Eye front(VkExtent2D extent, float distance = 2.0F) {
     Perspective p;
     p.aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
@@ -95,7 +95,7 @@ Label written(const text::Fonts& fonts, const std::string& utf8, float em_px) {
 
 }  // namespace
 
-TEST_CASE("Labels: text agrees with a rasteriser at that size") {
+TEST_CASE("Labels: text agrees with stb_truetype at the same size") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     test::Studio studio;
@@ -117,7 +117,7 @@ TEST_CASE("Labels: text agrees with a rasteriser at that size") {
         const double off = astray(made, reference);
         CAPTURE(off);
         CHECK(off < c.bound);
-        // The measure can fail: three quarters of a pixel aside, or slightly bolder.
+        // Negative control: a shift by three quarters of a pixel or slightly bolder text is detected.
         scene.labels[0].offset_px.x = 0.75F;
         CHECK(astray(coverage(studio.shoot(scene, front(extent), extent)), reference) > 1.5 * c.bound);
         scene.labels[0].offset_px.x = 0.0F;
@@ -175,7 +175,7 @@ TEST_CASE("Labels: glyph edges are one pixel wide, near and far, frontal and obl
             label.placement = LabelPlacement::fixed;
             label.orientation = turn;
             label.height = 3.0F;
-            // Puts its left edge through the centre of the picture.
+            // Places the block's left edge at the centre of the picture.
             label.anchor = {static_cast<float>(block_edges(*fonts).x) / text::lay_out(*fonts, block).size.x,
                             0.5F};
             scene.labels.push_back(label);
@@ -189,7 +189,8 @@ TEST_CASE("Labels: glyph edges are one pixel wide, near and far, frontal and obl
         }
 }
 
-TEST_CASE("Labels: fixed in its plane, facing with scene size, or constant on the screen") {
+TEST_CASE(
+    "Labels: a label is fixed in its plane, faces the eye with scene size, or is constant on the screen") {
     const Result<text::Fonts> fonts = text::load_fonts();
     REQUIRE(fonts.has_value());
     const double width = block_edges(*fonts).y - block_edges(*fonts).x;  // em
@@ -325,10 +326,10 @@ TEST_CASE("Labels: the nearer of two labels covers the other, in any order of th
     };
     CHECK(middle(0.5F, 0.0F) == glm::ivec4(255, 0, 0, 255));
     CHECK(middle(0.0F, 0.5F) == glm::ivec4(0, 255, 0, 255));
-    CHECK(middle(0.0F, 0.0F) == glm::ivec4(0, 255, 0, 255));  // equally far: the later one
+    CHECK(middle(0.0F, 0.0F) == glm::ivec4(0, 255, 0, 255));  // at equal distance the later label is in front
 }
 
-TEST_CASE("Labels: each of several views is correct, and a full atlas restarts") {
+TEST_CASE("Labels: each of several views equals its single picture, and a full atlas restarts") {
     for (const auto multiview : {RendererOptions::Multiview::never, RendererOptions::Multiview::always}) {
         RendererOptions options;
         options.multiview = multiview;

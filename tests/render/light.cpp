@@ -1,4 +1,4 @@
-// Closed-form results: surfaces under light that can be computed by hand.
+// Surfaces under light whose radiance has a closed form.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -59,7 +59,7 @@ TEST_CASE("White furnace: a white sphere in white surroundings is invisible with
     }
 }
 
-TEST_CASE("White furnace: the test can fail, a grey sphere is visible") {
+TEST_CASE("White furnace: a grey sphere is visible (negative control)") {
     test::Studio studio;
     const EnvironmentLight light = studio.light(shading::constant(glm::vec3(0.5F)));
     assets::Material grey = white(0.0F, 0.5F);
@@ -131,21 +131,21 @@ TEST_CASE("Shadow: a plate shades the plate below it and nothing else") {
     Perspective p;
     p.fov = 0.8F;
     p.znear = 1.0F;
-    // Seen from above; the upper plate hides only the area to the right of its shadow.
+    // The view is from above; the upper plate hides only the area to the right of its shadow.
     const Picture picture = studio.shoot(scene, make_eye({0, 10, 0}, {0, 0, 0}, p), extent);
-    const auto at = [&](float x, float z) {  // of the lower plate
+    const auto at = [&](float x, float z) {  // green level of the lower plate
         const float scale = 48.0F / (10.0F * std::tan(0.4F));
         return test::pixel(picture, static_cast<std::uint32_t>(48.0F + x * scale),
                            static_cast<std::uint32_t>(48.0F + z * scale))
             .g;
     };
-    CHECK(at(0.0F, 0.0F) < 8);  // under its centre along the light
+    CHECK(at(0.0F, 0.0F) < 8);  // the shadow of the upper plate's centre
     CHECK(at(-0.35F, 0.35F) < 8);
     CHECK(at(-1.0F, 0.0F) > 150);
     CHECK(at(0.0F, 1.0F) > 150);
     CHECK(at(-2.5F, -2.5F) > 150);
     CHECK(at(1.0F, 0.0F) > 150);  // the upper plate has no shadow acne
-    // Nothing moves: the map is drawn once.
+    // The shadow map is redrawn only when an object has moved.
     CHECK(studio.renderer().statistics().shadow_drawn);
     (void)studio.shoot(scene, make_eye({0, 10, 0}, {0, 0, 0}, p), extent);
     CHECK_FALSE(studio.renderer().statistics().shadow_drawn);
@@ -154,7 +154,7 @@ TEST_CASE("Shadow: a plate shades the plate below it and nothing else") {
     CHECK(studio.renderer().statistics().shadow_drawn);
 }
 
-TEST_CASE("Ambient occlusion: an open floor is free, and a wall occludes half of the floor's sky") {
+TEST_CASE("Ambient occlusion: an open floor is not occluded, and a wall occludes half of the floor's sky") {
     test::Studio studio;
     assets::Material dark = white(0.0F, 1.0F);
     dark.specular = 0.0F;
@@ -175,7 +175,7 @@ TEST_CASE("Ambient occlusion: an open floor is free, and a wall occludes half of
     Perspective p;
     p.fov = 0.7F;
     p.znear = 1.0F;
-    // To the right of the wall at x = 0, looking down at the floor.
+    // The eye is to the right of the wall at x = 0 and above the floor.
     const Eye eye = make_eye({4, 7, 0}, {1.6F, 0, 0}, p);
     const Picture picture = studio.shoot(scene, eye, {160, 120});
     const auto free_share = [&](float x) {
@@ -185,7 +185,7 @@ TEST_CASE("Ambient occlusion: an open floor is free, and a wall occludes half of
         return test::grey_radiance(static_cast<std::uint8_t>(test::pixel(picture, column, row).g)) / 0.5;
     };
     CHECK(free_share(2.5F) == doctest::Approx(1.0).epsilon(0.04));
-    CHECK(free_share(0.06F) < 0.72);  // half, plus the transition
+    CHECK(free_share(0.06F) < 0.72);  // half, plus a margin for the transition
     CHECK(free_share(0.06F) > 0.40);
     CHECK(free_share(0.5F) > free_share(0.06F) + 0.1);
     CHECK(free_share(0.5F) < 1.0);

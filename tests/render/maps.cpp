@@ -6,7 +6,7 @@
 using namespace bolt;
 using namespace bolt::render;
 
-TEST_CASE("Maps: independent of the triangulation: base colour, normals, roughness, holes") {
+TEST_CASE("Maps: base colour, normals, roughness and holes are independent of the triangulation") {
     // A board of large texels seen from near uses the finest mip; coarser ones would be grey.
     assets::Image board;
     board.width = board.height = 32;
@@ -45,7 +45,7 @@ TEST_CASE("Maps: independent of the triangulation: base colour, normals, roughne
     };
     const Picture one = shoot(model), two = shoot(other);
     CHECK(test::largest_difference(one, two) <= 8);
-    // The comparison can fail: shifted by half a texel.
+    // Negative control: a shift by half a texel is detected.
     other.meshes[0].primitives[0].texcoords[0] = {{0.015F, 0}, {1.015F, 0}, {1.015F, 1}, {0.015F, 1}};
     CHECK(test::largest_difference(one, shoot(other)) > 60);
 }

@@ -54,7 +54,7 @@ bool reddish(const glm::ivec4& p) { return p.r > p.g + 60; }
 }  // namespace
 
 TEST_CASE(
-    "Outline: a line of the given width around the shape, visible through occluders, and nothing inside") {
+    "Outline: the line has the given width, is visible through occluders, and leaves the inside unchanged") {
     Hidden h;
     h.scene.objects[0].outline = {1, 1, 0, 1};
     h.scene.outline_px = 4.0F;
@@ -78,7 +78,7 @@ TEST_CASE(
     CHECK(wrong == 0);
 }
 
-TEST_CASE("Ghost: shows what is behind it, and only its own nearest layer") {
+TEST_CASE("Ghost: objects behind it are visible, and only its own nearest layer is drawn") {
     Hidden h;
     const Picture solid = h.shoot();
     CHECK(greenish(test::pixel(solid, 64, 64)));
@@ -100,11 +100,11 @@ TEST_CASE("Cut-away: shows hidden parts, leaves the rest unchanged, and fades in
     Hidden h;
     const Picture whole = h.shoot();
     h.scene.cut_away = {{0, 0, 0}, 1.2F, 1.0F};
-    CHECK(test::largest_difference(h.shoot(), whole) == 0);  // no object allows it
+    CHECK(test::largest_difference(h.shoot(), whole) == 0);  // no object has `cut` set
     h.scene.objects[1].cut = true;
     const Picture cut = h.shoot();
     CHECK(reddish(test::pixel(cut, 64, 64)));
-    // Outside the end of the cone nothing changes; inside, the wall fades in without a step.
+    // The picture is unchanged outside the end of the cone; inside it, the wall fades in without a step.
     const double end = 1.2 / 10.0 / std::tan(0.3) * 64.0;
     int changed = 0;
     for (std::uint32_t y = 0; y < size.height; ++y)

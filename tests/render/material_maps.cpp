@@ -18,7 +18,7 @@ constexpr int width = 96, height = 72;
 constexpr float fov = 0.5F;
 constexpr glm::vec3 eye(0.1F, 1.9F, 1.3F), target(0.0F, 0.0F, 0.05F);
 
-// A small texture of smoothly varying colours; `even`: one colour.
+// A small texture of smoothly varying colours; `even` gives one colour.
 assets::Image texels(std::uint32_t seed, bool even = false) {
     Random random(seed);
     assets::Image image;
@@ -118,7 +118,7 @@ assets::Material stuff(float metallic, float roughness) {
     return m;
 }
 
-// A material with one kind of map, and the same without it.
+// A material with one map, and the member that refers to the map.
 struct Case {
     std::string name;
     assets::Material material;
@@ -176,7 +176,7 @@ TEST_CASE("Material maps: every map has an effect and agrees with the path trace
     }
 }
 
-TEST_CASE("Material maps: a mesh without tangents gets those of its texture coordinates") {
+TEST_CASE("Material maps: a mesh without tangents gets tangents from its texture coordinates") {
     test::Studio studio;
     for (const Case& one : cases()) {
         CAPTURE(one.name);
@@ -186,7 +186,7 @@ TEST_CASE("Material maps: a mesh without tangents gets those of its texture coor
         CHECK(contrast(with, without) < 0.5);
         CHECK(difference(without, traced(model)) < 1.6);
     }
-    // Mirrored coordinates too: up in the texture stays up.
+    // Mirrored coordinates keep the texture's up direction.
     for (const std::string name : {"normal", "anisotropy", "coat normal"}) {
         CAPTURE(name);
         for (const Case& one : cases()) {
@@ -226,7 +226,7 @@ TEST_CASE("Material maps: a map with one value equals a constant") {
     m.clearcoat_roughness = 0.3F;
     CHECK(same(m, &M::clearcoat_texture, [&](M& n) { n.clearcoat *= value(0); }) <= 2);
     CHECK(same(m, &M::clearcoat_roughness_texture, [&](M& n) { n.clearcoat_roughness *= value(1); }) <= 2);
-    CHECK(same(m, &M::clearcoat_texture, [&](M& n) { n.clearcoat *= 0.2F; }) > 4);  // it can fail
+    CHECK(same(m, &M::clearcoat_texture, [&](M& n) { n.clearcoat *= 0.2F; }) > 4);  // negative control
     m = stuff(1.0F, 0.35F);
     m.anisotropy = 0.9F;
     CHECK(same(m, &M::anisotropy_texture, [&](M& n) {
@@ -235,7 +235,7 @@ TEST_CASE("Material maps: a map with one value equals a constant") {
           }) <= 2);
 }
 
-TEST_CASE("Material maps: each direction of a texture has its own wrapping") {
+TEST_CASE("Material maps: the two directions of a texture wrap independently") {
     test::Studio studio;
     using assets::Wrap;
     assets::Material m = stuff(0.0F, 0.8F);

@@ -82,7 +82,7 @@ int largest_difference(Still& together, Still& alone, std::size_t views) {
 
 }  // namespace
 
-TEST_CASE("Multiview: equals single pictures in every pass, with two and four views") {
+TEST_CASE("Multiview: two and four views equal single pictures in every pass") {
     Still together(Multiview::always), alone(Multiview::never);
     const auto change = [&](auto how) {
         how(together.scene);
@@ -104,7 +104,7 @@ TEST_CASE("Multiview: equals single pictures in every pass, with two and four vi
         scene.cut_away = {{-2.2F, -0.6F, -1.0F}, 0.5F, 1.0F};
     });
     same("an outline and a cut-away");
-    // The comparison can fail: the views differ, and so does another scene.
+    // Negative control: the views differ from each other and from another scene.
     const std::vector<Picture> pictures = together.studio.shoot(together.scene, eyes(2), extent);
     CHECK(test::largest_difference(pictures[0], pictures[1]) > 20);
     together.scene.objects[0].world[3].x += 0.2F;

@@ -33,10 +33,10 @@ TEST_CASE("Objects: a mirrored ball looks like the ball, from outside and throug
         add_model(scene, open ? bowl : ball, open ? gpu_bowl : gpu_ball);
         const Picture straight = studio.shoot(scene, eye, {96, 96});
         scene.objects[0].world[0][0] = -1.0F;
-        // Its triangles are divided along the other diagonal, and at triangle edges a pixel takes its normal
-        // from another point.
+        // The mirrored quads are divided along the other diagonal, and at triangle edges a pixel takes its
+        // normal from another point.
         CHECK(test::largest_difference(straight, studio.shoot(scene, eye, {96, 96})) <= 24);
-        // The comparison can fail: rotated, the highlight is elsewhere.
+        // Negative control: a rotated ball has its highlight elsewhere.
         scene.objects[0].world[0][0] = 1.0F;
         scene.lights[0].light.direction = {0.5F, -0.6F, -0.6F, 0.0F};
         CHECK(test::largest_difference(straight, studio.shoot(scene, eye, {96, 96})) > 60);

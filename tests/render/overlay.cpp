@@ -36,7 +36,7 @@ int encoded(double linear_value) {
     return static_cast<int>(std::lround(255.0 * x));
 }
 
-// Returns the number of wrong pixels.
+// Returns the number of pixels with a channel that differs from `wanted` by more than the tolerance.
 template <class Wanted>
 int wrong(const Picture& picture, const Wanted& wanted, int tolerance) {
     int count = 0;
@@ -61,7 +61,7 @@ TEST_CASE("Overlay: a rectangle covers exactly its pixels in its exact colour") 
         return x >= 7 && x < 20 && y >= 5 && y < 31 ? color : test::pixel(bare, x, y);
     };
     CHECK(wrong(made, wanted, 0) == 0);
-    // The comparison can fail: one more row and column.
+    // Negative control: one more row and column is detected.
     overlay = {};
     add_rectangle(overlay, {{7, 5}, {21, 32}}, glm::vec4(color) / 255.0F);
     CHECK(wrong(with_overlay(studio, plain(), overlay), wanted, 0) == 14 + 26);
@@ -120,7 +120,8 @@ TEST_CASE("Overlay: a scissor clips at whole pixels, also where it extends beyon
               0) == 0);
 }
 
-TEST_CASE("Inset: equals the single picture of its view, framed, and the rest of the picture is unchanged") {
+TEST_CASE(
+    "Inset: equals the single picture of its view with a frame, and the rest of the picture is unchanged") {
     test::Studio studio;
     assets::Material metal;
     metal.base_color = {0.9F, 0.6F, 0.3F, 1.0F};
@@ -154,11 +155,11 @@ TEST_CASE("Inset: equals the single picture of its view, framed, and the rest of
         if (x >= 102 && x < 154 && y >= 53 && y < 84) return glm::ivec4(255, 255, 0, 255);
         return test::pixel(main, x, y);
     };
-    for (int round = 0; round < 3; ++round)  // images are kept from frame to frame
+    for (int round = 0; round < 3; ++round)  // images are reused from frame to frame
         CHECK(wrong(compose(other), wanted, 1) == 0);
     CHECK(test::largest_difference(studio.download(studio.renderer().picture(0, 1)), single) <= 1);
-    CHECK(wrong(compose(make_eye({3, 2.2F, 3}, {0, 0, 0}, lens)), wanted, 1) > 50);  // it can fail
-    // A picture on itself is an error, and the frame continues.
+    CHECK(wrong(compose(make_eye({3, 2.2F, 3}, {0, 0, 0}, lens)), wanted, 1) > 50);  // negative control
+    // Drawing a picture onto itself is an error, and the frame continues.
     gpu::FrameContext* frame = studio.gpu().need(studio.frames().begin());
     studio.gpu().need(studio.renderer().render(*frame, scene, {&eye, 1}, whole));
     Overlay overlay;
@@ -168,7 +169,7 @@ TEST_CASE("Inset: equals the single picture of its view, framed, and the rest of
     CHECK(test::largest_difference(studio.download(studio.renderer().picture(0)), main) == 0);
 }
 
-TEST_CASE("Inset: both eyes of a stereo picture have it, in its corner and with the picture's aspect ratio") {
+TEST_CASE("Inset: each eye of a stereo picture has it in the corner, with the picture's aspect ratio") {
     const Rectangle corner = inset_rectangle({1280, 720}, 0.25F);
     CHECK(corner.high - corner.low == glm::vec2(320, 180));
     CHECK(corner.high == glm::vec2(1262, 702));

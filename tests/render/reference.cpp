@@ -68,7 +68,7 @@ double difference_on_the_model(const imagediff::RgbImage& a, const imagediff::Rg
 
 }  // namespace
 
-TEST_CASE("Reference: paint, zinc and steel of the M8 cover look as in path tracing") {
+TEST_CASE("Reference: paint, zinc and steel of the M8 cover agree with the path tracer") {
     const char* folder = std::getenv("BOLTWRIGHT_CONTENT");
     REQUIRE(folder != nullptr);
     const std::filesystem::path content(folder);
@@ -81,11 +81,11 @@ TEST_CASE("Reference: paint, zinc and steel of the M8 cover look as in path trac
     const double difference = difference_on_the_model(reference, picture, depth);
     CAPTURE(difference);
     CHECK(imagediff::mean(imagediff::flip(reference, picture)) < 0.11);
-    // Larger without the background: indirect light is known only from near parts, and the grain of brushed
-    // steel is visible only in light from lamps.
+    // The limit is larger without the background: the renderer has indirect light only from near parts and
+    // shows the grain of brushed steel only in light from lamps.
     CHECK(difference < 0.32);
 
-    // The comparison can fail: the same model in another paint, or from a shifted eye.
+    // Negative control: another paint or a shifted target is detected.
     assets::Model repainted = *model;
     for (assets::Material& material : repainted.materials) material.base_color = {0.5F, 0.1F, 0.1F, 1.0F};
     CHECK(difference_on_the_model(reference, rendered(repainted, eye, target), depth) > 1.2 * difference);

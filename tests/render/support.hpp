@@ -1,4 +1,4 @@
-// A renderer for a test, with validation, and its pictures as numbers.
+// A renderer for a test, with validation, and access to the pixels of its pictures.
 #pragma once
 
 #include "engine/render/camera.hpp"
@@ -28,7 +28,7 @@ class Studio {
     gpu::Device& device() { return gpu_.device(); }
     gpu::Frames& frames() { return *frames_; }
     Gpu& gpu() { return gpu_; }
-    // The result of a submitted frame.
+    // Waits for the submitted frames and returns a picture of the last one.
     render::Picture download(const render::ImageLayer& picture);
 
   private:

@@ -68,10 +68,10 @@ TEST_CASE("Views: two walls with a common edge show the picture of one wall with
                 test::pixel(whole, x, y) - (x < 64 ? test::pixel(left, x, y) : test::pixel(right, x - 64, y));
             largest = std::max({largest, std::abs(d.x), std::abs(d.y), std::abs(d.z)});
         }
-    // Rounding decides which samples an edge covers, and they determine where the pixel's colour is
-    // evaluated.
+    // Rounding decides which samples an edge covers, and the covered samples determine where the pixel's
+    // colour is evaluated.
     CHECK(largest <= 10);
-    // A wall rotated by a right angle: a point on the common edge is on both edges.
+    // Walls at a right angle: a point on their common edge is projected to the edge of both pictures.
     const Eye side = make_wall_eye(eye, {4, -2, 4}, {4, -2, 12}, {4, 2, 4}, 0.1F, 50.0F);
     const Eye ahead = wall(-4, 4);
     for (const float y : {-2.0F, 0.0F, 1.5F}) {
@@ -92,7 +92,7 @@ TEST_CASE("Views: the same scene gives the same bits, also after changes of size
     CHECK(still.studio.shoot(still.scene, eye, {80, 60}).rgba == first.rgba);
 }
 
-TEST_CASE("Culling: never loses visible objects, and instances are merged") {
+TEST_CASE("Culling: visible objects are never culled, and instances are merged") {
     Still still;
     Random random(5);
     Perspective p;

@@ -22,7 +22,7 @@ RadianceImage sky() {
 
 }  // namespace
 
-TEST_CASE("Cube map: texels cover the sphere once, and a direction looks up its own texel") {
+TEST_CASE("Cube map: texels cover the sphere once, and a texel's direction maps to that texel") {
     for (const std::uint32_t size : {1U, 2U, 8U}) {
         double sum = 0.0;
         for (std::uint32_t y = 0; y < size; ++y)

@@ -1,5 +1,5 @@
-// The whole way from contact to hand: forty arms, forty scenes, a god-object on a coupling, the output stage,
-// 1 sample late and through an encoder. What comes out of the device is counted in truth, on the arm's side.
+// The whole chain from contact to hand: forty arms, forty scenes, a god-object on a coupling and the output
+// stage, with 1 sample of delay and an encoder. The energy is measured on the arm's side, without sampling.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,11 +22,11 @@ struct Trial {
     Scene scene;
     Before what = Before::wall;
     test::ArmParameters arm;
-    Vec3 from{0.0};  // m, where the hand begins
+    Vec3 from{0.0};  // m, start position of the hand
     double speed = 0.2, press = 5.0;
 };
 
-// A wrench's points: jaw tips, throat, along the handle. Its origin is in the jaw.
+// Adds the points of a wrench: jaw tips, throat and handle. The origin is in the jaw.
 void add_wrench(Scene& scene) {
     for (const double z : {-0.006, 0.006}) {
         for (const double y : {-0.02, 0.02}) {
@@ -38,7 +38,7 @@ void add_wrench(Scene& scene) {
     }
 }
 
-// The surface's top is at z = 0 and the hand comes down on it.
+// The top of the obstacle is at z = 0, and the hand descends onto it.
 Trial trial(std::uint64_t seed) {
     Random random(seed, 31);
     Trial t;
@@ -74,9 +74,9 @@ Trial trial(std::uint64_t seed) {
 }
 
 struct Outcome {
-    double greatest_energy = 0.0, energy = 0.0;  // J that came out: at any time, at the end
+    double greatest_energy = 0.0, energy = 0.0;  // J out of the device: the maximum and the final value
     double early_swing = 0.0,
-           late_swing = 0.0;  // m, of the jaw and the handle's end, while the hand is still
+           late_swing = 0.0;  // m, of the jaw and the handle's end while the hand is at rest
     double deepest = 1.0;     // m
     bool touched = false;
 };
@@ -89,7 +89,7 @@ GodObjectParameters coupled(double dt) {
     return p;
 }
 
-// Comes down, presses, shakes sideways for half a second at 6 Hz, then means to stand still.
+// The hand descends, presses, shakes mainly sideways for half a second at 6 Hz, and then rests.
 Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputLimits& limits, double dt) {
     test::Arm arm;
     arm.parameters = t.arm;
@@ -130,7 +130,7 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
 
 OutputLimits device() {
     OutputLimits limits;
-    limits.ramp_up = 1e-3;  // the scenes begin with the first tick
+    limits.ramp_up = 1e-3;  // force from the first tick
     return limits;
 }
 
@@ -138,7 +138,7 @@ bool swings_on(const Outcome& o) { return o.late_swing > 100e-6 && o.late_swing 
 
 }  // namespace
 
-TEST_CASE("forty arms, forty scenes: no net energy comes out, nothing swings on") {
+TEST_CASE("Stability: forty arms in forty scenes get no net energy and no sustained oscillation") {
     for (const double dt : {1e-3, 0.25e-3}) {
         double most = 0.0;
         int touched = 0;
@@ -153,12 +153,12 @@ TEST_CASE("forty arms, forty scenes: no net energy comes out, nothing swings on"
             touched += o.touched;
             most = std::max(most, o.greatest_energy);
         }
-        CHECK(touched >= 39);  // between bolts there is room
+        CHECK(touched >= 39);  // the tool may miss the bolts of the row
         MESSAGE("dt ", dt, ": most energy that was out at any time, mJ: ", 1e3 * most);
     }
 }
 
-TEST_CASE("the same without the controller lets energy out and trembles on") {
+TEST_CASE("Stability: without the passivity controller energy is released and oscillation persists") {
     OutputLimits uncontrolled = device();
     uncontrolled.damping = uncontrolled.angular_damping = 0.0;
     int active = 0, trembling = 0;

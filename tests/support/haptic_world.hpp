@@ -12,7 +12,7 @@ class HapticWorld {
         world::add_haptics(world_, state_);
     }
 
-    // Writes an output, and into the joint that it engages what it says of that; all other joints stay.
+    // Writes an output, and its values for the engaged joint into that joint; all other joints are unchanged.
     const world::World& write(const servo::Output& output, bool wrench = true) {
         if (output.joint >= 0) {
             joint::JointState& joint = state_.joints.at(static_cast<std::size_t>(output.joint));

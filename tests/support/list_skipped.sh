@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Prints the tests that were skipped, wholly or in part, from the files that they left in the folder $1 ($BOLT_SKIPPED); $2 names
-# the build. Prints nothing if there are none.
+# the build. It prints no line if no test was skipped.
 set -euo pipefail
 shopt -s nullglob
 files=("$1"/*.txt)

@@ -1,5 +1,5 @@
-// Whether sanitizers slow the program down about tenfold. Long statistical runs are then shortened if shorter
-// tests cover the same code.
+// True in builds with sanitizers, which run about ten times as long. Long statistical runs are then shortened
+// if shorter tests cover the same code.
 #pragma once
 
 namespace bolt::test {

@@ -64,7 +64,7 @@ TEST_CASE("Distance field: exact for a circle, a ring and a box") {
 
     const DistanceField square = distance_field({box({0, 0}, {0.5, 0.7})}, 48.0, 0.1);
     CHECK(worst(square, 48.0, 0.1, [](glm::dvec2 p) { return box_distance(p, {0, 0}, {0.5, 0.7}); }) < 2e-6);
-    // The comparison can fail.
+    // Negative control: a box that is 0.01 lower is detected.
     CHECK(worst(square, 48.0, 0.1, [](glm::dvec2 p) {
               return box_distance(p, {0, 0}, {0.5, 0.69});
           }) > 0.009);
@@ -76,8 +76,8 @@ TEST_CASE("Distance field: overlapping strokes have no edge inside") {
     // A cross of two bars, as drawn in Chinese fonts.
     const glm::dvec2 a0(0.0, 0.4), a1(1.0, 0.6), b0(0.4, 0.0), b1(0.6, 1.0);
     const DistanceField cross = distance_field({box(a0, a1), box(b0, b1)}, 64.0, 0.12);
-    // The distance to the union; inside, the nearest edge is that of a bar where the other bar does not cover
-    // it.
+    // Returns the signed distance to the union, or -1 where it is not compared. Inside, the nearest edge is
+    // that of a bar where the other bar does not cover it.
     const auto exact = [&](glm::dvec2 p) {
         const double a = box_distance(p, a0, a1), b = box_distance(p, b0, b1);
         if (a < 0.0 && b < 0.0) return std::max(a, b);

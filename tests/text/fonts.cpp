@@ -20,7 +20,7 @@ TEST_CASE("Fonts: every character of German, Chinese and bolting symbols has a g
         CHECK(find_glyph(*fonts, point).glyph != 0);
     CHECK(find_glyph(*fonts, U'扭').face == 1);
     CHECK(find_glyph(*fonts, U'ß').face == 0);
-    CHECK(find_glyph(*fonts, 0x10FFFF) == GlyphId{});  // no font has it: the box
+    CHECK(find_glyph(*fonts, 0x10FFFF) == GlyphId{});  // no font has this character: the box glyph
     CHECK(fonts->faces[0].advance(0) > 0.0F);
 }
 
@@ -44,7 +44,7 @@ TEST_CASE("Fonts: the error for a missing font names its package") {
     std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("Text layout: line widths, line spacing and alignment") {
+TEST_CASE("Text layout: line widths, line spacing and alignment follow the font") {
     const Result<Fonts> fonts = load_fonts();
     REQUIRE(fonts.has_value());
     const FontFace& face = fonts->faces[0];

@@ -15,7 +15,7 @@ TEST_CASE("UTF-8: decoding and encoding are inverse") {
           "\x7F\xC2\x80\xDF\xBF\xE0\xA0\x80\xEF\xBF\xBF\xF0\x90\x80\x80\xF4\x8F\xBF\xBF");
 }
 
-TEST_CASE("UTF-8: invalid bytes are marked one by one, and decoding continues") {
+TEST_CASE("UTF-8: each invalid byte is replaced by U+FFFD, and decoding continues") {
     const std::u32string mark(1, 0xFFFD);
     CHECK(decode("a\xFFz") == U"a" + mark + U"z");
     CHECK(decode("\xC3") == mark);                                   // truncated

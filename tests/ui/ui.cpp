@@ -1,4 +1,4 @@
-// The user interface, tested through its pictures and input.
+// Tests of the user interface by its pictures and its input.
 #include "engine/ui/ui.hpp"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr VkExtent2D extent{480, 160};
 
-// A window without a window system: a black scene and the interface on it.
+// An offscreen window that shows the interface over a black scene.
 struct Screen {
     test::Studio studio;
     std::unique_ptr<ui::Ui> ui = studio.gpu().need(ui::Ui::create(studio.gpu().device()));
@@ -110,7 +110,7 @@ TEST_CASE("Text: rasterised at its displayed size on displays of every scale") {
         CAPTURE(off);
         CHECK(off < 0.1);
     }
-    // Text of another size, scaled to this one, differs.
+    // Negative control: text that is rasterised at half the size and scaled up differs.
     screen.input.scale = 1.0F;
     const std::vector<double> small = coverage(screen.written(word));
     std::vector<double> stretched(small.size());
@@ -158,7 +158,7 @@ TEST_CASE("ImGui: fills and clips are exact to the pixel") {
     CHECK(wrong == 0);
 }
 
-TEST_CASE("Pictures: other views are drawn texel by pixel") {
+TEST_CASE("Pictures: another view is drawn with one texel per pixel") {
     Screen screen;
     screen.scene.background = {0, 0, 0, 1};
     const assets::Model model = test::sphere({}, 24);
@@ -184,7 +184,7 @@ TEST_CASE("Pictures: other views are drawn texel by pixel") {
     CHECK(test::pixel(single, 30, 30) != test::pixel(single, 2, 2));
 }
 
-TEST_CASE("Input: buttons are pressed, also between two frames, and text is typed in every language") {
+TEST_CASE("Input: a click between two frames counts, and text can be typed in every language") {
     Screen screen;
     int clicks = 0;
     bool over = false;
