@@ -108,8 +108,8 @@ void put_joint_row(std::string& out, const analysis::SessionData& s, std::size_t
 }
 
 constexpr std::string_view loosening_note =
-    "<p class=\"note\">Breakaway: highest torque at the wrench while the joint was loosened; it is "
-    "not judged. Clamp: at the end of the session.</p>\n";
+    "<p class=\"note\">Breakaway: highest torque at the wrench while the joint was loosened; it does "
+    "not affect the verdict. Clamp: at the end of the session.</p>\n";
 
 std::string judging_note(const analysis::SessionData& s) {
     const std::vector<content::AssemblyJoint>& joints = s.assembly.joints;

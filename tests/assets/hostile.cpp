@@ -353,7 +353,7 @@ TEST_CASE("Hostile files: an unsupported required extension is named") {
 }
 
 TEST_CASE("Hostile files: invalid JSON is an error with its line") {
-    CHECK(refused("").what.find("no valid JSON") != std::string::npos);
+    CHECK(refused("").what.find("not valid JSON") != std::string::npos);
     CHECK(refused("{\n\"asset\": {},\n!}").line == 3);
     CHECK(refused("{\"asset\": \"\xFF\"}").line == 1);
     CHECK(refused("{\"asset\": 1e999}").what.find("too large") != std::string::npos);

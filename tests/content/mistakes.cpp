@@ -316,8 +316,8 @@ TEST_CASE("Errors: all mistakes of a file are reported in one run, in the order 
         "<= "
         "0.6",
         "37:21: /joint_types/M8x30/spec/strategy: \"torqe\" is not known here; did you mean \"torque\"?",
-        "40:27: /joint_types/M8x30/spec/snug_torque_Nm: a snug torque of 19 N·m is no less than what is "
-        "judged OK; expected less than 18 N·m",
+        "40:27: /joint_types/M8x30/spec/snug_torque_Nm: a snug torque of 19 N·m is not below the lowest "
+        "torque that is judged OK; expected less than 18 N·m",
         "47:27: /joints/1/type: \"M8x31\" is not a joint type of this file; did you mean \"M8x30\"?",
         "47:44: /joints/1/node: \"joint_B1\" is the \"node\" of another joint too; expected a name of its "
         "own; it is "
@@ -357,9 +357,8 @@ TEST_CASE("Errors: a duplicate id hides no mistake of an order") {
           Messages{"51:12: /order: \"B4\" is missing in this order; expected every joint once"});
     CHECK(
         given("[\"B1\", \"B3\", \"B4\", \"B4\"]") ==
-        Messages{
-            "51:31: /order/3: \"B4\" appears twice in this order; expected every joint once; it comes first "
-            "in line 51"});
+        Messages{"51:31: /order/3: \"B4\" appears twice in this order; expected every joint once; it appears "
+                 "first in line 51"});
 }
 
 TEST_CASE("Errors: a joint without a usable id explains one unknown name of an order, not two") {
@@ -419,9 +418,9 @@ TEST_CASE("Errors: a mistake of a variant is reported once, however many variant
     std::string text = shipped("zq350");
     text = edited(std::move(text), "\"class\": \"A2-70\"", "\"class\": \"A2-71\"");
     REQUIRE(messages(text).size() == 1);
-    CHECK(messages(text)[0].ends_with(
-        ": /variants/stainless/every_joint_type/class: \"A2-71\" is no property class that "
-        "we know; did you mean \"A2-70\"?"));
+    CHECK(
+        messages(text)[0].ends_with(": /variants/stainless/every_joint_type/class: \"A2-71\" is not a known "
+                                    "property class; did you mean \"A2-70\"?"));
     text = edited(shipped("zq350"), "\"bolt_length_mm\": 180", "\"bolt_length_mm\": 160");
     CHECK(messages(text).size() == 1);
 }

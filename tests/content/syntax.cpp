@@ -165,7 +165,7 @@ TEST_CASE(
           "5:3: ']' is not allowed here, and the '{' opened at 3:5 is not closed; expected ',' or '}'");
     CHECK(only_message("{\"a\": \"x\\\\\\\"\"b}") ==
           "1:14: something is missing before \"b\"; expected ',' or '}', or a '\"' that closes the text "
-          "begun at 1:7");
+          "that begins at 1:7");
 }
 
 TEST_CASE("JSON syntax: Windows line ends count as lines") {

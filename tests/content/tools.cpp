@@ -63,7 +63,7 @@ TEST_CASE("Tools: mistakes of a tool are reported at their position") {
           "/more_tools/clicker/click_swing_deg: only a torque wrench clicks; expected the kind "
           "\"click_torque_wrench\", or no such value");
     CHECK(one(with(edited(clicker, "clicker", "wrench"))) ==
-          "/more_tools/wrench: \"wrench\" is what \"tool\" is called; expected another name");
+          "/more_tools/wrench: \"wrench\" is the name of \"tool\"; expected another name");
 }
 
 TEST_CASE("Tools: every shipped assembly has a torque wrench, and a name for each tool in each language") {
