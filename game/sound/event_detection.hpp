@@ -46,7 +46,7 @@ struct EventDetector {
     double last_strike = 0.0;                            // m/s
     double pending_strike = 0.0;  // m/s, highest speed lost by a strike that still goes on
 
-    // Of the last tick.
+    // Values of the last tick.
     std::int16_t joint = -1;
     double nut_angle = 0.0;  // rad
     double load = 0.0;

@@ -70,7 +70,7 @@ struct InputState {
     bool left = false, middle = false, right = false;  // buttons held
 };
 
-// Whether pointer and keys belong to the lesson, not to a menu.
+// True for each input that belongs to the lesson, not to a menu.
 struct InputFocus {
     bool pointer = true, keys = true;
 };

@@ -14,7 +14,7 @@
 
 namespace bolt::trainer {
 
-// What the user chooses in the menu or on the command line.
+// The user's choice in the menu or on the command line.
 struct LessonChoice {
     std::string assembly = "zq350";
     std::string variant;  // empty: the assembly's default
@@ -43,7 +43,7 @@ struct LessonStart {
     StartStation start_station;
 };
 
-// What a lesson was started with. It outlives the lesson: the result screen shows it.
+// The data that a lesson was started with. It outlives the lesson, because the result screen shows it.
 struct LessonContext {
     content::Assembly assembly;  // with the targets of the law in force, as the lesson uses it
     session::LessonOptions options;

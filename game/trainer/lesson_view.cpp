@@ -199,8 +199,8 @@ void show_due_joint(ActiveLesson& active, const glm::dvec2& picture) {
     active.view.out_of_view = 0.0;
 }
 
-// Whether the due joint has been out of the picture or hidden for too long. Always false in an assessment,
-// which gives no help.
+// Returns true if the due joint has been out of the picture or hidden for too long. Always false in an
+// assessment, which gives no help.
 bool due_joint_lost(ActiveLesson& active, const Frame& frame) {
     const auto joint = due_joint(active);
     if (!joint || active.session->lesson().mode == lesson::Mode::assessment || active.clock.finished ||

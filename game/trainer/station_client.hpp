@@ -112,8 +112,8 @@ struct StationIntent {
 [[nodiscard]] Status send_intent(StationClient& client, const session::LessonSession& session,
                                  const StationIntent& intent);
 
-// Whether a device renders forces, which then requires a dead-man switch: a button, or the tool in a gloved
-// hand.
+// Returns true if a device renders forces, which then requires a dead-man switch: a button, or the tool in a
+// gloved hand.
 bool needs_dead_man(const station::Layout& layout);
 
 // m between thumb tip and index fingertip below which a gloved hand pinches.

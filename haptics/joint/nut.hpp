@@ -42,7 +42,7 @@ struct NutMotion {
     double speed = 0.0;  // rad/s
 };
 
-// What drives the nut: a spring with play between the angles of hand and nut, or nothing.
+// The drive of the nut: a spring with play between the angles of hand and nut, or nothing.
 struct DriveHandle {
     bool engaged = false;
     double angle = 0.0;         // rad, the hand's angle on the nut's scale, without re-grips

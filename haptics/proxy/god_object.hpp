@@ -58,7 +58,7 @@ struct GodObjectParameters {
 
 struct GodObjectState {
     Pose tool;  // to the assembly
-    // Of the last tick.
+    // Values of the last tick.
     Pose device;
     proxy::Offset offset;
     force::OutputCommand felt;   // N and N·m, rendered by the coupling
