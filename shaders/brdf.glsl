@@ -1,6 +1,7 @@
-// The lighting model of the path-traced reference (tools/verify/pathtrace/bsdf.hpp names the sources), for directional and
-// image-based light:
-//   f = base (1 − c E_coat) + c coat,  base = (1 − m)(diffuse + specular(F0 dielectric)) + m specular(F0 = base colour)
+// The lighting model of the path-traced reference (tools/verify/pathtrace/bsdf.hpp names the sources), for
+// directional and image-based light. c: strength of the coat; m: metallic; E: directional albedo.
+//   f = base (1 − c E_coat) + c coat
+//   base = (1 − m)(diffuse + specular(F0 dielectric)) + m specular(F0 = base colour)
 //   specular = D V F (1 + F0 (1/E − 1)),  diffuse = base colour / π (1 − E_F)
 const float pi = 3.14159265358979;
 
@@ -41,14 +42,14 @@ float ggx_shape(vec3 n, float alpha, vec3 v, vec3 l, vec3 h) {
 }
 
 // Values from the albedo table for one view direction.
-struct Seen {
+struct ViewAlbedo {
     float gain;              // 1/E − 1
     vec3 specular;           // albedo of the specular layer, for image-based light
     vec3 diffuse;            // albedo
     float coat, below_coat;  // albedo of the coat (times c), and the fraction that it transmits
 };
 
-Seen see(Surface s, sampler2D albedo_table) {
+ViewAlbedo view_albedo(Surface s, sampler2D albedo_table) {
     const float nv = clamp(dot(s.normal, s.out_dir), 0.0, 1.0);
     const vec2 size = vec2(textureSize(albedo_table, 0));
     const float roughness = sqrt(length(s.alpha) * 0.70710678);
@@ -56,34 +57,35 @@ Seen see(Surface s, sampler2D albedo_table) {
     const float gain = 1.0 / (ab.x + ab.y) - 1.0;
     const vec3 dielectric = (s.f0 * ab.x + s.f90 * ab.y) * (1.0 + s.f0 * gain);
     const vec3 metal = (s.base_color * ab.x + ab.y) * (1.0 + s.base_color * gain);
-    Seen seen;
-    seen.gain = gain;
-    seen.specular = mix(dielectric, metal, s.metallic);
+    ViewAlbedo albedo;
+    albedo.gain = gain;
+    albedo.specular = mix(dielectric, metal, s.metallic);
     const float taken = max(dielectric.x, max(dielectric.y, dielectric.z));
-    seen.diffuse = s.base_color * (1.0 - s.metallic) * max(0.0, 1.0 - taken);
-    seen.coat = 0.0;
+    albedo.diffuse = s.base_color * (1.0 - s.metallic) * max(0.0, 1.0 - taken);
+    albedo.coat = 0.0;
     if (s.coated) {
         const float cnv = clamp(dot(s.coat_normal, s.out_dir), 0.0, 1.0);
         const vec2 coat = textureLod(albedo_table, (vec2(sqrt(cnv), sqrt(s.coat_alpha)) * (size - 1.0) + 0.5) / size, 0.0).xy;
-        seen.coat = s.coat * (0.04 * coat.x + coat.y) * (1.0 + 0.04 * (1.0 / (coat.x + coat.y) - 1.0));
+        albedo.coat = s.coat * (0.04 * coat.x + coat.y) * (1.0 + 0.04 * (1.0 / (coat.x + coat.y) - 1.0));
     }
-    seen.below_coat = 1.0 - seen.coat;
-    return seen;
+    albedo.below_coat = 1.0 - albedo.coat;
+    return albedo;
 }
 
-// Light of unit irradiance (on a surface that faces it) from direction `l`, including the cosine.
-vec3 reflect_light(Surface s, Seen seen, vec3 l) {
+// Returns the radiance that the surface reflects to the eye from a light in direction `l`, including the
+// cosine. The light has unit irradiance on a surface that faces it.
+vec3 reflect_light(Surface s, ViewAlbedo albedo, vec3 l) {
     const vec3 h = normalize(s.out_dir + l);
     const float vh = pow5(1.0 - clamp(dot(s.out_dir, h), 0.0, 1.0));
     vec3 result = vec3(0.0);
     const float nl = dot(s.normal, l);
     if (nl > 0.0) {
-        const float gain = seen.gain;
+        const float gain = albedo.gain;
         const vec3 dielectric = (s.f0 + (vec3(s.f90) - s.f0) * vh) * (1.0 + s.f0 * gain);
         const vec3 metal = (s.base_color + (1.0 - s.base_color) * vh) * (1.0 + s.base_color * gain);
         const float shape = s.brushed ? ggx_shape(s.normal, s.tangent, s.alpha, s.out_dir, l, h)
                                       : ggx_shape(s.normal, s.alpha.x, s.out_dir, l, h);
-        result = (seen.diffuse / pi + mix(dielectric, metal, s.metallic) * shape) * (seen.below_coat * nl);
+        result = (albedo.diffuse / pi + mix(dielectric, metal, s.metallic) * shape) * (albedo.below_coat * nl);
     }
     const float cnl = dot(s.coat_normal, l);
     if (s.coated && cnl > 0.0)

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Deforms a part's vertices by morph targets and joints; the output replaces the model's positions and attributes. Sources: glTF
-// 2.0 specification, 3.7.2.2 (morph targets come first) and 3.7.3.3 (skins).
+// Deforms a part's vertices by morph targets and joints; the output replaces the model's positions and
+// attributes. Sources: glTF 2.0 specification, 3.7.2.2 (morph targets come first) and 3.7.3.3 (skins).
 #include "shaders/shared.h"
 
 layout(local_size_x = 64) in;

@@ -1,5 +1,6 @@
-// Set 0: data of the whole frame. Do not branch on these values alone: lavapipe (Mesa 22.3) compiles such branches into the code
-// and recompiles for every new block, that is every frame. Use a SCENE_… bit instead.
+// Set 0: data of the whole frame. Do not branch on these values alone: lavapipe (Mesa 22.3) compiles the
+// outcome of such a branch into the code, so it recompiles for every new block, that is in every frame. Use a
+// SCENE_… bit instead.
 #include "shaders/shared.h"
 #include "shaders/features.glsl"
 

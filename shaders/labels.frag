@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// Computes the fraction of a pixel that a glyph covers, from its distance field: four taps, one per quarter of the pixel, with ramps as wide
-// as a quarter of the pixel appears at the edge's angle.
+// Computes the fraction of a pixel that a glyph covers, from its distance field. Samples the field once in
+// each quarter of the pixel and converts each distance to coverage by a linear ramp. The ramp is as wide as
+// the quarter is across the edge.
 
 #include "shaders/shared.h"
 #include "shaders/features.glsl"
@@ -10,7 +11,7 @@
 layout(location = 0) in vec2 em;
 layout(location = 1) in vec2 uv;
 layout(location = 2) flat in vec4 color;
-layout(location = 3) flat in vec4 kind;
+layout(location = 3) flat in vec4 glyph_parameters;
 layout(location = 4) flat in vec2 middle;
 layout(location = 5) noperspective in float depth;
 
@@ -22,8 +23,8 @@ const vec2 taps[4] = vec2[](vec2(-0.25, -0.25), vec2(0.25, -0.25), vec2(-0.25, 0
 
 // Distance to the edge of a rounded rectangle, positive inside; `uv` holds half its size.
 float plate_distance(vec2 at) {
-    const vec2 beyond = abs(at - middle) - (uv - kind.x);
-    return kind.x - length(max(beyond, 0.0)) - min(max(beyond.x, beyond.y), 0.0);
+    const vec2 beyond = abs(at - middle) - (uv - glyph_parameters.x);
+    return glyph_parameters.x - length(max(beyond, 0.0)) - min(max(beyond.x, beyond.y), 0.0);
 }
 
 void main() {
@@ -31,9 +32,11 @@ void main() {
     const vec2 uv_x = dFdx(uv), uv_y = dFdy(uv);
     float d[4];
     for (int i = 0; i < 4; ++i)
-        d[i] = kind.z > 0.5 ? plate_distance(em + taps[i].x * em_x + taps[i].y * em_y)
-                            : textureLod(atlas, uv + taps[i].x * uv_x + taps[i].y * uv_y, 0.0).r + kind.x;
-    // The edge's normal in the glyph's plane, from the screen derivatives of the distance; a pixel has this width across the edge.
+        d[i] = glyph_parameters.z > 0.5
+                   ? plate_distance(em + taps[i].x * em_x + taps[i].y * em_y)
+                   : textureLod(atlas, uv + taps[i].x * uv_x + taps[i].y * uv_y, 0.0).r + glyph_parameters.x;
+    // The edge's normal in the glyph's plane, from the screen derivatives of the distance. `across` is the
+    // width of a pixel along this normal.
     const vec2 change = vec2(d[1] + d[3] - d[0] - d[2], d[2] + d[3] - d[0] - d[1]);
     vec2 normal = vec2(change.x * em_y.y - change.y * em_x.y, change.y * em_x.x - change.x * em_y.x);
     normal = dot(normal, normal) > 0.0 ? normalize(normal) : vec2(0.70710678);
@@ -44,6 +47,6 @@ void main() {
     float hidden = 0.0;
     for (int i = 0; i < 4; ++i)
         hidden += texelFetch(depths, ivec3(gl_FragCoord.xy, view_index), i).r > depth ? 0.25 : 0.0;
-    const float alpha = color.a * covered * mix(1.0, kind.y, hidden);
+    const float alpha = color.a * covered * mix(1.0, glyph_parameters.y, hidden);
     color_out = vec4(color.rgb * alpha, alpha);
 }

@@ -13,7 +13,8 @@ layout(set = 0, binding = 2, std430) readonly buffer Quads { LabelQuad quads[]; 
 layout(location = 0) out vec2 em;
 layout(location = 1) out vec2 uv;
 layout(location = 2) flat out vec4 color;
-layout(location = 3) flat out vec4 kind;  // grow, through, plate
+// x: grow; y: visible fraction behind parts; z: 1 for a background
+layout(location = 3) flat out vec4 glyph_parameters;
 layout(location = 4) flat out vec2 middle;
 layout(location = 5) noperspective out float depth;  // compared with the depth of parts
 
@@ -25,7 +26,7 @@ void main() {
     em = mix(quad.rect.xy, quad.rect.zw, side);
     uv = quad.plate != 0u ? quad.uv.xy : mix(quad.uv.xy, quad.uv.zw, side);
     color = quad.color;
-    kind = vec4(quad.grow, label.up.w, float(quad.plate), 0.0);
+    glyph_parameters = vec4(quad.grow, label.up.w, float(quad.plate), 0.0);
     middle = 0.5 * (quad.rect.xy + quad.rect.zw);
 
     const View view = frame.views[view_index];

@@ -9,6 +9,6 @@
 layout(location = 0) flat out vec4 lit_inputs[LIT_INPUTS];
 
 void main() {
-    pack(of_block(), lit_inputs);
+    pack(load_lit_frame(), lit_inputs);
     gl_Position = corner(gl_VertexIndex);
 }

@@ -1,6 +1,6 @@
-// The part of the frame data that lighting needs. of_block() reads it from the frame block. light.frag runs per pixel and receives it
-// through flat inputs instead: lavapipe (Mesa 22.3) gathers block values for each pixel, which took two fifths of the instructions.
-// The third and later lights stay in the block.
+// The part of the frame data that lighting needs. load_lit_frame() reads it from the frame block. light.frag
+// runs per pixel and receives it through flat inputs instead: lavapipe (Mesa 22.3) gathers block values for
+// each pixel, which took two fifths of the instructions. The third and later lights stay in the block.
 #define LIT_INPUTS 25
 
 struct LitFrame {
@@ -17,7 +17,7 @@ struct LitFrame {
 
 vec4 row(mat4 m, int i) { return vec4(m[0][i], m[1][i], m[2][i], m[3][i]); }
 
-LitFrame of_block() {
+LitFrame load_lit_frame() {
     LitFrame f;
     const View view = frame.views[view_index];
     f.world_from_clip = view.world_from_clip;

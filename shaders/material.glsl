@@ -28,15 +28,17 @@ vec2 uv(Material m, uint texture_index, vec4 t, float one) {
     return vec2(dot(row.xyz, p), dot(m.uv[2 * texture_index + 1].xyz, p));
 }
 
-// Compute the mip level from the interpolated coordinates, not from those transformed by the material: lavapipe does not read the
-// material for helper pixels outside the triangle, and edges would use the coarsest level.
+// Computes the mip level from the interpolated coordinates, not from those transformed by the material:
+// lavapipe does not read the material for helper pixels outside the triangle, and edges would use the
+// coarsest level.
 vec4 look_up(sampler2D map, Material m, uint texture_index) {
     return textureGrad(map, uv(m, texture_index, texcoord, 1.0), uv(m, texture_index, dFdx(texcoord), 0.0),
                        uv(m, texture_index, dFdy(texcoord), 0.0));
 }
 
-// The tangent frame of a normal map for meshes without tangents, from screen derivatives of position and texture coordinates (C.
-// Schüler, Normal Mapping Without Precomputed Tangents, ShaderX5, 2006). The bitangent points up in the texture, against v.
+// The tangent frame of a normal map for meshes without tangents, from screen derivatives of position and
+// texture coordinates (C. Schüler, Normal Mapping Without Precomputed Tangents, ShaderX5, 2006). `tx`, `ty`:
+// the derivatives of the texture coordinates. The bitangent points up in the texture, against v.
 mat3 cotangent_frame(vec3 n, vec2 tx, vec2 ty) {
     const vec3 px = dFdx(at), py = dFdy(at);
     const vec3 a = cross(py, n), b = cross(n, px);
@@ -51,7 +53,7 @@ vec4 base_color(Material m) {
     vec4 base = m.base_color;
     if (has(SCENE_VERTEX_COLORS)) base *= color_in;
     if (has(SCENE_BASE_MAP)) base *= look_up(base_map, m, 0u);
-    if (has(SCENE_MARKED)) base.rgb = mix(base.rgb, tint.rgb, tint.w);
+    if (has(SCENE_TINTED)) base.rgb = mix(base.rgb, tint.rgb, tint.w);
     return base;
 }
 
@@ -61,7 +63,7 @@ vec3 plain_normal() {
 }
 
 // Tangent, bitangent and normal at this point.
-mat3 plane_of(Material m, vec3 n, uint map) {
+mat3 tangent_frame(Material m, vec3 n, uint map) {
     if (!has(SCENE_TANGENTS)) return cotangent_frame(n, uv(m, map, dFdx(texcoord), 0.0), uv(m, map, dFdy(texcoord), 0.0));
     const vec3 given = normalize(tangent_in.xyz - n * dot(n, tangent_in.xyz));
     return mat3(given, cross(n, given) * tangent_in.w, n);
@@ -70,11 +72,11 @@ mat3 plane_of(Material m, vec3 n, uint map) {
 vec3 mapped_normal(Material m, vec3 n) {
     if (!has(SCENE_NORMAL_MAP)) return n;
     const vec3 bump = look_up(normal_map, m, 2u).xyz * 2.0 - 1.0;
-    return normalize(plane_of(m, n, 2u) * vec3(bump.xy * m.normal_scale, bump.z));
+    return normalize(tangent_frame(m, n, 2u) * vec3(bump.xy * m.normal_scale, bump.z));
 }
 
 vec3 mapped_coat_normal(Material m, vec3 n) {
-    return normalize(plane_of(m, n, 7u) * (look_up(coat_normal_map, m, 7u).xyz * 2.0 - 1.0));
+    return normalize(tangent_frame(m, n, 7u) * (look_up(coat_normal_map, m, 7u).xyz * 2.0 - 1.0));
 }
 
 // Metallic, roughness, occlusion.

@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// Draws an outline of even width around marked shapes: an unmarked pixel takes the strongest mark on rings around it.
+// Draws an outline of even width around marked shapes: an unmarked pixel takes the strongest mark on two
+// rings around it.
 #include "shaders/frame.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2DArray marks;

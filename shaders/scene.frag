@@ -34,17 +34,18 @@ void set_mapped_layers(inout Surface s, Material m) {
 }
 
 void main() {
-    here = of_block();
+    lit_frame = load_lit_frame();
     const Material m = materials[material_index];
     const vec4 base = base_color(m);
     if (has(SCENE_MASK) && base.a < m.emissive.w) discard;
 
     Surface s;
     s.position = at;
-    s.out_dir = normalize(here.eye - at);
+    s.out_dir = normalize(lit_frame.eye - at);
     s.coat_normal = plain_normal();
     vec3 n = mapped_normal(m, s.coat_normal);
-    // A normal that points away from the eye is bent to the silhouette, because visible surfaces face the eye.
+    // A normal that points away from the eye is bent until it is perpendicular to the view, because visible
+    // surfaces face the eye.
     const float facing = dot(n, s.out_dir);
     if (facing < 0.0) n = normalize(n - facing * s.out_dir);
     s.normal = n;
@@ -59,15 +60,15 @@ void main() {
     finish_surface(s, m);
     set_mapped_layers(s, m);
 
-    vec3 color = shade(s, gl_FragCoord.xy * here.texel);
+    vec3 color = shade(s, gl_FragCoord.xy * lit_frame.texel);
     float opacity = has(SCENE_BLEND) ? base.a : 1.0;
-    if (has(SCENE_MARKED)) {
+    if (has(SCENE_TINTED)) {
         if (mark.y > 0.5) color = base.rgb;
         opacity *= mark.x;
     }
     if (has(SCENE_CUT)) {
-        const float gone = faded(at);
-        if (has(SCENE_CUT_REST) && gone == 0.0) discard;
+        const float gone = cut_fade(at);
+        if (has(SCENE_CUT_FADING) && gone == 0.0) discard;
         opacity *= 1.0 - gone;
     }
     color_out = vec4(color, 1.0) * opacity;

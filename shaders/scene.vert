@@ -13,7 +13,8 @@ layout(location = 5) in vec2 second_texcoord;
 
 invariant gl_Position;  // a ghost's depth is drawn before its colour
 layout(location = 0) out vec3 at;
-// Centroid interpolation: extrapolation to the centre of a partly covered pixel would make rounded edges sparkle.
+// Centroid interpolation: extrapolation to the centre of a partly covered pixel would make rounded edges
+// sparkle.
 layout(location = 1) centroid out vec3 normal_out;
 layout(location = 2) out vec4 tangent_out;
 layout(location = 3) out vec4 texcoord_out;  // both sets
@@ -25,8 +26,8 @@ void main() {
     const mat4 world_from_object = instances[gl_InstanceIndex].world_from_object;
     const vec4 world = world_from_object * vec4(position, 1.0);
     const mat3 m = mat3(world_from_object);
-    // Transform normals by the cofactor matrix, which is correct for every scale. Normals of mirrored parts point inward,
-    // consistent with gl_FrontFacing, because their winding is reversed.
+    // Transform normals by the cofactor matrix, which is correct for every scale. Normals of mirrored parts
+    // point inward, consistent with gl_FrontFacing, because their winding is reversed.
     const mat3 cofactors = mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
     const float side = dot(m[0], cofactors[0]) < 0.0 ? -1.0 : 1.0;
     at = world.xyz;
@@ -36,7 +37,7 @@ void main() {
     color_out = has(SCENE_VERTEX_COLORS) ? color : vec4(1.0);
     tint = vec4(0.0);
     mark = vec2(1.0, 0.0);
-    if (has(SCENE_MARKED)) {
+    if (has(SCENE_TINTED)) {
         tint = instances[gl_InstanceIndex].tint;
         mark.x = instances[gl_InstanceIndex].opacity;
         mark.y = (instances[gl_InstanceIndex].flags & INSTANCE_FLAT) != 0u ? 1.0 : 0.0;

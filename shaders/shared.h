@@ -1,5 +1,5 @@
-// Structures that CPU and GPU share: compiled as GLSL (std430 and std140 agree, because every member is a vec4, a mat4 or four
-// scalars) and as C++ (offsets asserted in engine/render/gpu_model.cpp).
+// Structures that CPU and GPU share. They are compiled as GLSL (std430 and std140 agree, because every member
+// is a vec4, a mat4 or four scalars) and as C++ (offsets asserted in engine/render/gpu_model.cpp).
 #ifndef BOLT_SHADERS_SHARED_H
 #define BOLT_SHADERS_SHARED_H
 
@@ -37,17 +37,13 @@ struct FrameData {
     mat4 shadow_from_world;  // of light 0, if it casts a shadow
     vec4 environment;        // x: intensity, y: rotation about Y, rad, z: highest specular level, w: exposure
     vec4 picture;            // width, height, 1/width, 1/height
-    vec4 occlusion;          // x: radius of ambient occlusion, m; y: error of levels of detail, m per metre of distance
-    vec4 background;         // rgb; w: 1 show it, 0 show the environment
-    vec4 cut;                // focus of the cut-away, world; w: radius, m
-    float cut_strength;      // 0: no fading … 1: full fading
-    float outline_px;        // width of outlines
-    uint light_count;
-    uint shadows;  // 1: light 0 casts a shadow
-    uint view_count;
-    uint unused_a;
-    uint unused_b;
-    uint unused_c;
+    vec4 occlusion;      // x: radius of ambient occlusion, m; y: error of levels of detail, m per m distance
+    vec4 background;     // rgb; w: 1 show it, 0 show the environment
+    vec4 cut;            // focus of the cut-away, world; w: radius, m
+    float cut_strength;  // 0: no fading … 1: full fading
+    float outline_px;    // width of outlines
+    uint shadows;        // 1: light 0 casts a shadow
+    uint unused;
 };
 
 struct Instance {
@@ -60,7 +56,7 @@ struct Instance {
     uint unused_b;
 };
 
-#define INSTANCE_FLAT 1u  // unlit: guides, marks
+#define INSTANCE_FLAT 1u  // unlit
 
 struct Material {
     vec4 base_color;
@@ -78,8 +74,8 @@ struct Material {
     uint unused_a;
     uint unused_b;
     uint unused_c;
-    // Two rows per map: base, metallic-roughness, normal, occlusion, emissive, coat, coat roughness, coat normal, anisotropy,
-    // specular, specular colour. w of the first row: the set of texture coordinates.
+    // Two rows per map: base, metallic-roughness, normal, occlusion, emissive, coat, coat roughness, coat
+    // normal, anisotropy, specular, specular colour. w of the first row: the set of texture coordinates.
     vec4 uv[22];
 };
 
@@ -109,24 +105,25 @@ struct DeformPart {
 #define SCENE_TANGENTS 64u
 #define SCENE_COAT 128u
 #define SCENE_ANISOTROPY 256u
-#define SCENE_MASK 512u             // transparent below the cutoff
-#define SCENE_BLEND 1024u           // opacity is the base colour's alpha
-#define SCENE_MARKED 2048u          // tinted, translucent or unlit
-#define SCENE_SHADOW 4096u          // light 0 casts a shadow
-#define SCENE_OCCLUSION 8192u       // ambient occlusion is on
-#define SCENE_WIDE 16384u           // values that vary over the part and need the wide buffer
-#define SCENE_CUT 32768u            // fades where it hides the cut-away's focus
-#define SCENE_CUT_REST 1048576u     // only the partly faded region; the rest is drawn as a surface
+#define SCENE_MASK 512u                  // transparent below the cutoff
+#define SCENE_BLEND 1024u                // opacity is the base colour's alpha
+#define SCENE_TINTED 2048u               // tinted, translucent or unlit
+#define SCENE_SHADOW 4096u               // light 0 casts a shadow
+#define SCENE_OCCLUSION 8192u            // ambient occlusion is on
+#define SCENE_PER_PIXEL_MATERIAL 16384u  // values that vary over the part and need the material buffer
+#define SCENE_CUT 32768u                 // fades where it hides the cut-away's focus
+#define SCENE_CUT_FADING 1048576u   // draws only the fading region; the opaque region is drawn as a surface
 #define SCENE_LIGHTS_SHIFT 16u      // the number of lights, four bits
 #define SCENE_COAT_MAPS (1u << 21)  // of the coat's strength or roughness
 #define SCENE_COAT_NORMAL_MAP (1u << 22)
 #define SCENE_ANISOTROPY_MAP (1u << 23)
-#define SCENE_SPECULAR_MAPS (1u << 24)  // of the dielectric's strength or colour
-#define SCENE_SECOND_UV (1u << 25)      // a map uses the second set of texture coordinates
-#define SCENE_VIEWS (1u << 26)          // several views are drawn at once
-#define SCENE_PLAIN (1u << 27)          // the background is one colour, not the environment
+#define SCENE_SPECULAR_MAPS (1u << 24)     // of the dielectric's strength or colour
+#define SCENE_SECOND_UV (1u << 25)         // a map uses the second set of texture coordinates
+#define SCENE_VIEWS (1u << 26)             // several views are drawn at once
+#define SCENE_COLOR_BACKGROUND (1u << 27)  // the background is one colour, not the environment
 // Maps that the geometry buffer cannot store.
-#define SCENE_FORWARD_MAPS (SCENE_COAT_MAPS | SCENE_COAT_NORMAL_MAP | SCENE_ANISOTROPY_MAP | SCENE_SPECULAR_MAPS)
+#define SCENE_FORWARD_MAPS \
+    (SCENE_COAT_MAPS | SCENE_COAT_NORMAL_MAP | SCENE_ANISOTROPY_MAP | SCENE_SPECULAR_MAPS)
 
 #ifdef __cplusplus
 }  // namespace bolt::render::shared

@@ -3,7 +3,7 @@
 #extension GL_EXT_multiview : require
 // Halves the depth buffer.
 #include "shaders/frame.glsl"
-#include "shaders/small.glsl"
+#include "shaders/half_size.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2DMSArray depths;
 

@@ -1,16 +1,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-// Averages the pattern of 4 × 4 slices over pixels on the same surface: on a plane, depth is linear in the picture, with a slope
-// that follows from the normal.
+// Averages the pattern of 4 × 4 slices over pixels on the same surface. A pixel belongs to the surface if its
+// depth agrees with the tangent plane: on a plane, depth is linear in the picture, with a slope that follows
+// from the normal.
 #include "shaders/frame.glsl"
-#include "shaders/small.glsl"
+#include "shaders/half_size.glsl"
 #include "shaders/surface.glsl"
 
 layout(set = 0, binding = 3) uniform sampler2DArray depth_map;
 layout(set = 0, binding = 4) uniform sampler2DArray raw_map;
 layout(set = 0, binding = 5) uniform sampler2DMSArray surfaces;
-layout(location = 0) out float free_out;
+layout(location = 0) out float visibility_out;
 
 void main() {
     const ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(depth_map, 0).xy - 1;
@@ -18,7 +19,7 @@ void main() {
     const vec3 n = unpack_normal(texelFetch(surfaces, full_texel(ivec3(at, view_index)), small_sample).xy);
     // Planes are transformed to clip space by the transposed inverse.
     const mat4 world_from_clip = frame.views[view_index].world_from_clip;
-    const vec4 p = world_from_clip * vec4(place_of(at) * 2.0 - 1.0, here, 1.0);
+    const vec4 p = world_from_clip * vec4(sample_uv(at) * 2.0 - 1.0, here, 1.0);
     const vec4 plane = vec4(n, -dot(n, p.xyz / p.w)) * world_from_clip;
     const vec2 slope = abs(plane.z) > 1e-9 ? -plane.xy / plane.z * (4.0 * frame.picture.zw) : vec2(0.0);
     float sum = 0.0, weights = 0.0;
@@ -32,5 +33,5 @@ void main() {
             weights += weight;
         }
     }
-    free_out = sum / weights;
+    visibility_out = sum / weights;
 }

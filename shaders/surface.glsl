@@ -1,7 +1,11 @@
-// The encoding of a surface in the geometry buffer: 16 bits each for the normal (two), the material and the grain's direction.
-//   Z. Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014 (octahedral normals).
+// The encoding of a surface in the geometry buffer: four values of 16 bits, two for the normal, one for the
+// material, and one for the grain (the brushing direction of a metal).
+//   Z. Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, 2014 (octahedral
+//   normals).
 //   T. Duff et al., Building an Orthonormal Basis, Revisited, 2017.
-#define SURFACE_WIDE 32768u  // base colour, metallic, roughness and occlusion are in the wide buffer
+// The highest bit of the material value: base colour, metallic, roughness and occlusion are in the material
+// buffer. The 15 bits below hold the material's index (max_materials in engine/render/draw_list.hpp).
+#define SURFACE_PER_PIXEL_MATERIAL 32768u
 
 vec2 pack_normal(vec3 n) {
     const vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));

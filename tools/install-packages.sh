@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs the missing packages that packages.txt lists for the given groups (build, test, bench). Debian 12.
+# Installs those packages of packages.txt for the given groups (build, test, bench) that are missing. Debian 12.
 set -euo pipefail
 list="$(dirname "$0")/../packages.txt"
 missing=()

@@ -13,7 +13,7 @@ import() {  # STEP FOLDER options...: writes the models only and keeps the folde
     cp "$scratch/$name"/*.glb "$2"
 }
 "$bin/bolt-models" all -o "$out"
-# As fine as the budget of 250,000 triangles near and 60,000 far allows.
+# The finest settings that stay within 250,000 triangles for the near level and 60,000 for the far level.
 import "$out/assemblies/zq350/zq350.step" "$out/assemblies/zq350" --lod --deflection 0.25 --angle 32 --contact-deflection 0.35
 import "$out/assemblies/dn200-pn16/dn200-pn16.step" "$out/assemblies/dn200-pn16" --lod --angle 20
 import "$out/assemblies/cover-m8/cover-m8.step" "$out/assemblies/cover-m8" --lod --angle 20

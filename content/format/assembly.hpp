@@ -20,7 +20,8 @@
 namespace bolt::content {
 
 enum class Strategy : std::uint8_t { torque, torque_angle, yield };
-enum class RiskClass : std::uint8_t { A, B, C };  // VDI/VDE 2862: A danger to life, B breakdown, C other
+// VDI/VDE 2862. A: danger to life; B: breakdown; C: other.
+enum class RiskClass : std::uint8_t { A, B, C };
 
 // A target value and its tolerance window: a value is OK if low ≤ value ≤ high.
 struct ToleranceWindow {
@@ -89,7 +90,8 @@ struct ModelFiles {
     std::string contact;    // collision geometry
 };
 
-// Flange that couples the joints: a plate on an elastic foundation (see haptics/joint/group.hpp). Ours.
+// Flange that couples the joints: a plate on an elastic foundation. The model is our own (see
+// haptics/joint/group.hpp).
 struct FlangeDesign {
     bool coupled = false;
     double thickness = 0.0;  // m
@@ -154,8 +156,9 @@ LoadedAssembly load_assembly(const std::filesystem::path& where, std::string_vie
 // Selects one of the assembly's tools; empty: the default one. Fails if there is no tool of this name.
 Status choose_tool(Assembly& assembly, std::string_view name);
 
-// The content folder (with schema/ and assemblies/): $BOLTWRIGHT_CONTENT, else beside or above the program
-// (build tree), else in the source tree that the program was built from. Empty if none exists.
+// The content folder (with schema/ and assemblies/): $BOLTWRIGHT_CONTENT; else content/ or
+// share/boltwright/content/ in the program's folder or a folder above it; else that of the source tree from
+// which the program was built. Empty if none exists, or if $BOLTWRIGHT_CONTENT is not a content folder.
 std::filesystem::path content_folder();
 
 // Creates a new assembly from the template: makes `folder` (fails if it exists and is not empty) and writes a

@@ -134,9 +134,9 @@ double largest_prevailing(std::string_view size) {
     return 0.0;
 }
 
-// A nut whose prevailing torque takes all of the torque leaves none to load the bolt.
+// Reports a prevailing torque that is unusually large, or that leaves no torque to load the bolt.
 void check_prevailing(const LayeredObject& layers, const JointType& type, double least_share) {
-    constexpr double margin = 1.5;  // on ISO 2320, for other classes, coatings and dry threads
+    constexpr double margin = 1.5;  // factor on ISO 2320, for other classes, coatings and dry threads
     const JsonNode node = layers.find("prevailing_torque_Nm");
     const double prevailing = type.design.prevailing_torque, target = type.spec.torque.target;
     if (!node || prevailing <= 0.0) return;

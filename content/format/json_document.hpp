@@ -29,7 +29,7 @@ std::string in_quotes(std::string_view text);
 // Returns the known name nearest to `name`; empty if none is close enough or several are equally close.
 std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
-// Error::expected for an unknown name: "did you mean "x"?" or "one of a, b, c".
+// Returns Error::expected for an unknown name: "did you mean "x"?" or "one of a, b, c".
 std::string suggest(std::string_view name, std::span<const std::string> known);
 
 // Limits of a content file, far above what authors need; they bound the cost of a hostile file.

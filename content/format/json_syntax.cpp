@@ -226,7 +226,7 @@ SyntaxError explain_syntax(std::string_view text, const ParserStop& stop, const 
     const ParserState before = stop.before;
     ExpectedToken expected_token = expected_after(before);
     std::size_t p = skip_space(text, stop.end);
-    // In a list a comma between digits may be intended.
+    // In a list, a comma between two numbers is probably a separator and not a decimal comma.
     if (before == ParserState::object_value ||
         (before == ParserState::array_value && p < text.size() && text[p] != ','))
         if (auto mistake = number_mistake(text, stop.end)) return *mistake;

@@ -26,12 +26,12 @@ std::string normalised(std::string_view text) {
          {"*", 'x'},
          {",", '.'},
          {"m", 'M'},
-         {"\u00A0", ' '},  // non-breaking
-         {"\u2009", ' '},  // do not break
-         {"\u202F", ' '},
+         {"\u00A0", ' '},  // no-break space
+         {"\u2009", ' '},  // thin
+         {"\u202F", ' '},  // narrow no-break
          {"\t", ' '}}};
     std::string result;
-    bool space_skipped = false;  // a space was skipped
+    bool space_skipped = false;
     while (!text.empty()) {
         const auto* const replacement =
             std::find_if(replacements.begin(), replacements.end(),

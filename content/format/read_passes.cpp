@@ -108,7 +108,7 @@ std::vector<std::size_t> read_order(JsonReader& reader, const JsonNode& node, co
     return order;
 }
 
-// The readable part of a pass.
+// A pass as read from the file. Invalid members are absent.
 struct ParsedPass {
     JsonNode node;
     std::optional<PassKind> kind;

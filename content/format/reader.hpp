@@ -47,8 +47,8 @@ class JsonReader {
     std::optional<bool> boolean(const JsonNode& node) const;
     std::optional<Vec3> vector(const JsonNode& node) const;
 
-    // Returns true if neither this value, nor a parent, nor any part of it violates the schema, and it is not
-    // missing by mistake.
+    // Returns true if this value, its parents and its parts conform to the schema. A missing value is valid
+    // unless the schema requires it or an unknown property is probably its misspelled name.
     [[nodiscard]] bool is_valid(std::string_view pointer) const;
 
     void report(std::string_view pointer, std::string what, std::string expected,
@@ -67,8 +67,8 @@ class JsonReader {
     std::set<std::string, std::less<>> names_read_;
 };
 
-// Objects in layers: a member is read from the first object that has it, for example from a patch before the
-// joint type.
+// Objects in layers: a member is read from the first object that has it. For example, the patch of a variant
+// precedes the joint type.
 class LayeredObject {
   public:
     LayeredObject(JsonReader& reader, std::vector<JsonNode> objects);
@@ -80,7 +80,7 @@ class LayeredObject {
     [[nodiscard]] LayeredObject member_layers(std::string_view key) const;
     [[nodiscard]] const std::vector<JsonNode>& objects() const { return objects_; }
     [[nodiscard]] bool is_valid() const;
-    // Returns true if the value of each of these keys, or its absence, is what the author intended.
+    // Returns true if each of these members is valid (JsonReader::is_valid). An absent member can be valid.
     [[nodiscard]] bool all_valid(std::initializer_list<std::string_view> keys) const;
     [[nodiscard]] JsonReader& reader() const { return reader_; }
 

@@ -1,5 +1,5 @@
-// Validation of a document against the assembly's JSON Schema (draft-07, the keywords that our schema uses),
-// with errors in an author's words.
+// Validation of a document against the assembly's JSON Schema (draft-07, the keywords that our schema uses).
+// The errors are worded for authors.
 #pragma once
 
 #include <map>
@@ -23,8 +23,8 @@ struct SchemaViolation {
 // The schema node of the value at `tokens` with references resolved; null if the schema has none.
 const nlohmann::json* schema_of(const nlohmann::json& schema, const std::vector<std::string>& tokens);
 
-// Explains what is wrong with the value itself and the names of its members, but not inside the members.
-// `name` is the member that holds the value; its suffix is the unit.
+// Explains what is wrong with the value itself and with the names of its members, but not with the values of
+// the members. `name` is the member that holds the value; its suffix is the unit.
 std::vector<SchemaViolation> explain_value(const nlohmann::json& schema, const nlohmann::json& node,
                                            const nlohmann::json& value, const std::string& name);
 

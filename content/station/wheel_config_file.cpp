@@ -10,7 +10,7 @@ using nlohmann::json;
 
 constexpr const char* format_name = "boltwright rig 1";
 constexpr std::size_t max_file_size = 1U << 16U;
-constexpr double max_counts_per_turn = 1U << 24U;  // counts per turn
+constexpr double max_counts_per_turn = 1U << 24U;
 
 }  // namespace
 

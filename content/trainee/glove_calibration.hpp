@@ -11,8 +11,7 @@ namespace bolt::content {
 
 struct GloveCalibration {
     std::string trainee;  // name
-    std::string
-        glove;  // which glove: the persistent name of its port, or the owner's name for it; may be empty
+    std::string glove;    // the persistent name of its port, or the owner's name for it; may be empty
     hand::Side hand = hand::Side::right;
     std::size_t sensors = 18;    // 18 or 22
     std::string date;            // of the calibration, as "2026-11-22"

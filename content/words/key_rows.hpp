@@ -8,11 +8,11 @@ namespace bolt::words {
 
 struct KeyRow {
     std::string_view name;
-    std::string_view
-        placeholders;  // names of the placeholders, separated by spaces; the text contains each as {name}
+    // Names of the placeholders, separated by spaces. The text contains each as {name}.
+    std::string_view placeholders;
 };
 
-// A text with singular and plural forms has two keys, NAME.one and NAME.many.
+// A text with a singular and a plural form has two keys, NAME.one and NAME.many.
 inline constexpr KeyRow key_rows[] = {
     // Hints: the next action (game/lesson/hints.cpp).
     {"hint.take_wrench", "size"},

@@ -37,7 +37,7 @@ class TextKey {
     std::uint16_t index_ = 0;
 };
 
-// One language has a text for every key, read from content/words/LANGUAGE.json:
+// A words file, content/words/LANGUAGE.json, has a text for every key:
 //
 //   {"format": "boltwright words 1", "language": "de", "name": "Deutsch", "decimal": ",",
 //    "words": {"hint.next": "Als Nächstes {joint}.", ...}}
@@ -80,7 +80,7 @@ struct LoadedWords {
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };
 LoadedWords parse_words(std::string_view text, std::string_view file);
-LoadedWords read_words(const std::filesystem::path& file);  // the file's name must be its language
+LoadedWords read_words(const std::filesystem::path& file);  // the file must be named LANGUAGE.json
 
 // `language`: a code for which `folder` has a file; otherwise the error lists the available codes.
 LoadedWords load_words(const std::filesystem::path& folder, std::string_view language);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "engine/assets/stb.hpp"
 #include "engine/base/file.hpp"
@@ -27,8 +28,9 @@ void append(void* context, void* data, int size) {
                                                static_cast<std::size_t>(size));
 }
 
-tl::unexpected<Error> image_error(const Image& image, const std::string& why) {
-    return fail(ErrorCode::bad_content, "the image " + (image.name.empty() ? "" : image.name + " ") + why);
+tl::unexpected<Error> image_error(const Image& image, const std::string& why, std::string expected = {}) {
+    return fail(ErrorCode::bad_content, "the image " + (image.name.empty() ? "" : image.name + " ") + why,
+                std::move(expected));
 }
 
 }  // namespace
@@ -46,8 +48,9 @@ Status decode(Image& image) {
     // Check the size before decoding, so that a few bytes cannot allocate all memory.
     if (width < 1 || height < 1 || width > side_limit || height > side_limit ||
         std::int64_t{width} * height > pixel_limit)
-        return image_error(image,
-                           "is larger than " + std::to_string(side_limit) + " pixels a side or 64 million");
+        return image_error(
+            image, fmt::format("has {} × {} pixels", width, height),
+            fmt::format("at most {} pixels a side and {} pixels in total", side_limit, pixel_limit));
     const std::unique_ptr<stbi_uc, FreePixels> pixels(
         stbi_load_from_memory(bytes, size, &width, &height, &channels, 0));
     if (!pixels) return image_error(image, "cannot be decoded");

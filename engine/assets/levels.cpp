@@ -85,7 +85,8 @@ class VertexRestorer {
           smooth_group_(smooth_groups(positions, normals)),
           vertices_at_(mesh.position_of, mesh.positions.size()) {}
 
-    // `level.indices`: into the welded positions before, into original and added vertices afterwards.
+    // Before the call, `level.indices` refer to the welded positions; afterwards, to the original and the
+    // added vertices.
     void restore(LevelOfDetail& level) const {
         const std::vector<std::uint32_t>& corners = level.indices;
         std::vector<glm::vec3> areas, faces;

@@ -11,7 +11,7 @@ namespace bolt::assets {
 
 // A copy of a vertex with another normal.
 struct AddedVertex {
-    std::uint32_t of = 0;  // index of the copied vertex
+    std::uint32_t source = 0;  // index of the copied vertex
     glm::vec3 normal{0.0F};
 };
 
@@ -36,9 +36,9 @@ struct LevelOptions {
 //
 // With `weld`, the mesh is simplified regardless of attribute seams, and every corner uses the vertex whose
 // normal is nearest to that of its face. Without `weld`, vertices that share a position stay on their seam;
-// use this for deformable and textured meshes. Where a normal deviates too much from its faces (at a removed
-// fillet or the rim of a flat), a vertex with a corrected normal is added. Without normals, no vertices are
-// added or welded.
+// use this for deformable and textured meshes. Where a normal deviates too much from its faces (where a
+// fillet was removed, or at the edge of a flat face), a vertex with a corrected normal is added. Without
+// normals, no vertices are added or welded.
 std::vector<LevelOfDetail> coarser_levels(std::span<const glm::vec3> positions,
                                           std::span<const glm::vec3> normals,
                                           std::span<const std::uint32_t> indices,

@@ -5,16 +5,6 @@
 
 namespace bolt::assets {
 
-namespace {
-
-void set_subtree(const Model& model, int index, const glm::mat4& parent, std::vector<glm::mat4>& world) {
-    const auto node = static_cast<std::size_t>(index);
-    world[node] = parent * local_transform(model.nodes[node]);
-    for (const int child : model.nodes[node].children) set_subtree(model, child, world[node], world);
-}
-
-}  // namespace
-
 std::vector<std::uint32_t> triangle_indices(const Primitive& primitive) {
     std::vector<std::uint32_t> corners = primitive.indices;
     if (corners.empty()) {
@@ -36,18 +26,35 @@ std::vector<std::uint32_t> triangle_indices(const Primitive& primitive) {
     return triangles;
 }
 
-glm::mat4 local_transform(const Node& node) {
-    return glm::translate(glm::mat4(1.0F), node.translation) * glm::mat4_cast(node.rotation) *
-           glm::scale(glm::mat4(1.0F), node.scale);
+glm::mat4 local_transform(const glm::vec3& translation, const glm::quat& rotation, const glm::vec3& scale) {
+    return glm::translate(glm::mat4(1.0F), translation) * glm::mat4_cast(rotation) *
+           glm::scale(glm::mat4(1.0F), scale);
 }
 
 std::vector<glm::mat4> world_transforms(const Model& model) {
-    std::vector<glm::mat4> world(model.nodes.size(), glm::mat4(1.0F));
+    std::vector<glm::mat4> local;
+    for (const Node& node : model.nodes)
+        local.push_back(local_transform(node.translation, node.rotation, node.scale));
+    return world_transforms(model, local);
+}
+
+std::vector<glm::mat4> world_transforms(const Model& model, std::span<const glm::mat4> local) {
+    std::vector<glm::mat4> world(local.begin(), local.end());
     std::vector<bool> is_child(model.nodes.size(), false);
     for (const Node& node : model.nodes)
         for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
+    std::vector<std::size_t> pending;
     for (std::size_t i = 0; i < model.nodes.size(); ++i)
-        if (!is_child[i]) set_subtree(model, static_cast<int>(i), glm::mat4(1.0F), world);
+        if (!is_child[i]) pending.push_back(i);
+    while (!pending.empty()) {
+        const std::size_t node = pending.back();
+        pending.pop_back();
+        for (const int index : model.nodes[node].children) {
+            const auto child = static_cast<std::size_t>(index);
+            world[child] = world[node] * local[child];
+            pending.push_back(child);
+        }
+    }
     return world;
 }
 

@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -137,7 +138,8 @@ struct Light {
 struct Camera {
     std::string name = {};
     bool perspective = true;
-    float yfov = 0.8F, aspect = 0.0F;  // rad; 0: the window's aspect ratio
+    float yfov = 0.8F;                 // rad
+    float aspect = 0.0F;               // width / height; 0: that of the window
     float xmag = 1.0F, ymag = 1.0F;    // m, half the width and height of an orthographic view
     float znear = 0.01F, zfar = 0.0F;  // m; zfar 0: infinite
 };
@@ -150,8 +152,9 @@ struct Channel {
     int node = -1;
     TargetPath path = TargetPath::translation;
     Interpolation interpolation = Interpolation::linear;
-    std::vector<float> times = {};   // s, strictly increasing
-    std::vector<float> values = {};  // 3, 4 or n floats per key; three times as many for cubic splines
+    std::vector<float> times = {};  // s, strictly increasing
+    // Per key: 3 floats, 4 for a rotation, or one per morph target; three times as many for cubic splines.
+    std::vector<float> values = {};
 };
 
 struct Animation {
@@ -177,10 +180,14 @@ struct Model {
 // lines.
 std::vector<std::uint32_t> triangle_indices(const Primitive& primitive);
 
-glm::mat4 local_transform(const Node& node);
+// Returns the matrix that scales, then rotates, then translates.
+glm::mat4 local_transform(const glm::vec3& translation, const glm::quat& rotation, const glm::vec3& scale);
 
 // Returns the rest-pose transforms of all nodes to world space, in the order of model.nodes. Nodes that the
 // default scene does not contain are included.
 std::vector<glm::mat4> world_transforms(const Model& model);
+
+// The same for other transforms of the nodes relative to their parents, `local`, in the order of model.nodes.
+std::vector<glm::mat4> world_transforms(const Model& model, std::span<const glm::mat4> local);
 
 }  // namespace bolt::assets

@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 
 namespace bolt::assets {
 
 namespace {
 
 glm::quat quaternion(const float* v) { return glm::quat(v[3], v[0], v[1], v[2]); }
-
-glm::mat4 local_transform(const NodePose& node) {
-    return glm::translate(glm::mat4(1.0F), node.translation) * glm::mat4_cast(node.rotation) *
-           glm::scale(glm::mat4(1.0F), node.scale);
-}
 
 // Spherical linear interpolation (appendix C.3) along the shorter arc; linear if the angle is too small to
 // divide by its sine.
@@ -27,25 +21,6 @@ glm::quat slerp(const glm::quat& from, const glm::quat& to, float t) {
 }
 
 void set_rotation(std::vector<float>& value, const glm::quat& q) { value = {q.x, q.y, q.z, q.w}; }
-
-void set_world_transforms(const Model& model, const ModelPose& pose, std::vector<glm::mat4>& world) {
-    std::vector<bool> is_child(model.nodes.size(), false);
-    for (const Node& node : model.nodes)
-        for (const int child : node.children) is_child[static_cast<std::size_t>(child)] = true;
-    std::vector<std::size_t> pending;
-    for (std::size_t i = 0; i < model.nodes.size(); ++i)
-        if (!is_child[i]) pending.push_back(i);
-    for (const std::size_t root : pending) world[root] = local_transform(pose[root]);
-    while (!pending.empty()) {
-        const std::size_t node = pending.back();
-        pending.pop_back();
-        for (const int index : model.nodes[node].children) {
-            const auto child = static_cast<std::size_t>(index);
-            world[child] = world[node] * local_transform(pose[child]);
-            pending.push_back(child);
-        }
-    }
-}
 
 }  // namespace
 
@@ -134,9 +109,10 @@ float duration(const Animation& animation) {
 }
 
 std::vector<glm::mat4> world_transforms(const Model& model, const ModelPose& pose) {
-    std::vector<glm::mat4> world(model.nodes.size(), glm::mat4(1.0F));
-    set_world_transforms(model, pose, world);
-    return world;
+    std::vector<glm::mat4> local;
+    for (const NodePose& node : pose)
+        local.push_back(local_transform(node.translation, node.rotation, node.scale));
+    return world_transforms(model, local);
 }
 
 std::vector<glm::mat4> joint_matrices(const Skin& skin, std::span<const glm::mat4> world) {

@@ -38,7 +38,7 @@ tl::unexpected<Error> disconnected() {
 void ignore_message(const char*, int, const char*, int, const char*, ...) {}
 
 // Without a sound card, ALSA prints eight lines to the console. They are suppressed, because the error is
-// reported anyway. ALSA is not linked: it is present only if OpenAL has loaded it.
+// reported anyway. ALSA is not linked, because it may not be installed.
 void silence_alsa() {
     void* alsa = dlopen("libasound.so.2", RTLD_LAZY);
     if (alsa == nullptr) return;
@@ -113,8 +113,8 @@ class OpenAl final : public Sink {
     }
 
   private:
-    // Starts playback at first and after an underrun, which stops the source. Waits until the queue is full,
-    // to avoid another underrun.
+    // Starts playback for the first time and after an underrun, which stops the source. Does nothing until
+    // the queue is full, to avoid another underrun.
     void start_if_stopped() {
         ALint state = AL_INITIAL;
         alGetSourcei(source_, AL_SOURCE_STATE, &state);

@@ -34,8 +34,8 @@ class Sink {
 
     [[nodiscard]] virtual std::string name() const = 0;
 
-    // Returns how many blocks can be queued now. After an error of this or the next functions the sink cannot
-    // be used any more.
+    // Returns how many blocks can be queued now. After an error of this function, play() or set_volume(), the
+    // sink cannot be used any more.
     virtual Result<std::size_t> free_blocks() = 0;
     virtual Status play(std::span<const float, block_size> samples) = 0;  // queues a block
     virtual Status set_volume(double volume) = 0;                         // 0 … 1

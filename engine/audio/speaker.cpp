@@ -71,7 +71,7 @@ namespace {
 
 // Half a block, so that the sink is polled twice per block.
 constexpr auto feed_interval = std::chrono::milliseconds(5);
-// Without a sink, only the next attempt to open it is due.
+// Without a sink there is nothing to feed: the thread only retries the opening when that is due.
 constexpr auto retry_interval = std::chrono::milliseconds(200);
 
 // Returns whether to publish the status. A new block count alone is published ten times per second.
@@ -90,7 +90,7 @@ struct Speaker::Shared {
     TripleBuffer<PlaybackStatus> published;
     std::mutex mutex;
     std::condition_variable_any stop_condition;
-    std::optional<bool> reported_playing;  // by the last status_change() that returned a line
+    std::optional<bool> reported_playing;  // `playing` in the last line that status_change() returned
     std::jthread thread;  // the last member: it joins before the members that it uses are destroyed
 
     void run(const std::stop_token& stop) {

@@ -118,7 +118,7 @@ Status WavWriter::finish() {
         const std::string why = std::strerror(errno);
         return s.fail_writing(why);
     }
-    s.first_error = Error{ErrorCode::failed, "is finished", {}, s.path.string(), 0, 0, {}, false};
+    s.first_error = Error{ErrorCode::failed, "is already finished", {}, s.path.string(), 0, 0, {}, false};
     if (s.not_regular) return {};
     std::error_code renamed;
     std::filesystem::rename(s.part, s.path, renamed);

@@ -12,8 +12,9 @@
 namespace bolt::audio {
 
 // The file is named `path`.part until finish() renames it; without finish() the destructor removes it. So
-// `path` is never incomplete. If `path` is a pipe or a device, it is written to directly, with an "unknown"
-// length, which FFmpeg and others accept. After an error, every later call returns the same error.
+// `path` is never incomplete. If `path` is a pipe or a device, it is written to directly, with the length
+// 0xFFFFFFFF (unknown), which FFmpeg and others accept. After an error, every later call returns the same
+// error.
 class WavWriter {
   public:
     static Result<WavWriter> create(const std::filesystem::path& path, int rate);  // Hz

@@ -47,9 +47,9 @@ Result<std::string> read_file(const std::filesystem::path& path, std::size_t lim
 Status write_file(const std::filesystem::path& path, std::string_view text) {
     std::error_code status;
     const std::filesystem::file_status target = std::filesystem::status(path, status);
-    const bool special = std::filesystem::exists(target) && !std::filesystem::is_regular_file(target);
+    const bool not_regular = std::filesystem::exists(target) && !std::filesystem::is_regular_file(target);
     std::filesystem::path part = path;
-    if (!special) part += ".part";  // a device or a pipe is written to, never replaced
+    if (!not_regular) part += ".part";  // a device or a pipe is written to, never replaced
     std::FILE* file = std::fopen(part.c_str(), "wb");
     if (file == nullptr)
         return file_error(path, ErrorCode::failed, std::string("cannot be written: ") + std::strerror(errno));
@@ -58,14 +58,15 @@ Status write_file(const std::filesystem::path& path, std::string_view text) {
     const bool closed = std::fclose(file) == 0;
     if (!written || !closed) {
         const int reason = written ? errno : write_errno;
-        if (!special) (void)std::remove(part.c_str());
+        if (!not_regular) (void)std::remove(part.c_str());
         return file_error(path, ErrorCode::failed,
                           std::string("cannot be written: ") + std::strerror(reason));
     }
-    if (special) return {};
+    if (not_regular) return {};
     std::filesystem::rename(part, path, status);
-    if (status) return file_error(path, ErrorCode::failed, "cannot be written: " + status.message());
-    return {};
+    if (!status) return {};
+    (void)std::remove(part.c_str());
+    return file_error(path, ErrorCode::failed, "cannot be written: " + status.message());
 }
 
 Status require_different_files(const std::filesystem::path& input, const std::filesystem::path& output) {

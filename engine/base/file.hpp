@@ -13,11 +13,12 @@
 
 namespace bolt {
 
-// Reads a whole file; fails if it is missing, not a regular file, or larger than `limit` bytes.
+// Reads a whole file. Fails if it is missing, a folder, or larger than `limit` bytes. `code`: of the error.
 Result<std::string> read_file(const std::filesystem::path& path, std::size_t limit, ErrorCode code);
 
 // Writes to a temporary file beside the target and renames it, so that a full disk never leaves a truncated
-// file under that name. If `path` is a device or a pipe, the text is written to it directly.
+// file under that name. After an error the temporary file is removed. If `path` is a device or a pipe, the
+// text is written to it directly.
 Status write_file(const std::filesystem::path& path, std::string_view text);
 
 // Fails if both paths name the same file, because writing the output would destroy the input.
@@ -30,7 +31,8 @@ struct FileStamp {
     bool exists = false;
     friend bool operator==(const FileStamp&, const FileStamp&) = default;
 };
-FileStamp stamp(const std::filesystem::path& file);  // of the file as it is now
+// Returns the stamp of the file as it is now.
+FileStamp stamp(const std::filesystem::path& file);
 
 // Detects file changes by polling. Polling works on every file system, and with editors that write a new file
 // and rename it over the old one. A change is reported only after the file has stayed unchanged for

@@ -65,8 +65,9 @@ class SpscRing {
 
 // The latest value. Neither side ever blocks; values that the reader does not poll in time are overwritten.
 // There are three slots: the writer's, the reader's, and one in the middle that each side exchanges with its
-// own. The exchange is the only shared operation. Its release publishes the written slot; its acquire ensures
-// that the other side has finished with the slot that it receives.
+// own. Both sides share only the atomic index of the middle slot. The release of an exchange publishes the
+// slot that this side gives away. Its acquire ensures that the other side has finished with the slot that
+// this side receives.
 template <class T>
 class TripleBuffer {
   public:
@@ -75,8 +76,10 @@ class TripleBuffer {
     TripleBuffer& operator=(const TripleBuffer&) = delete;
 
     // Writer only. slot() holds an older value until it is filled; the reader receives it after publish().
-    T& slot() { return slots_[writers_].value; }
-    void publish() { writers_ = middle_.exchange(writers_ | unseen, std::memory_order_acq_rel) & index; }
+    T& slot() { return slots_[writer_slot_].value; }
+    void publish() {
+        writer_slot_ = middle_.exchange(writer_slot_ | unseen_bit, std::memory_order_acq_rel) & index_mask;
+    }
     void write(const T& value) {
         slot() = value;
         publish();
@@ -84,14 +87,14 @@ class TripleBuffer {
 
     // Reader only. Returns true if latest() now gives a newer value.
     bool update() {
-        if ((middle_.load(std::memory_order_relaxed) & unseen) == 0) return false;
-        readers_ = middle_.exchange(readers_, std::memory_order_acq_rel) & index;
+        if ((middle_.load(std::memory_order_relaxed) & unseen_bit) == 0) return false;
+        reader_slot_ = middle_.exchange(reader_slot_, std::memory_order_acq_rel) & index_mask;
         return true;
     }
-    const T& latest() const { return slots_[readers_].value; }
+    const T& latest() const { return slots_[reader_slot_].value; }
 
   private:
-    static constexpr std::uint8_t index = 3, unseen = 4;
+    static constexpr std::uint8_t index_mask = 3, unseen_bit = 4;
     static constexpr std::size_t cache_line = 64;  // bytes, as above
     struct alignas(cache_line) Slot {
         T value;
@@ -100,8 +103,8 @@ class TripleBuffer {
 
     std::array<Slot, 3> slots_;
     alignas(cache_line) std::atomic<std::uint8_t> middle_{1};
-    alignas(cache_line) std::uint8_t writers_ = 0;
-    alignas(cache_line) std::uint8_t readers_ = 2;
+    alignas(cache_line) std::uint8_t writer_slot_ = 0;
+    alignas(cache_line) std::uint8_t reader_slot_ = 2;
 };
 
 }  // namespace bolt

@@ -20,6 +20,9 @@ constexpr double to_degrees(double radians) { return radians * (180.0 / pi); }
 
 constexpr double square(double x) { return x * x; }
 
+// Returns true if no component is infinite or NaN.
+inline bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
 // Returns the angle reduced to [-period/2, period/2].
 inline double wrap(double angle, double period) { return std::remainder(angle, period); }
 
@@ -52,10 +55,15 @@ inline Vec3 rotation_vector(const Quat& unit) {
     const double s = glm::length(v);
     return v * (s < 1e-8 ? 2.0 / q.w : 2.0 * std::atan2(s, q.w) / s);
 }
+// The rotation vector (rad, in the surrounding frame) that turns one orientation to the other; its angle is
+// in [0, π].
+inline Vec3 turn_between(const Quat& from, const Quat& to) {
+    return rotation_vector(glm::normalize(to * glm::conjugate(from)));
+}
 
-// The minimum-jerk profile of a hand's reach: the fraction of the distance covered at the fraction `tau` of
-// the duration, clamped to 0 … 1. 10τ³ − 15τ⁴ + 6τ⁵, at rest at both ends. Flash and Hogan, J. Neurosci. 5
-// (1985) 1688.
+// The minimum-jerk profile of a reaching hand: 10τ³ − 15τ⁴ + 6τ⁵, at rest at both ends (Flash and Hogan,
+// J. Neurosci. 5 (1985) 1688). `tau`: the fraction of the duration that has passed, clamped to 0 … 1. Returns
+// the fraction of the distance that the hand has covered.
 inline double minimum_jerk(double tau) {
     const double t = std::clamp(tau, 0.0, 1.0);
     return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));

@@ -39,7 +39,7 @@ std::string nearest(std::string_view name, std::span<const std::string> candidat
     for (const std::string& candidate : candidates) {
         const std::size_t distance = edit_distance(name, candidate);
         if (distance > best_distance || distance > limit) continue;
-        tie = distance == best_distance;
+        tie = distance == best_distance && (tie || candidate != best);  // duplicates are one candidate
         best_distance = distance;
         best = candidate;
     }

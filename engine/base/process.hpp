@@ -22,7 +22,7 @@ enum class Capture : std::uint8_t { output, output_and_errors };
 // our standard input. Fails if the program cannot be started.
 Result<ProgramResult> run_program(const std::vector<std::string>& command, Capture capture);
 
-// A running program that reads bytes from its standard input, such as FFmpeg that encodes pictures.
+// A running program that reads bytes from its standard input, such as FFmpeg, which encodes pictures.
 class ChildStdin {
   public:
     // The program is searched for on the PATH and inherits our output streams. Fails if it cannot be started.

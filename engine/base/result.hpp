@@ -28,8 +28,8 @@ struct Error {
     std::string pointer;   // JSON pointer (RFC 6901) of the value; may be empty
     bool lost = false;     // a device that worked before has disappeared; reopening it may succeed
 
-    // Returns "file:line:column: pointer: what; expected expected" without the unknown parts. The word
-    // "expected" is inserted unless the text already begins with "expected" or "did you mean".
+    // Returns "<file>:<line>:<column>: <pointer>: <what>; expected <expected>" without the unknown parts. The
+    // word "expected" is left out if the field already begins with "expected" or "did you mean".
     [[nodiscard]] std::string message() const;
 };
 

@@ -34,10 +34,10 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(ValidationLog& log) {
 }
 
 bool has_layer(const char* wanted) {
-    std::uint32_t count = 0;
-    vkEnumerateInstanceLayerProperties(&count, nullptr);
-    std::vector<VkLayerProperties> layers(count);
-    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    std::vector<VkLayerProperties> layers;
+    (void)enumerate(layers, [](std::uint32_t* count, VkLayerProperties* values) {
+        return vkEnumerateInstanceLayerProperties(count, values);
+    });
     return std::any_of(layers.begin(), layers.end(), [&](const VkLayerProperties& layer) {
         return std::strcmp(layer.layerName, wanted) == 0;
     });
@@ -80,10 +80,7 @@ Result<Instance> Instance::create(const InstanceOptions& options) {
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &validation_layer;
     }
-    if (Status created =
-            check(vkCreateInstance(&info, nullptr, &instance.instance_), "creating the Vulkan instance");
-        !created)
-        return fail(created.error());
+    BOLT_TRY(check(vkCreateInstance(&info, nullptr, &instance.instance_), "creating the Vulkan instance"));
     volkLoadInstance(instance.instance_);
     if (options.validation) {
         messenger.pNext = nullptr;
@@ -213,13 +210,14 @@ constexpr RequiredFeature required_features[] = {
 // with graphics and compute; nullopt if there is none. A null surface needs no presentation.
 std::optional<std::uint32_t> find_queue_family(VkPhysicalDevice physical, VkSurfaceKHR surface,
                                                bool& presents) {
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    std::vector<VkQueueFamilyProperties> families;
+    (void)enumerate(families, [&](std::uint32_t* count, VkQueueFamilyProperties* values) {
+        vkGetPhysicalDeviceQueueFamilyProperties(physical, count, values);
+        return VK_SUCCESS;
+    });
     std::optional<std::uint32_t> without_present;
     presents = surface == VK_NULL_HANDLE;
-    for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
         constexpr VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
         if ((families[i].queueFlags & both) != both) continue;
         if (!without_present) without_present = i;
@@ -235,10 +233,10 @@ std::optional<std::uint32_t> find_queue_family(VkPhysicalDevice physical, VkSurf
 }
 
 bool has_extension(VkPhysicalDevice physical, const char* wanted) {
-    std::uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    std::vector<VkExtensionProperties> extensions;
+    (void)enumerate(extensions, [&](std::uint32_t* count, VkExtensionProperties* values) {
+        return vkEnumerateDeviceExtensionProperties(physical, nullptr, count, values);
+    });
     return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
         return std::strcmp(extension.extensionName, wanted) == 0;
     });
@@ -285,13 +283,10 @@ DeviceCandidate describe(VkPhysicalDevice physical, VkSurfaceKHR surface) {
 
 Result<DeviceSurvey> survey_devices(const Instance& instance, const DeviceOptions& options) {
     DeviceSurvey survey;
-    std::uint32_t count = 0;
-    vkEnumeratePhysicalDevices(instance.get(), &count, nullptr);
-    survey.physical.resize(count);
-    if (Status listed = check(vkEnumeratePhysicalDevices(instance.get(), &count, survey.physical.data()),
-                              "enumerating GPUs");
-        !listed)
-        return fail(listed.error());
+    const VkResult listed = enumerate(survey.physical, [&](std::uint32_t* count, VkPhysicalDevice* values) {
+        return vkEnumeratePhysicalDevices(instance.get(), count, values);
+    });
+    BOLT_TRY(check(listed, "enumerating GPUs"));
     for (const VkPhysicalDevice physical : survey.physical)
         survey.candidates.push_back(describe(physical, options.surface));
     survey.choice = choose_device(survey.candidates, options.wanted);
@@ -302,7 +297,7 @@ Result<std::unique_ptr<Device>> Device::create(const Instance& instance, const D
     BOLT_TRY_ASSIGN(auto survey, survey_devices(instance, options));
     if (survey.choice.index < 0)
         return fail(ErrorCode::no_device,
-                    survey.physical.empty() ? "no Vulkan device survey"
+                    survey.physical.empty() ? "no Vulkan device was found"
                                             : fmt::format("no Vulkan device is usable: {}",
                                                           fmt::join(survey.choice.reasons, "; ")),
                     "a Vulkan 1.3 device; mesa-vulkan-drivers renders without a GPU");
@@ -336,10 +331,8 @@ Result<std::unique_ptr<Device>> Device::create(const Instance& instance, const D
         info.enabledExtensionCount = 1;
         info.ppEnabledExtensionNames = &swapchain;
     }
-    if (Status created = check(vkCreateDevice(device->physical_, &info, nullptr, &device->device_),
-                               fmt::format("creating a device on {}", device->name_));
-        !created)
-        return fail(created.error());
+    BOLT_TRY(check(vkCreateDevice(device->physical_, &info, nullptr, &device->device_),
+                   fmt::format("creating a device on {}", device->name_)));
     volkLoadDevice(device->device_);
     vkGetDeviceQueue(device->device_, device->queue_family_, 0, &device->queue_);
     device->memory_ = std::make_unique<Memory>(device->physical_, device->device_);

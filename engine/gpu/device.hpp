@@ -36,7 +36,6 @@ class Instance {
     ~Instance();
 
     [[nodiscard]] VkInstance get() const { return instance_; }
-    [[nodiscard]] bool validated() const { return messenger_ != VK_NULL_HANDLE; }
     [[nodiscard]] const ValidationLog& log() const { return *log_; }
 
   private:
@@ -86,7 +85,7 @@ struct DeviceCandidate {
 
 struct DeviceChoice {
     int index = -1;                    // -1: no device is usable
-    std::vector<std::string> reasons;  // one line per candidate: used, or why not
+    std::vector<std::string> reasons;  // one line per candidate: "used", or why it is not used
 };
 
 // Chooses by type (discrete, integrated, virtual, software), then by memory size. If `wanted` is not empty,
@@ -144,8 +143,8 @@ class Device {
 };
 
 // Decides whether to create the device again after the GPU was lost. Usually the system has reset a hanging
-// driver, which then works again. A device that is lost again shortly after a restart would be lost again and
-// again.
+// driver, which then works again. A device that is lost again shortly after a restart is not created again,
+// because it would be lost every time.
 class DeviceLossPolicy {
   public:
     // Reports a loss at time `now` (s). Returns true if the device should be created again.

@@ -9,11 +9,11 @@ namespace bolt::gpu {
 
 namespace {
 
-constexpr VkDeviceSize initial_ring_size = VkDeviceSize{1} << 20;
+constexpr VkDeviceSize initial_transient_size = VkDeviceSize{1} << 20;
 constexpr std::uint32_t max_timings = 64;
 constexpr std::uint32_t sets_per_pool = 256;
 
-Result<Buffer> make_ring(Device& device, VkDeviceSize size) {
+Result<Buffer> make_transient_buffer(Device& device, VkDeviceSize size) {
     return Buffer::create(device, size,
                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                               VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT |
@@ -29,27 +29,20 @@ Status FrameContext::prepare(Device& device) {
     pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool_info.queueFamilyIndex = device.queue_family();
     VkCommandPool pool = VK_NULL_HANDLE;
-    if (Status created =
-            check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &pool), "creating a command pool");
-        !created)
-        return created;
+    BOLT_TRY(check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &pool), "creating a command pool"));
     pool_ = CommandPool(device.get(), pool);
 
     VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     commands.commandPool = pool;
     commands.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     commands.commandBufferCount = 1;
-    if (Status created = check(vkAllocateCommandBuffers(device.get(), &commands, &commands_),
-                               "allocating a command buffer");
-        !created)
-        return created;
+    BOLT_TRY(
+        check(vkAllocateCommandBuffers(device.get(), &commands, &commands_), "allocating a command buffer"));
 
     VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     fence_info.flags = VK_FENCE_CREATE_SIGNALED_BIT;
     VkFence fence = VK_NULL_HANDLE;
-    if (Status created = check(vkCreateFence(device.get(), &fence_info, nullptr, &fence), "creating a fence");
-        !created)
-        return created;
+    BOLT_TRY(check(vkCreateFence(device.get(), &fence_info, nullptr, &fence), "creating a fence"));
     fence_ = Fence(device.get(), fence);
 
     if (device.limits().timestampComputeAndGraphics == VK_TRUE) {
@@ -57,14 +50,12 @@ Status FrameContext::prepare(Device& device) {
         queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
         queries.queryCount = 2 * max_timings;
         VkQueryPool query_pool = VK_NULL_HANDLE;
-        if (Status created = check(vkCreateQueryPool(device.get(), &queries, nullptr, &query_pool),
-                                   "creating a query pool");
-            !created)
-            return created;
+        BOLT_TRY(
+            check(vkCreateQueryPool(device.get(), &queries, nullptr, &query_pool), "creating a query pool"));
         queries_ = QueryPool(device.get(), query_pool);
     }
-    BOLT_TRY_ASSIGN(auto ring, make_ring(device, initial_ring_size));
-    ring_ = std::move(ring);
+    BOLT_TRY_ASSIGN(auto buffer, make_transient_buffer(device, initial_transient_size));
+    transient_buffer_ = std::move(buffer);
     return add_descriptor_pool();
 }
 
@@ -78,10 +69,8 @@ Status FrameContext::add_descriptor_pool() {
     info.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     info.pPoolSizes = sizes;
     VkDescriptorPool pool = VK_NULL_HANDLE;
-    if (Status created = check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool),
-                               "creating a descriptor pool");
-        !created)
-        return created;
+    BOLT_TRY(
+        check(vkCreateDescriptorPool(device_->get(), &info, nullptr, &pool), "creating a descriptor pool"));
     descriptor_pools_.emplace_back(device_->get(), pool);
     return {};
 }
@@ -90,16 +79,17 @@ Result<TransientRange> FrameContext::allocate(VkDeviceSize size) {
     const VkDeviceSize alignment =
         std::max({device_->limits().minUniformBufferOffsetAlignment,
                   device_->limits().minStorageBufferOffsetAlignment, VkDeviceSize{16}});
-    VkDeviceSize offset = (ring_used_ + alignment - 1) & ~(alignment - 1);
-    if (offset + size > ring_.size()) {
-        BOLT_TRY_ASSIGN(auto larger, make_ring(*device_, std::max(2 * ring_.size(), size)));
-        retired_.add(std::exchange(ring_, std::move(larger)));
+    VkDeviceSize offset = (transient_used_ + alignment - 1) & ~(alignment - 1);
+    if (offset + size > transient_buffer_.size()) {
+        BOLT_TRY_ASSIGN(auto larger,
+                        make_transient_buffer(*device_, std::max(2 * transient_buffer_.size(), size)));
+        retired_.add(std::exchange(transient_buffer_, std::move(larger)));
         offset = 0;
     }
-    ring_used_ = offset + size;
+    transient_used_ = offset + size;
     return TransientRange{
-        ring_.get(), offset,
-        ring_.bytes().subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size))};
+        transient_buffer_.get(), offset,
+        transient_buffer_.bytes().subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size))};
 }
 
 Result<VkDescriptorSet> FrameContext::descriptor_set(VkDescriptorSetLayout layout) {
@@ -154,7 +144,7 @@ Status FrameContext::reset() {
     BOLT_TRY(check(waited, "waiting for a frame"));
     read_timings();
     retired_.destroy();
-    ring_used_ = 0;
+    transient_used_ = 0;
     for (const DescriptorPool& pool : descriptor_pools_) vkResetDescriptorPool(device_->get(), pool.get(), 0);
     descriptor_pool_ = 0;
     return check(vkResetCommandPool(device_->get(), pool_.get(), 0), "resetting the command pool");

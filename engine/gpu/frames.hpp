@@ -74,8 +74,8 @@ class FrameContext {
     CommandPool pool_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     Fence fence_;
-    Buffer ring_;
-    VkDeviceSize ring_used_ = 0;
+    Buffer transient_buffer_;
+    VkDeviceSize transient_used_ = 0;
     std::vector<DescriptorPool> descriptor_pools_;
     std::size_t descriptor_pool_ = 0;
     RetiredResources retired_;

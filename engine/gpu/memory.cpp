@@ -55,6 +55,7 @@ struct Block {
     std::uint32_t type = 0;
     Memory::Tiling tiling = Memory::Tiling::linear;
     VkDeviceSize size = 0;
+    bool dedicated = false;  // to one resource
     std::byte* mapped = nullptr;
     FreeList free_list{0};
 };
@@ -157,11 +158,12 @@ Result<Allocation> Memory::allocate(const VkMemoryRequirements& needs, MemoryUse
     const VkDeviceSize block_size =
         std::min(default_block_size, properties_.memoryHeaps[chosen.heapIndex].size / 8);
 
+    const bool dedicated = needs.size > block_size / 2;
     Block* target = nullptr;
     std::optional<std::uint64_t> offset;
-    if (needs.size <= block_size / 2) {
+    if (!dedicated) {
         for (const std::unique_ptr<Block>& block : blocks_) {
-            if (block->type != *type || block->tiling != tiling) continue;
+            if (block->dedicated || block->type != *type || block->tiling != tiling) continue;
             if ((offset = block->free_list.allocate(needs.size, needs.alignment))) {
                 target = block.get();
                 break;
@@ -169,9 +171,8 @@ Result<Allocation> Memory::allocate(const VkMemoryRequirements& needs, MemoryUse
         }
     }
     if (target == nullptr) {
-        const VkDeviceSize size = needs.size <= block_size / 2 ? block_size : needs.size;
-        BOLT_TRY_ASSIGN(auto added, add_block(*type, size, tiling, visible));
-        target = added;
+        BOLT_TRY_ASSIGN(target, add_block(*type, dedicated ? needs.size : block_size, tiling, visible));
+        target->dedicated = dedicated;
         offset = target->free_list.allocate(needs.size, needs.alignment);
     }
     in_use_ += needs.size;
@@ -192,9 +193,8 @@ void Memory::free(Allocation& allocation) {
         return other.get() != block && other->type == block->type && other->tiling == block->tiling &&
                other->free_list.all_free();
     };
-    const bool dedicated = block->size > default_block_size;
     if (!block->free_list.all_free() ||
-        (!dedicated && std::none_of(blocks_.begin(), blocks_.end(), is_spare)))
+        (!block->dedicated && std::none_of(blocks_.begin(), blocks_.end(), is_spare)))
         return;
     vkFreeMemory(device_, block->memory, nullptr);
     std::erase_if(blocks_, [&](const std::unique_ptr<Block>& other) { return other.get() == block; });

@@ -60,9 +60,10 @@ struct Allocation {
     Block* block = nullptr;
 };
 
-// Resources share blocks of 64 MiB (less on small heaps); large resources get a dedicated block. Buffers and
-// optimally tiled images never share a block, so bufferImageGranularity is always respected. Host-visible
-// memory is mapped once, permanently, and is always coherent: no flush is needed. Not thread-safe.
+// Resources share blocks of 64 MiB (less on small heaps). Resources larger than half of that get a dedicated
+// block, which is released with them. Buffers and optimally tiled images never share a block, so
+// bufferImageGranularity is always respected. Host-visible memory is mapped once, permanently, and is always
+// coherent: no flush is needed. Not thread-safe.
 class Memory {
   public:
     Memory(VkPhysicalDevice physical, VkDevice device);

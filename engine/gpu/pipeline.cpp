@@ -205,10 +205,8 @@ Result<PipelineCache> PipelineCache::open(const Device& device, std::filesystem:
     info.initialDataSize = cache.restored_ ? stored.size() : 0;
     info.pInitialData = stored.data();
     VkPipelineCache created = VK_NULL_HANDLE;
-    if (Status ok =
-            check(vkCreatePipelineCache(device.get(), &info, nullptr, &created), "creating a pipeline cache");
-        !ok)
-        return fail(ok.error());
+    BOLT_TRY(
+        check(vkCreatePipelineCache(device.get(), &info, nullptr, &created), "creating a pipeline cache"));
     cache.cache_ = PipelineCacheHandle(device.get(), created);
     return cache;
 }
@@ -281,10 +279,8 @@ Status make_pipeline_layout(const Device& device, std::span<const Shader* const>
     info.pushConstantRangeCount = pipeline.push_size > 0 ? 1 : 0;
     info.pPushConstantRanges = &range;
     VkPipelineLayout layout = VK_NULL_HANDLE;
-    if (Status ok = check(vkCreatePipelineLayout(device.get(), &info, nullptr, &layout),
-                          "creating a pipeline layout");
-        !ok)
-        return ok;
+    BOLT_TRY(
+        check(vkCreatePipelineLayout(device.get(), &info, nullptr, &layout), "creating a pipeline layout"));
     pipeline.layout = PipelineLayout(device.get(), layout);
     return {};
 }

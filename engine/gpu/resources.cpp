@@ -14,10 +14,7 @@ Result<Buffer> Buffer::create(Device& device, VkDeviceSize size, VkBufferUsageFl
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = buffer.size_;
     info.usage = usage;
-    if (Status created =
-            check(vkCreateBuffer(device.get(), &info, nullptr, &buffer.buffer_), "creating a buffer");
-        !created)
-        return fail(created.error());
+    BOLT_TRY(check(vkCreateBuffer(device.get(), &info, nullptr, &buffer.buffer_), "creating a buffer"));
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(device.get(), buffer.buffer_, &needs);
     BOLT_TRY_ASSIGN(auto allocation, device.memory().allocate(needs, use, Memory::Tiling::linear));
@@ -65,10 +62,7 @@ Result<Image> Image::create(Device& device, const ImageInfo& requested) {
     info.samples = requested.samples;
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = requested.usage;
-    if (Status created =
-            check(vkCreateImage(device.get(), &info, nullptr, &image.image_), "creating an image");
-        !created)
-        return fail(created.error());
+    BOLT_TRY(check(vkCreateImage(device.get(), &info, nullptr, &image.image_), "creating an image"));
     VkMemoryRequirements needs{};
     vkGetImageMemoryRequirements(device.get(), image.image_, &needs);
     BOLT_TRY_ASSIGN(auto allocation,
@@ -94,10 +88,7 @@ Result<ImageView> Image::view(VkImageViewType type, std::uint32_t first_mip, std
     info.format = info_.format;
     info.subresourceRange = {info_.aspect(), first_mip, mips, first_layer, layers};
     VkImageView view = VK_NULL_HANDLE;
-    if (Status created =
-            check(vkCreateImageView(device_->get(), &info, nullptr, &view), "creating an image view");
-        !created)
-        return fail(created.error());
+    BOLT_TRY(check(vkCreateImageView(device_->get(), &info, nullptr, &view), "creating an image view"));
     return ImageView(device_->get(), view);
 }
 
@@ -137,9 +128,7 @@ Result<Sampler> make_sampler(const Device& device, const SamplerInfo& requested)
     info.maxLod = VK_LOD_CLAMP_NONE;
     info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
     VkSampler sampler = VK_NULL_HANDLE;
-    if (Status created = check(vkCreateSampler(device.get(), &info, nullptr, &sampler), "creating a sampler");
-        !created)
-        return fail(created.error());
+    BOLT_TRY(check(vkCreateSampler(device.get(), &info, nullptr, &sampler), "creating a sampler"));
     return Sampler(device.get(), sampler);
 }
 
@@ -250,20 +239,16 @@ Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)
     pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool_info.queueFamilyIndex = device.queue_family();
     VkCommandPool raw_pool = VK_NULL_HANDLE;
-    if (Status created = check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &raw_pool),
-                               "creating a command pool");
-        !created)
-        return created;
+    BOLT_TRY(
+        check(vkCreateCommandPool(device.get(), &pool_info, nullptr, &raw_pool), "creating a command pool"));
     const CommandPool pool(device.get(), raw_pool);
     VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocate.commandPool = pool.get();
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    if (Status created = check(vkAllocateCommandBuffers(device.get(), &allocate, &commands),
-                               "allocating a command buffer");
-        !created)
-        return created;
+    BOLT_TRY(
+        check(vkAllocateCommandBuffers(device.get(), &allocate, &commands), "allocating a command buffer"));
 
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -273,19 +258,14 @@ Status submit_and_wait(Device& device, const std::function<void(VkCommandBuffer)
 
     VkFenceCreateInfo fence_info{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     VkFence raw_fence = VK_NULL_HANDLE;
-    if (Status created =
-            check(vkCreateFence(device.get(), &fence_info, nullptr, &raw_fence), "creating a fence");
-        !created)
-        return created;
+    BOLT_TRY(check(vkCreateFence(device.get(), &fence_info, nullptr, &raw_fence), "creating a fence"));
     const Fence fence(device.get(), raw_fence);
     VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     submitted.commandBuffer = commands;
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &submitted;
-    if (Status sent = check(vkQueueSubmit2(device.queue(), 1, &submit, fence.get()), "submitting commands");
-        !sent)
-        return sent;
+    BOLT_TRY(check(vkQueueSubmit2(device.queue(), 1, &submit, fence.get()), "submitting commands"));
     const VkResult waited =
         vkWaitForFences(device.get(), 1, &raw_fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
     return check(waited, "waiting for commands");

@@ -129,8 +129,8 @@ void image_barrier(VkCommandBuffer commands, VkImage image, ResourceUse from, Re
                    const ImageRange& range = {});
 
 // The same for an image whose contents are not needed any more: waits for the last use, then discards the
-// contents. For targets that are redrawn each frame, while the GPU may still read the previous frame's
-// contents.
+// contents. Use it for targets that are redrawn in every frame, because the GPU may still read the previous
+// frame's contents.
 void image_barrier_discarding(VkCommandBuffer commands, VkImage image, ResourceUse last, ResourceUse to,
                               const ImageRange& range = {});
 

@@ -57,7 +57,7 @@ Status choose_format(const SurfaceSupport& support, SwapchainPlan& plan) {
         "VK_FORMAT_B8G8R8A8_SRGB or VK_FORMAT_R8G8B8A8_SRGB");
 }
 
-void choose_mode(const SurfaceSupport& support, const SwapchainRequest& request, SwapchainPlan& plan) {
+void choose_mode(const SurfaceSupport& support, SwapchainPlan& plan) {
     const auto supports = [&](VkPresentModeKHR mode) {
         return std::find(support.modes.begin(), support.modes.end(), mode) != support.modes.end();
     };
@@ -65,8 +65,6 @@ void choose_mode(const SurfaceSupport& support, const SwapchainRequest& request,
         plan.mode = mode;
         plan.reasons.push_back(fmt::format("{}: {}", name(mode), why));
     };
-    if (request.may_tear && supports(VK_PRESENT_MODE_IMMEDIATE_KHR))
-        return choose(VK_PRESENT_MODE_IMMEDIATE_KHR, "tearing is allowed");
     if (supports(VK_PRESENT_MODE_MAILBOX_KHR))
         return choose(VK_PRESENT_MODE_MAILBOX_KHR, "the newest picture, without tearing or queueing");
     choose(VK_PRESENT_MODE_FIFO_KHR, "mailbox is not available, fifo always is");
@@ -106,7 +104,7 @@ Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& support, const Swapch
     if ((capabilities.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0)
         return fail(ErrorCode::no_device, "the window's images do not support copies");
     BOLT_TRY(choose_format(support, plan));
-    choose_mode(support, request, plan);
+    choose_mode(support, plan);
     choose_extent(capabilities, request, plan);
 
     // One image is on the screen; in mailbox mode another one waits.
@@ -145,21 +143,16 @@ bool empty(VkExtent2D extent) { return extent.width == 0 || extent.height == 0; 
 Result<Semaphore> make_semaphore(const Device& device) {
     const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkSemaphore semaphore = VK_NULL_HANDLE;
-    if (Status created =
-            check(vkCreateSemaphore(device.get(), &info, nullptr, &semaphore), "creating a semaphore");
-        !created)
-        return fail(created.error());
+    BOLT_TRY(check(vkCreateSemaphore(device.get(), &info, nullptr, &semaphore), "creating a semaphore"));
     return Semaphore(device.get(), semaphore);
 }
 
 }  // namespace
 
 Result<std::unique_ptr<Swapchain>> Swapchain::create(Device& device, Surface surface,
-                                                     MakeSurface make_surface,
-                                                     const SwapchainOptions& options) {
+                                                     MakeSurface make_surface) {
     std::unique_ptr<Swapchain> swapchain(new Swapchain());
     swapchain->device_ = &device;
-    swapchain->options_ = options;
     swapchain->surface_ = std::move(surface);
     swapchain->make_surface_ = std::move(make_surface);
     for (Semaphore& semaphore : swapchain->acquire_semaphores_) {
@@ -224,7 +217,7 @@ Result<bool> Swapchain::recreate(VkExtent2D window) {
                                       "querying the surface capabilities");
         !queried || !*queried)
         return queried;
-    BOLT_TRY_ASSIGN(auto plan, plan_swapchain(support, {window, options_.may_tear, frames_in_flight}));
+    BOLT_TRY_ASSIGN(auto plan, plan_swapchain(support, {window, frames_in_flight}));
     suboptimal_is_normal_ = suboptimal_ && same(plan.extent, plan_.extent);
     plan_ = std::move(plan);
     window_ = window;

@@ -25,7 +25,6 @@ VkResult query_surface(VkPhysicalDevice gpu, VkSurfaceKHR surface, SurfaceSuppor
 
 struct SwapchainRequest {
     VkExtent2D window{};          // pixels; used if the surface does not determine the size
-    bool may_tear = false;        // do not wait for the screen; for measurements
     std::uint32_t in_flight = 2;  // frames that are drawn while others are presented
 };
 
@@ -46,10 +45,6 @@ Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& support, const Swapch
 // Creates the window's surface, at the start and after a loss.
 using MakeSurface = std::function<Result<Surface>()>;
 
-struct SwapchainOptions {
-    bool may_tear = false;
-};
-
 // Handles the window's changes: a new size, no area (minimised), a lost surface. A picture that cannot be
 // presented is dropped, and the swapchain is recreated for the next one. After a lost device the caller must
 // recreate everything created from the device. The device must have been created for a surface of the same
@@ -57,8 +52,7 @@ struct SwapchainOptions {
 class Swapchain {
   public:
     static Result<std::unique_ptr<Swapchain>> create(Device& device, Surface surface,
-                                                     MakeSurface make_surface,
-                                                     const SwapchainOptions& options = {});
+                                                     MakeSurface make_surface);
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
     ~Swapchain();
@@ -85,7 +79,6 @@ class Swapchain {
     Result<bool> handle(VkResult result, std::string_view what);
 
     Device* device_ = nullptr;
-    SwapchainOptions options_;
     MakeSurface make_surface_;
     Surface surface_;
     SwapchainHandle swapchain_;

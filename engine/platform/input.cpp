@@ -23,7 +23,7 @@ constexpr NamedKey named_keys[] = {
     {GLFW_KEY_BACKSPACE, Key::backspace, "Back"},
     {GLFW_KEY_SPACE, Key::space, "Space"},
     {GLFW_KEY_INSERT, Key::insert, "Insert"},
-    {GLFW_KEY_DELETE, Key::del, "Delete"},
+    {GLFW_KEY_DELETE, Key::delete_key, "Delete"},
     {GLFW_KEY_HOME, Key::home, "Home"},
     {GLFW_KEY_END, Key::end, "End"},
     {GLFW_KEY_PAGE_UP, Key::page_up, "Page up"},

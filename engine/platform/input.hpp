@@ -19,8 +19,8 @@ enum class Key : std::uint8_t {
     a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z,
     digit_0, digit_1, digit_2, digit_3, digit_4, digit_5, digit_6, digit_7, digit_8, digit_9,
     f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12,
-    escape, enter, tab, backspace, space, insert, del, home, end, page_up, page_down, left, right, up, down,
-    plus, minus, shift, control, alt, super,
+    escape, enter, tab, backspace, space, insert, delete_key, home, end, page_up, page_down,
+    left, right, up, down, plus, minus, shift, control, alt, super,
     // clang-format on
 };
 

@@ -1,5 +1,6 @@
 #include "engine/platform/pace.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 

@@ -61,12 +61,9 @@ glm::vec3 framing_eye(const BoundingBox& box, const glm::vec3& side, const Persp
     const glm::mat4 view = look_at(middle + back, middle);
     const float tan_y = std::tan(0.5F * p.fov), tan_x = tan_y * p.aspect;
     float distance = 0.0F;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 point((corner & 1) != 0 ? box.high.x : box.low.x,
-                              (corner & 2) != 0 ? box.high.y : box.low.y,
-                              (corner & 4) != 0 ? box.high.z : box.low.z);
+    for (int i = 0; i < 8; ++i) {
         const glm::vec3 in_view =
-            glm::vec3(view * glm::vec4(point, 1.0F)) + glm::vec3(0, 0, 1);  // relative to the middle
+            glm::vec3(view * glm::vec4(box.corner(i), 1.0F)) + glm::vec3(0, 0, 1);  // relative to the middle
         distance = std::max(
             {distance, std::abs(in_view.x) / tan_x + in_view.z, std::abs(in_view.y) / tan_y + in_view.z});
     }
@@ -75,10 +72,7 @@ glm::vec3 framing_eye(const BoundingBox& box, const glm::vec3& side, const Persp
 
 bool may_be_visible(const BoundingBox& box, const glm::mat4& clip_from_world) {
     glm::vec4 corners[8];
-    for (int i = 0; i < 8; ++i)
-        corners[i] = clip_from_world * glm::vec4((i & 1) != 0 ? box.high.x : box.low.x,
-                                                 (i & 2) != 0 ? box.high.y : box.low.y,
-                                                 (i & 4) != 0 ? box.high.z : box.low.z, 1.0F);
+    for (int i = 0; i < 8; ++i) corners[i] = clip_from_world * glm::vec4(box.corner(i), 1.0F);
     const auto all = [&](auto outside) {
         return std::all_of(std::begin(corners), std::end(corners), outside);
     };

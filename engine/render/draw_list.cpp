@@ -18,13 +18,13 @@ struct Item {
     const Object* object = nullptr;
     std::uint32_t model = 0;  // in order of first use
     std::uint32_t part = 0, level = 0;
-    float distance = 0.0F;  // of blended parts, to the first eye
+    float distance = 0.0F;  // m, to the first eye; orders blended parts
     bool outlined = false;
 };
 
 // Features whose values vary over a part, unlike the material's constants.
 constexpr std::uint32_t varying_features =
-    SCENE_BASE_MAP | SCENE_METALLIC_ROUGHNESS_MAP | SCENE_OCCLUSION_MAP | SCENE_VERTEX_COLORS | SCENE_MARKED;
+    SCENE_BASE_MAP | SCENE_METALLIC_ROUGHNESS_MAP | SCENE_OCCLUSION_MAP | SCENE_VERTEX_COLORS | SCENE_TINTED;
 
 PipelineKind kind_of(const Object& object, const MeshPart& part) {
     const MaterialMaps& maps = object.model->maps[part.material];
@@ -37,27 +37,24 @@ PipelineKind kind_of(const Object& object, const MeshPart& part) {
     kind.features = object.model->features[part.material];
     if (part.colors) kind.features |= SCENE_VERTEX_COLORS;
     if (part.tangents) kind.features |= SCENE_TANGENTS;
-    if (object.flat || object.tint.w > 0.0F || object.opacity < 1.0F) kind.features |= SCENE_MARKED;
+    if (object.flat || object.tint.w > 0.0F || object.opacity < 1.0F) kind.features |= SCENE_TINTED;
     const std::uint32_t f = kind.features;
     const bool coat_has_own_normal = (f & SCENE_COAT) != 0 && (f & SCENE_NORMAL_MAP) != 0;
     kind.forward = kind.blends || object.flat || coat_has_own_normal ||
                    (f & (SCENE_EMISSIVE_MAP | SCENE_FORWARD_MAPS)) != 0;
-    if (!kind.forward && (f & varying_features) != 0) kind.features |= SCENE_WIDE;
+    if (!kind.forward && (f & varying_features) != 0) kind.features |= SCENE_PER_PIXEL_MATERIAL;
     return kind;
 }
 
-// Returns the largest number of pixels per metre, at the box corner nearest to an eye, in any picture.
+// Returns the pixels per metre at the box corner nearest to an eye: the maximum over all eyes.
 float pixels_per_metre(const BoundingBox& box, std::span<const Eye> eyes, float height_px) {
     float most = 0.0F;
     for (const Eye& eye : eyes) {
         const glm::mat4& m = eye.clip_from_world;
         float nearest = 1e30F;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec4 point((corner & 1) != 0 ? box.high.x : box.low.x,
-                                  (corner & 2) != 0 ? box.high.y : box.low.y,
-                                  (corner & 4) != 0 ? box.high.z : box.low.z, 1.0F);
-            nearest = std::min(nearest, glm::dot(glm::vec4(m[0].w, m[1].w, m[2].w, m[3].w), point));
-        }
+        for (int i = 0; i < 8; ++i)
+            nearest = std::min(
+                nearest, glm::dot(glm::vec4(m[0].w, m[1].w, m[2].w, m[3].w), glm::vec4(box.corner(i), 1.0F)));
         if (nearest <= 0.0F) return 1e30F;  // the box reaches behind the eye
         most = std::max(most, glm::length(glm::vec3(m[0].y, m[1].y, m[2].y)) * 0.5F * height_px / nearest);
     }
@@ -165,12 +162,12 @@ DrawList make_draw_list(const Scene& scene, std::span<const Eye> eyes, const Det
                 item.kind.features |= SCENE_CUT;
                 if (!kind.forward) {
                     items.push_back(item);
-                    item.kind.features |= SCENE_CUT_REST;
+                    item.kind.features |= SCENE_CUT_FADING;
                 }
                 item.kind.blends = item.kind.forward = true;
                 if (!kind.forward) list.forward.push_back(cone_end(scene.cut_away));
                 item.kind.ghost = false;  // removed regions hide nothing
-                item.kind.features &= ~SCENE_WIDE;
+                item.kind.features &= ~SCENE_PER_PIXEL_MATERIAL;
                 item.outlined = item.outlined && kind.forward;
             }
             items.push_back(item);

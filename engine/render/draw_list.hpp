@@ -39,25 +39,29 @@ struct Draw {
     DeformedPart deformed;
 };
 
+// The geometry buffer stores the index of a material in 15 bits (shaders/surface.glsl). Renderer::render
+// fails if the list has more materials.
+inline constexpr std::size_t max_materials = 32768;
+
 struct DrawList {
     std::vector<shared::Instance> instances;
-    std::vector<shared::Material> materials;  // of all models
+    std::vector<shared::Material> materials;  // of all models, at most max_materials
     std::vector<Draw> draws;            // opaque ones sorted by state, then blended ones from far to near
     std::uint32_t features = 0;         // SCENE_… bits that parts in the geometry buffer need
-    std::vector<BoundingBox> forward;   // world: boxes of parts that are shaded while drawn
-    std::vector<BoundingBox> outlined;  // world: boxes of outlined parts
+    std::vector<BoundingBox> forward;   // in world space, of parts that are shaded while drawn
+    std::vector<BoundingBox> outlined;  // in world space, of outlined parts
     std::uint64_t triangles = 0;
 };
 
 // Limits for the error of levels of detail: the coarsest level within the limit is drawn.
 struct DetailLimits {
     float height_px = 0.0F;   // height of the picture
-    float allowed_px = 0.0F;  // error on the screen, for the nearest eye
-    float allowed_m = 0.0F;   // limit without eyes
+    float allowed_px = 0.0F;  // largest error on the screen, for the nearest eye
+    float allowed_m = 0.0F;   // largest error in the scene, used if there are no eyes (shadow map)
 };
 
-// Objects fade inside a cone from the eye to the cut-away's focus. Returns the box of the cone's end; in the
-// picture it covers the whole cone.
+// Objects fade inside a cone from the eye to the cut-away's focus. Returns the box of the sphere at the
+// cone's end; in the picture it covers the whole cone.
 BoundingBox cone_end(const CutAway& cut);
 
 // Returns the SCENE_… bits of the scene's lighting, which are the same for every part.

@@ -47,10 +47,10 @@ bool needs_tangents(const assets::Primitive& p, const assets::Material& material
 
 }  // namespace
 
-void copy_with_normal(Vertices& v, std::uint32_t of, const glm::vec3& normal) {
-    v.positions.push_back(glm::vec3(v.positions[of]));
-    v.sources.push_back(std::uint32_t{v.sources[of]});
-    v.attributes.push_back(VertexAttributes(v.attributes[of]));
+void copy_with_normal(Vertices& v, std::uint32_t source, const glm::vec3& normal) {
+    v.positions.push_back(glm::vec3(v.positions[source]));
+    v.sources.push_back(std::uint32_t{v.sources[source]});
+    v.attributes.push_back(VertexAttributes(v.attributes[source]));
     set(v.attributes.back().normal, normal, 0.0F);
 }
 
@@ -84,9 +84,9 @@ Vertices make_vertices(const assets::Primitive& p, const assets::Material& mater
     Vertices v;
     const std::vector<std::uint32_t> triangles = assets::triangle_indices(p);
     const auto uv_set = static_cast<std::size_t>(material.normal_texture.texcoord & 1);
-    const std::vector<glm::vec4> created =
+    const std::vector<glm::vec4> generated_tangents =
         needs_tangents(p, material, uv_set) ? make_tangents(p, uv_set) : std::vector<glm::vec4>();
-    const std::vector<glm::vec4>& tangents = p.tangents.empty() ? created : p.tangents;
+    const std::vector<glm::vec4>& tangents = p.tangents.empty() ? generated_tangents : p.tangents;
     v.tangents = !tangents.empty();
     if (!p.normals.empty()) {
         v.positions = p.positions;

@@ -1,6 +1,9 @@
 // Converts vertices, materials and textures to the layout that the shaders read.
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "engine/render/gpu_model.hpp"
 
 namespace bolt::render {
@@ -17,8 +20,8 @@ struct Vertices {
 // own. `material` determines whether missing tangents are generated.
 Vertices make_vertices(const assets::Primitive& primitive, const assets::Material& material);
 
-// Appends a copy of vertex `of` with another normal.
-void copy_with_normal(Vertices& vertices, std::uint32_t of, const glm::vec3& normal);
+// Appends a copy of vertex `source` with another normal.
+void copy_with_normal(Vertices& vertices, std::uint32_t source, const glm::vec3& normal);
 
 // Returns the direction of increasing u at every vertex; w: handedness (glTF 2.0, 3.7.2.1: the bitangent is
 // the cross product of normal and tangent, times w).
@@ -29,7 +32,8 @@ shared::Material make_material(const assets::Material& material);
 std::uint32_t features_of(const assets::Material& material);
 MaterialMaps maps_of(const assets::Material& material);
 
-// Uploads all textures of the model with mips. Colours are sRGB, other maps are linear values.
+// Uploads all textures of the model, with mips if the texture uses them. Colours are sRGB, other maps are
+// linear values.
 Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const assets::Model& model);
 
 // Creates a texture of one texel.

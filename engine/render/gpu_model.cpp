@@ -19,7 +19,7 @@ static_assert(sizeof(View) == 144 && offsetof(View, eye) == 128);
 static_assert(sizeof(Light) == 64);
 static_assert(offsetof(FrameData, lights) == 576 && offsetof(FrameData, diffuse) == 1088);
 static_assert(offsetof(FrameData, shadow_from_world) == 1232 && offsetof(FrameData, cut_strength) == 1376);
-static_assert(sizeof(FrameData) == 1408);
+static_assert(sizeof(FrameData) == 1392);
 static_assert(sizeof(Instance) == 112 && offsetof(Instance, flags) == 96);
 static_assert(sizeof(Material) == 448 && offsetof(Material, metallic) == 48 && offsetof(Material, uv) == 96);
 static_assert(sizeof(DeformPart) == 40);
@@ -30,12 +30,7 @@ namespace bolt::render {
 
 BoundingBox transformed(const BoundingBox& box, const glm::mat4& transform) {
     BoundingBox moved;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 point((corner & 1) != 0 ? box.high.x : box.low.x,
-                              (corner & 2) != 0 ? box.high.y : box.low.y,
-                              (corner & 4) != 0 ? box.high.z : box.low.z);
-        moved.add(glm::vec3(transform * glm::vec4(point, 1.0F)));
-    }
+    for (int i = 0; i < 8; ++i) moved.add(glm::vec3(transform * glm::vec4(box.corner(i), 1.0F)));
     return moved;
 }
 
@@ -187,7 +182,7 @@ std::vector<assets::LevelOfDetail> add_levels(const assets::Primitive& primitive
         for (std::uint32_t& index : level.indices)
             if (index >= own) index += more;
         for (const assets::AddedVertex& added : level.added)
-            copy_with_normal(vertices, added.of, added.normal);
+            copy_with_normal(vertices, added.source, added.normal);
     }
     return levels;
 }

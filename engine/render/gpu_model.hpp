@@ -1,6 +1,7 @@
 // Models in GPU memory, with the bounds and the deformation data of their parts.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
@@ -24,6 +25,10 @@ struct BoundingBox {
         high = glm::max(high, point);
     }
     [[nodiscard]] bool empty() const { return low.x > high.x; }
+    // Returns corner 0 … 7. Bits 0, 1 and 2 of `i` select the upper limit of x, y and z.
+    [[nodiscard]] glm::vec3 corner(int i) const {
+        return {(i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z};
+    }
 };
 
 // Returns the axis-aligned bounding box of a transformed box.

@@ -1,5 +1,7 @@
 #include "engine/render/renderer.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -20,9 +22,8 @@ shared::FrameData make_frame_data(const Scene& scene, std::span<const Eye> eyes,
         f.views[i].world_from_clip = glm::inverse(eyes[i].clip_from_world);
         f.views[i].eye = glm::vec4(eyes[i].position, 1.0F);
     }
-    f.view_count = static_cast<std::uint32_t>(eyes.size());
-    f.light_count = static_cast<std::uint32_t>(std::min<std::size_t>(scene.lights.size(), MAX_LIGHTS));
-    for (std::uint32_t i = 0; i < f.light_count; ++i) f.lights[i] = scene.lights[i].light;
+    const std::size_t lights = std::min<std::size_t>(scene.lights.size(), MAX_LIGHTS);
+    for (std::size_t i = 0; i < lights; ++i) f.lights[i] = scene.lights[i].light;
     for (std::size_t i = 0; i < environment.diffuse.size(); ++i)
         f.diffuse[i] = glm::vec4(environment.diffuse[i], 0.0F);
     f.environment = {scene.environment_intensity, scene.environment_turn,
@@ -45,8 +46,8 @@ template <class Pass>
 Result<Pass*> pass_for_views(std::map<std::uint32_t, Pass>& passes, const PassSetup& setup,
                              std::uint32_t views) {
     if (const auto known = passes.find(views); known != passes.end()) return &known->second;
-    BOLT_TRY_ASSIGN(auto created, Pass::create(setup, views));
-    return &passes.emplace(views, std::move(created)).first->second;
+    BOLT_TRY_ASSIGN(auto pass, Pass::create(setup, views));
+    return &passes.emplace(views, std::move(pass)).first->second;
 }
 
 }  // namespace
@@ -68,10 +69,8 @@ Status Renderer::prepare() {
         BOLT_TRY_ASSIGN(auto shader, load_shader(name, options_.shaders));
         shaders_.insert_or_assign(name, std::move(shader));
     }
-    if (Status s =
-            assign(no_environment_, upload_environment(*device_, shading::constant(glm::vec3(0.0F)), 8));
-        !s)
-        return s;
+    BOLT_TRY(assign(no_environment_,
+                    upload_environment(*device_, shading::constant_environment(glm::vec3(0.0F)), 8)));
     BOLT_TRY(assign(white_, plain_texture(*device_, {255, 255, 255, 255})));
     BOLT_TRY(assign(white_array_, white_.image.view(VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, 1, 0, 1)));
     return make_passes();
@@ -136,6 +135,10 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
     BOLT_TRY(deform_.draw(context));
     const DrawList list = make_draw_list(
         scene, eyes, {static_cast<float>(extent.height), options_.level_error_px, 0.0F}, deform_.parts());
+    if (list.materials.size() > max_materials)
+        return fail(ErrorCode::failed,
+                    fmt::format("the scene's models have {} materials", list.materials.size()),
+                    fmt::format("at most {}", max_materials));
     BOLT_TRY(assign(context.instances, upload_transient<shared::Instance>(frame, list.instances)));
     BOLT_TRY(assign(context.materials, upload_transient<shared::Material>(frame, list.materials)));
 
@@ -152,24 +155,24 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
         BOLT_TRY(surfaces_.draw(context, targets, list));
         if (scene.occlusion_radius > 0.0F) {
             BOLT_TRY_ASSIGN(auto occlusion, pass_for_views(occlusion_, setup, group.views_per_pass));
-            BOLT_TRY((occlusion)->draw(context, targets));
+            BOLT_TRY(occlusion->draw(context, targets));
             inputs.occlusion = targets.occlusion.view();
         }
         BOLT_TRY(light_.draw(context, targets, list, inputs));
         if (!list.forward.empty()) {
             BOLT_TRY_ASSIGN(auto forward, pass_for_views(forward_, setup, group.views_per_pass));
-            BOLT_TRY((forward)->draw(context, targets, list, light_, inputs));
+            BOLT_TRY(forward->draw(context, targets, list, light_, inputs));
         }
         if (!list.outlined.empty()) {
             BOLT_TRY_ASSIGN(auto outline, pass_for_views(outline_, setup, group.views_per_pass));
-            BOLT_TRY((outline)->draw(context, targets, list));
+            BOLT_TRY(outline->draw(context, targets, list));
         }
         BOLT_TRY(labels_.draw(context, targets));
         gpu::image_barrier(frame.commands(), targets.picture.get(), gpu::ResourceUse::color_target,
                            gpu::ResourceUse::transfer_from);
     }
     statistics_ = {list.triangles, static_cast<std::uint32_t>(list.draws.size()),
-                   static_cast<std::uint32_t>(list.instances.size()), shadow_.drawn()};
+                   static_cast<std::uint32_t>(list.instances.size()), shadow_.static_map_redrawn()};
     return {};
 }
 
@@ -209,10 +212,9 @@ Result<std::vector<Picture>> take_pictures(gpu::Device& device, gpu::Frames& fra
     BOLT_TRY(frames.finish());
     std::vector<Picture> pictures;
     for (std::uint32_t view = 0; view < eyes.size(); ++view) {
-        const ImageLayer created = renderer.picture(view);
-        BOLT_TRY_ASSIGN(auto texels,
-                        gpu::download_image(device, *created.image, gpu::ResourceUse::transfer_from, 4, 0,
-                                            created.layer));
+        const ImageLayer layer = renderer.picture(view);
+        BOLT_TRY_ASSIGN(auto texels, gpu::download_image(device, *layer.image,
+                                                         gpu::ResourceUse::transfer_from, 4, 0, layer.layer));
         Picture picture{extent.width, extent.height, std::vector<std::uint8_t>(texels.size())};
         std::memcpy(picture.rgba.data(), texels.data(), texels.size());
         pictures.push_back(std::move(picture));

@@ -1,4 +1,4 @@
-// The renderer, and pictures with insets and offscreen. Renderer::render runs these passes:
+// The renderer, insets, and pictures that are copied to the CPU. Renderer::render runs these passes:
 //
 //   deform     vertices of deformable parts, moved by joints and morph targets
 //   shadow     depth seen from light 0; static objects are cached

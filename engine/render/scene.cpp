@@ -19,7 +19,7 @@ constexpr std::uint32_t table_size = 48;
 std::uint16_t half(float x) { return glm::packHalf1x16(std::clamp(x, 0.0F, 65000.0F)); }
 
 // Uploads every level of every face from one staging buffer.
-Status upload_levels(gpu::Device& device, gpu::Image& image, const std::vector<shading::Cube>& levels) {
+Status upload_levels(gpu::Device& device, gpu::Image& image, const std::vector<shading::CubeMap>& levels) {
     std::vector<std::uint32_t> texels;
     std::vector<VkBufferImageCopy> regions;
     for (std::uint32_t level = 0; level < levels.size(); ++level) {
@@ -47,7 +47,7 @@ Status upload_levels(gpu::Device& device, gpu::Image& image, const std::vector<s
 
 Result<EnvironmentLight> upload_environment(gpu::Device& device, const shading::RadianceImage& radiance,
                                             std::uint32_t size) {
-    const std::vector<shading::Cube> levels = shading::prefilter(radiance, size);
+    const std::vector<shading::CubeMap> levels = shading::prefilter(radiance, size);
     gpu::ImageInfo info;
     // A shared-exponent format: half the size of four half floats, and faster to read without hardware
     // support.

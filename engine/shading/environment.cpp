@@ -37,7 +37,7 @@ float radiance_from(const SoftBox& box, const glm::vec3& direction) {
 
 }  // namespace
 
-glm::vec2 to_square(const glm::vec3& d) {
+glm::vec2 to_equirectangular(const glm::vec3& d) {
     return {0.5F + std::atan2(d.x, -d.z) / (2.0F * pi), std::acos(std::clamp(d.y, -1.0F, 1.0F)) / pi};
 }
 
@@ -48,7 +48,7 @@ glm::vec3 to_direction(const glm::vec2& uv) {
 }
 
 glm::vec3 lookup(const RadianceImage& image, const glm::vec3& direction) {
-    const glm::vec2 texel = to_square(direction) * glm::vec2(image.width, image.height) - 0.5F;
+    const glm::vec2 texel = to_equirectangular(direction) * glm::vec2(image.width, image.height) - 0.5F;
     const glm::vec2 corner = glm::floor(texel);
     const glm::vec2 f = texel - corner;
     const int x = static_cast<int>(corner.x);
@@ -63,9 +63,11 @@ glm::vec3 lookup(const RadianceImage& image, const glm::vec3& direction) {
                     f.y);
 }
 
-RadianceImage constant(const glm::vec3& radiance) { return {8, 4, std::vector<glm::vec3>(32, radiance)}; }
+RadianceImage constant_environment(const glm::vec3& radiance) {
+    return {8, 4, std::vector<glm::vec3>(32, radiance)};
+}
 
-RadianceImage studio(int width) {
+RadianceImage studio_environment(int width) {
     const SoftBox boxes[] = {
         {{-0.55F, 1.0F, 0.65F}, {0.55F, 0.45F}, 3.6F},  // key, above on the left
         {{1.0F, 0.35F, 0.35F}, {0.35F, 0.75F}, 1.3F},   // fill, on the right
@@ -125,7 +127,7 @@ float texel_solid_angle(std::uint32_t x, std::uint32_t y, std::uint32_t size) {
                               solid_angle_to(s + half, t - half) + solid_angle_to(s + half, t + half));
 }
 
-glm::vec3 lookup(const Cube& cube, const glm::vec3& d) {
+glm::vec3 lookup(const CubeMap& cube, const glm::vec3& d) {
     const glm::vec3 a = glm::abs(d);
     std::uint32_t face = 0;
     float s = 0.0F, t = 0.0F, m = 1.0F;
@@ -155,8 +157,8 @@ glm::vec3 lookup(const Cube& cube, const glm::vec3& d) {
                     glm::mix(cube.at(face, x0, y1), cube.at(face, x1, y1), fx), fy);
 }
 
-Cube make_cube(const RadianceImage& image, std::uint32_t size) {
-    Cube cube{size, {}};
+CubeMap make_cube(const RadianceImage& image, std::uint32_t size) {
+    CubeMap cube{size, {}};
     cube.texels.reserve(std::size_t{6} * size * size);
     for (std::uint32_t face = 0; face < 6; ++face) {
         for (std::uint32_t y = 0; y < size; ++y) {
@@ -172,8 +174,8 @@ Cube make_cube(const RadianceImage& image, std::uint32_t size) {
     return cube;
 }
 
-Cube halved(const Cube& cube) {
-    Cube half{cube.size / 2, {}};
+CubeMap halved(const CubeMap& cube) {
+    CubeMap half{cube.size / 2, {}};
     half.texels.reserve(cube.texels.size() / 4);
     for (std::uint32_t face = 0; face < 6; ++face)
         for (std::uint32_t y = 0; y < half.size; ++y)
@@ -213,7 +215,7 @@ std::vector<LobeSample> lobe(float roughness, std::uint32_t count, std::uint32_t
     return samples;
 }
 
-glm::vec3 lookup(const std::vector<Cube>& chain, const glm::vec3& direction, float level) {
+glm::vec3 lookup(const std::vector<CubeMap>& chain, const glm::vec3& direction, float level) {
     const float top = static_cast<float>(chain.size() - 1);
     const auto lower = static_cast<std::size_t>(std::clamp(level, 0.0F, top));
     const std::size_t upper = std::min(lower + 1, chain.size() - 1);
@@ -223,16 +225,16 @@ glm::vec3 lookup(const std::vector<Cube>& chain, const glm::vec3& direction, flo
 
 }  // namespace
 
-std::vector<Cube> prefilter(const RadianceImage& image, std::uint32_t size, std::uint32_t samples) {
-    std::vector<Cube> chain{make_cube(image, size)};
+std::vector<CubeMap> prefilter(const RadianceImage& image, std::uint32_t size, std::uint32_t samples) {
+    std::vector<CubeMap> chain{make_cube(image, size)};
     while (chain.back().size > 1) chain.push_back(halved(chain.back()));
-    std::vector<Cube> levels{chain.front()};
+    std::vector<CubeMap> levels{chain.front()};
     std::size_t count = 1;
     for (std::uint32_t s = size; s > 4; s /= 2) ++count;
     for (std::size_t level = 1; level < count; ++level) {
         const std::vector<LobeSample> directions =
             lobe(level_roughness(level, count), samples << level, size);
-        Cube cube{size >> level, {}};
+        CubeMap cube{size >> level, {}};
         for (std::uint32_t face = 0; face < 6; ++face) {
             for (std::uint32_t y = 0; y < cube.size; ++y) {
                 for (std::uint32_t x = 0; x < cube.size; ++x) {
@@ -256,7 +258,7 @@ std::vector<Cube> prefilter(const RadianceImage& image, std::uint32_t size, std:
     return levels;
 }
 
-Harmonics diffuse_harmonics(const Cube& cube) {
+Harmonics diffuse_harmonics(const CubeMap& cube) {
     Harmonics h{};
     for (std::uint32_t face = 0; face < 6; ++face) {
         for (std::uint32_t y = 0; y < cube.size; ++y) {

@@ -1,5 +1,6 @@
 // The Trowbridge–Reitz (GGX) distribution: evaluation, sampling and directional albedo. Directions are unit
-// vectors in tangent space, with the normal as z; `alpha` is the roughness along x and y.
+// vectors in tangent space, with the normal as z: `out` towards the eye, `in` towards the light, `half`
+// halfway between them. `alpha` is the square of a material's roughness; a vec2 gives it along x and y.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 
 namespace bolt::shading {
 
-// The van der Corput sequence in base 2, which covers the unit interval evenly: radical_inverse(i), i = 0, 1,
-// 2, …
 inline std::uint32_t reverse_bits(std::uint32_t x) {
     x = (x << 16U) | (x >> 16U);
     x = ((x & 0x00FF00FFU) << 8U) | ((x & 0xFF00FF00U) >> 8U);
@@ -25,6 +24,7 @@ inline std::uint32_t reverse_bits(std::uint32_t x) {
 // Maps to [0, 1). Uses 24 bits, because with more the float could be rounded to one.
 inline float unit_float(std::uint32_t x) { return static_cast<float>(x >> 8U) * 0x1p-24F; }
 
+// Returns number `i` of the van der Corput sequence in base 2, which covers the unit interval evenly.
 inline float radical_inverse(std::uint32_t i) { return unit_float(reverse_bits(i)); }
 
 inline float pow5(float x) { return x * x * x * x * x; }
@@ -73,9 +73,9 @@ inline float half_density(const glm::vec3& out, const glm::vec3& half, const glm
     return masking(out, alpha) * ggx(half, alpha) / (4.0F * out.z);
 }
 
-// The directional albedo of a GGX layer, split into the parts that scale with F0 and F90: x = ∫ D V (1 − (1 −
-// V·H)⁵) cos, y = ∫ D V (1 − V·H)⁵ cos, E = x + y. With single scattering, a specular layer reflects the
-// fraction F0 x + F90 y. `cosine` is N·V. Interpolated in a table; accurate within 0.002 everywhere.
+// The directional albedo E = x + y of a GGX layer, split into the parts that scale with F0 and F90:
+// x = ∫ D V (1 − (1 − V·H)⁵) cos, y = ∫ D V (1 − V·H)⁵ cos. With single scattering, a specular layer reflects
+// the fraction F0 x + F90 y. `cosine` is N·V. Interpolated in a table; accurate within 0.002 everywhere.
 glm::vec2 directional_albedo(float alpha, float cosine);
 
 // The same by numerical integration over `count` directions; used to build the table.

@@ -24,8 +24,8 @@ std::vector<Edge> edges_of(const GlyphOutline& outline) {
     return edges;
 }
 
-// Returns the direction in which an edge crosses height y (1 up, -1 down, 0 not at all), and where in `x`.
-// The edge is half-open, so that a vertex counts once.
+// Returns the direction in which an edge crosses height y: 1 up, -1 down, 0 not at all. Sets `x` to the
+// position of the crossing. The edge is half-open, so that a vertex that two edges share counts once.
 int crossing(const Edge& edge, double y, double& x) {
     if ((edge.a.y <= y) == (edge.b.y <= y)) return 0;
     x = edge.a.x + (y - edge.a.y) / (edge.b.y - edge.a.y) * (edge.b.x - edge.a.x);
@@ -64,8 +64,8 @@ class EdgesByHeight {
     std::vector<std::vector<Edge>> rows_;
 };
 
-// Cuts edges into pieces of at most `step` and removes the pieces that have both or neither side filled:
-// strokes of a glyph may overlap, as in Chinese fonts, and edges inside the union must not count.
+// Cuts edges into pieces of at most `step` and keeps the pieces that have exactly one side filled. Strokes of
+// a glyph may overlap, as in Chinese fonts, and edges inside their union are not part of the boundary.
 std::vector<Edge> boundary_pieces(const std::vector<Edge>& edges, const EdgesByHeight& by_height,
                                   double step) {
     std::vector<Edge> pieces;
@@ -92,7 +92,8 @@ double distance_squared(const Edge& edge, const glm::dvec2& p) {
     return glm::dot(d, d);
 }
 
-// Returns the first and the last of `count` rows or columns whose centres are between `low` and `high`.
+// Returns the indices of the first and the last of `count` rows or columns whose centres are between `low`
+// and `high`.
 std::pair<int, int> centres_between(double low, double high, int count) {
     return {std::max(0, static_cast<int>(std::ceil(low - 0.5))),
             std::min(count - 1, static_cast<int>(std::floor(high - 0.5)))};
@@ -158,7 +159,8 @@ constexpr double tolerance = 0.02 / Atlas::texels_per_em;
 
 }  // namespace
 
-// The background has the largest distance, because small text samples slightly beyond its glyphs.
+// Texels without a glyph get the largest outside distance, because small text samples slightly beyond its
+// glyphs.
 Atlas::Atlas(int size)
     : size_(size),
       texels_(static_cast<std::size_t>(size) * static_cast<std::size_t>(size),

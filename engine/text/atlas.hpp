@@ -23,7 +23,7 @@ DistanceField distance_field(const GlyphOutline& outline, double texels_per_em, 
 
 // The place of a glyph's distance field in the texture.
 struct AtlasGlyph {
-    glm::vec2 low{0.0F}, high{0.0F};        // em, relative to the glyph's origin; equal: nothing to draw
+    glm::vec2 low{0.0F}, high{0.0F};        // em from the glyph's origin; equal if there is nothing to draw
     glm::vec2 uv_low{0.0F}, uv_high{0.0F};  // 0 … 1; v increases with y
 };
 
@@ -36,7 +36,7 @@ class Atlas {
 
     explicit Atlas(int size);
 
-    // Returns a glyph, which is added if it is new; null if the atlas is full.
+    // Returns a glyph and adds it if it is new. Returns null if the atlas is full.
     const AtlasGlyph* glyph(const Fonts& fonts, const GlyphId& id);
 
     [[nodiscard]] int size() const { return size_; }
@@ -45,14 +45,15 @@ class Atlas {
     struct RowRange {
         int first = 0, count = 0;
     };
-    // Returns the rows that have changed since the last call; at the first call all rows.
+    // Returns the rows that have changed since the last call. The first call returns all rows.
     RowRange take_changed_rows();
 
   private:
     int size_;
     std::vector<std::uint16_t> texels_;
     std::map<GlyphId, AtlasGlyph> glyphs_;
-    int shelf_ = 0, shelf_height_ = 0, next_ = 0;  // shelf packing: position of the next glyph
+    // Shelf packing: the current shelf's first row and height, and the column of the next glyph.
+    int shelf_ = 0, shelf_height_ = 0, next_ = 0;
     int changed_low_ = 0, changed_high_;
 };
 

@@ -32,7 +32,7 @@ int segment_count(double second_derivative, double tolerance) {
 struct FontFace::Data {
     std::string bytes;
     stbtt_fontinfo info{};
-    float em = 1.0F;  // em per font unit
+    float em_per_unit = 1.0F;  // size of a font unit
     float ascent = 0.0F, descent = 0.0F;
 };
 
@@ -56,11 +56,11 @@ Result<FontFace> FontFace::read(const std::filesystem::path& file) {
         error.file = file.string();
         return fail(std::move(error));
     }
-    data->em = stbtt_ScaleForMappingEmToPixels(&data->info, 1.0F);
+    data->em_per_unit = stbtt_ScaleForMappingEmToPixels(&data->info, 1.0F);
     int ascent = 0, descent = 0, gap = 0;
     stbtt_GetFontVMetrics(&data->info, &ascent, &descent, &gap);
-    data->ascent = data->em * static_cast<float>(ascent);
-    data->descent = -data->em * static_cast<float>(descent);
+    data->ascent = data->em_per_unit * static_cast<float>(ascent);
+    data->descent = -data->em_per_unit * static_cast<float>(descent);
     return FontFace(std::move(data));
 }
 
@@ -71,11 +71,11 @@ int FontFace::glyph(char32_t point) const {
 float FontFace::advance(int glyph) const {
     int advance = 0, bearing = 0;
     stbtt_GetGlyphHMetrics(&data_->info, glyph, &advance, &bearing);
-    return data_->em * static_cast<float>(advance);
+    return data_->em_per_unit * static_cast<float>(advance);
 }
 
 float FontFace::kerning(int left, int right) const {
-    return data_->em * static_cast<float>(stbtt_GetGlyphKernAdvance(&data_->info, left, right));
+    return data_->em_per_unit * static_cast<float>(stbtt_GetGlyphKernAdvance(&data_->info, left, right));
 }
 
 float FontFace::ascent() const { return data_->ascent; }
@@ -85,7 +85,7 @@ GlyphOutline FontFace::outline(int glyph, double tolerance) const {
     stbtt_vertex* vertices = nullptr;
     const int count = stbtt_GetGlyphShape(&data_->info, glyph, &vertices);
     GlyphOutline outline;
-    const auto em = static_cast<double>(data_->em);
+    const auto em = static_cast<double>(data_->em_per_unit);
     glm::dvec2 at(0.0);
     for (int i = 0; i < count; ++i) {
         const stbtt_vertex& v = vertices[i];
@@ -115,7 +115,7 @@ GlyphOutline FontFace::outline(int glyph, double tolerance) const {
 }
 
 FontFace::Raster FontFace::raster(int glyph, float em_px, float shift) const {
-    const float scale = em_px * data_->em;
+    const float scale = em_px * data_->em_per_unit;
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
     stbtt_GetGlyphBitmapBoxSubpixel(&data_->info, glyph, scale, scale, shift, 0.0F, &x0, &y0, &x1, &y1);
     Raster raster{x1 - x0, y1 - y0, x0, -y0, {}};

@@ -19,7 +19,7 @@ using GlyphOutline = std::vector<std::vector<glm::dvec2>>;
 // stb_truetype does not validate its input: read only system fonts.
 class FontFace {
   public:
-    // Reads a TrueType or OpenType file; of a collection, its first face.
+    // Reads a TrueType or OpenType file, or the first face of a collection.
     static Result<FontFace> read(const std::filesystem::path& file);
 
     FontFace(FontFace&&) noexcept;
@@ -55,7 +55,7 @@ struct FontFile {
     std::string package;  // the package that contains it
 };
 
-// Returns the fonts of all texts, in order of priority.
+// Returns the fonts in which all text is drawn, in order of priority.
 const std::vector<FontFile>& font_files();
 
 // Returns the folders with fonts: the one in the environment variable BOLTWRIGHT_FONTS, or the system's.

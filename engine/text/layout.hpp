@@ -24,7 +24,8 @@ struct TextLayout {
 };
 
 // Lays text out from left to right: one glyph per code point, with kerning, but without the shaping that
-// joining scripts need. `align` positions lines shorter than the longest: 0 left, 0.5 centred, 1 right.
+// scripts with joined letters (such as Arabic) need. `align` positions lines shorter than the longest: 0
+// left, 0.5 centred, 1 right.
 TextLayout lay_out(const Fonts& fonts, std::string_view utf8, float align = 0.0F);
 
 }  // namespace bolt::text

@@ -20,7 +20,7 @@ enum class UiKey : std::uint8_t {
     home,
     end,
     insert,
-    erase,  // the key Delete
+    delete_key,
     backspace,
     space,
     enter,

@@ -314,7 +314,7 @@ Result<Comparison> compare(const session::SessionReader& session, const Measured
     Comparison result;
     result.session = session.file();
     result.title = title_of(assembly);
-    result.law = session.header().law;
+    result.law = joint::name(session.header().law);
     result.variant = session.header().variant;
     result.measured_file = measured.file;
     result.source = measured.source;

@@ -50,11 +50,11 @@ HapticMetricsBuilder::HapticMetricsBuilder(const session::Header& header,
                                            std::span<const lesson::LessonEvent> events,
                                            std::vector<Vec3> seats)
     : dt_(header.dt), seats_(std::move(seats)) {
-    metrics_.recorded = !header.servo.empty();
-    metrics_.obstacles = !header.obstacles.empty() && header.obstacles != "none";
-    metrics_.guided = header.guide.empty() ? header.mode == "guided" : header.guide == "on";
-    metrics_.device = session::parse_limits(header.device);
-    metrics_.servo = header.servo;
+    metrics_.recorded = header.servo_rate.has_value();
+    metrics_.obstacles = !header.contact_models.value_or("").empty();
+    metrics_.guided = header.guide.value_or(header.mode == lesson::Mode::guided);
+    metrics_.device = header.device;
+    if (header.servo_rate) metrics_.servo = session::servo_text(*header.servo_rate);
     for (const lesson::LessonEvent& event : events)
         if (event.kind == lesson::EventKind::step_begin)
             steps_.push_back({event.tick, event.joint});

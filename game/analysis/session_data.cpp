@@ -54,10 +54,7 @@ Result<content::Assembly> stored_assembly(const session::SessionReader& session)
         error.what = "the assembly stored in this session cannot be read: " + loaded.errors.front().message();
         return fail(std::move(error));
     }
-    for (const joint::Law law : {joint::Law::published, joint::Law::mechanistic})
-        if (header.law == joint::name(law)) loaded.assembly.law = law;
-    const joint::Law law = loaded.assembly.law;
-    return lesson::apply_law(std::move(loaded.assembly), law);
+    return lesson::apply_law(std::move(loaded.assembly), header.law);
 }
 
 std::vector<lesson::JointResult> results_by_joint(const content::Assembly& assembly,

@@ -42,7 +42,7 @@ struct SessionData {
     HapticMetrics metrics;
 
     [[nodiscard]] joint::Direction direction() const {
-        return header.task == "loosen" ? joint::Direction::loosen : joint::Direction::tighten;
+        return header.task == lesson::Task::loosen ? joint::Direction::loosen : joint::Direction::tighten;
     }
 };
 

@@ -12,6 +12,7 @@
 #include "content/trainee/glove_calibration.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
+#include "engine/base/steady_seconds.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/station_setup.hpp"
 #include "haptics/hand/glove_calibration.hpp"
@@ -34,10 +35,6 @@ struct GloveArguments {
     double hand_length_mm = 1e3 * hand::skeleton_length;
     double seconds = 10.0;
 };
-
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::string today() { return fmt::format("{:%Y-%m-%d}", fmt::localtime(std::time(nullptr))); }
 
@@ -72,9 +69,10 @@ Result<GloveReader> open(GloveArguments& options) {
         options.port = ports.front().string();
     }
     GloveReader reader{hand::GloveDriver::start(options.port)};
-    for (const double from = now(); now() - from < frame_timeout; std::this_thread::sleep_for(poll_period)) {
+    for (const double from = steady_seconds(); steady_seconds() - from < frame_timeout;
+         std::this_thread::sleep_for(poll_period)) {
         if (reader.next() != nullptr) return reader;
-        if (!reader.driver.report().open && now() - from > port_timeout) break;
+        if (!reader.driver.report().open && steady_seconds() - from > port_timeout) break;
     }
     const hand::GloveReport& report = reader.driver.report();
     return fail(
@@ -115,10 +113,9 @@ Result<hand::CalibrationResult> record_postures(GloveReader& reader) {
         }
         std::this_thread::sleep_for(poll_period);
         const hand::GloveSample* sample = reader.next();
-        update(session, sample == nullptr ? nullptr : &sample->frame, now());
+        update(session, sample == nullptr ? nullptr : &sample->frame, steady_seconds());
     }
-    if (!session.result)
-        return fail(ErrorCode::failed, hand::message_for(session.trouble), "a new calibration");
+    if (session.failure) return fail(*session.failure);
     return std::move(*session.result);
 }
 
@@ -182,7 +179,7 @@ Status show(GloveArguments options) {
     wearer.hand = hand::make_hand(stored.hand, stored.hand_length);
     hand::MeasuredHand measured;
     double last_printed = 0.0;
-    for (const double until = now() + options.seconds; now() < until;
+    for (const double until = steady_seconds() + options.seconds; steady_seconds() < until;
          std::this_thread::sleep_for(poll_period)) {
         const hand::GloveSample* sample = reader.next();
         if (sample == nullptr) continue;

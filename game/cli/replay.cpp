@@ -150,18 +150,19 @@ Status print_verification(const session::SessionReader& session, const session::
                              replayed.ticks, static_cast<double>(replayed.ticks) * dt));
 }
 
-// The outputs of a replay. Each tick is first written into the world, where film and sound read it.
+// The outputs of a replay, which read its world.
 struct ReplayOutputs {
     std::unique_ptr<film::Film> film;
     world::World world_without_film;
     std::optional<ReplayCamera> camera;
     std::optional<ReplaySound> sound;
 
+    world::WriteHaptics world() {
+        return film ? world::WriteHaptics(film->world()) : world::WriteHaptics(world_without_film);
+    }
     // Returns false if no output needs more ticks, or one has failed.
     bool add(const session::ReplayTick& moment) {
-        const world::WriteHaptics world = film ? world::WriteHaptics(film->world()) : world_without_film;
-        world::write_snapshot(world, {moment.state, moment.input, moment.output});
-        const bool drawing = camera && camera->draw(moment), recording = sound && sound->add(moment, world);
+        const bool drawing = camera && camera->draw(moment), recording = sound && sound->add(moment, world());
         if ((camera && camera->failed()) || (sound && sound->failed())) return false;
         return drawing || recording || (!camera && !sound);
     }
@@ -227,7 +228,7 @@ Status run_replay(ReplayOptions options) {
     if (both) name_temporary_files(options.video, options.wav, temporary);
     const std::string pictures = both ? temporary.pictures.string() : options.video;
     const std::string wav = options.wav.empty() ? temporary.sound.string() : options.wav;
-    const hand::Side hand = session.header().hand == "left" ? hand::Side::left : hand::Side::right;
+    const hand::Side hand = session.header().hand.value_or(hand::Side::right);
     ReplayOutputs outputs;
     world::add_haptics(outputs.world_without_film, at.state);
 
@@ -235,7 +236,7 @@ Status run_replay(ReplayOptions options) {
         BOLT_TRY(add_camera(options, at, hand, pictures, outputs));
     if (sounds) BOLT_TRY(add_sound(options, at, wav, outputs));
     BOLT_TRY_ASSIGN(const auto replayed,
-                    session::replay(session, std::move(at),
+                    session::replay(session, std::move(at), outputs.world(),
                                     [&](const session::ReplayTick& moment) { return outputs.add(moment); }));
     BOLT_TRY(outputs.finish());
     if (both) BOLT_TRY(merge_film(pictures, wav, options.video));

@@ -21,25 +21,100 @@ std::optional<std::size_t> active_joint(const scene::SceneWorld& world, const le
     return due != nullptr ? std::optional(due->joint) : std::nullopt;
 }
 
-}  // namespace
-
-struct Film::GpuResources {
+struct GpuResources {
     std::optional<gpu::Instance> instance;
     view::GpuContext gpu_context;
     std::unique_ptr<scene::GpuLessonModels> models;
+
+    GpuResources() = default;
+    GpuResources(const GpuResources&) = delete;
+    GpuResources& operator=(const GpuResources&) = delete;
     ~GpuResources() {
         if (gpu_context.device) (void)gpu_context.device->idle();
     }
 };
 
+}  // namespace
+
+struct FilmState {
+    FilmOptions options;
+    GpuResources gpu;
+    scene::Workplace workplace;
+    scene::Postures postures;
+    Vec3 shoulder{0.0};
+    render::Scene scene;
+    view::CameraGlide camera;
+    motion::VisibilityModel visibility;
+    std::optional<std::size_t> followed_joint;
+};
+
+namespace {
+
+// Input of the systems of one picture.
+struct FilmFrame {
+    FilmState& film;
+    const session::ReplayTick& tick;
+    double seconds = 0.0;  // since the previous picture
+};
+
+void placement_system(scene::SceneWorld& world, FilmFrame& frame) {
+    const FilmState& film = frame.film;
+    const servo::State& state = frame.tick.state;
+    const std::size_t grip =
+        scene::natural_grip(film.postures, world.only<world::HeldTool>().pose, Vec3(0, 1, 0), film.shoulder);
+    scene::placement_system(world,
+                            {frame.tick.setup, film.postures, film.shoulder, grip,
+                             std::abs(scene::relative_torque(frame.tick.setup, world)), 0.0, frame.seconds,
+                             state.tool_contact ? &state.tool_contact->world : nullptr});
+}
+
+// Moves the camera to the active joint when it changes, and cuts away what hides a held nut.
+void view_system(scene::SceneWorld& world, FilmFrame& frame) {
+    FilmState& film = frame.film;
+    const session::ReplayTick& tick = frame.tick;
+    film.scene.cut_away.strength = 0.0F;
+    if (const std::int16_t held = world.only<world::ContactState>().joint; held >= 0)
+        scene::fade_occluders(world, film.scene, tick.setup, static_cast<std::size_t>(held));
+    const auto joint = active_joint(world, tick.lesson);
+    if (film.options.view.empty() && joint && film.followed_joint != joint) {
+        const view::ViewTarget of{tick.setup, tick.state.tool_contact ? &*tick.state.tool_contact : nullptr,
+                                  *joint, world::nut_centre(world, tick.setup, *joint), std::nullopt};
+        film.camera.glide_to(view::find_view(of, film.visibility, film.camera.goal));
+        film.followed_joint = joint;
+    }
+    (void)film.camera.advance(frame.seconds);
+    scene::fade_near_arms(world, Vec3(view::viewpoint_of(film.camera.shown).eye));
+}
+
+void label_system(scene::SceneWorld& world, FilmFrame& frame) {
+    FilmState& film = frame.film;
+    film.scene.labels.clear();
+    if (const auto label = scene::work_label(film.options.words, frame.tick.lesson, frame.tick.setup, world))
+        film.scene.labels.push_back(*label);
+}
+
+void present_system(scene::SceneWorld& world, FilmFrame& frame) {
+    scene::appearance_system(world);
+    view::collect_objects(world, frame.film.scene);
+}
+
+// In the order in which they run: those of a lesson (trainer::frame_systems) that a film needs.
+constexpr ecs::System<scene::SceneWorld, FilmFrame> film_systems[] = {{"placement", placement_system},
+                                                                      {"view", view_system},
+                                                                      {"labels", label_system},
+                                                                      {"present", present_system}};
+
+}  // namespace
+
+Film::Film(std::unique_ptr<FilmState> state) : state_(std::move(state)) {}
 Film::~Film() = default;
 
+scene::SceneWorld& Film::world() { return state_->workplace.world; }
+
 Result<std::unique_ptr<Film>> Film::create(const session::SessionSetup& start, const FilmOptions& options) {
-    std::unique_ptr<Film> film(new Film);
-    film->options_ = options;
-    film->assembly_ = start.assembly;
-    film->gpu_ = std::make_unique<GpuResources>();
-    GpuResources& gpu = *film->gpu_;
+    auto film = std::make_unique<FilmState>();
+    film->options = options;
+    GpuResources& gpu = film->gpu;
     Result<scene::LessonModels> models = scene::load_lesson_models(start.assembly, options.hand);
     if (!models) return fail(models.error());
     view::Viewpoint first = view::default_viewpoint({}, view::default_fov, 1.0F);
@@ -69,72 +144,39 @@ Result<std::unique_ptr<Film>> Film::create(const session::SessionSetup& start, c
     Result<scene::Workplace> workplace =
         scene::make_workplace(std::move(world), *models, *gpu.models, start.assembly, start.setup);
     if (!workplace) return fail(workplace.error());
-    film->workplace_ = std::move(*workplace);
-    film->scene_ = scene::make_lit_scene(film->workplace_, gpu.models->light);
-    film->postures_ =
+    film->workplace = std::move(*workplace);
+    film->scene = scene::make_lit_scene(film->workplace, gpu.models->light);
+    film->postures =
         scene::make_postures(start.state.tool_contact ? &start.state.tool_contact->wrench : nullptr,
                              start.setup.wrench.handle_length, options.hand, scene::widest_nut(start.setup));
-    film->workplace_.world.only<world::WorkingHand>().rest =
-        scene::wrench_rest_pose(film->workplace_.machine, start.assembly.wrench.head_thickness, options.hand);
+    film->workplace.world.only<world::WorkingHand>().rest =
+        scene::wrench_rest_pose(film->workplace.machine, start.assembly.wrench.head_thickness, options.hand);
     if (options.view.empty() && models->machine.views.empty())
         first = view::default_viewpoint(
-            film->workplace_.machine, view::default_fov,
+            film->workplace.machine, view::default_fov,
             static_cast<float>(options.size.width) / static_cast<float>(options.size.height));
-    film->camera_.jump(view::orbit_of(first));
-    return film;
-}
-
-// Moves the camera to the active joint when it changes.
-void Film::update_camera(const session::ReplayTick& tick) {
-    const auto joint = active_joint(workplace_.world, tick.lesson);
-    if (!options_.view.empty() || !joint || followed_joint_ == joint) return;
-    const view::ViewTarget of{tick.setup, tick.state.tool_contact ? &*tick.state.tool_contact : nullptr,
-                              *joint, world::nut_centre(workplace_.world, tick.setup, *joint), std::nullopt};
-    camera_.glide_to(view::find_view(of, visibility_, camera_.goal));
-    followed_joint_ = joint;
+    film->shoulder = scene::shoulder_position(film->workplace.machine, {options.hand, std::nullopt});
+    film->camera.jump(view::orbit_of(first));
+    return std::unique_ptr<Film>(new Film(std::move(film)));
 }
 
 Result<render::Picture> Film::draw(const session::ReplayTick& tick, double seconds) {
-    const world::WorkingHand& hand = workplace_.world.only<world::WorkingHand>();
-    scene::ToolAndHand held;
-    held.tool = workplace_.world.only<world::HeldTool>().pose;
-    held.wrench = hand.wrench;
-    held.rest = hand.rest;
-    held.pinches = hand.pinches;
-    const Vec3 shoulder = scene::shoulder_position(workplace_.machine, {options_.hand, std::nullopt});
-    held.fingers = scene::frame_towards(held.tool, shoulder, 0.0);
-    held.grip = scene::natural_grip(postures_, held.tool, Vec3(0, 1, 0), shoulder);
-    held.effort = std::abs(scene::relative_torque(tick.setup, workplace_.world));
-    held.seconds = seconds;
-    held.solids = tick.state.tool_contact ? &tick.state.tool_contact->world : nullptr;
-    scene::place_nuts(workplace_.world, tick.setup);
-    scene::place_tool(workplace_.world, held);
-    scene::place_hand(workplace_.world, postures_, held);
-    scene_.cut_away.strength = 0.0F;
-    if (const std::int16_t held_joint = workplace_.world.only<world::ContactState>().joint; held_joint >= 0)
-        scene::fade_occluders(workplace_.world, scene_, tick.setup, static_cast<std::size_t>(held_joint));
-    update_camera(tick);
-    (void)camera_.advance(seconds);
-    scene::fade_near_arms(workplace_.world, Vec3(view::viewpoint_of(camera_.shown).eye));
-    scene::collect_objects(workplace_.world, scene_);
-
-    scene_.labels.clear();
-    if (const auto label = scene::work_label(options_.words, tick.lesson, tick.setup, workplace_.world))
-        scene_.labels.push_back(*label);
-    const float aspect = static_cast<float>(options_.size.width) / static_cast<float>(options_.size.height);
+    FilmState& film = *state_;
+    FilmFrame frame{film, tick, seconds};
+    ecs::run(film_systems, film.workplace.world, frame);
+    const VkExtent2D size = film.options.size;
+    const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     std::vector<render::Eye> eyes;
-    for (const float aside : view::eye_offsets(options_.stereo))
-        eyes.push_back(view::eye_of(camera_.shown, render::bounds(scene_), aspect, aside));
-
-    GpuResources& gpu = *gpu_;
-    auto pictures = render::take_pictures(*gpu.gpu_context.device, *gpu.gpu_context.frames,
-                                          *gpu.gpu_context.renderer, scene_, eyes, options_.size);
-    if (!pictures) return fail(pictures.error());
-    return view::side_by_side(*pictures);
+    for (const float aside : view::eye_offsets(film.options.stereo))
+        eyes.push_back(view::eye_of(film.camera.shown, render::bounds(film.scene), aspect, aside));
+    const view::GpuContext& gpu = film.gpu.gpu_context;
+    BOLT_TRY_ASSIGN(const auto pictures,
+                    render::take_pictures(*gpu.device, *gpu.frames, *gpu.renderer, film.scene, eyes, size));
+    return view::side_by_side(pictures);
 }
 
 Status Film::check_validation() const {
-    const std::vector<std::string>& messages = gpu_->instance->log().messages;
+    const std::vector<std::string>& messages = state_->gpu.instance->log().messages;
     if (messages.empty()) return {};
     return fail(ErrorCode::failed, messages.front());
 }

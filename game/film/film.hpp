@@ -22,6 +22,8 @@ struct FilmOptions {
     bool validate = false;
 };
 
+struct FilmState;
+
 class Film {
   public:
     // Fails without a GPU, with a model that cannot be drawn, or with an unknown view.
@@ -31,8 +33,8 @@ class Film {
     Film& operator=(const Film&) = delete;
     ~Film();
 
-    // The world of the replay. The caller writes every tick into it (world::write_snapshot).
-    [[nodiscard]] scene::SceneWorld& world() { return workplace_.world; }
+    // The world for session::replay().
+    [[nodiscard]] scene::SceneWorld& world();
 
     // Draws the present world. `seconds`: time since the previous picture, for the motion of camera and
     // fingers.
@@ -42,19 +44,8 @@ class Film {
     [[nodiscard]] Status check_validation() const;
 
   private:
-    struct GpuResources;
-    Film() = default;
-    void update_camera(const session::ReplayTick& tick);
-
-    FilmOptions options_;
-    content::Assembly assembly_;
-    std::unique_ptr<GpuResources> gpu_;
-    scene::Workplace workplace_;
-    scene::Postures postures_;
-    render::Scene scene_;
-    view::CameraGlide camera_;
-    motion::VisibilityModel visibility_;
-    std::optional<std::size_t> followed_joint_;
+    explicit Film(std::unique_ptr<FilmState> state);
+    std::unique_ptr<FilmState> state_;
 };
 
 }  // namespace bolt::film

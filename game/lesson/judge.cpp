@@ -29,12 +29,13 @@ void take_points(LessonResult& result, ScoreReason reason) {
 
 }  // namespace
 
-JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::State& state) {
-    const JointTrack& track = lesson.joints[joint];
-    const content::Specification& spec = lesson.assembly->joints[joint].spec;
+JointResult judge_joint(const Lesson& lesson, std::size_t index, const world::ReadJoints& world) {
+    const JointTrack& track = lesson.joints[index];
+    const content::Specification& spec = lesson.assembly->joints[index].spec;
+    const world::Joint& joint = world::joint_at(world, index);
     JointResult result = track.result;
-    result.clamp = state.joints[joint].clamp;
-    result.condition = state.joints[joint].condition;
+    result.clamp = joint.clamp;
+    result.condition = joint.condition;
     if (lesson.task == Task::loosen) {
         result.torque_verdict = result.torque > 0.0 ? Verdict::ok : Verdict::none;
         result.overall = result.torque_verdict;
@@ -47,21 +48,21 @@ JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::St
         if (spec.has_angle) result.angle_verdict = within(result.angle, spec.angle);
         result.overall = worst(result.torque_verdict, result.angle_verdict);
         // A nut off its seat has no clamp force, whatever its torque was.
-        if (state.joints[joint].stage == joint::Stage::navigation) result.overall = Verdict::low;
+        if (joint.stage == joint::Stage::navigation) result.overall = Verdict::low;
     }
     if (result.condition != joint::Condition::sound) result.overall = Verdict::high;
     return result;
 }
 
-LessonResult judge(const Lesson& lesson, const servo::State& state, double dt) {
+LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double dt) {
     LessonResult result;
-    result.duration = static_cast<double>(state.tick) * dt;
+    result.duration = static_cast<double>(world.only<world::ServoClock>().tick) * dt;
     result.finished = lesson.due() == nullptr;
     result.score = 100.0;
     const double share = 100.0 / static_cast<double>(std::max<std::size_t>(1, lesson.joints.size()));
     int rehits = 0, order_errors = 0, wrong_ways = 0, overdone = 0, slips = 0;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
-        JointResult joint = judge_joint(lesson, i, state);
+        JointResult joint = judge_joint(lesson, i, world);
         if (joint.condition != joint::Condition::sound)
             take_points(result, {1.5 * share, fmt::format("{} is {}", joint.id, joint::name(joint.condition)),
                                  DeductionKind::damaged, static_cast<int>(i), 1});

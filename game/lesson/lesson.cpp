@@ -79,6 +79,10 @@ constexpr std::uint64_t assessment_end_ticks = 3000;
 constexpr std::uint64_t regrip_ticks = 1000;  // gap within which a finger re-grip continues the visit
 constexpr double working_torque = 0.5;        // N·m; less is only a touch
 
+using world::joint_at;
+
+std::uint64_t tick_of(const world::ReadHaptics& world) { return world.only<world::ServoClock>().tick; }
+
 const content::Specification& spec_of(const Lesson& lesson, std::size_t joint) {
     return lesson.assembly->joints[joint].spec;
 }
@@ -94,44 +98,44 @@ void add_mistake(Lesson& lesson, std::uint64_t tick, MistakeKind kind, std::size
         {tick, EventKind::mistake, static_cast<int>(joint), value, std::move(text), kind});
 }
 
-void begin_step(Lesson& lesson, const servo::State& state) {
+void begin_step(Lesson& lesson, const world::ReadHaptics& world) {
     const LessonStep* step = lesson.due();
     if (step == nullptr) return;
     if (lesson.announced_pass != step->pass) {
         lesson.announced_pass = step->pass;
         const std::string share =
             step->kind == StepKind::tighten ? fmt::format(" to {:.0f} %", 100 * step->fraction) : "";
-        add_event(lesson, state.tick, EventKind::pass_begin, -1, step->pass,
+        add_event(lesson, tick_of(world), EventKind::pass_begin, -1, step->pass,
                   fmt::format("{}{}", name(step->kind), share));
     }
     JointTrack& track = lesson.joints[step->joint];
     track.peak_torque = 0.0;
     track.clicked = false;
-    track.begin_angle = state.joints[step->joint].nut.angle;
+    track.begin_angle = joint_at(world, step->joint).angle;
     lesson.step_starts.resize(lesson.current);
     lesson.step_starts.push_back(lesson.joints);
-    add_event(lesson, state.tick, EventKind::step_begin, static_cast<int>(step->joint), step->torque,
+    add_event(lesson, tick_of(world), EventKind::step_begin, static_cast<int>(step->joint), step->torque,
               std::string(name(step->kind)));
 }
 
-void end_step(Lesson& lesson, const servo::State& state) {
+void end_step(Lesson& lesson, const world::ReadHaptics& world) {
     const LessonStep step = *lesson.due();
     JointTrack& track = lesson.joints[step.joint];
     track.done_in_pass = step.pass;
     if (step.kind == StepKind::loosen) {
         track.result.torque = track.peak_torque;
-        track.result.angle = track.begin_angle - state.joints[step.joint].nut.angle;
+        track.result.angle = track.begin_angle - joint_at(world, step.joint).angle;
     } else if (step.kind == StepKind::tighten) {
         track.result.torque = track.peak_torque;
     }
-    add_event(lesson, state.tick, EventKind::step_end, static_cast<int>(step.joint), track.peak_torque,
+    add_event(lesson, tick_of(world), EventKind::step_end, static_cast<int>(step.joint), track.peak_torque,
               std::string(name(step.kind)));
     ++lesson.current;
-    begin_step(lesson, state);
+    begin_step(lesson, world);
 }
 
 // Reports work on a joint that is not due.
-void report_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& state) {
+void report_out_of_turn(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     const LessonStep& due = *lesson.due();
     JointTrack& track = lesson.joints[joint];
     const std::string& id = track.result.id;
@@ -139,49 +143,48 @@ void report_out_of_turn(Lesson& lesson, std::size_t joint, const servo::State& s
     // After spinning a nut down, a trainee grips it once more to check that it is seated. Fingers cannot turn
     // a seated nut.
     if (lesson.grip == servo::Grip::fingers &&
-        (done || state.joints[joint].stage != joint::Stage::navigation))
+        (done || joint_at(world, joint).stage != joint::Stage::navigation))
         return;
     if (done) {
         ++track.result.rehits;
-        add_mistake(lesson, state.tick, MistakeKind::done_already, joint, 0.0,
+        add_mistake(lesson, tick_of(world), MistakeKind::done_already, joint, 0.0,
                     fmt::format("{} was done already in this pass", id));
         return;
     }
     ++track.result.order_errors;
-    add_mistake(lesson, state.tick, MistakeKind::out_of_turn, joint, 0.0,
+    add_mistake(lesson, tick_of(world), MistakeKind::out_of_turn, joint, 0.0,
                 fmt::format("{} is not the next joint; {} is", id, lesson.joints[due.joint].result.id));
 }
 
-void engage(Lesson& lesson, int joint, servo::Grip grip, const servo::State& state) {
+void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptics& world) {
     // Spinning a nut needs repeated grips; they are one visit.
     const bool again = grip == servo::Grip::fingers && lesson.grip == grip && lesson.last_held == joint &&
-                       state.tick - lesson.released_at < regrip_ticks;
+                       tick_of(world) - lesson.released_at < regrip_ticks;
     lesson.held = joint;
     lesson.grip = grip;
     JointTrack& track = lesson.joints[static_cast<std::size_t>(joint)];
     track.worked = again && track.worked;
     track.turned_back = track.seated = false;
-    track.furthest = state.joints[static_cast<std::size_t>(joint)].nut.angle;
-    add_event(lesson, state.tick, EventKind::engage, joint, 0.0,
+    track.furthest = joint_at(world, static_cast<std::size_t>(joint)).angle;
+    add_event(lesson, tick_of(world), EventKind::engage, joint, 0.0,
               grip == servo::Grip::wrench ? "wrench on the nut" : "fingers on the nut");
 }
 
-void release(Lesson& lesson, const servo::State& state) {
+void release(Lesson& lesson, const world::ReadHaptics& world) {
     const auto joint = static_cast<std::size_t>(lesson.held);
     JointTrack& track = lesson.joints[joint];
-    add_event(lesson, state.tick, EventKind::release, lesson.held, track.peak_torque, {});
-    track.result.clamp_at_release = state.joints[joint].clamp;
+    add_event(lesson, tick_of(world), EventKind::release, lesson.held, track.peak_torque, {});
+    track.result.clamp_at_release = joint_at(world, joint).clamp;
     if (track.worked && lesson.grip == servo::Grip::wrench) ++track.result.strokes;
     lesson.last_held = lesson.held;
     lesson.held = -1;
-    lesson.released_at = state.tick;
+    lesson.released_at = tick_of(world);
     const LessonStep* due = lesson.due();
-    if (due != nullptr && due->joint == joint && step_fulfilled(lesson, state.joints))
-        end_step(lesson, state);
+    if (due != nullptr && due->joint == joint && step_fulfilled(lesson, world)) end_step(lesson, world);
 }
 
 // Called at the first work of a visit: checks that this joint is due.
-void begin_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
+void begin_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     lesson.joints[joint].worked = true;
     const LessonStep* due = lesson.due();
     if (due == nullptr || due->joint == joint) return;
@@ -190,16 +193,16 @@ void begin_work(Lesson& lesson, std::size_t joint, const servo::State& state) {
     const bool next =
         lesson.current + 1 < lesson.steps.size() && lesson.steps[lesson.current + 1].joint == joint;
     if (left && next) {
-        end_step(lesson, state);  // judged in its present state
+        end_step(lesson, world);  // judged in its present state
         return;
     }
-    report_out_of_turn(lesson, joint, state);
+    report_out_of_turn(lesson, joint, world);
 }
 
 // Updates the turning torque in any step, without the share of breakaway: a nut that is turned in small
 // increments breaks away each time. `breakaway` (r in mechanistic.hpp) applies to the friction part only, so
 // this subtracts slightly too much. A nut that leaves its seat resets the torque.
-void update_turned_torque(Lesson& lesson, std::size_t index, const joint::JointState& joint, double work) {
+void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint& joint, double work) {
     JointTrack& track = lesson.joints[index];
     if (lesson.task != Task::tighten) return;
     if (joint.stage == joint::Stage::navigation) {
@@ -208,8 +211,7 @@ void update_turned_torque(Lesson& lesson, std::size_t index, const joint::JointS
     }
     const double ratio = lesson.assembly->joints[index].design.friction.static_ratio;
     const double breakaway = 1.0 + (ratio - 1.0) * joint.breakaway;
-    if (joint.nut.speed > turning_speed)
-        track.turned_torque = std::max(track.turned_torque, work / breakaway);
+    if (joint.speed > turning_speed) track.turned_torque = std::max(track.turned_torque, work / breakaway);
 }
 
 // Reports excess torque, once until the nut leaves its seat. Breakaway torque does not turn the nut and does
@@ -225,68 +227,69 @@ void report_excess_torque(Lesson& lesson, std::size_t joint, std::uint64_t tick)
 }
 
 // Reports a nut turned the wrong way, once a visit. Not after excess torque: turning back corrects that.
-void report_wrong_way(Lesson& lesson, std::size_t joint, const servo::State& state) {
+void report_wrong_way(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
-    const joint::JointState& now = state.joints[joint];
+    const world::Joint& now = joint_at(world, joint);
     const bool loosens = lesson.task == Task::loosen;
-    const double beyond = (loosens ? -1.0 : 1.0) * (now.nut.angle - track.furthest);
+    const double beyond = (loosens ? -1.0 : 1.0) * (now.angle - track.furthest);
     if (beyond >= 0.0) {
-        track.furthest = now.nut.angle;
+        track.furthest = now.angle;
         track.seated = now.stage != joint::Stage::navigation;
     }
     if (beyond > -wrong_way || !track.seated || track.turned_back || track.over_torqued) return;
     track.turned_back = true;
     ++track.wrong_way_count;
-    add_mistake(lesson, state.tick, loosens ? MistakeKind::tightened : MistakeKind::loosened, joint, 0.0,
+    add_mistake(lesson, tick_of(world), loosens ? MistakeKind::tightened : MistakeKind::loosened, joint, 0.0,
                 fmt::format("{} was turned the wrong way: that {} it", track.result.id,
                             loosens ? "tightens" : "loosens"));
 }
 
-void observe_work(Lesson& lesson, std::size_t joint, const servo::State& state, const servo::Output& output) {
+void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
-    const double torque = output.wrench_torque;
+    const world::Joint& nut = joint_at(world, joint);
+    const double torque = nut.torque;
     const double work = lesson.task == Task::loosen ? -torque : torque;
     const bool fingers = lesson.grip == servo::Grip::fingers;
     if (!track.worked && (work > working_torque || (fingers && work > 0.01)))
-        begin_work(lesson, joint, state);
+        begin_work(lesson, joint, world);
     track.peak_torque = std::max(track.peak_torque, work);
-    update_turned_torque(lesson, joint, state.joints[joint], work);
-    report_excess_torque(lesson, joint, state.tick);
-    if (!fingers) report_wrong_way(lesson, joint, state);
+    update_turned_torque(lesson, joint, nut, work);
+    report_excess_torque(lesson, joint, tick_of(world));
+    if (!fingers) report_wrong_way(lesson, joint, world);
     if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
         !fingers) {
         track.snug = true;
-        track.snug_angle = output.nut_angle;
+        track.snug_angle = nut.angle;
     }
-    if (track.snug && torque > 0.0) track.result.angle = output.nut_angle - track.snug_angle;
-    if (output.stage == joint::Stage::yield) track.yielded = true;
-    if (output.clicked) {
+    if (track.snug && torque > 0.0) track.result.angle = nut.angle - track.snug_angle;
+    if (nut.stage == joint::Stage::yield) track.yielded = true;
+    if (world.only<world::ContactState>().clicked) {
         track.clicked = true;
-        add_event(lesson, state.tick, EventKind::click, static_cast<int>(joint), torque,
+        add_event(lesson, tick_of(world), EventKind::click, static_cast<int>(joint), torque,
                   "the torque wrench clicks");
     }
-    if (output.stage != track.stage) {
-        track.stage = output.stage;
-        add_event(lesson, state.tick, EventKind::stage, static_cast<int>(joint),
-                  static_cast<double>(output.stage), std::string(joint::name(output.stage)));
+    if (nut.stage != track.stage) {
+        track.stage = nut.stage;
+        add_event(lesson, tick_of(world), EventKind::stage, static_cast<int>(joint),
+                  static_cast<double>(nut.stage), std::string(joint::name(nut.stage)));
     }
-    const joint::Condition condition = state.joints[joint].condition;
+    const joint::Condition condition = nut.condition;
     if (condition != track.result.condition) {
         track.result.condition = condition;
         track.result.torque = std::max(track.result.torque, track.peak_torque);
         const MistakeKind kind =
             condition == joint::Condition::stripped ? MistakeKind::stripped : MistakeKind::broken;
-        add_mistake(lesson, state.tick, kind, joint, torque,
+        add_mistake(lesson, tick_of(world), kind, joint, torque,
                     fmt::format("{} is {}", track.result.id, joint::name(condition)));
     }
 }
 
 // An assessment ends when the last joint has been released for some time.
-void end_assessment(Lesson& lesson, const servo::State& state) {
+void end_assessment(Lesson& lesson, const world::ReadHaptics& world) {
     if (lesson.mode != Mode::assessment || lesson.held >= 0 || lesson.current + 1 != lesson.steps.size())
         return;
     const bool worked = lesson.joints[lesson.due()->joint].peak_torque > working_torque;
-    if (worked && state.tick - lesson.released_at > assessment_end_ticks) end_step(lesson, state);
+    if (worked && tick_of(world) - lesson.released_at > assessment_end_ticks) end_step(lesson, world);
 }
 
 }  // namespace
@@ -309,40 +312,25 @@ double wrench_setting(const Lesson& lesson) {
     return step->kind == StepKind::tighten || step->kind == StepKind::recheck ? step->torque : 0.0;
 }
 
-namespace {
-
-bool step_fulfilled(const Lesson& lesson, const LessonStep& due, double angle, joint::Stage stage) {
-    const LessonStep* step = &due;
+bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world) {
+    const LessonStep* step = lesson.due();
+    if (step == nullptr) return false;
     const JointTrack& track = lesson.joints[step->joint];
-    const double turned = angle - track.begin_angle;
+    const world::Joint& joint = world::joint_at(world, step->joint);
     switch (step->kind) {
         case StepKind::run_down:
-            return stage != joint::Stage::navigation;
+            return joint.stage != joint::Stage::navigation;
         case StepKind::tighten:
             if (track.peak_torque < torque_window(lesson, *step).low) return false;
             return !requires_yield(lesson, *step) || track.yielded || track.clicked ||
                    track.peak_torque > spec_of(lesson, step->joint).torque.high;
         case StepKind::recheck:
-            return turned > recheck_turn || track.peak_torque >= torque_window(lesson, *step).low;
+            return joint.angle - track.begin_angle > recheck_turn ||
+                   track.peak_torque >= torque_window(lesson, *step).low;
         case StepKind::loosen:
-            return stage == joint::Stage::navigation;
+            return joint.stage == joint::Stage::navigation;
     }
     return false;
-}
-
-}  // namespace
-
-bool step_fulfilled(const Lesson& lesson, std::span<const joint::JointState> joints) {
-    const LessonStep* due = lesson.due();
-    return due != nullptr &&
-           step_fulfilled(lesson, *due, joints[due->joint].nut.angle, joints[due->joint].stage);
-}
-
-bool step_fulfilled(const Lesson& lesson, const ecs::Access<const world::Joint>& joints) {
-    const LessonStep* due = lesson.due();
-    if (due == nullptr) return false;
-    const world::Joint& joint = world::joint_at(joints, due->joint);
-    return step_fulfilled(lesson, *due, joint.angle, joint.stage);
 }
 
 Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
@@ -360,36 +348,39 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
     return lesson;
 }
 
-void observe(Lesson& lesson, const servo::State& state, const servo::Output& output) {
-    if (state.tick == 1) begin_step(lesson, state);
-    const bool other_grip = lesson.held >= 0 && state.engagement.grip != lesson.grip;
-    if (lesson.held >= 0 && (output.joint != lesson.held || other_grip)) release(lesson, state);
-    if (output.joint >= 0 && lesson.held < 0) engage(lesson, output.joint, state.engagement.grip, state);
-    if (lesson.held >= 0) observe_work(lesson, static_cast<std::size_t>(lesson.held), state, output);
-    if (output.slipped >= 0) {
-        const auto joint = static_cast<std::size_t>(output.slipped);
+void observe(Lesson& lesson, const world::ReadHaptics& world) {
+    const world::ContactState& contact = world.only<world::ContactState>();
+    if (tick_of(world) == 1) begin_step(lesson, world);
+    const bool other_grip = lesson.held >= 0 && contact.grip != lesson.grip;
+    if (lesson.held >= 0 && (contact.joint != lesson.held || other_grip)) release(lesson, world);
+    if (contact.joint >= 0 && lesson.held < 0) engage(lesson, contact.joint, contact.grip, world);
+    if (lesson.held >= 0) observe_work(lesson, static_cast<std::size_t>(lesson.held), world);
+    if (contact.slipped >= 0) {
+        const auto joint = static_cast<std::size_t>(contact.slipped);
+        const double rounded = joint_at(world, joint).rounded;
         ++lesson.joints[joint].slip_count;
-        add_mistake(lesson, state.tick, MistakeKind::slipped, joint, output.rounded,
+        add_mistake(lesson, tick_of(world), MistakeKind::slipped, joint, rounded,
                     fmt::format("{}: the wrench slipped, {:.2f} mm of the nut's corners are gone",
-                                lesson.joints[joint].result.id, 1e3 * output.rounded));
+                                lesson.joints[joint].result.id, 1e3 * rounded));
     }
-    end_assessment(lesson, state);
+    end_assessment(lesson, world);
     // The step of a broken bolt cannot be done; the lesson continues with the next one.
     const LessonStep* due = lesson.due();
     if (due != nullptr && lesson.held < 0 &&
         lesson.joints[due->joint].result.condition != joint::Condition::sound)
-        end_step(lesson, state);
+        end_step(lesson, world);
 }
 
-bool undo_steps(Lesson& lesson, const servo::State& state, std::size_t steps) {
+bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t steps) {
     if (lesson.mode == Mode::assessment || steps > lesson.current) return false;
     const std::size_t to = lesson.current - steps;
     if (to >= lesson.step_starts.size()) return false;  // all steps are done, or none has begun
     if (lesson.held >= 0) {
         const auto joint = static_cast<std::size_t>(lesson.held);
-        add_event(lesson, state.tick, EventKind::release, lesson.held, lesson.joints[joint].peak_torque, {});
+        add_event(lesson, tick_of(world), EventKind::release, lesson.held, lesson.joints[joint].peak_torque,
+                  {});
         lesson.held = -1;
-        lesson.released_at = state.tick;
+        lesson.released_at = tick_of(world);
     }
     std::vector<JointTrack> tracks = lesson.step_starts[to];
     for (std::size_t i = 0; i < tracks.size(); ++i) {
@@ -398,13 +389,13 @@ bool undo_steps(Lesson& lesson, const servo::State& state, std::size_t steps) {
         tracks[i].wrong_way_count = lesson.joints[i].wrong_way_count;
         tracks[i].over_torque_count = lesson.joints[i].over_torque_count;
         tracks[i].slip_count = lesson.joints[i].slip_count;
-        tracks[i].result.condition = state.joints[i].condition;
+        tracks[i].result.condition = joint_at(world, i).condition;
     }
     lesson.joints = std::move(tracks);
     lesson.current = to;
-    add_event(lesson, state.tick, EventKind::undo, static_cast<int>(lesson.steps[to].joint),
+    add_event(lesson, tick_of(world), EventKind::undo, static_cast<int>(lesson.steps[to].joint),
               static_cast<double>(steps), fmt::format("back to step {} of {}", to + 1, lesson.steps.size()));
-    begin_step(lesson, state);
+    begin_step(lesson, world);
     return true;
 }
 

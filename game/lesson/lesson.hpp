@@ -1,5 +1,5 @@
 // The lesson: its steps, planned from the assembly's passes, and the state machine that follows the trainee
-// through them. It observes servo ticks, tracks the due step and judges the result.
+// through them. It observes the world after each servo tick, tracks the due step and judges the result.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,7 @@
 
 namespace bolt::lesson {
 
-enum class Mode : std::uint8_t { guided, practice, assessment };
-enum class Task : std::uint8_t { tighten, loosen };
 enum class StepKind : std::uint8_t { run_down, tighten, recheck, loosen };
-
-constexpr std::string_view name(Mode mode) {
-    constexpr std::string_view names[] = {"guided", "practice", "assessment"};
-    return names[static_cast<int>(mode)];
-}
-
-constexpr std::string_view name(Task task) { return task == Task::tighten ? "tighten" : "loosen"; }
 
 constexpr std::string_view name(StepKind kind) {
     constexpr std::string_view names[] = {"run down by hand", "tighten", "re-check", "loosen"};
@@ -119,20 +110,19 @@ bool requires_yield(const Lesson& lesson, const LessonStep& step);
 double wrench_setting(const Lesson& lesson);
 
 // True if releasing the nut now completes the due step.
-bool step_fulfilled(const Lesson& lesson, std::span<const joint::JointState> joints);
-bool step_fulfilled(const Lesson& lesson, const ecs::Access<const world::Joint>& joints);
+bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world);
 
-// Call after each tick.
-void observe(Lesson& lesson, const servo::State& state, const servo::Output& output);
+// Call after each tick, once world::haptic_system() has written it.
+void observe(Lesson& lesson, const world::ReadHaptics& world);
 
 // Undoes `steps` steps; 0 restarts the due step. Restores the joint tracks at that step's start; the caller
-// has already restored the joints in `state`. Mistakes stay counted, and a held nut is released. Returns
-// false, without a change, in assessment or if there is no such step.
-bool undo_steps(Lesson& lesson, const servo::State& state, std::size_t steps);
+// has already restored the joints of the servo and the world. Mistakes stay counted, and a held nut is
+// released. Returns false, without a change, in assessment or if there is no such step.
+bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t steps);
 
 // The current result of one joint.
-JointResult judge_joint(const Lesson& lesson, std::size_t joint, const servo::State& state);
+JointResult judge_joint(const Lesson& lesson, std::size_t joint, const world::ReadJoints& world);
 // The current result of the lesson, with score and reasons. `dt`: tick length, s.
-LessonResult judge(const Lesson& lesson, const servo::State& state, double dt);
+LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double dt);
 
 }  // namespace bolt::lesson

@@ -1,4 +1,4 @@
-// Results of joints and lessons as plain data: computed by game/lesson, stored by game/session, shown by
+// Modes, tasks and results of lessons as plain data: used by game/lesson, stored by game/session, shown by
 // game/report.
 #pragma once
 
@@ -11,6 +11,16 @@
 #include "haptics/joint/stage.hpp"
 
 namespace bolt::lesson {
+
+enum class Mode : std::uint8_t { guided, practice, assessment };
+enum class Task : std::uint8_t { tighten, loosen };
+
+constexpr std::string_view name(Mode mode) {
+    constexpr std::string_view names[] = {"guided", "practice", "assessment"};
+    return names[static_cast<int>(mode)];
+}
+
+constexpr std::string_view name(Task task) { return task == Task::tighten ? "tighten" : "loosen"; }
 
 enum class Verdict : std::uint8_t { none, low, ok, high };
 

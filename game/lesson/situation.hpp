@@ -57,7 +57,7 @@ enum class Situation : std::uint8_t {
 };
 inline constexpr std::size_t situation_count = 40;
 
-// The state after a tick: the lesson after observe(), and the world after write_snapshot().
+// The state after a tick: the lesson after observe(), and the world that it observed.
 struct WorkState {
     const Lesson& lesson;
     const servo::Setup& setup;

@@ -217,8 +217,7 @@ double hover_height(const servo::Setup& setup, const servo::ToolContact& contact
 
 Pose yield_to_wrench(const Pose& commanded, const Pose& wrench) {
     const Vec3 ahead = commanded.position - wrench.position;
-    const Vec3 turn =
-        rotation_vector(glm::normalize(commanded.orientation * glm::conjugate(wrench.orientation)));
+    const Vec3 turn = turn_between(wrench.orientation, commanded.orientation);
     const double far = glm::length(ahead), round = glm::length(turn);
     Pose pose = commanded;
     if (far > max_lead) pose.position = wrench.position + ahead * (max_lead / far);

@@ -102,9 +102,9 @@ Attempt attempt_of(const analysis::SessionData& session) {
     a.trainee = trainee_text(session.header);
     a.operator_kind = session::operator_kind(session.header);
     a.assembly = session.header.assembly;
-    a.task = session.header.task;
-    a.law = session.header.law;
-    a.mode = session.header.mode;
+    a.task = lesson::name(session.header.task);
+    a.law = joint::name(session.header.law);
+    a.mode = lesson::name(session.header.mode);
     a.variant = session.header.variant;
     a.seed = session.header.seed;
     a.complete = session.complete;
@@ -116,7 +116,7 @@ Attempt attempt_of(const analysis::SessionData& session) {
     const analysis::HapticMetrics& metrics = session.metrics;
     constexpr double unknown = analysis::ForceJump::nan;
     a.guided = metrics.guided;
-    a.view_help = session.header.view_help == "on";
+    a.view_help = session.header.view_help.value_or(false);
     a.obstacles = metrics.obstacles;
     std::vector<double> times_to_nut, times_near_nut;
     double visible_time = 0.0, near_time = 0.0;

@@ -46,16 +46,15 @@ void put_heading(std::string& out, const analysis::SessionData& s, std::size_t i
             "done.</div>\n");
     out += "<dl class=\"facts\">\n";
     out += plot::fact("trainee", trainee_text(s.header));
-    if (s.header.hand == "left") out += plot::fact("hand", s.header.hand);
-
-    out += plot::fact("task", s.header.task);
-    out += plot::fact("mode", s.header.mode);
+    if (s.header.hand == hand::Side::left) out += plot::fact("hand", "left");
+    out += plot::fact("task", lesson::name(s.header.task));
+    out += plot::fact("mode", lesson::name(s.header.mode));
     if (s.metrics.recorded) {
         out += plot::fact("guiding force", s.metrics.guided ? "on" : "off");
-        if (!s.header.view_help.empty()) out += plot::fact("view help", s.header.view_help);
+        if (s.header.view_help) out += plot::fact("view help", *s.header.view_help ? "on" : "off");
         out += plot::fact("obstacles", s.metrics.obstacles ? "met" : "none");
     }
-    out += plot::fact("law", s.header.law);
+    out += plot::fact("law", joint::name(s.header.law));
     out += plot::fact("variant", s.header.variant);
     if (!s.header.tool.empty()) out += plot::fact("tool", s.header.tool);
     out += plot::fact("duration", plot::duration_text(s.duration));
@@ -317,7 +316,7 @@ void put_method(std::string& out, const analysis::SessionData& s) {
         "out. Clamp force comes from the joint model, law “{}”: it is computed, not measured. Curves keep "
         "every highest "
         "and lowest value. {}</footer>\n",
-        plot::escape(s.header.law),
+        joint::name(s.header.law),
         plot::escape(s.header.program.empty() ? "" : "Recorded by " + s.header.program + "."));
 }
 

@@ -68,7 +68,7 @@ hand::Angles pinch_angles(double thumb_abduction) {
 // The vector from the pad of the thumb to that of the index finger, in the frame of the wrist.
 Vec3 between_pads(const hand::Hand& hand, const hand::Angles& angles) {
     const hand::Skeleton joints = hand::joints(hand, angles, Pose{});
-    return hand::pad(hand, joints, 1) - hand::pad(hand, joints, 0);
+    return hand::fingertip_pad_centre(hand, joints, 1) - hand::fingertip_pad_centre(hand, joints, 0);
 }
 
 // The pinch whose pads touch the corners of a nut of that width (m across flats), since the nut turns between
@@ -116,7 +116,7 @@ hand::Angles pressed(hand::Angles a) {
 hand::Angles relaxed_angles(const hand::Angles& angles) {
     constexpr double of_fingers = 0.86, of_thumb = 0.8;
     hand::Angles a = angles;
-    for (hand::FingerAngles& f : a.fingers) f = {of_fingers * f.mcp, of_fingers * f.pip, f.dip, f.side};
+    for (hand::FingerAngles& f : a.fingers) f = {of_fingers * f.mcp, of_fingers * f.pip, f.dip, f.abduction};
     a.thumb.ip *= of_thumb;
     a.thumb.mcp *= of_thumb;
     return a;
@@ -165,7 +165,8 @@ Postures make_postures(const collision::ToolShape* wrench, double grip_distance,
     const Quat over = on_side({Vec3(0.0), wrist_over_nut(between_pads(right, pinch))}, side).orientation;
     const auto centred = [&](const hand::Angles& angles, double lift) {
         const hand::Skeleton flat = hand::joints(hand, angles, Pose{});
-        const Vec3 middle = 0.5 * (hand::pad(hand, flat, 0) + hand::pad(hand, flat, 1));
+        const Vec3 middle =
+            0.5 * (hand::fingertip_pad_centre(hand, flat, 0) + hand::fingertip_pad_centre(hand, flat, 1));
         return hand::joints(hand, angles, Pose{Vec3(0.0, 0.0, lift) - over * middle, over});
     };
     postures.on_nut = centred(pinch, pad_lift);

@@ -114,6 +114,29 @@ void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& 
         });
 }
 
+void placement_system(SceneWorld& world, const PlacementContext& context) {
+    constexpr double wrist_share = 0.3;  // fraction of the fingers' twist that the wrist shows
+    const auto& hands = world.pool<world::WorkingHand>();
+    const world::WorkingHand& hand = hands.components().front();
+    const world::GloveHand* glove = world.find<world::GloveHand>(hands.entities().front());
+    ToolAndHand held;
+    held.tool = hand.wrench ? world.only<world::HeldTool>().pose : hand.pose;
+    held.wrench = hand.wrench;
+    held.rest = hand.rest;
+    held.pinches = hand.pinches;
+    held.fingers = glove != nullptr ? hand.rest
+                                    : frame_towards(hand.pose, context.shoulder, -wrist_share * hand.twisted);
+    held.grip = context.grip;
+    held.seconds = context.seconds;
+    held.effort = context.effort;
+    held.tremor = context.tremor;
+    held.gloved = glove != nullptr ? &glove->fingers : nullptr;
+    held.solids = context.solids;
+    place_nuts(world, context.setup);
+    place_tool(world, held);
+    place_hand(world, context.postures, held);
+}
+
 void show_wrench_ghost(SceneWorld& world, const Pose& tool) {
     const glm::dmat4 at = matrix(tool);
     world.view<GhostPart, Transform>().each([&](ecs::Entity entity, GhostPart& ghost, Transform& transform) {
@@ -191,38 +214,25 @@ void destroy_drawables(SceneWorld& world) {
     world.view<const Drawable>().each([&](ecs::Entity entity, const Drawable&) { world.destroy(entity); });
 }
 
-void collect_objects(SceneWorld& world, render::Scene& scene) {
-    scene.objects.clear();
-    world.view<const Drawable, const Transform>().each(
-        [&](ecs::Entity entity, const Drawable& drawn, const Transform& transform) {
-            render::Object object;
-            object.model = drawn.model;
-            object.mesh = drawn.mesh;
-            object.node = drawn.node;
-            object.moves = drawn.moves;
-            object.world = transform.world;
-            if (const SkinnedHand* fingers = world.find<SkinnedHand>(entity)) {
-                object.deformation = fingers->deformation;
-                // Never zero: an object without a tint uses another pipeline, which would be compiled during
-                // a pull.
-                object.tint = glm::vec4(pale_skin, std::max(1e-3F, max_pallor * fingers->effort));
-                const double intrusion = glm::smoothstep(fade_begin, fade_end, fingers->clearance.depth);
-                object.opacity = 1.0F - max_fade * std::max(fingers->nearness, static_cast<float>(intrusion));
-            }
-            if (const Outline* found = world.find<Outline>(entity)) object.outline = found->color;
-            if (const Fadable* fade = world.find<Fadable>(entity)) object.cut = fade->fades;
-            if (const GhostPart* ghost = world.find<GhostPart>(entity)) {
-                if (!ghost->shown) return;
-                object.opacity *= ghost_opacity;
-
-                object.tint = ghost_tint;
-            }
-            if (const ArrowMarker* marker = world.find<ArrowMarker>(entity)) {
-                if (!marker->shown) return;
-                object.tint = glm::vec4(glm::vec3(marker->color), 1.0F);
-            }
-            scene.objects.push_back(object);
+void appearance_system(SceneWorld& world) {
+    world.view<const SkinnedHand, Drawable>().each(
+        [&](ecs::Entity entity, const SkinnedHand& fingers, Drawable& drawn) {
+            drawn.deformation = fingers.deformation;
+            const double intrusion = glm::smoothstep(fade_begin, fade_end, fingers.clearance.depth);
+            const float fade = std::max(fingers.nearness, static_cast<float>(intrusion));
+            // Never zero: an object without a tint uses another pipeline, which would be compiled during a
+            // pull.
+            const float pallor = std::max(1e-3F, max_pallor * fingers.effort);
+            world.add<Appearance>(entity, glm::vec4(pale_skin, pallor), 1.0F - max_fade * fade);
         });
+    world.view<const GhostPart>().each([&](ecs::Entity entity, const GhostPart& ghost) {
+        const bool hand = world.find<SkinnedHand>(entity) != nullptr;
+        const float opacity = hand ? world.get<Appearance>(entity).opacity : 1.0F;
+        world.add<Appearance>(entity, ghost_tint, ghost_opacity * opacity, !ghost.shown);
+    });
+    world.view<const ArrowMarker>().each([&](ecs::Entity entity, const ArrowMarker& marker) {
+        world.add<Appearance>(entity, glm::vec4(glm::vec3(marker.color), 1.0F), 1.0F, !marker.shown);
+    });
 }
 
 }  // namespace bolt::scene

@@ -24,10 +24,24 @@ struct ToolAndHand {
     const collision::CollisionWorld* solids = nullptr;
 };
 
-// Moves nuts, wrench and hand to their poses in the simulation.
+// The parts of placement_system().
 void place_nuts(SceneWorld& world, const servo::Setup& setup);
 void place_tool(SceneWorld& world, const ToolAndHand& state);
 void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& state);
+
+// What placement_system() uses beside the world.
+struct PlacementContext {
+    const servo::Setup& setup;
+    const Postures& postures;
+    Vec3 shoulder;                                      // m, the worker's
+    std::size_t grip = 0;                               // index in Postures::on_handle
+    double effort = 0.0, tremor = 0.0;                  // Effort
+    double seconds = 0.0;                               // since the last frame
+    const collision::CollisionWorld* solids = nullptr;  // ToolAndHand::solids
+};
+
+// Moves nuts, wrench and hand to where the components of the simulation have them. In a lesson and in a film.
+void placement_system(SceneWorld& world, const PlacementContext& context);
 
 // Width across flats of the widest nut, m.
 double widest_nut(const servo::Setup& setup);
@@ -57,7 +71,7 @@ render::Scene make_lit_scene(const Workplace& workplace, const render::Environme
 // remains.
 void destroy_drawables(SceneWorld& world);
 
-// Replaces the objects of the scene by the drawable entities; leaves lights, labels and background unchanged.
-void collect_objects(SceneWorld& world, render::Scene& scene);
+// Writes how hand, ghosts and arrows appear. Call before view::collect_objects().
+void appearance_system(SceneWorld& world);
 
 }  // namespace bolt::scene

@@ -61,8 +61,8 @@ Result<std::unique_ptr<GpuLessonModels>> upload(gpu::Device& device, const Lesso
                                     {&models.hand, &uploaded->hand}})
         BOLT_TRY(upload_to(*model, *to));
     BOLT_TRY(upload_to(arrow_model(), uploaded->arrows));
-    BOLT_TRY_ASSIGN(auto light,
-                    render::upload_environment(device, models.light ? *models.light : shading::studio()));
+    BOLT_TRY_ASSIGN(auto light, render::upload_environment(
+                                    device, models.light ? *models.light : shading::studio_environment()));
     uploaded->light = std::move(light);
     return uploaded;
 }
@@ -109,13 +109,6 @@ glm::dmat4 nut_from_mesh(const assets::Mesh& mesh, const glm::mat4& world, const
     return from_assembly * glm::dmat4(world);
 }
 
-ecs::Entity add(SceneWorld& world, const render::Object& object) {
-    const ecs::Entity entity = world.create();
-    world.add<Transform>(entity, object.world);
-    world.add<Drawable>(entity, object.model, object.mesh, object.node, false);
-    return entity;
-}
-
 Status add_machine(Workplace& workplace, const LessonModels& models, const GpuLessonModels& on_gpu,
                    const content::Assembly& assembly, const servo::Setup& setup) {
     const assets::Model& model = models.machine.model;
@@ -125,7 +118,7 @@ Status add_machine(Workplace& workplace, const LessonModels& models, const GpuLe
     const std::vector<int> joints = joints_of(model, assembly);
     std::vector<bool> has_nut(setup.nuts.size(), false);
     for (const render::Object& object : scene.objects) {
-        const ecs::Entity entity = add(workplace.world, object);
+        const ecs::Entity entity = view::add_drawable(workplace.world, object);
         workplace.world.add<Fadable>(entity, true);
         const auto node = static_cast<std::size_t>(object.node);
         if (joints[node] < 0) continue;
@@ -154,7 +147,7 @@ void add_workshop(Workplace& workplace, const LessonModels& models, const GpuLes
     if (models.workshop.meshes.empty()) return;
     render::Scene scene;
     render::add_model(scene, models.workshop, on_gpu.workshop, glm::mat4(workplace.workshop));
-    for (const render::Object& object : scene.objects) add(workplace.world, object);
+    for (const render::Object& object : scene.objects) (void)view::add_drawable(workplace.world, object);
 }
 
 void add_wrench(Workplace& workplace, const LessonModels& models, const GpuLessonModels& on_gpu) {
@@ -162,11 +155,11 @@ void add_wrench(Workplace& workplace, const LessonModels& models, const GpuLesso
     render::Scene scene;
     render::add_model(scene, models.wrench, on_gpu.wrench);
     for (const render::Object& object : scene.objects) {
-        const ecs::Entity entity = add(workplace.world, object);
+        const ecs::Entity entity = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(entity).moves = true;
         const glm::dmat4 tool_from_mesh = matrix(models.wrench_turn) * glm::dmat4(object.world);
         workplace.world.add<ToolPart>(entity, tool_from_mesh);
-        const ecs::Entity ghost = add(workplace.world, object);
+        const ecs::Entity ghost = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(ghost).moves = true;
         workplace.world.add<GhostPart>(ghost, tool_from_mesh, false);
     }
@@ -179,13 +172,13 @@ void add_hand(Workplace& workplace, const LessonModels& models, const GpuLessonM
     render::Scene scene;
     render::add_model(scene, models.hand, on_gpu.hand);
     for (const render::Object& object : scene.objects) {
-        const ecs::Entity entity = add(workplace.world, object);
+        const ecs::Entity entity = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(entity).moves = true;
         workplace.world.add<Fadable>(entity, true);
         workplace.world
             .add<SkinnedHand>(entity, hand::Skeleton{}, models.hand.skins.front().inverse_bind, nullptr)
             .skin = skin;
-        const ecs::Entity ghost = add(workplace.world, object);
+        const ecs::Entity ghost = view::add_drawable(workplace.world, object);
         workplace.world.get<Drawable>(ghost).moves = true;
         workplace.world.add<SkinnedHand>(ghost, hand::Skeleton{}, models.hand.skins.front().inverse_bind,
                                          nullptr);

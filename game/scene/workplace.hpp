@@ -10,28 +10,20 @@
 #include "content/format/assembly.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
-#include "engine/render/gpu_model.hpp"
-#include "engine/render/scene.hpp"
 #include "game/scene/hand_clearance.hpp"
 #include "game/session/lesson_session.hpp"
+#include "game/view/drawables.hpp"
 #include "game/view/loaded_model.hpp"
 #include "game/world/world.hpp"
 #include "haptics/hand/kinematics.hpp"
 
 namespace bolt::scene {
 
-// From the entity's own frame to the assembly's.
-struct Transform {
-    glm::mat4 world{1.0F};
-};
-
-// A mesh to draw.
-struct Drawable {
-    const render::GpuModel* model = nullptr;
-    std::uint32_t mesh = 0;
-    int node = -1;       // in the model that it came from
-    bool moves = false;  // its shadow is drawn anew each frame
-};
+using view::Appearance;
+using view::Drawable;
+using view::Fadable;
+using view::Outline;
+using view::Transform;
 
 // A nut, which turns and advances with its joint.
 struct NutPart {
@@ -61,11 +53,6 @@ struct SkinnedHand {
     HandClearance clearance = {};
 };
 
-// An outline that is visible through other parts.
-struct Outline {
-    glm::vec4 color{0.0F};
-};
-
 // A transparent wrench or hand that demonstrates a pose.
 struct GhostPart {
     glm::dmat4 tool_from_mesh{1.0};
@@ -80,14 +67,9 @@ struct ArrowMarker {
     glm::vec4 color{1.0F};
 };
 
-// A part that may fade where it hides the work.
-struct Fadable {
-    bool fades = true;
-};
-
 // The registry with the components of the simulation and of its pictures.
-using SceneWorld = world::WorldWith<Transform, Drawable, NutPart, JointPart, ToolPart, SkinnedHand, Outline,
-                                    GhostPart, ArrowMarker, Fadable>;
+using SceneWorld = world::WorldWith<Transform, Drawable, Appearance, Outline, Fadable, NutPart, JointPart,
+                                    ToolPart, SkinnedHand, GhostPart, ArrowMarker>;
 
 // The person at the workplace.
 struct Worker {

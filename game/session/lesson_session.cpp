@@ -72,23 +72,23 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
 
 namespace {
 
-Header header_of(const SessionSetup& start, const LessonOptions& options) {
+Header make_header(const SessionSetup& start, const LessonOptions& options) {
     const content::Assembly& assembly = start.assembly;
     Header header;
-    header.guide = options.guide && options.mode == lesson::Mode::guided ? "on" : "off";
+    header.guide = options.guide && options.mode == lesson::Mode::guided;
     header.view_help = options.view_help;
-    header.obstacles = start.obstacles;
+    header.contact_models = start.contact_models;
     header.obstacle_names = start.obstacle_names;
-    header.device = limits_text(options.device);
-    header.servo = options.servo;
+    header.device = options.device;
+    header.servo_rate = options.servo_rate;
     header.assembly = assembly.name;
     header.assembly_file = assembly.file;
     header.assembly_text = assembly.text;
     header.variant = assembly.variant;
     header.tool = assembly.tool;
-    header.law = joint::name(options.law);
-    header.mode = lesson::name(options.mode);
-    header.task = lesson::name(options.task);
+    header.law = options.law;
+    header.mode = options.mode;
+    header.task = options.task;
     header.operator_name = options.operator_name;
     header.trainee = options.trainee;
     header.hand = options.hand;
@@ -118,17 +118,24 @@ bool same_tick(const servo::Input& input, const servo::Output& a, const servo::O
 
 }  // namespace
 
-void advance(LessonTracker& tracker, const servo::State& state, const servo::Output& output) {
+void haptic_system(const world::WriteHaptics& world, TickContext& tick) {
+    world::haptic_system(world, tick.servo);
+}
+
+void lesson_system(const world::WriteHaptics& world, TickContext& tick) {
+    LessonTracker& tracker = tick.tracker;
     lesson::Lesson& lesson = tracker.lesson;
-    lesson::observe(lesson, state, output);
+    lesson::observe(lesson, world);
     for (const lesson::LessonEvent& event : lesson.events)
         tracker.steps_begun += event.kind == lesson::EventKind::step_begin ? 1U : 0U;
-    if (output.undone == 0) return;
-    const std::uint32_t unsaved = tracker.steps_begun - (state.checkpoint_count + output.undone - 1U);
+    const std::uint8_t undone = tick.servo.output.undone;
+    if (undone == 0) return;
+    const std::uint32_t saved = tick.servo.state.checkpoint_count;
+    const std::uint32_t unsaved = tracker.steps_begun - (saved + undone - 1U);
     // The last checkpoint belongs to the due step, or to the last step once all are done.
     const std::uint32_t done = lesson.due() == nullptr ? 1U : 0U;
-    (void)lesson::undo_steps(lesson, state, output.undone - 1U + unsaved + done);
-    tracker.steps_begun = state.checkpoint_count;  // one for the step it returned to
+    (void)lesson::undo_steps(lesson, world, undone - 1U + unsaved + done);
+    tracker.steps_begun = saved;  // one for the step it returned to
 }
 
 LessonSession::~LessonSession() = default;
@@ -143,7 +150,7 @@ Result<SessionSetup> prepare(const content::Assembly& given, const LessonOptions
     }
     BOLT_TRY_ASSIGN(auto models, obstacles_of(start.assembly, start.setup, options.obstacles));
     if (!models.has_value()) return start;
-    start.obstacles = models->files;
+    start.contact_models = models->files;
     start.obstacle_names = std::move(models->names);
     start.state.tool_contact = std::move(models->tool_contact);
     return start;
@@ -166,29 +173,30 @@ Result<std::unique_ptr<LessonSession>> LessonSession::begin(SessionSetup start, 
     std::unique_ptr<LessonSession> session(new LessonSession);
     LessonSession& s = *session;
     s.current_ = std::move(start);
-    BOLT_TRY_ASSIGN(auto created, SessionWriter::create(file, header_of(s.current_, options)));
+    BOLT_TRY_ASSIGN(auto created, SessionWriter::create(file, make_header(s.current_, options)));
     s.writer_.emplace(std::move(created));
 
     lesson::Lesson& lesson = s.tracker_.lesson;
     lesson = lesson::begin(s.current_.assembly, options.mode, options.task);
     lesson.guides = lesson.guides && options.guide;
-    for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
-        BOLT_TRY(s.writer_->update(lesson::judge_joint(lesson, i, s.current_.state)));
-    }
+    world::World initial;
+    world::add_haptics(initial, s.current_.state);
+    for (std::size_t i = 0; i < lesson.joints.size(); ++i)
+        BOLT_TRY(s.writer_->update(lesson::judge_joint(lesson, i, initial)));
     return session;
 }
 
-Status LessonSession::record_events() {
+Status LessonSession::record_events(const world::ReadHaptics& world) {
     for (const lesson::LessonEvent& event : events_) {
         BOLT_TRY(writer_->add(event));
         if (event.kind != lesson::EventKind::step_end && event.kind != lesson::EventKind::release) continue;
         const auto joint = static_cast<std::size_t>(event.joint);
-        BOLT_TRY(writer_->update(lesson::judge_joint(lesson(), joint, current_.state)));
+        BOLT_TRY(writer_->update(lesson::judge_joint(lesson(), joint, world)));
     }
     return {};
 }
 
-Result<servo::Output> LessonSession::step(const servo::Input& given,
+Result<servo::Output> LessonSession::step(const world::WriteHaptics& world, const servo::Input& given,
                                           std::vector<lesson::LessonEvent> extra_events) {
     servo::Input input = given;
     const auto undo = std::exchange(requested_undo_, std::nullopt);
@@ -196,20 +204,20 @@ Result<servo::Output> LessonSession::step(const servo::Input& given,
                  : undo                                     ? undo_input(*undo)
                                                             : std::uint8_t{0};
     input.setting = static_cast<float>(lesson::wrench_setting(lesson()));
-    return tick(input, std::move(extra_events));
+    return tick(world, input, std::move(extra_events));
 }
 
 std::uint8_t LessonSession::undo_input(std::size_t steps) const {
     const lesson::Lesson& l = lesson();
-    const std::size_t checkpoints = steps + (finished() ? 0 : 1);  // as in advance()
+    const std::size_t checkpoints = steps + (finished() ? 0 : 1);  // as in lesson_system()
     const bool allowed =
         l.mode != lesson::Mode::assessment && checkpoints <= servo::max_checkpoints && steps <= l.current;
     return allowed ? static_cast<std::uint8_t>(checkpoints) : std::uint8_t{0};
 }
 
-Status LessonSession::repeat(const servo::Input& input, const servo::Output& output,
-                             std::vector<lesson::LessonEvent> extra_events) {
-    BOLT_TRY_ASSIGN(const auto again, tick(input, std::move(extra_events)));
+Status LessonSession::repeat(const world::WriteHaptics& world, const servo::Input& input,
+                             const servo::Output& output) {
+    BOLT_TRY_ASSIGN(const auto again, tick(world, input, {}));
     if (same_tick(input, again, output)) return {};
     return fail(ErrorCode::failed,
                 fmt::format("at {:.3f} s the servo and the lesson got different outputs from the same inputs",
@@ -217,26 +225,26 @@ Status LessonSession::repeat(const servo::Input& input, const servo::Output& out
                 "equal bits; the recording until then is kept");
 }
 
-Result<servo::Output> LessonSession::tick(const servo::Input& input,
+Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, const servo::Input& input,
                                           std::vector<lesson::LessonEvent>&& extra_events) {
     const servo::Output output = servo::tick(current_.setup, current_.state, input);
     checkpoints_saved_ += input.undo == servo::save_checkpoint ? 1U : 0U;
-    advance(tracker_, current_.state, output);
+    TickContext context{{current_.state, input, output}, tracker_};
+    ecs::run(tick_systems, world, context);
     events_.clear();
     std::swap(events_, tracker_.lesson.events);
     for (lesson::LessonEvent& event : extra_events) events_.push_back(std::move(event));
     BOLT_TRY(writer_->append(make_record(input, output)));
-    BOLT_TRY(record_events());
+    BOLT_TRY(record_events(world));
     return output;
 }
 
-LessonOutcome LessonSession::outcome() const {
-    return {lesson::judge(lesson(), current_.state, current_.setup.dt),
-            current_.state.tool_contact.has_value()};
+LessonOutcome LessonSession::outcome(const world::ReadHaptics& world) const {
+    return {lesson::judge(lesson(), world, current_.setup.dt), current_.state.tool_contact.has_value()};
 }
 
-Result<LessonOutcome> LessonSession::finish() {
-    LessonOutcome result = outcome();
+Result<LessonOutcome> LessonSession::finish(const world::ReadHaptics& world) {
+    LessonOutcome result = outcome(world);
     BOLT_TRY(writer_->finish(result.result));
     return result;
 }

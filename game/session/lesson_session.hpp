@@ -1,5 +1,6 @@
-// A lesson in progress: its initial state, the servo that steps it, the lesson that observes each tick, and
-// the session file that records it.
+// A lesson in progress: its initial state, the servo that steps it, the systems that run after each tick, and
+// the session file that records it. The world of components belongs to the caller, which may add components
+// of its own (world::WorldWith).
 #pragma once
 
 #include <cstdint>
@@ -12,9 +13,11 @@
 
 #include "content/format/assembly.hpp"
 #include "engine/base/result.hpp"
+#include "engine/ecs/system.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/session_file.hpp"
+#include "game/world/world.hpp"
 #include "haptics/force/output_stage.hpp"
 #include "haptics/servo/setup.hpp"
 #include "haptics/servo/tick.hpp"
@@ -40,14 +43,14 @@ struct LessonOptions {
     double dt = 0.001;
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).
     Obstacles obstacles = Obstacles::none;
-    bool guide = true;          // in guided mode a force guides the hand to the nut
-    std::string operator_name;  // "person", or the simulated trainee's profile: "expert", …
-    std::string trainee;        // the name given with --trainee; may be empty
-    std::string hand;           // "left" or "right", the working hand; empty: unknown
+    bool guide = true;               // in guided mode a force guides the hand to the nut
+    std::string operator_name;       // "person", or the simulated trainee's profile: "expert", …
+    std::string trainee;             // the name given with --trainee; may be empty
+    std::optional<hand::Side> hand;  // the working hand; none: unknown
 
-    std::string view_help;               // "on", "off" for a simulated trainee; empty for a person
-    std::string servo = "virtual time";  // the servo's clock, as session::Header stores it
-    force::OutputLimits device;          // default: a 6-DoF arm of the Virtuose class
+    std::optional<bool> view_help;  // only of a simulated trainee
+    double servo_rate = 0.0;        // Hz, of the servo's thread; 0: virtual time
+    force::OutputLimits device;     // default: a 6-DoF arm of the Virtuose class
 };
 
 // The initial state of a lesson and its servo.
@@ -55,7 +58,7 @@ struct SessionSetup {
     content::Assembly assembly;  // with the options' law applied (lesson::apply_law)
     servo::Setup setup;
     servo::State state;
-    std::string obstacles = "none";  // contact model files, as session::Header stores them
+    std::string contact_models;  // as in session::Header
     std::vector<ObstacleName> obstacle_names;
 };
 // Fails if the contact models are required but missing or invalid, or if a joint cannot be pretightened.
@@ -73,8 +76,21 @@ struct LessonTracker {
     std::uint32_t steps_begun = 0;
 };
 
-// Updates the lesson after a tick: observes the output, and undoes steps if the servo undid the nuts.
-void advance(LessonTracker& tracker, const servo::State& state, const servo::Output& output);
+// What the systems of a tick use beside the world.
+struct TickContext {
+    world::Snapshot servo;
+    LessonTracker& tracker;
+};
+
+// world::haptic_system().
+void haptic_system(const world::WriteHaptics& world, TickContext& tick);
+// Updates the lesson from the components, and undoes its steps if the servo undid the nuts.
+void lesson_system(const world::WriteHaptics& world, TickContext& tick);
+
+// The schedule after each servo tick, the same for a person at a window, a simulated trainee, a replay and a
+// film. A program with pictures runs more systems once a frame.
+inline constexpr ecs::System<const world::WriteHaptics, TickContext> tick_systems[] = {
+    {"haptics", haptic_system}, {"lesson", lesson_system}};
 
 struct LessonOutcome {
     lesson::LessonResult result;
@@ -96,14 +112,15 @@ class LessonSession {
     LessonSession& operator=(const LessonSession&) = delete;
     ~LessonSession();  // without finish() the session file is kept and marked as cut short
 
-    // Computes one tick. `extra_events`: additional events to record with it. Fails if the session file
-    // cannot be written; everything written before stays readable.
-    Result<servo::Output> step(const servo::Input& input, std::vector<lesson::LessonEvent> extra_events = {});
+    // Computes one tick and runs tick_systems on `world`, in which world::add_haptics() has created the
+    // entities; always the same world. `extra_events`: additional events to record with the tick. Fails if
+    // the session file cannot be written; everything written before stays readable.
+    Result<servo::Output> step(const world::WriteHaptics& world, const servo::Input& input,
+                               std::vector<lesson::LessonEvent> extra_events = {});
 
     // Repeats a tick that another servo computed from the same initial state. Also fails if the outputs
     // differ, which means that one of the two missed an input.
-    Status repeat(const servo::Input& input, const servo::Output& output,
-                  std::vector<lesson::LessonEvent> extra_events = {});
+    Status repeat(const world::WriteHaptics& world, const servo::Input& input, const servo::Output& output);
     // For that servo: the number of checkpoints that it should have saved since the start, and the value of
     // servo::Input::undo that undoes `steps` steps (0: not allowed).
     [[nodiscard]] std::uint32_t target_checkpoints() const {
@@ -133,13 +150,15 @@ class LessonSession {
     // Records the timing of another servo's thread.
     Status record_timing(const servo::Timing& timing) { return writer_->record_timing(timing); }
 
-    [[nodiscard]] LessonOutcome outcome() const;  // so far
-    Result<LessonOutcome> finish();  // writes the outcome to the session file; no ticks may follow
+    [[nodiscard]] LessonOutcome outcome(const world::ReadHaptics& world) const;  // so far
+    // Writes the outcome to the session file; no ticks may follow.
+    Result<LessonOutcome> finish(const world::ReadHaptics& world);
 
   private:
     LessonSession() = default;
-    Status record_events();
-    Result<servo::Output> tick(const servo::Input& input, std::vector<lesson::LessonEvent>&& extra_events);
+    Status record_events(const world::ReadHaptics& world);
+    Result<servo::Output> tick(const world::WriteHaptics& world, const servo::Input& input,
+                               std::vector<lesson::LessonEvent>&& extra_events);
 
     SessionSetup current_;  // its state advances with each tick
     LessonTracker tracker_;

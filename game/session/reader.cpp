@@ -17,24 +17,6 @@ namespace {
 
 constexpr std::uint64_t max_rows = 4'000'000;  // in any table; a day has 86,400 seconds
 
-using Meta = std::map<std::string, std::string, std::less<>>;
-
-template <class Number>
-std::optional<Number> number(const std::string& text) {
-    Number value{};
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return value;
-}
-
-// The enumeration value whose name() is `text`.
-template <class Enum>
-std::optional<Enum> named(std::string_view text, int count) {
-    for (int i = 0; i < count; ++i)
-        if (name(static_cast<Enum>(i)) == text) return static_cast<Enum>(i);
-    return std::nullopt;
-}
-
 Result<std::int64_t> pragma(Database& database, const char* which) {
     BOLT_TRY_ASSIGN(auto statement, database.prepare(fmt::format("PRAGMA {}", which)));
     BOLT_TRY_ASSIGN(auto row, statement.step());
@@ -73,50 +55,13 @@ Status for_each_row(Database& database, const std::string& file, std::string_vie
     return {};
 }
 
-Result<Meta> read_meta(Database& database, const std::string& file) {
-    Meta meta;
+Result<HeaderTexts> read_meta(Database& database, const std::string& file) {
+    HeaderTexts meta;
     BOLT_TRY(for_each_row(database, file, "meta", "SELECT key, value FROM meta", [&](const Statement& row) {
         const auto [entry, isnew] = meta.emplace(row.text(0), row.text(1));
         return std::optional(meta_row_hash(entry->first, row.text(1)));
     }));
     return meta;
-}
-
-Result<Header> header_of(Meta meta, const std::string& file) {
-    Header header;
-    const std::pair<const char*, std::string*> texts[] = {
-        {key::assembly, &header.assembly},
-        {key::assembly_file, &header.assembly_file},
-        {key::assembly_text, &header.assembly_text},
-        {key::variant, &header.variant},
-        {key::law, &header.law},
-        {key::mode, &header.mode},
-        {key::task, &header.task},
-        {key::operator_name, &header.operator_name},
-        {key::program, &header.program},
-    };
-    for (const auto& [name, text] : texts) {
-        const auto found = meta.find(name);
-        if (found == meta.end()) return file_error(file, fmt::format("is damaged: its {} is missing", name));
-        *text = std::move(found->second);
-    }
-    const std::pair<const char*, std::string*> later[] = {
-        {key::guide, &header.guide}, {key::obstacles, &header.obstacles}, {key::device, &header.device},
-        {key::servo, &header.servo}, {key::tool, &header.tool},           {key::view_help, &header.view_help},
-        {key::hand, &header.hand},
-
-    };
-    for (const auto& [name, text] : later)
-        if (const auto found = meta.find(name); found != meta.end()) *text = std::move(found->second);
-    if (const auto found = meta.find(key::trainee); found != meta.end())
-        header.trainee = std::move(found->second);
-    const auto seed = number<std::uint64_t>(meta[key::seed]);
-    const auto dt = number<double>(meta[key::dt]);
-    if (!seed || !dt || !ticks_per_commit(*dt))
-        return file_error(file, "is damaged: its seed or tick is not a number in range");
-    header.seed = *seed;
-    header.dt = *dt;
-    return header;
 }
 
 Status read_obstacles(Database& database, const std::string& file, std::vector<ObstacleName>& names) {
@@ -230,7 +175,7 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
     const bool finished = meta[key::finished] == "1";
     if (complete && (!duration || !score))
         return file_error(file, "is damaged: it is marked complete but has no result");
-    BOLT_TRY_ASSIGN(auto header, header_of(std::move(meta), file));
+    BOLT_TRY_ASSIGN(auto header, header_of(meta, file));
     if (session.format >= 2) {
         BOLT_TRY(read_obstacles(database, file, header.obstacle_names));
     }
@@ -327,21 +272,6 @@ Status SessionReader::for_each_chunk(
         next += ticks->size();
     }
     return {};
-}
-
-OperatorKind operator_kind(const Header& header) {
-    constexpr std::string_view person = "person";
-    if (header.trainee)
-        return header.operator_name == person ? OperatorKind::person : OperatorKind::simulated;
-    if (!header.view_help.empty()) return OperatorKind::simulated;
-    if (header.operator_name == person || !header.tool.empty()) return OperatorKind::person;
-    return OperatorKind::unrecorded;
-}
-
-std::string trainee_name(const Header& header) {
-    if (header.trainee) return *header.trainee;
-    if (operator_kind(header) == OperatorKind::simulated || header.operator_name == "person") return {};
-    return header.operator_name;
 }
 
 }  // namespace bolt::session

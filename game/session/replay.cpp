@@ -22,23 +22,13 @@ Error replay_error(const SessionReader& session, std::string what, std::string e
     return error;
 }
 
-template <class Value, std::size_t count>
-std::optional<Value> named(const std::array<Value, count>& values, const std::string& name_wanted) {
-    for (const Value value : values)
-        if (name(value) == name_wanted) return value;
-    return std::nullopt;
-}
-
-constexpr std::array modes{lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment};
-constexpr std::array tasks{lesson::Task::tighten, lesson::Task::loosen};
-
 // The assembly of the session's text, with the models of the present assembly. A session without obstacles
 // needs no model, so the present assembly may be missing.
 Result<content::Assembly> assembly_of(const Header& header) {
     const bool exists = std::filesystem::exists(header.assembly_file);
     content::LoadedAssembly present =
         content::load_assembly(exists ? header.assembly_file : header.assembly, header.variant);
-    if (!present.ok() && header.obstacles != "none") return fail(present.errors.front());
+    if (!present.ok() && !header.contact_models.value_or("").empty()) return fail(present.errors.front());
     if (present.ok() && present.assembly.text == header.assembly_text) return std::move(present.assembly);
     content::LoadedAssembly recorded =
         content::parse_assembly(header.assembly_text, header.assembly_file, header.variant);
@@ -54,10 +44,8 @@ Result<content::Assembly> assembly_of(const Header& header) {
 
 lesson::Lesson restore_lesson(const SessionReader& session, const SessionSetup& start) {
     const Header& header = session.header();
-    lesson::Lesson lesson =
-        lesson::begin(start.assembly, named(modes, header.mode).value_or(lesson::Mode::guided),
-                      named(tasks, header.task).value_or(lesson::Task::tighten));
-    lesson.guides = header.guide == "on";
+    lesson::Lesson lesson = lesson::begin(start.assembly, header.mode, header.task);
+    lesson.guides = header.guide.value_or(false);
     return lesson;
 }
 
@@ -65,35 +53,37 @@ lesson::Lesson restore_lesson(const SessionReader& session, const SessionSetup& 
 
 Result<SessionSetup> restore_setup(const SessionReader& session) {
     const Header& header = session.header();
-    const auto device = parse_limits(header.device);
-    const auto mode = named(modes, header.mode);
-    const auto task = named(tasks, header.task);
-    if (!device || !mode || !task)
-        return fail(replay_error(session, "the session does not record its device, mode or task",
+    if (!header.device || !header.contact_models)
+        return fail(replay_error(session, "the session does not record its device and obstacles",
                                  "a session of format 2 or later"));
     BOLT_TRY_ASSIGN(auto assembly, assembly_of(header));
     BOLT_TRY(content::choose_tool(assembly, header.tool));
     LessonOptions options;
-    options.mode = *mode;
-    options.task = *task;
-    options.law =
-        header.law == joint::name(joint::Law::published) ? joint::Law::published : joint::Law::mechanistic;
+    options.mode = header.mode;
+    options.task = header.task;
+    options.law = header.law;
     options.seed = header.seed;
     options.dt = header.dt;
-    options.device = *device;
-    options.obstacles = header.obstacles == "none" ? Obstacles::none : Obstacles::required;
+    options.device = *header.device;
+    options.obstacles = header.contact_models->empty() ? Obstacles::none : Obstacles::required;
     Result<SessionSetup> start = prepare(assembly, options);
     if (!start) return start;
-    if (start->obstacles != header.obstacles)
+    if (start->contact_models != *header.contact_models)
         return fail(replay_error(session,
                                  fmt::format("the contact models have changed: recorded with {}, found {}",
-                                             header.obstacles, start->obstacles),
+                                             *header.contact_models, start->contact_models),
                                  "the content that the session was recorded with"));
     return start;
 }
 
+Result<ReplayResult> replay(const SessionReader& session, SessionSetup start, const VisitTick& visit) {
+    world::World world;
+    world::add_haptics(world, start.state);
+    return replay(session, std::move(start), world, visit);
+}
+
 Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
-                            const std::function<bool(const ReplayTick&)>& visit) {
+                            const world::WriteHaptics& world, const VisitTick& visit) {
     LessonTracker tracker{restore_lesson(session, start)};
     lesson::Lesson& lesson = tracker.lesson;
     ReplayResult replayed;
@@ -103,7 +93,8 @@ Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
             if (!proceed) return;
             const servo::Input input = input_of(recorded);
             const servo::Output output = servo::tick(start.setup, start.state, input);
-            advance(tracker, start.state, output);
+            TickContext context{{start.state, input, output}, tracker};
+            ecs::run(tick_systems, world, context);
             if (!same_output(make_record(input, output), recorded) && replayed.mismatches++ == 0)
                 replayed.first_mismatch = replayed.ticks;
             ++replayed.ticks;
@@ -153,7 +144,7 @@ Result<RecordedHand> replay_device(const SessionReader& session) {
     d.name = "the hand of " + session.file();
     d.id = "recording";
     d.sensing = device::Sensing::pose;
-    if (const auto limits = parse_limits(session.header().device)) d.limits = *limits;
+    if (const auto& limits = session.header().device) d.limits = *limits;
     for (std::size_t i = 0; i < 6; ++i) d.renders[i] = (i < 3 ? d.limits.force : d.limits.torque) > 0.0;
     d.rate = 1.0 / session.header().dt;
     d.buttons = 3;

@@ -30,9 +30,14 @@ struct ReplayResult {
     std::uint64_t first_mismatch = 0;
 };
 
-// Replays each tick from the initial state `start`; `visit` returns false to stop.
+using VisitTick = std::function<bool(const ReplayTick&)>;  // false: stop
+
+// Replays each tick from the initial state `start` and runs tick_systems on `world`, in which
+// world::add_haptics() has created the entities, before `visit`.
 Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
-                            const std::function<bool(const ReplayTick&)>& visit);
+                            const world::WriteHaptics& world, const VisitTick& visit);
+// The same in a world of its own.
+Result<ReplayResult> replay(const SessionReader& session, SessionSetup start, const VisitTick& visit);
 
 // The recorded hand of a session as a device that repeats its motion (haptics/device/virtual_devices.hpp), in
 // the assembly's frame. For a station with an identity workspace mapping whose tool starts at `first`.

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstddef>
+
+#include "game/session/tables.hpp"
 
 namespace bolt::session {
 
@@ -51,6 +52,160 @@ std::optional<force::OutputLimits> parse_limits(std::string_view text) {
         if (text.starts_with(' ')) text.remove_prefix(1);
     });
     return sound && text.empty() ? std::optional(limits) : std::nullopt;
+}
+
+std::string servo_text(double rate) { return rate > 0.0 ? fmt::format("{:.0f} Hz", rate) : "virtual time"; }
+
+namespace {
+
+constexpr std::string_view person = "person";
+
+std::optional<bool> parse_switch(std::string_view text) {
+    if (text == "on") return true;
+    return text == "off" ? std::optional(false) : std::nullopt;
+}
+
+std::optional<double> parse_servo(std::string_view text) {
+    if (text == servo_text(0.0)) return 0.0;
+    constexpr std::string_view unit = " Hz";
+    if (!text.ends_with(unit)) return std::nullopt;
+    const auto rate = number<double>(text.substr(0, text.size() - unit.size()));
+    return rate && *rate > 0.0 ? rate : std::nullopt;
+}
+
+std::optional<hand::Side> parse_side(std::string_view text) {
+    if (text == "left") return hand::Side::left;
+    return text == "right" ? std::optional(hand::Side::right) : std::nullopt;
+}
+
+const char* switch_text(bool on) { return on ? "on" : "off"; }
+
+// Reads the texts of a header. The first one that is missing or wrong is kept as the error.
+class HeaderParser {
+  public:
+    HeaderParser(const HeaderTexts& texts, const std::string& file) : texts_(texts), file_(file) {}
+
+    void required(const char* key, std::string& value) {
+        if (const std::string* text = find(key))
+            value = *text;
+        else
+            report(fmt::format("is damaged: its {} is missing", key));
+    }
+    void optional(const char* key, std::string& value) const {
+        if (const std::string* text = find(key)) value = *text;
+    }
+    // `parse` returns none for a wrong text.
+    template <class Value, class Parse>
+    void required(const char* key, Value& value, Parse parse) {
+        std::string text;
+        required(key, text);
+        if (error_) return;
+        if (const auto parsed = parse(text))
+            value = *parsed;
+        else
+            report(fmt::format("is damaged: its {} is \"{}\"", key, text));
+    }
+    // An empty text has no value.
+    template <class Value, class Parse>
+    void optional(const char* key, std::optional<Value>& value, Parse parse) {
+        const std::string* text = find(key);
+        if (text == nullptr || text->empty()) return;
+        value = parse(*text);
+        if (!value) report(fmt::format("is damaged: its {} is \"{}\"", key, *text));
+    }
+    [[nodiscard]] Status status() const { return error_ ? Status(fail(*error_)) : Status(); }
+
+  private:
+    [[nodiscard]] const std::string* find(const char* key) const {
+        const auto found = texts_.find(key);
+        return found != texts_.end() ? &found->second : nullptr;
+    }
+    void report(std::string what) {
+        if (error_) return;
+        error_ = Error{};
+        error_->code = ErrorCode::failed;
+        error_->file = file_;
+        error_->what = std::move(what);
+    }
+    const HeaderTexts& texts_;
+    const std::string& file_;
+    std::optional<Error> error_;
+};
+
+}  // namespace
+
+HeaderTexts texts_of(const Header& header) {
+    const std::string no_obstacles = "none";
+    HeaderTexts texts{
+        {key::assembly, header.assembly},
+        {key::assembly_file, header.assembly_file},
+        {key::assembly_text, header.assembly_text},
+        {key::variant, header.variant},
+        {key::law, std::string(joint::name(header.law))},
+        {key::mode, std::string(lesson::name(header.mode))},
+        {key::task, std::string(lesson::name(header.task))},
+        {key::operator_name, header.operator_name},
+        {key::seed, fmt::format("{}", header.seed)},
+        {key::dt, fmt::format("{}", header.dt)},
+        {key::program, header.program},
+        {key::tool, header.tool},
+    };
+    if (header.guide) texts[key::guide] = switch_text(*header.guide);
+    if (header.contact_models)
+        texts[key::obstacles] = header.contact_models->empty() ? no_obstacles : *header.contact_models;
+    if (header.device) texts[key::device] = limits_text(*header.device);
+    if (header.servo_rate) texts[key::servo] = servo_text(*header.servo_rate);
+    if (header.view_help) texts[key::view_help] = switch_text(*header.view_help);
+    if (header.hand) texts[key::hand] = *header.hand == hand::Side::left ? "left" : "right";
+    if (header.trainee) texts[key::trainee] = *header.trainee;
+    return texts;
+}
+
+Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
+    Header header;
+    HeaderParser parser(texts, file);
+    parser.required(key::assembly, header.assembly);
+    parser.required(key::assembly_file, header.assembly_file);
+    parser.required(key::assembly_text, header.assembly_text);
+    parser.required(key::variant, header.variant);
+    parser.required(key::law, header.law, [](std::string_view text) { return named<joint::Law>(text, 2); });
+    parser.required(key::mode, header.mode,
+                    [](std::string_view text) { return named<lesson::Mode>(text, 3); });
+    parser.required(key::task, header.task,
+                    [](std::string_view text) { return named<lesson::Task>(text, 2); });
+    parser.required(key::operator_name, header.operator_name);
+    parser.required(key::seed, header.seed, number<std::uint64_t>);
+    parser.required(key::dt, header.dt, [](std::string_view text) {
+        const auto dt = number<double>(text);
+        return dt && ticks_per_commit(*dt) ? dt : std::nullopt;
+    });
+    parser.required(key::program, header.program);
+    parser.optional(key::guide, header.guide, parse_switch);
+    parser.optional(key::obstacles, header.contact_models, [](const std::string& text) {
+        return std::optional(text == "none" ? std::string() : text);
+    });
+    parser.optional(key::device, header.device, parse_limits);
+    parser.optional(key::servo, header.servo_rate, parse_servo);
+    parser.optional(key::view_help, header.view_help, parse_switch);
+    parser.optional(key::tool, header.tool);
+    parser.optional(key::hand, header.hand, parse_side);
+    if (const auto found = texts.find(key::trainee); found != texts.end()) header.trainee = found->second;
+    BOLT_TRY(parser.status());
+    return header;
+}
+
+OperatorKind operator_kind(const Header& header) {
+    if (header.trainee)
+        return header.operator_name == person ? OperatorKind::person : OperatorKind::simulated;
+    if (header.view_help) return OperatorKind::simulated;
+    if (header.operator_name == person || !header.tool.empty()) return OperatorKind::person;
+    return OperatorKind::unrecorded;
+}
+
+std::string trainee_name(const Header& header) {
+    if (header.trainee) return *header.trainee;
+    if (operator_kind(header) == OperatorKind::simulated || header.operator_name == person) return {};
+    return header.operator_name;
 }
 
 }  // namespace bolt::session

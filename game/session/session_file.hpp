@@ -28,6 +28,8 @@
 #include "game/lesson/result.hpp"
 #include "game/session/tick.hpp"
 #include "haptics/force/output_limits.hpp"
+#include "haptics/hand/kinematics.hpp"
+#include "haptics/joint/stage.hpp"
 #include "haptics/servo/thread.hpp"
 
 namespace bolt::session {
@@ -41,34 +43,38 @@ struct ObstacleName {
 // The kind of trainee. `unrecorded`: the session is from an older program, which did not record it.
 enum class OperatorKind : std::uint8_t { unrecorded, person, simulated };
 
+// What is recorded of a lesson as a whole. The file has it as text (tables.cpp).
 struct Header {
     std::string assembly;       // name
     std::string assembly_file;  // path as given by the user, for messages
     std::string assembly_text;  // the file's exact text, so that a session replays without the folder
     std::string variant;
-    std::string law;            // "published", "mechanistic"
-    std::string mode;           // "guided", "practice", "assessment"
-    std::string task;           // "tighten", "loosen"
+    joint::Law law = joint::Law::mechanistic;
+    lesson::Mode mode = lesson::Mode::guided;
+    lesson::Task task = lesson::Task::tighten;
     std::string operator_name;  // "person", or the simulated trainee's profile: "expert", …
     std::uint64_t seed = 0;
     double dt = 0.001;    // s
     std::string program;  // name and version of the writing program
 
-    // Further inputs of the ticks; all empty in format 1, which does not store them.
-    std::string guide;      // "on", "off": the guiding force towards the due joint
-    std::string obstacles;  // "none", or the contact model files, each with its size and checksum
-    std::string device;     // its limits (limits_text)
-    std::string servo;      // "virtual time", or the rate of the thread as text
+    // Further inputs of the ticks; none in format 1, which does not store them.
+    std::optional<bool> guide;                  // the guiding force towards the due joint
+    std::optional<std::string> contact_models;  // their files with size and checksum; empty: no obstacles
+    std::optional<force::OutputLimits> device;
+    std::optional<double> servo_rate;  // Hz, of the servo's thread; 0: virtual time
     std::vector<ObstacleName> obstacle_names;
 
-    std::string view_help;  // "on", "off" for a simulated trainee; empty for a person or if unknown
-    std::string tool;       // name in the assembly; empty before format 4: the assembly's first tool
-    std::string hand;       // "left", "right": the working hand; empty if unknown
+    std::optional<bool> view_help;   // only of a simulated trainee
+    std::string tool;                // name in the assembly; empty before format 4: the assembly's first tool
+    std::optional<hand::Side> hand;  // the working hand; none if unknown
 
     // The name given with --trainee, which may be empty. None in sessions of older programs, which stored a
     // person's typed name in `operator_name`.
     std::optional<std::string> trainee;
 };
+
+// "virtual time", or the rate as text.
+std::string servo_text(double rate);
 
 // Determines the kind of trainee without using the trainee's name. A session without the key `trainee` is
 // `simulated` if its view help is recorded, since only simulated trainees record it; `person` if its operator
@@ -137,12 +143,5 @@ class SessionReader {
     explicit SessionReader(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
-
-// The limits of a haptic device as one line of text for the session header: "force_N=20 torque_Nm=2 …", each
-// limit by name, as the shortest number that reads back the same, because a replay needs all bits.
-std::string limits_text(const force::OutputLimits& limits);
-
-// Parses the text of limits_text(). None if a name is missing or unknown, or a value is not a number.
-std::optional<force::OutputLimits> parse_limits(std::string_view text);
 
 }  // namespace bolt::session

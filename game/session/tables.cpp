@@ -155,36 +155,9 @@ Status put_meta(Database& database, std::string_view key, std::string_view value
 }  // namespace
 
 Status put_header(Database& database, const Header& header, TableChecksums& checksums) {
-    const std::string seed = fmt::format("{}", header.seed);
-    const std::string dt = fmt::format("{}", header.dt);
-    const std::pair<const char*, std::string_view> values[] = {
-        {key::assembly, header.assembly},
-        {key::assembly_file, header.assembly_file},
-        {key::assembly_text, header.assembly_text},
-        {key::variant, header.variant},
-        {key::law, header.law},
-        {key::mode, header.mode},
-        {key::task, header.task},
-        {key::operator_name, header.operator_name},
-        {key::seed, seed},
-        {key::dt, dt},
-        {key::program, header.program},
-        {key::guide, header.guide},
-        {key::obstacles, header.obstacles},
-        {key::device, header.device},
-        {key::servo, header.servo},
-        {key::view_help, header.view_help},
-        {key::tool, header.tool},
-        {key::hand, header.hand},
-
-        {key::state, state_recording},
-    };
-    for (const auto& [name, value] : values) {
-        BOLT_TRY(put_meta(database, name, value, checksums.meta));
-    }
-    if (header.trainee) {
-        BOLT_TRY(put_meta(database, key::trainee, *header.trainee, checksums.meta));
-    }
+    for (const auto& [name, text] : texts_of(header))
+        BOLT_TRY(put_meta(database, name, text, checksums.meta));
+    BOLT_TRY(put_meta(database, key::state, state_recording, checksums.meta));
     auto obstacle = database.prepare("INSERT INTO obstacle VALUES(?, ?)");
     if (!obstacle) return fail(obstacle.error());
     for (const ObstacleName& named : header.obstacle_names) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -68,6 +70,36 @@ inline constexpr const char* duration = "duration_s";  // this and the next two 
 inline constexpr const char* score = "score";
 inline constexpr const char* finished = "finished";
 }  // namespace key
+
+// The number that is the whole text; none if it is anything else.
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+    Number value{};
+    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (status != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+    return value;
+}
+
+// The one of the first `count` values of an enumeration whose name() is `text`.
+template <class Enum>
+std::optional<Enum> named(std::string_view text, int count) {
+    for (int i = 0; i < count; ++i)
+        if (name(static_cast<Enum>(i)) == text) return static_cast<Enum>(i);
+    return std::nullopt;
+}
+
+// The header as the texts of table meta, by key.
+using HeaderTexts = std::map<std::string, std::string, std::less<>>;
+HeaderTexts texts_of(const Header& header);
+// Ignores other keys. Fails, and names `file`, if a text is missing or is not one that texts_of() writes;
+// what older formats do not store may be missing.
+Result<Header> header_of(const HeaderTexts& texts, const std::string& file);
+
+// The limits of a haptic device as one line: "force_N=20 torque_Nm=2 …", each limit by name, as the shortest
+// number that reads back the same, because a replay needs all bits.
+std::string limits_text(const force::OutputLimits& limits);
+// The inverse. None if a name is missing or unknown, or a value is not a number.
+std::optional<force::OutputLimits> parse_limits(std::string_view text);
 
 inline constexpr const char* state_recording = "recording";
 inline constexpr const char* state_complete = "complete";

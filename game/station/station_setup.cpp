@@ -117,9 +117,7 @@ Pose wrist_at(const hand::Hand& hand, const Vec3& offset, double along) {
     Pose wrist = inverse(Pose{hand.scale * (handle_offset + offset), rotation({0.0, handle_angle, 0.0})});
     if (hand.side == hand::Side::left) {
         // Mirrored along the handle, then rotated about its thickness so that the thumb points to the jaw.
-        const Quat& q = wrist.orientation;
-        const Pose mirrored{wrist.position * Vec3(-1.0, 1.0, 1.0), Quat(q.w, q.x, -q.y, -q.z)};
-        wrist = Pose{Vec3(0.0), rotation({0.0, pi, 0.0})} * mirrored;
+        wrist = Pose{Vec3(0.0), rotation({0.0, pi, 0.0})} * hand::mirrored(wrist);
     }
     // The handle's thickness is along the jaw's normal.
     return Pose{Vec3(along, 0.0, 0.0), rotation({0.5 * pi, 0.0, 0.0})} * wrist;
@@ -189,9 +187,9 @@ Pose wrist_at_handle(const hand::Hand& hand, const collision::ToolShape& tool, d
         const Pose wrist = wrist_at(hand, offset, along);
         int held = 0;
         for (const double share : closures) {
-            hand::GraspState grip;
-            hand::update_grasp(grip, {}, tool, hand, {true, hand::closed_hand_angles(share), wrist}, 0.01);
-            held += grip.grasping ? 1 : 0;
+            hand::GraspState grasp;
+            hand::update_grasp(grasp, {}, tool, hand, {true, hand::closed_hand_angles(share), wrist}, 0.01);
+            held += grasp.grasping ? 1 : 0;
         }
         if (held <= most) continue;
         most = held;

@@ -175,9 +175,9 @@ std::string describe_station(station::Layout layout, const DeviceSelection& devi
         text += fmt::format("  {}  {}: {}\n", d->id, d->name, describe(role));
         for (const std::string& line : device::summary_lines(*d)) text += fmt::format("    {}\n", line);
         forces = forces || renders(d);
-        if (d->buttons > 0 && buttons.held != 0)
+        if (d->buttons > 0 && buttons.dead_man != 0)
             with_button.push_back(
-                fmt::format("button {} of {}", std::countr_zero(buttons.held) + 1, d->name));
+                fmt::format("button {} of {}", std::countr_zero(buttons.dead_man) + 1, d->name));
     };
     add(layout.mover, DeviceRole::mover, layout.mover_buttons);
     add(layout.wheel, DeviceRole::wheel, layout.wheel_buttons);

@@ -29,7 +29,7 @@ void step_spring(Vec3& x, Vec3& v, const Vec3& force, double m, double b, double
 void reset_arm(ArmDeflection& arm, const Pose& pose, const Pose& intended) {
     arm = {};
     arm.offset = pose.position - intended.position;
-    arm.turn = rotation_vector(glm::normalize(pose.orientation * glm::conjugate(intended.orientation)));
+    arm.turn = turn_between(intended.orientation, pose.orientation);
 }
 
 Pose step_arm(const Impedance& i, ArmDeflection& arm, const Pose& intended, const force::OutputCommand& felt,

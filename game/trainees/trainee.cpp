@@ -203,11 +203,13 @@ Result<session::LessonOutcome> train(const content::Assembly& assembly, const Tr
                                      const std::function<bool(const TrainingProgress&)>& watch) {
     session::LessonOptions lesson_options = options.lesson;
     lesson_options.operator_name = options.trainee.name;
-    lesson_options.view_help = options.view_help ? "on" : "off";
+    lesson_options.view_help = static_cast<bool>(options.view_help);
     Result<std::unique_ptr<session::LessonSession>> started =
         session::LessonSession::begin(assembly, lesson_options, file);
     if (!started) return fail(started.error());
     session::LessonSession& session = **started;
+    world::World world;
+    world::add_haptics(world, session.state());
     const double dt = options.lesson.dt;
     SimulatedTrainee trainee(options.trainee, options.lesson.seed, session.setup(), options.view_help);
     const auto second = static_cast<std::uint64_t>(std::lround(1.0 / dt));
@@ -220,7 +222,7 @@ Result<session::LessonOutcome> train(const content::Assembly& assembly, const Tr
     bool running = true;
     while (running && state.tick - step_start < step_limit && !session.finished() && state.tick < last) {
         const servo::Input input = trainee.act(session.setup(), state, lesson);
-        const Result<servo::Output> output = session.step(input, trainee.take_events());
+        const Result<servo::Output> output = session.step(world, input, trainee.take_events());
         if (!output) return fail(output.error());
         TrainingProgress progress{session.time(), lesson.current, lesson.steps.size(), nullptr};
         for (const lesson::LessonEvent& event : session.events()) {
@@ -234,7 +236,7 @@ Result<session::LessonOutcome> train(const content::Assembly& assembly, const Tr
         }
         if (state.tick % second == 0) running = watch(progress) && running;
     }
-    return session.finish();
+    return session.finish(world);
 }
 
 }  // namespace bolt::trainees

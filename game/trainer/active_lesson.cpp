@@ -9,7 +9,6 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double wrist_share = 0.3;    // fraction of the fingers' twist that the wrist shows
 constexpr double max_catch_up = 0.25;  // s of lesson time that one frame can catch up
 
 void log_events(ActiveLesson& active, std::span<const lesson::LessonEvent> events) {
@@ -22,12 +21,10 @@ void log_events(ActiveLesson& active, std::span<const lesson::LessonEvent> event
     }
 }
 
-// After each tick: updates the components, then everything that depends on them.
-void write_tick(scene::SceneWorld& world, ActiveLesson& active, const servo::Input& input,
-                const servo::Output& output) {
+// After each tick: updates plot, effort, log and sound from the components.
+void after_tick(const scene::SceneWorld& world, ActiveLesson& active) {
     const session::LessonSession& session = *active.session;
-    world::write_snapshot(world, {session.state(), input, output});
-    if (input.grip == servo::Grip::wrench) observe(active.plot, session.lesson(), world);
+    if (world.only<world::WorkingHand>().wrench) observe(active.plot, session.lesson(), world);
     scene::update_effort(active.effort, session.setup(), world);
     log_events(active, session.events());
     const sound::LessonCues cues = sound::lesson_cues(session.events());
@@ -71,12 +68,12 @@ void step_ticks(scene::SceneWorld& world, Frame& frame) {
         const auto undo = steps_to_undo(active.undo, session.lesson());
         if (undo && active.mouse.action == HandAction::resting && !active.mouse.nut)
             session.request_undo(*undo);
-        const Result<servo::Output> output = session.step(input);
+        const Result<servo::Output> output = session.step(world, input);
         if (!output) {
             frame.status = fail(output.error());
             break;
         }
-        write_tick(world, active, input, *output);
+        after_tick(world, active);
     }
     const WorkingHand hand = write_hand(world, hand_of(active.mouse));
     if (hand.action == HandAction::reaching)
@@ -89,10 +86,10 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
     StationClient& client = *active.station;
     const bool had_wrench = hand_of(active).wrench;
     for (station::StationTick tick; continues(active) && frame.status && client.link->next_tick(tick);) {
-        frame.status = active.session->repeat(tick.input, tick.output);
-        if (tick.output.joint >= 0 && contact_of(active).joint < 0)
-            client.nut_angle_at_grip = tick.output.nut_angle;
-        if (frame.status) write_tick(world, active, tick.input, tick.output);
+        const bool free = contact_of(active).joint < 0;
+        frame.status = active.session->repeat(world, tick.input, tick.output);
+        if (tick.output.joint >= 0 && free) client.nut_angle_at_grip = tick.output.nut_angle;
+        if (frame.status) after_tick(world, active);
     }
     if (client.link->lost_ticks() > 0 && continues(active) && frame.status)
         frame.status =
@@ -113,27 +110,9 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
     write_glove(world, client);
 }
 
-scene::ToolAndHand held_of(const scene::SceneWorld& world, const ActiveLesson& active, double seconds) {
-    const world::WorkingHand& hand = world.only<world::WorkingHand>();
-    const world::GloveHand* glove =
-        world.find<world::GloveHand>(world.pool<world::WorkingHand>().entities().front());
-    return {hand.wrench ? world.only<world::HeldTool>().pose : hand.pose,
-            hand.wrench,
-            hand.rest,
-            hand.pinches,
-            glove != nullptr ? hand.rest
-                             : scene::frame_towards(hand.pose, active.shoulder, -wrist_share * hand.twisted),
-            active.handle_grip,
-            seconds,
-            active.effort.share,
-            active.effort.tremor,
-            glove != nullptr ? &glove->fingers : nullptr,
-            active.session->state().tool_contact ? &active.session->state().tool_contact->world : nullptr};
-}
-
 }  // namespace
 
-void haptic_system(scene::SceneWorld& world, Frame& frame) {
+void tick_system(scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     if (active.station)
         repeat_station_ticks(world, frame);
@@ -143,11 +122,12 @@ void haptic_system(scene::SceneWorld& world, Frame& frame) {
 }
 
 void placement_system(scene::SceneWorld& world, Frame& frame) {
-    ActiveLesson& active = frame.active;
-    const scene::ToolAndHand held = held_of(world, active, frame.seconds);
-    scene::place_nuts(world, active.session->setup());
-    scene::place_tool(world, held);
-    scene::place_hand(world, active.postures, held);
+    const ActiveLesson& active = frame.active;
+    const servo::State& state = active.session->state();
+    scene::placement_system(
+        world,
+        {active.session->setup(), active.postures, active.shoulder, active.handle_grip, active.effort.share,
+         active.effort.tremor, frame.seconds, state.tool_contact ? &state.tool_contact->world : nullptr});
 }
 
 }  // namespace bolt::trainer

@@ -93,7 +93,7 @@ struct ActiveLesson {
     std::vector<lesson::LessonEvent> events;  // not logged yet
 };
 
-// Components that haptic_system has written.
+// Components that world::haptic_system has written.
 inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::WorkingHand>();
 }
@@ -121,8 +121,8 @@ struct Frame {
 void handle_input(const scene::SceneWorld& world, Frame& frame);
 
 // In the order in which they run.
-// Steps the ticks and writes the servo's snapshots to components.
-void haptic_system(scene::SceneWorld& world, Frame& frame);
+// Steps the ticks that are due; after each of them runs session::tick_systems.
+void tick_system(scene::SceneWorld& world, Frame& frame);
 // Sets the poses of nuts, wrench and hand from the components.
 void placement_system(scene::SceneWorld& world, Frame& frame);
 // Updates hints, mistakes, captions and outlines.
@@ -135,8 +135,8 @@ void label_system(scene::SceneWorld& world, Frame& frame);
 void present_system(scene::SceneWorld& world, Frame& frame);
 
 inline constexpr ecs::System<scene::SceneWorld, Frame> frame_systems[] = {
-    {"haptics", haptic_system}, {"placement", placement_system}, {"lesson", lesson_system},
-    {"view", view_system},      {"labels", label_system},        {"present", present_system}};
+    {"ticks", tick_system}, {"placement", placement_system}, {"lesson", lesson_system},
+    {"view", view_system},  {"labels", label_system},        {"present", present_system}};
 
 // The picture from the camera's present viewpoint.
 Screen screen_of(const ActiveLesson& active, const glm::dvec2& size);

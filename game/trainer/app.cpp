@@ -22,7 +22,7 @@ lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys
     const std::string tool = key_name(keys, Action::tool);
     if (station == nullptr) return lesson::mouse_controls(words, tool);
     const station::Layout& layout = station->link->layout();
-    const std::uint32_t held = layout.mover_buttons.held;
+    const std::uint32_t held = layout.mover_buttons.dead_man;
     const bool keyboard = equipment.devices.empty();
     const std::string closes =
         keyboard || held == 0
@@ -193,7 +193,7 @@ Status App::end_lesson() {
         if (const servo::Timing* timing = active.station->link->stop())
             BOLT_TRY(active.session->record_timing(*timing));
 
-    BOLT_TRY_ASSIGN(auto outcome, active.session->finish());
+    BOLT_TRY_ASSIGN(auto outcome, active.session->finish(active.workplace.world));
     outcome_ = std::move(outcome);
     active.clock.finished = true;
     for (std::size_t i = 0; i < active.verdicts.size(); ++i)

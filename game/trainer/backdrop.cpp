@@ -31,7 +31,8 @@ void Backdrop::select(const std::string& assembly) {
 Status Backdrop::upload(gpu::Device& device, const view::LoadedModel& model) {
     BOLT_TRY(device.idle());
     if (light_.levels.get() == VK_NULL_HANDLE) {
-        BOLT_TRY_ASSIGN(auto light, render::upload_environment(device, shading::studio(), light_size));
+        BOLT_TRY_ASSIGN(auto light,
+                        render::upload_environment(device, shading::studio_environment(), light_size));
         light_ = std::move(light);
     }
     BOLT_TRY_ASSIGN(auto shown, view::show_model(device, model, light_));

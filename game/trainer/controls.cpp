@@ -78,7 +78,7 @@ std::optional<ui::UiKey> key_of(PlatformKey key) {
                                                            {PlatformKey::home, ui::UiKey::home},
                                                            {PlatformKey::end, ui::UiKey::end},
                                                            {PlatformKey::insert, ui::UiKey::insert},
-                                                           {PlatformKey::del, ui::UiKey::erase},
+                                                           {PlatformKey::delete_key, ui::UiKey::delete_key},
                                                            {PlatformKey::backspace, ui::UiKey::backspace},
                                                            {PlatformKey::space, ui::UiKey::space},
                                                            {PlatformKey::enter, ui::UiKey::enter},

@@ -19,7 +19,7 @@ Status start_station_of(const LessonStart& start, StartedLesson& lesson, session
     lesson.active.station.emplace();
     lesson.active.station->link = std::move(station);
     options.device = lesson.active.station->link->setup().limits;
-    options.servo = fmt::format("{:.0f} Hz", 1.0 / options.dt);
+    options.servo_rate = 1.0 / options.dt;
     session::set_device(options, setup);
     return {};
 }
@@ -81,7 +81,7 @@ Result<StartedLesson> start_lesson(const LessonStart& start) {
     BOLT_TRY_ASSIGN(auto setup, session::prepare(context.assembly, options));
     BOLT_TRY(start_station_of(start, lesson, setup));
     context.worker = {working_side(lesson.active, start.settings), start.settings.seated_height};
-    options.hand = context.worker.side == hand::Side::left ? "left" : "right";
+    options.hand = context.worker.side;
     BOLT_TRY_ASSIGN(auto models, scene::load_lesson_models(context.assembly, context.worker.side));
     context.models = std::move(models);
     BOLT_TRY_ASSIGN(auto session, session::LessonSession::begin(std::move(setup), options,

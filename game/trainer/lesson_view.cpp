@@ -315,7 +315,8 @@ void label_system(scene::SceneWorld& world, Frame& frame) {
 }
 
 void present_system(scene::SceneWorld& world, Frame& frame) {
-    scene::collect_objects(world, frame.active.scene);
+    scene::appearance_system(world);
+    view::collect_objects(world, frame.active.scene);
 }
 
 }  // namespace bolt::trainer

@@ -57,8 +57,7 @@ void start_movement(MouseHand& hand, const Pose& to, double seconds, HandAction 
 
 double reach_time(const Pose& from, const Pose& to, const Vec3& bulge) {
     const double path = glm::distance(from.position, to.position) + 2.0 * glm::length(bulge);
-    const double rotation =
-        glm::length(rotation_vector(glm::normalize(to.orientation * glm::conjugate(from.orientation))));
+    const double rotation = glm::length(turn_between(from.orientation, to.orientation));
     return std::max({min_reach_time, path / hand_speed, rotation / 4.0});
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr ImGuiWindowFlags panel_flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                          ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar;
-constexpr glm::vec4 muted{0.75F, 0.8F, 0.85F, 1.0F}, warning{1.0F, 0.55F, 0.45F, 1.0F};
+constexpr glm::vec4 warning{1.0F, 0.55F, 0.45F, 1.0F};
 
 ImVec4 to_imgui(const glm::vec4& color) { return {color.r, color.g, color.b, color.a}; }
 
@@ -104,7 +104,7 @@ const AssemblyEntry* draw_assemblies(const ScreenContext& context, const Menu& m
                      [&](const AssemblyEntry& candidate) { return candidate.name == choice.assembly; });
     if (entry == menu.assemblies.end()) return nullptr;
     draw_variants_and_tools(language, *entry, choice);
-    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(muted));
+    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(muted_text));
     ImGui::BeginChild("##lesson", {0.0F, 150.0F * context.scale});
     ImGui::PushTextWrapPos(0.0F);
     draw_text(in_language(entry->lesson, language, ""));
@@ -202,10 +202,10 @@ void draw_settings_file(const ScreenContext& context, const Preferences& prefere
             break;
     }
     if (settings_file(preferences).empty())
-        draw_wrapped(context.words["settings.not_kept"], muted);
+        draw_wrapped(context.words["settings.not_kept"], muted_text);
     else if (!preferences.trainee.empty())
         draw_wrapped(words::format_text(context.words, "settings.kept", {{"trainee", preferences.trainee}}),
-                     muted);
+                     muted_text);
 }
 
 ScreenAction draw_menu(const ScreenContext& context, const Menu& menu, LessonChoice& choice,

@@ -82,6 +82,7 @@ bool draw_button(const ScreenContext& context, words::TextKey key);
 void record_place(const ScreenContext& context, words::TextKey key);
 void draw_text(const std::string& line);
 void draw_wrapped(const std::string& line, const glm::vec4& color);
+inline constexpr glm::vec4 muted_text{0.75F, 0.8F, 0.85F, 1.0F};  // for explanations
 void draw_languages(const ScreenContext& context, content::TraineeSettings& settings);
 // Where the settings are saved, or why they are not.
 void draw_settings_file(const ScreenContext& context, const Preferences& preferences);

@@ -10,7 +10,7 @@ namespace bolt::trainer {
 namespace {
 
 constexpr double default_seat = 1.2;  // m, height of the eyes
-constexpr glm::vec4 muted{0.75F, 0.8F, 0.85F, 1.0F}, highlight{1.0F, 0.85F, 0.4F, 1.0F};
+constexpr glm::vec4 highlight{1.0F, 0.85F, 0.4F, 1.0F};
 
 words::TextKey term(Action action) {
     constexpr words::TextKey keys[] = {"action.tool",         "action.find_view",  "action.whole_view",
@@ -131,7 +131,7 @@ void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
         draw_wrapped(words::format_text(words, "settings.press_key", {{"action", words[term(*waiting_)]}}),
                      highlight);
     if (!message_.empty()) draw_wrapped(message_, highlight);
-    draw_wrapped(words["settings.escape"], muted);
+    draw_wrapped(words["settings.escape"], muted_text);
     if (draw_button(context, "settings.usual_keys")) {
         keys = KeyMap{};
         *this = {};
@@ -143,7 +143,7 @@ ScreenAction SettingsScreen::draw(const ScreenContext& context, Preferences& pre
     draw_text(context.words["menu.settings"]);
     ImGui::Separator();
     draw_person(context, preferences.settings);
-    if (in_lesson) draw_wrapped(context.words["settings.next_lesson"], muted);
+    if (in_lesson) draw_wrapped(context.words["settings.next_lesson"], muted_text);
     ImGui::Separator();
     draw_keys(context, preferences.keys);
     ImGui::Separator();

@@ -83,7 +83,7 @@ Result<Viewpoint> named_view(const LoadedModel& model, const std::string& name) 
 }
 
 Result<shading::RadianceImage> load_light(const std::string& name) {
-    if (name == "studio") return shading::studio();
+    if (name == "studio") return shading::studio_environment();
     return assets::read_hdr(name);
 }
 

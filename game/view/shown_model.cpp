@@ -29,8 +29,11 @@ Result<std::unique_ptr<ShownModel>> show_model(gpu::Device& device, const Loaded
     auto shown = std::make_unique<ShownModel>();
     BOLT_TRY_ASSIGN(auto uploaded, render::upload_model(device, model.model, {options.levels}));
     shown->model = std::move(uploaded);
+    render::Scene parts;
+    render::add_model(parts, model.model, shown->model);
+    for (const render::Object& object : parts.objects) (void)add_drawable(shown->world, object);
     render::Scene& scene = shown->scene;
-    render::add_model(scene, model.model, shown->model);
+    collect_objects(shown->world, scene);
     if (scene.objects.empty())
         return fail(ErrorCode::bad_content, fmt::format("{}: has nothing to draw", model.name),
                     "a mesh in the default scene");
@@ -94,51 +97,65 @@ Result<std::set<int>> nodes_of(const assets::Model& model, const std::string& na
     return nodes;
 }
 
-// Calls `action` for each object of the named node and its descendants.
-template <class Objects, class Action>
-Status for_each_object(Objects& objects, const LoadedModel& model, const std::string& name,
-                       const Action& action) {
+// The entities of the named node and its descendants.
+Result<std::vector<ecs::Entity>> parts_of(const ShownModel& shown, const LoadedModel& model,
+                                          const std::string& name) {
     BOLT_TRY_ASSIGN(const auto nodes, nodes_of(model.model, name));
-    for (auto& object : objects)
-        if (nodes.contains(object.node)) action(object);
+    std::vector<ecs::Entity> parts;
+    const auto& drawables = shown.world.pool<Drawable>();
+    for (std::size_t i = 0; i < drawables.size(); ++i)
+        if (nodes.contains(drawables.components()[i].node)) parts.push_back(drawables.entities()[i]);
+    return parts;
+}
+
+Status set_outline(ShownModel& shown, const LoadedModel& model, const std::string& node,
+                   const glm::vec4& color) {
+    BOLT_TRY_ASSIGN(const auto parts, parts_of(shown, model, node));
+    for (const ecs::Entity part : parts) shown.world.add<Outline>(part, color);
+    return {};
+}
+
+// Lets everything in front of the node fade.
+Status reveal(ShownModel& shown, const LoadedModel& model, const std::string& node) {
+    BOLT_TRY_ASSIGN(const auto parts, parts_of(shown, model, node));
+    for (const ecs::Entity entity : shown.world.pool<Drawable>().entities())
+        shown.world.add<Fadable>(entity, true);
+    for (const ecs::Entity part : parts) shown.world.add<Fadable>(part, false);
+    BOLT_TRY_ASSIGN(const auto box, box_of(shown, model, node));
+    if (box.empty())
+        return fail(ErrorCode::usage, fmt::format("the node \"{}\" is not drawn", node),
+                    "a node with a mesh");
+    shown.scene.cut_away = {0.5F * (box.low + box.high), cut_away_radius * glm::distance(box.low, box.high),
+                            1.0F};
     return {};
 }
 
 }  // namespace
 
 Status outline(ShownModel& shown, const LoadedModel& model, const std::string& node, const glm::vec4& color) {
-    return for_each_object(shown.scene.objects, model, node,
-                           [&](render::Object& object) { object.outline = color; });
+    BOLT_TRY(set_outline(shown, model, node, color));
+    collect_objects(shown.world, shown.scene);
+    return {};
 }
 
 Result<render::BoundingBox> box_of(const ShownModel& shown, const LoadedModel& model,
                                    const std::string& node) {
+    BOLT_TRY_ASSIGN(const auto nodes, nodes_of(model.model, node));
     render::Scene part;
-    BOLT_TRY(for_each_object(shown.scene.objects, model, node,
-                             [&](const render::Object& object) { part.objects.push_back(object); }));
+    for (const render::Object& object : shown.scene.objects)
+        if (nodes.contains(object.node)) part.objects.push_back(object);
     return render::bounds(part);
 }
 
 Status highlight(ShownModel& shown, const LoadedModel& model, const Highlights& highlights) {
-    std::vector<render::Object>& objects = shown.scene.objects;
-    for (const std::string& name : highlights.outlined) BOLT_TRY(outline(shown, model, name, outline_color));
-    for (const std::string& name : highlights.ghosts)
-        if (Status s =
-                for_each_object(objects, model, name, [](render::Object& o) { o.opacity = ghost_opacity; });
-            !s)
-            return s;
-    if (highlights.revealed.empty()) return {};
-    for (render::Object& object : objects) object.cut = true;
-    if (Status s =
-            for_each_object(objects, model, highlights.revealed, [](render::Object& o) { o.cut = false; });
-        !s)
-        return s;
-    BOLT_TRY_ASSIGN(const auto box, box_of(shown, model, highlights.revealed));
-    if (box.empty())
-        return fail(ErrorCode::usage, fmt::format("the node \"{}\" is not drawn", highlights.revealed),
-                    "a node with a mesh");
-    shown.scene.cut_away = {0.5F * (box.low + box.high), cut_away_radius * glm::distance(box.low, box.high),
-                            1.0F};
+    for (const std::string& name : highlights.outlined)
+        BOLT_TRY(set_outline(shown, model, name, outline_color));
+    for (const std::string& name : highlights.ghosts) {
+        BOLT_TRY_ASSIGN(const auto parts, parts_of(shown, model, name));
+        for (const ecs::Entity part : parts) shown.world.add<Appearance>(part).opacity = ghost_opacity;
+    }
+    if (!highlights.revealed.empty()) BOLT_TRY(reveal(shown, model, highlights.revealed));
+    collect_objects(shown.world, shown.scene);
     return {};
 }
 

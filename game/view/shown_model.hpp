@@ -1,16 +1,18 @@
-// A model on the GPU with its lighting, and how its parts are highlighted.
+// A model on the GPU with its lighting and its parts as entities, and how these are highlighted.
 #pragma once
 
 #include <memory>
 
 #include "engine/render/camera.hpp"
+#include "game/view/drawables.hpp"
 #include "game/view/loaded_model.hpp"
 
 namespace bolt::view {
 
 struct ShownModel {
     render::GpuModel model;
-    render::Scene scene;  // points to the model and to the environment light
+    WorldOfDrawables<> world;
+    render::Scene scene;  // its objects are those that collect_objects() last found in the world
     render::BoundingBox box;
 };
 
@@ -44,7 +46,7 @@ struct Highlights {
 };
 
 // Outlines a node with its descendants in `color`. Fails if there is no such node and then suggests the
-// nearest name.
+// nearest name. Like highlight(), updates the scene.
 Status outline(ShownModel& shown, const LoadedModel& model, const std::string& node, const glm::vec4& color);
 
 // The bounding box of a node with its descendants; empty if none of them is drawn. Fails as outline().

@@ -21,38 +21,42 @@ void write_hand(WorkingHand& hand, const Snapshot& servo) {
     hand.pose = hand.to = pose_of_input(servo.input);
 }
 
-}  // namespace
-
-void write_joints(const WriteHaptics& world, std::span<const joint::JointState> joints,
-                  std::span<const double> rounded) {
+void write_joints(const WriteHaptics& world, const servo::State& servo) {
     for (Joint& joint : world.pool<Joint>().components()) {
-        const joint::JointState& state = joints[joint.index];
+        const joint::JointState& state = servo.joints[joint.index];
         joint.stage = state.stage;
         joint.condition = state.condition;
         joint.angle = state.nut.angle;
         joint.speed = state.nut.speed;
         joint.torque = state.torque;
         joint.clamp = state.clamp;
-        joint.rounded = joint.index < rounded.size() ? rounded[joint.index] : 0.0;
+        joint.breakaway = state.breakaway;
+        joint.rounded = servo.rounded[joint.index];
     }
 }
 
-void write_output(const WriteHaptics& world, const servo::Output& output) {
-    world.only<HeldTool>().pose = output.tool;
-    world.only<ContactState>() = {output.joint, output.slipped, output.touched, output.contacts,
-                                  output.clicked};
-    world.only<DeviceForce>() = {output.force, output.torque, output.fault};
+}  // namespace
+
+void write_initial_state(const WriteHaptics& world, const servo::State& state) {
+    world.only<ServoClock>().tick = state.tick;
+    write_joints(world, state);
 }
 
-void write_snapshot(const WriteHaptics& world, const Snapshot& servo) {
-    write_joints(world, servo.state.joints, servo.state.rounded);
-    write_output(world, servo.output);
+void haptic_system(const WriteHaptics& world, const Snapshot& servo) {
+    const servo::Output& output = servo.output;
+    world.only<ServoClock>().tick = servo.state.tick;
+    write_joints(world, servo.state);
+    world.only<HeldTool>().pose = output.tool;
+    world.only<ContactState>() = {output.joint,    servo.state.engagement.grip,
+                                  output.slipped,  output.touched,
+                                  output.contacts, output.clicked};
     world.only<GuidingForce>() = {servo.input.guide, servo.state.guiding_command.force,
                                   servo.state.guiding_command.torque};
+    world.only<DeviceForce>() = {output.force, output.torque, output.fault};
     write_hand(world.only<WorkingHand>(), servo);
 }
 
-const Joint& joint_at(const ecs::Access<const Joint>& world, std::size_t index) {
+const Joint& joint_at(const ReadJoints& world, std::size_t index) {
     const auto joints = world.pool<Joint>().components();
     // Joints are created in order and never destroyed, so the position is usually the index.
     if (index < joints.size() && joints[index].index == index) return joints[index];
@@ -62,7 +66,7 @@ const Joint& joint_at(const ecs::Access<const Joint>& world, std::size_t index) 
     return *found;
 }
 
-Vec3 nut_centre(const ecs::Access<const Joint>& world, const servo::Setup& setup, std::size_t joint) {
+Vec3 nut_centre(const ReadJoints& world, const servo::Setup& setup, std::size_t joint) {
     return servo::nut_centre(setup.nuts[joint], joint_at(world, joint).angle);
 }
 

@@ -1,5 +1,5 @@
-// The state of the work as ECS components: plain data that write_snapshot() copies from the servo after each
-// tick. HUD, sound, hints, lesson and drawing read it here. A world without drawing has only these
+// The state of the work as ECS components: plain data that haptic_system() copies from the servo after each
+// tick. Lesson, hints, HUD, sound and drawing read it here. A world without drawing has only these
 // components; the scene adds its own (WorldWith). Lengths in m, angles in rad, forces in N, torques in N·m,
 // poses in the assembly's frame.
 #pragma once
@@ -20,16 +20,22 @@
 
 namespace bolt::world {
 
+// The number of ticks since the start of the lesson.
+struct ServoClock {
+    std::uint64_t tick = 0;
+};
+
 // A bolted joint; one entity for each joint of the assembly.
 struct Joint {
     std::size_t index = 0;  // in the assembly
     joint::Stage stage = joint::Stage::navigation;
     joint::Condition condition = joint::Condition::sound;
-    double angle = 0.0;    // of the nut from its hand-started position, tightening positive
-    double speed = 0.0;    // rad/s of the nut
-    double torque = 0.0;   // of wrench or fingers on the nut, tightening positive
-    double clamp = 0.0;    // bolt force
-    double rounded = 0.0;  // m, wear of each corner of the nut by slipping jaws
+    double angle = 0.0;      // of the nut from its hand-started position, tightening positive
+    double speed = 0.0;      // rad/s of the nut
+    double torque = 0.0;     // of wrench or fingers on the nut, tightening positive
+    double clamp = 0.0;      // bolt force
+    double breakaway = 0.0;  // 0 … 1, as joint::JointState::breakaway
+    double rounded = 0.0;    // m, wear of each corner of the nut by slipping jaws
 };
 
 // The tool at the pose that the obstacles allow: the wrench in the hand, or the fingertips of an empty hand.
@@ -39,11 +45,12 @@ struct HeldTool {
 
 // The contacts of the tool. −1: none.
 struct ContactState {
-    std::int16_t joint = -1;         // engaged joint
-    std::int16_t slipped = -1;       // joint on which the jaw slipped over the corners in this tick
-    collision::ObstacleId obstacle;  // obstacle that the wrench touches
-    std::uint16_t contacts = 0;      // active and nearly active contacts
-    bool clicked = false;            // the torque wrench clicked in this tick
+    std::int16_t joint = -1;               // engaged joint
+    servo::Grip grip = servo::Grip::none;  // what holds the engaged joint
+    std::int16_t slipped = -1;             // joint on which the jaw slipped over the corners in this tick
+    collision::ObstacleId obstacle;        // obstacle that the wrench touches
+    std::uint16_t contacts = 0;            // active and nearly active contacts
+    bool clicked = false;                  // the torque wrench clicked in this tick
 };
 
 // The force that guides the tool to a nut, before the limits of the output stage.
@@ -92,13 +99,15 @@ struct GloveHand {
 
 // A world with these components and `More`.
 template <class... More>
-using WorldWith =
-    ecs::Registry<Joint, HeldTool, ContactState, GuidingForce, DeviceForce, WorkingHand, GloveHand, More...>;
+using WorldWith = ecs::Registry<ServoClock, Joint, HeldTool, ContactState, GuidingForce, DeviceForce,
+                                WorkingHand, GloveHand, More...>;
 using World = WorldWith<>;
 
-using ReadHaptics = ecs::Access<const Joint, const HeldTool, const ContactState, const GuidingForce,
-                                const DeviceForce, const WorkingHand>;
-using WriteHaptics = ecs::Access<Joint, HeldTool, ContactState, GuidingForce, DeviceForce, WorkingHand>;
+using ReadJoints = ecs::Access<const Joint>;
+using ReadHaptics = ecs::Access<const ServoClock, const Joint, const HeldTool, const ContactState,
+                                const GuidingForce, const DeviceForce, const WorkingHand>;
+using WriteHaptics =
+    ecs::Access<ServoClock, Joint, HeldTool, ContactState, GuidingForce, DeviceForce, WorkingHand>;
 
 // The servo after a tick.
 struct Snapshot {
@@ -107,34 +116,33 @@ struct Snapshot {
     const servo::Output& output;
 };
 
-// Writes every component from the snapshot, after each tick and before anything else reads the world: in the
-// windowed trainer, headless lessons, replays and films. Takes the hand's pose from the input and its nut
-// from the engaged joint, and leaves WorkingHand::rest unchanged. A program with more data about the hand
-// (its goal, a glove) writes that afterwards.
-void write_snapshot(const WriteHaptics& world, const Snapshot& servo);
+// Writes every component from the snapshot. The first system after each servo tick, in every program
+// (session::tick_systems). Takes the hand's pose from the input and its nut from the engaged joint, and
+// leaves WorkingHand::rest unchanged. A program with more data about the hand (its goal, a glove) writes that
+// afterwards.
+void haptic_system(const WriteHaptics& world, const Snapshot& servo);
 
-// Parts of write_snapshot(). `rounded` may be empty: no corner is worn.
-void write_joints(const WriteHaptics& world, std::span<const joint::JointState> joints,
-                  std::span<const double> rounded);
-void write_output(const WriteHaptics& world, const servo::Output& output);
+// Writes the state at the start of a lesson, when there is no input or output yet.
+void write_initial_state(const WriteHaptics& world, const servo::State& state);
 
 // Creates the entities: one for each joint, one for the tool, one for the hand. `rest`: WorkingHand::rest.
 template <class Registry>
 void add_haptics(Registry& world, const servo::State& state, const Pose& rest = {}) {
     for (std::size_t i = 0; i < state.joints.size(); ++i) world.template add<Joint>(world.create()).index = i;
     const ecs::Entity tool = world.create();
+    world.template add<ServoClock>(tool);
     world.template add<HeldTool>(tool);
     world.template add<ContactState>(tool);
     world.template add<GuidingForce>(tool);
     world.template add<DeviceForce>(tool);
     world.template add<WorkingHand>(world.create()).rest = rest;
-    write_joints(world, state.joints, state.rounded);
+    write_initial_state(world, state);
 }
 
 // Returns the joint with this index, which must exist.
-const Joint& joint_at(const ecs::Access<const Joint>& world, std::size_t index);
+const Joint& joint_at(const ReadJoints& world, std::size_t index);
 
 // Centre of a joint's nut, which moves along the bolt as it turns.
-Vec3 nut_centre(const ecs::Access<const Joint>& world, const servo::Setup& setup, std::size_t joint);
+Vec3 nut_centre(const ReadJoints& world, const servo::Setup& setup, std::size_t joint);
 
 }  // namespace bolt::world

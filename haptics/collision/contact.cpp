@@ -35,7 +35,7 @@ struct KeptContacts {
     // The kept contact that the deferred contact merges with whatever its exact position and normal are; null
     // if none.
     [[nodiscard]] const KeptContact* find_certain_merge(const DeferredContact& deferred, double merge) const {
-        const double within = merge - static_cast<double>(deferred.blur);
+        const double within = merge - static_cast<double>(deferred.position_error);
         if (!(within > 0.0)) return nullptr;
         for (const KeptContact& k : contacts.first(count)) {
             const Vec3 between = deferred.on_tool - k.on_tool;
@@ -112,27 +112,27 @@ class Reducer {
 
     // If the contact that this one merged with at a smaller merge distance is kept again, it merges again.
     [[nodiscard]] bool is_merged_again(const RankedContact& one) const {
-        return one.by != none && all_.kept_in[one.by] == round_;
+        return one.merged_with != none && all_.kept_in[one.merged_with] == round_;
     }
 
     // True also if the contact has been resolved already.
     bool is_certainly_merged(RankedContact& one, const DeferredContact& deferred, double merge) const {
-        if (deferred.found || is_merged_again(one)) return true;
+        if (deferred.resolved || is_merged_again(one)) return true;
         const KeptContact* merged = kept_.find_certain_merge(deferred, merge);
-        if (merged != nullptr) one.by = merged->index;
+        if (merged != nullptr) one.merged_with = merged->index;
         return merged != nullptr;
     }
 
     bool is_merged(RankedContact& one, double merge) const {
         if (is_merged_again(one)) return true;
         const KeptContact* merged = kept_.find_merge(all_.near[one.index], merge);
-        if (merged != nullptr) one.by = merged->index;
+        if (merged != nullptr) one.merged_with = merged->index;
         return merged != nullptr;
     }
 
     // Computes the contact and inserts it in order, at or after `next`.
     void resolve(DeferredContact& deferred, std::size_t next) {
-        deferred.found = true;
+        deferred.resolved = true;
         Contact contact;
         if (!resolve_(deferred, contact)) return;
         if (all_.count == all_.near.size()) {

@@ -54,13 +54,13 @@ struct Contact {
     Vec3 normal{0.0};       // unit, from the obstacle to the free side
     double distance = 0.0;  // m, signed; negative: penetration
     ObstacleId obstacle;
-    // Index of the feature of the tool or, with the bit `of_obstacle`, of the obstacle. Constant while both
-    // move.
+    // Index of the feature of the tool or, with the bit `of_obstacle`, of the obstacle. Does not change while
+    // tool and obstacle move.
     std::uint32_t feature = 0;
-    // Contacts with meshes: a triangle under the closest point, of the body that `feature` does not belong
-    // to.
+    // Contacts with meshes only: a triangle that contains the closest point, of the body that `feature` does
+    // not belong to.
     std::uint32_t triangle = 0;
-    // Unit: the normal of the smooth surface that the facets approximate (smooth_normals.hpp). Zero: none;
+    // Unit: the normal of the smooth surface that the facets approximate (narrow_phase.hpp). Zero: none;
     // use `normal`.
     Vec3 smooth{0.0};
 };
@@ -93,18 +93,18 @@ bool nearer(const Contact& a, const Contact& b);
 // Bounds of a contact that has not been computed. Most deferred contacts merge with a nearer one, which saves
 // their exact query.
 struct DeferredContact {
-    double lower = 0.0;   // m; lower bound of the distance
-    Vec3 on_tool{0.0};    // m; the point on the tool is within `blur` of it
-    Vec3 normal{0.0};     // unit; the normal is within `spread` of it
-    float blur = 0.0F;    // m
-    float spread = 0.0F;  // rad
+    double lower = 0.0;           // m; lower bound of the distance
+    Vec3 on_tool{0.0};            // m; the point on the tool is within `position_error` of it
+    Vec3 normal{0.0};             // unit; the normal is within `spread` of it
+    float position_error = 0.0F;  // m
+    float spread = 0.0F;          // rad
     ObstacleId obstacle;
     // Set and read by the narrow phase.
-    std::uint32_t sample = 0;
-    double spent = 0.0;
-    std::uint32_t pair = 0;
-    bool of_tool = false;
-    bool found = false;  // resolved: it has become a contact or is none
+    std::uint32_t sample = 0;  // index of the sample
+    double accumulated = 0.0;  // m, the sample's accumulated motion when it was deferred
+    std::uint32_t pair = 0;    // index of the body
+    bool of_tool = false;      // the sample is the tool's
+    bool resolved = false;     // the exact query has been done, with or without a contact as its result
 };
 
 // Computes a deferred contact. Returns false if there is no contact within the band.
@@ -113,8 +113,8 @@ using ResolveDeferred = FunctionRef<bool(const DeferredContact&, Contact&)>;
 // Scratch memory of the reduction.
 struct RankedContact {
     double distance = 0.0;
-    std::uint32_t index = 0;  // of the contact or deferred contact
-    std::uint32_t by = 0;     // index of the kept contact that it last merged with; 0xffffffff: none
+    std::uint32_t index = 0;        // of the contact or deferred contact
+    std::uint32_t merged_with = 0;  // index of the kept contact that it last merged with; 0xffffffff: none
 };
 struct KeptContact {
     Vec3 on_tool{0.0}, normal{0.0};
@@ -126,9 +126,10 @@ struct KeptContact {
 struct ReductionInput {
     std::span<Contact> near;  // `count` contacts, then free room for resolved ones
     std::size_t count = 0;
-    std::span<RankedContact> order;  // these three are as large as `near`
+    // These three are as large as `near`.
+    std::span<RankedContact> order;
     std::span<KeptContact> kept;
-    std::span<std::uint8_t> kept_in;
+    std::span<std::uint8_t> kept_in;  // by contact: the last selection that kept it, from 1; 0: none
     std::span<DeferredContact> deferred;
     std::span<RankedContact> deferred_order;  // as large as `deferred`
     double clearance = 0.0;                   // m; no contact nearer than this is missing from the input

@@ -1,9 +1,10 @@
 #include "haptics/collision/convex.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -17,7 +18,6 @@ constexpr double min_parallel_cosine = 0.985;
 constexpr double face_preference = 1e-12;
 constexpr double parallel_tolerance = 1e-12;  // of the squared sine of the angle between edges
 constexpr std::uint32_t none = ~0U;
-constexpr std::size_t max_points = 64;   // of a solid
 constexpr std::size_t max_corners = 32;  // of a clipped face
 
 // Intersects three planes. Returns false if they have no unique common point.
@@ -95,7 +95,7 @@ std::span<const std::uint32_t> loop_of(const Convex& solid, std::uint32_t face) 
 
 // A solid transformed into the other's frame, without allocation.
 struct PosedConvex {
-    std::array<Vec3, max_points> points, normals;  // of faces
+    std::array<Vec3, max_convex_points> points, normals;  // of faces
     Vec3 middle{0.0};
     const Convex* solid = nullptr;
 
@@ -165,7 +165,7 @@ void test_edge_pair(const PosedConvex& tool, std::uint32_t i, const Convex& obst
 // are both edges extreme along their cross product. Bit sets test one edge of the tool against all edges of
 // the obstacle at once.
 void test_edges(const PosedConvex& tool, const Convex& obstacle, Separation& best) {
-    std::array<EdgeSet, max_points> along_normal;  // by face of the tool
+    std::array<EdgeSet, max_convex_points> along_normal;  // by face of the tool
     for (std::size_t t = 0; t < tool.solid->faces.size(); ++t)
         along_normal[t] = edges_along(obstacle, tool.normals[t]);
     // Edges whose left or right face normal has a positive component along the tool's edge.
@@ -246,11 +246,15 @@ Vec3 extreme_point(std::span<const Vec3> points, const Vec3& n) {
 
 }  // namespace
 
-Convex make_convex(std::span<const HalfSpace> half_spaces) {
+Result<Convex> make_convex(std::span<const HalfSpace> half_spaces) {
     Convex solid;
     add_points(half_spaces, solid);
     for (const HalfSpace& h : half_spaces) add_face(h, solid);
-    assert(solid.points.size() <= max_points && solid.faces.size() <= max_points);
+    if (solid.points.size() > max_convex_points || solid.faces.size() > max_convex_points)
+        return fail(ErrorCode::bad_content,
+                    fmt::format("a convex solid has {} corners and {} faces", solid.points.size(),
+                                solid.faces.size()),
+                    fmt::format("at most {} of each", max_convex_points));
     for (std::uint32_t f = 0; f < solid.faces.size(); ++f) {
         const auto loop = loop_of(solid, f);
         for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -264,7 +268,9 @@ Convex make_convex(std::span<const HalfSpace> half_spaces) {
                 other->right = f;
         }
     }
-    assert(solid.edges.size() <= max_edges);
+    if (solid.edges.size() > max_edges)
+        return fail(ErrorCode::bad_content, fmt::format("a convex solid has {} edges", solid.edges.size()),
+                    fmt::format("at most {}", max_edges));
     sort_by_direction(solid);
     solid.left_of.assign(solid.faces.size(), {});
     solid.right_of.assign(solid.faces.size(), {});
@@ -330,7 +336,7 @@ std::size_t contact_points(const Convex& tool, const Convex& obstacle, const Pos
         nearest_on_edges(p, posed.points[e.to] - p, q, obstacle.points[f.to] - q, on_tool, on_obstacle);
         write(on_tool, s.distance, 0);
     }
-    std::array<Vec3, max_points> normals;
+    std::array<Vec3, max_convex_points> normals;
     for (std::size_t i = 0; i < obstacle.faces.size(); ++i) normals[i] = obstacle.faces[i].plane.normal;
     const std::uint32_t obstacle_face = s.features == FeaturePair::obstacle_face
                                             ? s.on_obstacle

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/result.hpp"
 #include "haptics/collision/contact.hpp"
 
 namespace bolt::collision {
@@ -38,6 +39,7 @@ struct ConvexEdge {
 // A set of a solid's edges, one bit each.
 using EdgeSet = std::array<std::uint64_t, 2>;
 inline constexpr std::size_t max_edges = 128;
+inline constexpr std::size_t max_convex_points = 64;  // of a solid; also the limit of its faces
 
 struct Convex {
     std::vector<Vec3> points;
@@ -52,7 +54,8 @@ struct Convex {
 };
 
 // The intersection of the half spaces, which must be bounded. Half spaces that cut nothing off give no face.
-Convex make_convex(std::span<const HalfSpace> half_spaces);
+// Fails if the solid has more points, faces or edges than the limits above.
+Result<Convex> make_convex(std::span<const HalfSpace> half_spaces);
 
 enum class FeaturePair : std::uint8_t { obstacle_face, tool_face, edges };
 

@@ -233,6 +233,10 @@ Crossings query_edges(const Solid& solid, const EdgePiece& piece, const Solid& o
     return select_crossings(g, other, to_other, crossings);
 }
 
+namespace {
+
+// As `query_edges`, among the candidates of an earlier query. `radius` and `facing.turn` must be reduced by
+// the piece's motion since then, and `facing.all` must be true.
 Crossings query_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
                              const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
                              const FacingEdges& facing) {
@@ -241,6 +245,8 @@ Crossings query_facing_edges(const Solid& solid, const EdgePiece& piece, const S
     for (std::uint32_t i = 0; i < facing.count; ++i) add_edge_pair(g, facing.ridges[i]);
     return select_crossings(g, other, to_other, crossings);
 }
+
+}  // namespace
 
 Crossings query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
                              const Pose& to_other, double turned, double band, bool near_before,

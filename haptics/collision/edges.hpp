@@ -48,12 +48,6 @@ struct FacingEdges {
 Crossings query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
                       double radius, double band, std::span<Crossing> crossings, FacingEdges& facing);
 
-// As `query_edges`, among the candidates of an earlier query. `radius` and `facing.turn` must be reduced by
-// the piece's motion since then, and `facing.all` must be true.
-Crossings query_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
-                             const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
-                             const FacingEdges& facing);
-
 // The candidates of a piece's last search, with its middle and accumulated turn at that time.
 struct EdgeCache {
     glm::vec3 at{0.0F};   // m

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace bolt::collision {
 namespace {
@@ -27,14 +28,14 @@ HalfSpace plane_through(const Vec3& normal, const Vec3& point) {
     return {n, glm::dot(n, point)};
 }
 
-Convex rotated_convex(std::vector<HalfSpace> planes, double angle) {
+Result<Convex> rotated_convex(std::vector<HalfSpace> planes, double angle) {
     const Quat turn = glm::angleAxis(angle, Vec3(0, 0, 1));
     for (HalfSpace& plane : planes) plane.normal = turn * plane.normal;
     return make_convex(planes);
 }
 
 // One of the two jaws, on the side of +Y or −Y.
-Convex half_jaw(const Jaw& j, double side) {
+Result<Convex> half_jaw(const Jaw& j, double side) {
     const double flat = 0.5 * j.opening, back = jaw_cover * j.opening, half_thickness = 0.5 * j.thickness;
     const double head = half_head_at_tip * j.opening;
     std::vector<HalfSpace> planes{{{0, -side, 0}, -flat},
@@ -45,11 +46,11 @@ Convex half_jaw(const Jaw& j, double side) {
     for (const double up : {1.0, -1.0})
         planes.push_back(plane_through({0, -side, up}, {0, side * flat, up * (half_thickness - j.bevel)}));
     planes.push_back(plane_through({-1, -side, 0}, {-j.tip, side * (flat + j.lead_in), 0}));
-    planes.push_back(plane_through({-1, side, 0}, {-j.tip, side * (head - j.round), 0}));
+    planes.push_back(plane_through({-1, side, 0}, {-j.tip, side * (head - j.tip_chamfer), 0}));
     return rotated_convex(planes, j.head_angle);
 }
 
-Convex bottom(const Jaw& j) {
+Result<Convex> bottom(const Jaw& j) {
     const double wide = (0.5 + jaw_cover) * j.opening, half_thickness = 0.5 * j.thickness;
     std::vector<HalfSpace> planes{{{-1, 0, 0}, -j.throat},
                                   {{1, 0, 0}, j.throat + jaw_cover * j.opening},
@@ -80,7 +81,7 @@ Jaw make_jaw(double opening, double head_angle, double thickness, double throat,
     jaw.thickness = thickness > 0.0 ? thickness : thickness_share * opening;
     jaw.bevel = std::min(bevel_share * opening, 0.25 * jaw.thickness);
     jaw.lead_in = lead_in_share * opening;
-    jaw.round = round_share * opening;
+    jaw.tip_chamfer = round_share * opening;
     return jaw;
 }
 
@@ -90,7 +91,12 @@ double HexagonPrism::corner_drop() const {
     return std::max(0.0, across_flats / std::sqrt(3.0) - 0.5 * bearing) * std::tan(slope);
 }
 
-JawParts jaw_parts(const Jaw& jaw) { return {half_jaw(jaw, 1.0), half_jaw(jaw, -1.0), bottom(jaw)}; }
+Result<JawParts> jaw_parts(const Jaw& jaw) {
+    BOLT_TRY_ASSIGN(auto left, half_jaw(jaw, 1.0));
+    BOLT_TRY_ASSIGN(auto right, half_jaw(jaw, -1.0));
+    BOLT_TRY_ASSIGN(auto between, bottom(jaw));
+    return JawParts{std::move(left), std::move(right), std::move(between)};
+}
 
 bool covered_by_jaw(const JawParts& parts, const Vec3& point) {
     constexpr double facets = 20e-6;  // m by which a mesh may exceed the exact shape
@@ -101,7 +107,7 @@ bool covered_by_jaw(const JawParts& parts, const Vec3& point) {
     });
 }
 
-Convex hexagon(const HexagonPrism& p) {
+Result<Convex> hexagon(const HexagonPrism& p) {
     std::vector<HalfSpace> planes{{{0, 0, 1}, p.height}, {{0, 0, -1}, 0.0}};
     for (int i = 0; i < 6; ++i) planes.push_back({direction((i + 0.5) * sixth), 0.5 * p.across_flats});
     for (int i = 0; i < 12; ++i) {

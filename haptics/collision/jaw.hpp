@@ -16,12 +16,13 @@ namespace bolt::collision {
 struct Jaw {
     double opening = 0.0;     // m, between the flats
     double head_angle = 0.0;  // rad
-    double throat = 0.0;      // m, from the middle to the bottom
+    double throat = 0.0;      // m, from the middle to the bottom of the slot
     double tip = 0.0;         // m, from the middle to the end of the jaws
     double thickness = 0.0;   // m
-    double bevel = 0.0;       // m, 45° along the edges of the flats
-    double lead_in = 0.0;     // m, 45° at the tips
-    double round = 0.0;       // m, 45° outside at the tips
+    // m, legs of the 45° chamfers:
+    double bevel = 0.0;        // along the long edges of the flats
+    double lead_in = 0.0;      // inside at the tips
+    double tip_chamfer = 0.0;  // outside at the tips, in place of a radius
 
     // m, half the height of the flats without their bevels.
     [[nodiscard]] double half_flat() const { return 0.5 * thickness - bevel; }
@@ -47,14 +48,14 @@ struct HexagonPrism {
 // the slot.
 using JawParts = std::array<Convex, 3>;
 inline constexpr double jaw_cover = 0.3;
-JawParts jaw_parts(const Jaw& jaw);
+Result<JawParts> jaw_parts(const Jaw& jaw);
 
 // Returns true if a point of the wrench's mesh, in the wrench's frame, belongs to the region that the parts
 // represent. A real head may be broader at its tips and has fillets in its throat.
 bool covered_by_jaw(const JawParts& parts, const Vec3& point);
 
 // A hexagon with its chamfers; each chamfer cone is represented by twelve tangent planes.
-Convex hexagon(const HexagonPrism& prism);
+Result<Convex> hexagon(const HexagonPrism& prism);
 
 // The position of a jaw on a hexagon.
 struct JawSeat {

@@ -80,7 +80,7 @@ void add_edge(ContactMesh& mesh, const HalfEdge& a, const HalfEdge& b) {
     const double width = std::min(height_above_edge(corners(mesh, a.triangle), a.corner),
                                   height_above_edge(corners(mesh, b.triangle), b.corner));
     const auto angle = static_cast<double>(edge.angle);
-    if (0.5 * angle * width > edge_rise || angle > to_radians(20.0)) {
+    if (0.5 * angle * width > edge_rise || angle > sampled_edge_angle) {
         mesh.sharp_edges.push_back(edge);
         return;
     }

@@ -14,8 +14,8 @@
 
 namespace bolt::collision {
 
-// An edge at which the surface rises by more than `edge_rise` above a surface without the edge, or an edge
-// without exactly two faces.
+// An edge whose faces meet at more than `sampled_edge_angle` or rise by more than `edge_rise` above a smooth
+// surface in their place, or an edge without exactly two faces.
 struct SharpEdge {
     std::array<std::uint32_t, 2> vertices;
     std::uint32_t triangle;            // one of its faces
@@ -61,12 +61,14 @@ struct ContactMesh {
     [[nodiscard]] bool watertight() const { return open_edges == 0 && forked_edges == 0; }
 };
 
-inline constexpr double edge_rise = 30e-6;  // m
+inline constexpr double edge_rise = 30e-6;  // m, see SharpEdge
+// rad; edges sharper than this get points along them, since a round face may touch them anywhere.
+inline constexpr double sampled_edge_angle = 20.0 * pi / 180.0;
 // rad; facets that meet at a smaller angle than this approximate a round surface.
 inline constexpr double crease = 30.0 * pi / 180.0;
 // m; between neighbouring samples a round surface rises by no more than this.
 inline constexpr double round_rise = 60e-6;
-// 1/m; surfaces of lower curvature get no samples for it.
+// 1/m; a lower curvature adds no samples.
 inline constexpr double least_curvature = 10.0;
 
 // The largest spacing of samples (m) on a surface of this curvature (1/m).

@@ -25,23 +25,23 @@ constexpr double rounding_in_float = 1e-6;
 // rad; a leaf whose normals spread further gives no usable bound of the normal.
 constexpr float max_normal_spread = 1.2F;
 
-void reset(Bounds& bounds, const SurfaceSamples& samples) {
+void reset(SurfaceQueryCache& cache, const SurfaceSamples& samples) {
     constexpr DistanceBound no_distance{no_bound, infinite_distance};
-    bounds.levels.resize(samples.levels.size());
+    cache.levels.resize(samples.levels.size());
     for (std::size_t i = 0; i < samples.levels.size(); ++i)
-        bounds.levels[i].assign(samples.levels[i].size(), no_distance);
+        cache.levels[i].assign(samples.levels[i].size(), no_distance);
     constexpr CachedQuery no_query{glm::vec3(0.0F), static_cast<float>(no_bound), 0.0, false};
-    bounds.level_queries.resize(samples.levels.size());
+    cache.level_queries.resize(samples.levels.size());
     for (std::size_t i = 0; i < samples.levels.size(); ++i)
-        bounds.level_queries[i].assign(samples.levels[i].size(), no_query);
-    bounds.samples.assign(samples.samples.size(), no_distance);
-    bounds.sample_queries.assign(samples.samples.size(), no_query);
-    bounds.edges.assign(samples.pieces.size(), {});
+        cache.level_queries[i].assign(samples.levels[i].size(), no_query);
+    cache.samples.assign(samples.samples.size(), no_distance);
+    cache.sample_queries.assign(samples.samples.size(), no_query);
+    cache.edges.assign(samples.pieces.size(), {});
 }
 
 // Accumulates the relative motion: any point at r from the tool's origin has moved by at most moved + turned
 // × |r|.
-void accumulate_motion(PairBounds& pair, const Pose& pose) {
+void accumulate_motion(PairCache& pair, const Pose& pose) {
     if (pair.fresh) {
         pair.fresh = false;
     } else {
@@ -121,20 +121,20 @@ class SurfaceQueryPass {
 
     // `reach`: m, of the tool. Relative to an obstacle's samples the whole tool moves, so its reach bounds
     // their motion.
-    void run(Bounds& bounds, const PairBounds& pair, double reach) const {
+    void run(SurfaceQueryCache& cache, const PairCache& pair, double reach) const {
         const AccumulatedMotion motion{pair.moved, pair.turned, reach};
         const std::size_t top = samples_.levels.size() - 1;
-        for (std::uint32_t i = 0; i < samples_.levels[top].size(); ++i) visit(bounds, motion, top, i);
+        for (std::uint32_t i = 0; i < samples_.levels[top].size(); ++i) visit(cache, motion, top, i);
     }
 
     // Computes the contact of a deferred sample; false if there is none within the band.
-    bool resolve(const DeferredContact& one, Bounds& bounds, Contact& contact) const {
+    bool resolve(const DeferredContact& one, SurfaceQueryCache& cache, Contact& contact) const {
         const Vec3 at = to_surface_ * samples_.samples[one.sample].at;
         const OctreeQuery octree_query = query(octree_, at);
         std::array<SeparatingPlane, 1> side;
         const auto near = query_listed(surface_, octree_, octree_query, at, band_, side);
         if (!near) return false;
-        store_bound(bounds, one.sample, at, near->distance, one.spent);
+        store_bound(cache, one.sample, at, near->distance, one.accumulated);
         if (near->planes == 0) return false;
         contact = contact_of(one.sample, at, side[0]);
         return true;
@@ -144,52 +144,62 @@ class SurfaceQueryPass {
     struct AccumulatedMotion {
         double moved, turned, reach;
     };
-    [[nodiscard]] DistanceBound motion_of(const Cluster& cluster, const AccumulatedMotion& motion) const {
+    // The accumulated motion of the samples of one cluster.
+    struct SampleMotion {
+        double displacement;  // m; no sample has moved further
+        double turn;          // rad
+    };
+    [[nodiscard]] SampleMotion motion_of(const Cluster& cluster, const AccumulatedMotion& motion) const {
         return {motion.moved + motion.turned * (of_tool_ ? cluster.reach : motion.reach), motion.turned};
     }
 
-    void visit(Bounds& bounds, const AccumulatedMotion& motion, std::size_t level, std::uint32_t i) const {
+    void visit(SurfaceQueryCache& cache, const AccumulatedMotion& motion, std::size_t level,
+               std::uint32_t i) const {
         const Cluster& cluster = samples_.levels[level][i];
-        DistanceBound& bound = bounds.levels[level][i];
-        const DistanceBound spent = motion_of(cluster, motion);
-        if (holds(bound, spent)) return;
+        DistanceBound& bound = cache.levels[level][i];
+        const SampleMotion accumulated = motion_of(cluster, motion);
+        if (holds(bound, accumulated)) return;
         const Vec3 middle = to_surface_ * cluster.middle;
-        CachedQuery& last = bounds.level_queries[level][i];
-        bound.lower = std::max(bound.lower, updated_bound(last, middle, cluster.radius, spent) + spent.lower);
-        if (holds(bound, spent)) return;
+        CachedQuery& last = cache.level_queries[level][i];
+        bound.lower = std::max(
+            bound.lower, updated_bound(last, middle, cluster.radius, accumulated) + accumulated.displacement);
+        if (holds(bound, accumulated)) return;
         const bool near_before =
             last.lower > 0.5F * static_cast<float>(no_bound) && static_cast<double>(last.lower) <= band_;
-        bound = level == 0
-                    ? query_cluster(bounds, cluster, middle, bound.lower - spent.lower, near_before, spent)
-                    : query_children(bounds, motion, level, cluster, middle, spent);
-        last = {glm::vec3(middle), static_cast<float>(bound.lower - spent.lower), spent.turn, false};
+        bound = level == 0 ? query_cluster(cache, cluster, middle, bound.lower - accumulated.displacement,
+                                           near_before, accumulated)
+                           : query_children(cache, motion, level, cluster, middle, accumulated);
+        last = {glm::vec3(middle), static_cast<float>(bound.lower - accumulated.displacement),
+                accumulated.turn, false};
     }
 
-    DistanceBound query_children(Bounds& bounds, const AccumulatedMotion& motion, std::size_t level,
+    DistanceBound query_children(SurfaceQueryCache& cache, const AccumulatedMotion& motion, std::size_t level,
                                  const Cluster& cluster, const Vec3& middle,
-                                 const DistanceBound& spent) const {
+                                 const SampleMotion& accumulated) const {
         const double all = lower_bound_of(cluster, middle);
-        if (all > band_) return {all + spent.lower, infinite_distance};
+        if (all > band_) return {all + accumulated.displacement, infinite_distance};
         DistanceBound bound{infinite_distance, infinite_distance};
         for (std::uint32_t k = cluster.begin; k < cluster.end; ++k) {
-            visit(bounds, motion, level - 1, k);
-            const DistanceBound& child = bounds.levels[level - 1][k];
-            const double spent_on_one = motion_of(samples_.levels[level - 1][k], motion).lower;
-            bound = min_bound(bound, {child.lower - spent_on_one + spent.lower, child.turn});
+            visit(cache, motion, level - 1, k);
+            const DistanceBound& child = cache.levels[level - 1][k];
+            const double child_displacement = motion_of(samples_.levels[level - 1][k], motion).displacement;
+            bound =
+                min_bound(bound, {child.lower - child_displacement + accumulated.displacement, child.turn});
         }
         return bound;
     }
 
     // The lower bound that a cached query gives for the present position.
     static double updated_bound(const CachedQuery& last, const Vec3& middle, double radius,
-                                const DistanceBound& spent) {
-        const double displacement = glm::length(middle - Vec3(last.at)) + radius * (spent.turn - last.turned);
+                                const SampleMotion& accumulated) {
+        const double displacement =
+            glm::length(middle - Vec3(last.at)) + radius * (accumulated.turn - last.turned);
         return static_cast<double>(last.lower) - displacement - rounding_in_float;
     }
 
-    [[nodiscard]] bool holds(const DistanceBound& proven, const DistanceBound& spent) const {
-        const bool distance_holds = proven.lower - spent.lower > band_;
-        const bool turn_holds = proven.turn > spent.turn;
+    [[nodiscard]] bool holds(const DistanceBound& bound, const SampleMotion& accumulated) const {
+        const bool distance_holds = bound.lower - accumulated.displacement > band_;
+        const bool turn_holds = bound.turn > accumulated.turn;
         return distance_holds & turn_holds;
     }
     static DistanceBound min_bound(const DistanceBound& a, const DistanceBound& b) {
@@ -209,82 +219,84 @@ class SurfaceQueryPass {
     // Queries the samples of a cluster whose bound no longer holds; `remaining`: what remains of it. If a
     // sample was near at the last query, the bound of the whole cluster is unlikely to help and is not
     // computed.
-    DistanceBound query_cluster(Bounds& bounds, const Cluster& cluster, const Vec3& middle, double remaining,
-                                bool near_before, const DistanceBound& spent) const {
-        const std::span<DistanceBound> proven =
-            std::span(bounds.samples).subspan(cluster.begin, cluster.end - cluster.begin);
+    DistanceBound query_cluster(SurfaceQueryCache& cache, const Cluster& cluster, const Vec3& middle,
+                                double remaining, bool near_before, const SampleMotion& accumulated) const {
+        const std::span<DistanceBound> sample_bounds =
+            std::span(cache.samples).subspan(cluster.begin, cluster.end - cluster.begin);
         std::uint32_t pending = 0;  // one bit per sample; branch-free, because the outcome is unpredictable
-        for (std::size_t i = 0; i < proven.size(); ++i)
-            pending |= static_cast<std::uint32_t>(!holds(proven[i], spent)) << i;
+        for (std::size_t i = 0; i < sample_bounds.size(); ++i)
+            pending |= static_cast<std::uint32_t>(!holds(sample_bounds[i], accumulated)) << i;
         if (static_cast<std::size_t>(std::popcount(pending)) > individual_queries && !near_before) {
             const double all = cluster_bound(cluster, middle, remaining);
-            if (all > band_) return {all + spent.lower, infinite_distance};
+            if (all > band_) return {all + accumulated.displacement, infinite_distance};
         }
         for (; pending != 0; pending &= pending - 1)
-            query_sample(bounds, cluster.begin + static_cast<std::uint32_t>(std::countr_zero(pending)),
-                         spent);
+            query_sample(cache, cluster.begin + static_cast<std::uint32_t>(std::countr_zero(pending)),
+                         accumulated);
         DistanceBound bound{infinite_distance, infinite_distance};
-        for (const DistanceBound& p : proven) bound = min_bound(bound, p);
+        for (const DistanceBound& p : sample_bounds) bound = min_bound(bound, p);
         return bound;
     }
 
-    [[nodiscard]] double cluster_bound(const Cluster& cluster, const Vec3& middle, double proven) const {
+    [[nodiscard]] double cluster_bound(const Cluster& cluster, const Vec3& middle, double bound) const {
         const double all = lower_bound_of(cluster, middle);
         if (!octree_.nodes.empty() || all > band_ + cluster_lookahead) return all;
         const double radius =
-            std::max(all, proven) > 0.0 ? cluster.radius + band_ + cluster_lookahead : infinite_distance;
+            std::max(all, bound) > 0.0 ? cluster.radius + band_ + cluster_lookahead : infinite_distance;
         const double distance = query_point(surface_, middle, radius, 0.0, {}).distance;
         return std::max(all, std::min(distance, radius) - cluster.radius - rounding);
     }
 
     // Queries a sample whose bound no longer holds.
-    void query_sample(Bounds& bounds, std::uint32_t index, const DistanceBound& spent) const {
+    void query_sample(SurfaceQueryCache& cache, std::uint32_t index, const SampleMotion& accumulated) const {
         ++collected_.work;
         const SurfaceSample& sample = samples_.samples[index];
         const Vec3 at = to_surface_ * sample.at;
         if (sample.piece == SurfaceSample::no_piece)
-            query_point_sample(bounds, index, at, spent.lower);
+            query_point_sample(cache, index, at, accumulated.displacement);
         else
-            query_edge_piece(bounds, index, samples_.pieces[sample.piece], at, spent);
+            query_edge_piece(cache, index, samples_.pieces[sample.piece], at, accumulated);
     }
 
-    void query_edge_piece(Bounds& bounds, std::uint32_t index, const PieceExtent& piece, const Vec3& at,
-                          const DistanceBound& spent) const {
-        DistanceBound& proven = bounds.samples[index];
-        CachedQuery& last = bounds.sample_queries[index];
-        proven.lower =
-            std::max(proven.lower, updated_bound(last, at, piece.half_length, spent) + spent.lower);
-        if (holds(proven, spent)) return;
+    void query_edge_piece(SurfaceQueryCache& cache, std::uint32_t index, const PieceExtent& piece,
+                          const Vec3& at, const SampleMotion& accumulated) const {
+        DistanceBound& bound = cache.samples[index];
+        CachedQuery& last = cache.sample_queries[index];
+        bound.lower = std::max(
+            bound.lower, updated_bound(last, at, piece.half_length, accumulated) + accumulated.displacement);
+        if (holds(bound, accumulated)) return;
         const double lower = query(octree_, at, cursor_).lower - piece.half_length - rounding;
         if (lower > band_) {
-            proven = {lower + spent.lower, infinite_distance};
-            last = {glm::vec3(at), static_cast<float>(lower), spent.turn, false};
+            bound = {lower + accumulated.displacement, infinite_distance};
+            last = {glm::vec3(at), static_cast<float>(lower), accumulated.turn, false};
         } else {
-            query_edge(index, piece, at, proven, last, bounds.edges[samples_.samples[index].piece], spent);
+            query_edge(index, piece, at, bound, last, cache.edges[samples_.samples[index].piece],
+                       accumulated);
         }
     }
 
-    void query_point_sample(Bounds& bounds, std::uint32_t index, const Vec3& at, double spent) const {
-        double& lower = bounds.samples[index].lower;
-        CachedQuery& last = bounds.sample_queries[index];
+    void query_point_sample(SurfaceQueryCache& cache, std::uint32_t index, const Vec3& at,
+                            double accumulated) const {
+        double& lower = cache.samples[index].lower;
+        CachedQuery& last = cache.sample_queries[index];
         const double displacement = glm::length(at - Vec3(last.at)) + rounding_in_float;
-        lower = std::max(lower, static_cast<double>(last.lower) - displacement + spent);
-        if (lower - spent > band_) return;
+        lower = std::max(lower, static_cast<double>(last.lower) - displacement + accumulated);
+        if (lower - accumulated > band_) return;
         const OctreeQuery octree_query = query(octree_, at, cursor_);
-        lower = std::max(lower, octree_query.lower - rounding + spent);
-        if (lower - spent > band_) {
-            last = {glm::vec3(at), static_cast<float>(lower - spent), 0.0, false};
+        lower = std::max(lower, octree_query.lower - rounding + accumulated);
+        if (lower - accumulated > band_) {
+            last = {glm::vec3(at), static_cast<float>(lower - accumulated), 0.0, false};
             return;
         }
-        const bool outside = lower - spent > 0.0;
+        const bool outside = lower - accumulated > 0.0;
         std::array<SeparatingPlane, max_planes> planes;
         if (octree_query.leaf != nullptr && band_ <= octree_query.unlisted) {
-            if (outside && defer(index, at, octree_query, lower - spent, spent)) return;
+            if (outside && defer(index, at, octree_query, lower - accumulated, accumulated)) return;
             const std::optional<PointQueryResult> near =
                 query_listed(surface_, octree_, octree_query, at, band_, planes);
-            if (near) return store_result(bounds, index, at, spent, *near, near->distance, planes);
+            if (near) return store_result(cache, index, at, accumulated, *near, near->distance, planes);
             if (outside) {
-                store_bound(bounds, index, at, octree_query.unlisted, spent);
+                store_bound(cache, index, at, octree_query.unlisted, accumulated);
                 return;
             }
         }
@@ -293,19 +305,20 @@ class SurfaceQueryPass {
             last.lower <= 0.0F ? displacement - static_cast<double>(last.lower) : infinite_distance;
         radius = std::min(radius, std::max(band_, std::min(octree_query.upper, upper) + rounding));
         const PointQueryResult near = query_point(surface_, at, radius, band_, planes);
-        store_result(bounds, index, at, spent, near, std::min(near.distance, radius), planes);
+        store_result(cache, index, at, accumulated, near, std::min(near.distance, radius), planes);
     }
-    // Stores a distance as the sample's bound: outside, no surface is nearer; inside, one is as near.
-    static void store_bound(Bounds& bounds, std::uint32_t index, const Vec3& at, double distance,
-                            double spent) {
-        bounds.samples[index].lower = distance - rounding + spent;
-        bounds.sample_queries[index] = {glm::vec3(at), static_cast<float>(distance), 0.0, false};
+    // Stores a signed distance as the sample's bound. Positive: no surface is nearer. Negative: a surface is
+    // within its absolute value.
+    static void store_bound(SurfaceQueryCache& cache, std::uint32_t index, const Vec3& at, double distance,
+                            double accumulated) {
+        cache.samples[index].lower = distance - rounding + accumulated;
+        cache.sample_queries[index] = {glm::vec3(at), static_cast<float>(distance), 0.0, false};
     }
-    void store_result(Bounds& bounds, std::uint32_t index, const Vec3& at, double spent,
+    void store_result(SurfaceQueryCache& cache, std::uint32_t index, const Vec3& at, double accumulated,
                       const PointQueryResult& near, double distance,
                       std::span<const SeparatingPlane> planes) const {
         collected_.complete = std::min(collected_.complete, near.complete);
-        store_bound(bounds, index, at, distance, spent);
+        store_bound(cache, index, at, distance, accumulated);
         for (std::size_t i = 0; i < near.planes; ++i) collected_.add(contact_of(index, at, planes[i]));
     }
     [[nodiscard]] Contact contact_of(std::uint32_t index, const Vec3& at, const SeparatingPlane& side) const {
@@ -327,34 +340,35 @@ class SurfaceQueryPass {
     // Defers the contact of a point outside; false if the leaf is not convex. In a convex leaf the point has
     // at most one contact, whose position and normal are bounded.
     [[nodiscard]] bool defer(std::uint32_t index, const Vec3& at, const OctreeQuery& octree_query,
-                             double lower, double spent) const {
+                             double lower, double accumulated) const {
         if (!octree_query.leaf->convex || octree_query.leaf->spread > max_normal_spread) return false;
         const Vec3 normal = to_assembly_.turned(octree_query.leaf->normal);
         return collected_.defer({.lower = lower,
                                  .on_tool = to_assembly_ * at,
                                  .normal = of_tool_ ? normal : -normal,
-                                 .blur = static_cast<float>(of_tool_ ? rounding : band_ + rounding),
+                                 .position_error = static_cast<float>(of_tool_ ? rounding : band_ + rounding),
                                  .spread = octree_query.leaf->spread,
                                  .obstacle = obstacle_at(index, octree_.triangles[octree_query.leaf->begin]),
                                  .sample = index,
-                                 .spent = spent,
+                                 .accumulated = accumulated,
                                  .pair = pair_,
                                  .of_tool = of_tool_});
     }
 
-    void query_edge(std::uint32_t index, const PieceExtent& edge, const Vec3& at, DistanceBound& proven,
-                    CachedQuery& last, EdgeCache& edges, const DistanceBound& spent) const {
+    void query_edge(std::uint32_t index, const PieceExtent& edge, const Vec3& at, DistanceBound& bound,
+                    CachedQuery& last, EdgeCache& edges, const SampleMotion& accumulated) const {
         const EdgePiece piece{at,
                               to_surface_.turned(edge.half),
                               {to_surface_.turned(edge.inward[0]), to_surface_.turned(edge.inward[1])}};
         std::array<Crossing, max_planes> crossings;
         bool searched = false;
-        const Crossings found = query_edges_cached(surface_, piece, tool_, from_surface_, spent.turn, band_,
-                                                   last.edge_near, edges, searched, crossings);
+        const Crossings found = query_edges_cached(surface_, piece, tool_, from_surface_, accumulated.turn,
+                                                   band_, last.edge_near, edges, searched, crossings);
         if (searched) collected_.work += edge_search_work;
         collected_.complete = std::min(collected_.complete, found.complete);
-        proven = {found.clear - rounding + spent.lower, found.turn + spent.turn};
-        last = {glm::vec3(at), static_cast<float>(found.clear), spent.turn, found.clear < short_lookahead};
+        bound = {found.clear - rounding + accumulated.displacement, found.turn + accumulated.turn};
+        last = {glm::vec3(at), static_cast<float>(found.clear), accumulated.turn,
+                found.clear < short_lookahead};
         for (std::size_t i = 0; i < found.count; ++i) {
             const Crossing& crossing = crossings[i];
             const std::uint32_t triangle = surface_.mesh.sharp_edges[crossing.edge].triangle;
@@ -396,7 +410,7 @@ bool is_out_of_reach(const Solid& tool, const Solid& body, const Pose& to_body, 
 NarrowPhaseState make_narrow_phase(const CollisionWorld& world, const ToolShape& tool) {
     NarrowPhaseState state;
     for (const Body& body : world.bodies) {
-        PairBounds& pair = state.pairs.emplace_back();
+        PairCache& pair = state.pairs.emplace_back();
         reset(pair.of_tool, tool.samples);
         reset(pair.of_body, world.shapes[body.shape].samples);
     }
@@ -411,7 +425,7 @@ NarrowPhaseState make_narrow_phase(const CollisionWorld& world, const ToolShape&
 
 void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const ToolShape& tool) {
     for (std::size_t i = 0; i < state.pairs.size(); ++i) {
-        PairBounds& pair = state.pairs[i];
+        PairCache& pair = state.pairs[i];
         pair.fresh = true;
         pair.moved = pair.turned = 0.0;
         reset(pair.of_tool, tool.samples);
@@ -436,17 +450,17 @@ ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& t
         if (!body.on) continue;
         const Pose to_body = inverse(body.pose) * pose;
         if (is_out_of_reach(tool.solid, world.shapes[body.shape].solid, to_body, band)) continue;
-        PairBounds& pair_bounds = state.pairs[i];
-        accumulate_motion(pair_bounds, to_body);
+        PairCache& pair_cache = state.pairs[i];
+        accumulate_motion(pair_cache, to_body);
         const Pose to_tool = inverse(to_body);
-        surface_pass(i, true, to_body, to_tool).run(pair_bounds.of_tool, pair_bounds, tool.reach());
-        surface_pass(i, false, to_body, to_tool).run(pair_bounds.of_body, pair_bounds, tool.reach());
+        surface_pass(i, true, to_body, to_tool).run(pair_cache.of_tool, pair_cache, tool.reach());
+        surface_pass(i, false, to_body, to_tool).run(pair_cache.of_body, pair_cache, tool.reach());
     }
     const auto resolve = [&](const DeferredContact& one, Contact& contact) {
-        PairBounds& pair_bounds = state.pairs[one.pair];
-        const Pose to_tool = inverse(pair_bounds.last);
-        return surface_pass(one.pair, one.of_tool, pair_bounds.last, to_tool)
-            .resolve(one, one.of_tool ? pair_bounds.of_tool : pair_bounds.of_body, contact);
+        PairCache& pair_cache = state.pairs[one.pair];
+        const Pose to_tool = inverse(pair_cache.last);
+        return surface_pass(one.pair, one.of_tool, pair_cache.last, to_tool)
+            .resolve(one, one.of_tool ? pair_cache.of_tool : pair_cache.of_body, contact);
     };
     ContactQueryResult found = reduce_contacts(
         {state.near, collected.count, state.order, state.kept, state.kept_in,

@@ -3,8 +3,8 @@
 // tool against edges of bodies.
 //
 // Every sample and every cluster of samples stores a lower bound of its distance. The relative motion since
-// then is subtracted from it; only where nothing remains is the surface queried again. The bounds save work
-// and never change the result: it is the same bit for bit with an empty cache.
+// then is subtracted from it; the surface is queried again only where the rest is within the band. The bounds
+// save work and never change the result: it is the same bit for bit with an empty cache.
 #pragma once
 
 #include <vector>
@@ -33,7 +33,7 @@ struct CachedQuery {
 };
 
 // The cache of one solid's samples against the other's surface.
-struct Bounds {
+struct SurfaceQueryCache {
     std::vector<std::vector<DistanceBound>> levels;  // by level and cluster; holds for all samples of it
     std::vector<std::vector<CachedQuery>> level_queries;
     std::vector<DistanceBound> samples;
@@ -42,15 +42,15 @@ struct Bounds {
 };
 
 // The cache of the tool and one body.
-struct PairBounds {
+struct PairCache {
     bool fresh = true;                 // no query yet
     Pose last;                         // tool to body, at the last query
     double moved = 0.0, turned = 0.0;  // m and rad, accumulated relative motion
-    Bounds of_tool, of_body;
+    SurfaceQueryCache of_tool, of_body;
 };
 
 struct NarrowPhaseState {
-    std::vector<PairBounds> pairs;  // in the order of the world's bodies
+    std::vector<PairCache> pairs;  // in the order of the world's bodies
     // Scratch memory of a query.
     std::vector<Contact> near;
     std::vector<RankedContact> order;
@@ -73,5 +73,23 @@ void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const Too
 // the cache. Does not allocate.
 ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
                                  double band, NarrowPhaseState& state, std::span<Contact> out);
+
+// Smooth contact normals on facetted meshes (smooth_normals.cpp). A bar or rounded edge is modelled by
+// facets, and a hand that slides along it must not feel them. Near the surface the normal is interpolated
+// between facets as shading does (force shading: Morgenbesser and Srinivasan, ASME DSC-58, 1996; Ruspini,
+// Kolarov and Khatib, SIGGRAPH 1997). Distances stay those of the facets, so smoothing permits no additional
+// penetration.
+
+// m. The full correction applies up to `smooth_near`, which exceeds GodObjectParameters::skin, and fades to
+// none at `smooth_far`: tilting planes further away has no benefit.
+inline constexpr double smooth_near = 0.16e-3, smooth_far = 0.36e-3;
+// rad, greatest angle between the smooth normal and the facets' normal.
+inline constexpr double max_smoothing_angle = 20.0 * pi / 180.0;
+
+// Sets `Contact::smooth` of contacts that `find_contacts` wrote for this world, tool and pose. Where a face
+// or blunt edge meets a crease, the face's normal is used; where two smooth surfaces meet, that of the
+// flatter one; where two creases meet, `smooth` stays zero.
+void smooth_normals(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
+                    std::span<Contact> contacts);
 
 }  // namespace bolt::collision

@@ -154,8 +154,8 @@ std::vector<double> spacings(const Solid& solid, double along_edges) {
     std::vector<double> spacing(mesh.vertices.size());
     for (std::size_t v = 0; v < spacing.size(); ++v)
         spacing[v] = curvature[v] < least_curvature ? infinite_distance : spacing_on_round(curvature[v]);
-    // At a vertex on a keen edge only the curvature of the edge itself counts.
-    const RidgeGraph ridges(solid, keen_angle);
+    // At a vertex on an edge sharper than `sampled_edge_angle` only the curvature of the edge itself counts.
+    const RidgeGraph ridges(solid, sampled_edge_angle);
     for (std::uint32_t v = 0; v < spacing.size(); ++v) {
         const auto& edges = ridges.at_vertex[v];
         if (edges.empty()) continue;
@@ -193,7 +193,7 @@ void divide(const Vec3& a, const Vec3& b, double spacing, const AddPoint& add) {
 void add_along_edges(const Solid& solid, const SampleOptions& options, std::vector<SurfaceSample>& out) {
     for (const Ridge& r : solid.ridges) {
         const SharpEdge& edge = solid.mesh.sharp_edges[r.sharp_edge];
-        if (static_cast<double>(edge.angle) < keen_angle && !options.round) continue;
+        if (static_cast<double>(edge.angle) < sampled_edge_angle && !options.round) continue;
         divide(Vec3(r.ends[0]), Vec3(r.ends[1]), options.along_edges,
                [&](const Vec3& at) { out.push_back({.at = at, .triangle = edge.triangle}); });
     }
@@ -219,8 +219,8 @@ void add_round_edge_candidates(const Solid& solid, std::vector<CandidateSample>&
                });
 }
 
-// Adds the candidates in the order of their spacing, and drops one if a sample lies within its spacing,
-// rounded down to a power of two times 8 mm. One grid per spacing.
+// Adds the candidates in the order of their spacing. Drops a candidate if a sample lies within its spacing,
+// rounded down to 8 mm / 2^k with k = 0 … 7; there is one grid for each k.
 void add_spaced(std::vector<CandidateSample> candidates, std::vector<SurfaceSample>& out) {
     std::stable_sort(
         candidates.begin(), candidates.end(),
@@ -312,7 +312,8 @@ void build_clusters(SurfaceSamples& result, std::size_t begin, std::size_t end) 
     const Vec3 size = high - low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::size_t clusters = (end - begin + cluster_size - 1) / cluster_size;
-    // Split at whole clusters of the highest level of which the range holds more than one.
+    // The range is split at a multiple of `unit` samples: the size of a full cluster of the highest level
+    // whose clusters are smaller than the range. The clusters of all levels then follow the bisection.
     std::size_t unit = cluster_size;
     while (clusters * cluster_size > unit * cluster_size) unit *= cluster_size;
     const std::size_t units = (end - begin + unit - 1) / unit;

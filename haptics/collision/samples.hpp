@@ -57,9 +57,6 @@ struct SampleOptions {
     std::size_t on_faces = 0;  // points spread evenly over the surface, for faces of very low curvature
 };
 
-// rad; edges sharper than this get points along them, since a round face may touch them anywhere.
-inline constexpr double keen_angle = 20.0 * pi / 180.0;
-
 // Deterministic: the same mesh gives the same samples in the same order.
 SurfaceSamples make_samples(const Solid& solid, const SampleOptions& options);
 

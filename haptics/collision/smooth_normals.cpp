@@ -1,4 +1,4 @@
-#include "haptics/collision/smooth_normals.hpp"
+#include "haptics/collision/narrow_phase.hpp"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

@@ -76,12 +76,15 @@ void SceneRelease::operator()(RTCSceneTy* scene) const { rtcReleaseScene(scene);
 
 Result<Solid> make_solid(std::span<const ContactMesh> parts) {
     Solid solid;
-    if (parts.size() > 0xffff) return fail(ErrorCode::bad_content, "more than 65,535 parts in one solid");
+    if (parts.size() > 0xffff)
+        return fail(ErrorCode::bad_content, fmt::format("a solid has {} parts", parts.size()),
+                    "at most 65535");
     for (std::size_t i = 0; i < parts.size(); ++i) {
         append(solid.mesh, parts[i]);
         solid.part.resize(solid.mesh.triangles.size(), static_cast<std::uint32_t>(i));
     }
-    if (solid.mesh.triangles.empty()) return fail(ErrorCode::bad_content, "a solid without a triangle");
+    if (solid.mesh.triangles.empty())
+        return fail(ErrorCode::bad_content, "a solid has no triangles", "at least one part with triangles");
     for (std::uint32_t i = 0; i < solid.mesh.sharp_edges.size(); ++i) {
         const SharpEdge& edge = solid.mesh.sharp_edges[i];
         const auto end = [&](std::size_t k) { return solid.mesh.vertices[edge.vertices[k]]; };

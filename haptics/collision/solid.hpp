@@ -49,7 +49,8 @@ struct Solid {
 // the nearest surface would be the wrong way out.
 Result<Solid> make_solid(std::span<const ContactMesh> parts);
 
-// The tangent plane at the closest point of a surface; it keeps the query point on its outer side.
+// The tangent plane at the closest point of a surface. As a constraint it keeps the query point on its outer
+// side.
 struct SeparatingPlane {
     double distance = 0.0;  // m, signed; negative: the point is inside
     Vec3 point{0.0};        // m, on the surface
@@ -66,7 +67,8 @@ struct PointQueryResult {
     double complete = 0.0;
 };
 
-inline constexpr double plane_tolerance = 20e-6;  // m; surface that rises less above a plane gets no plane
+// m; a surface that rises by no more than this above a plane gets no plane of its own.
+inline constexpr double plane_tolerance = 20e-6;
 inline constexpr std::size_t max_planes = 8;
 
 // The signed distance of `point` to the surface within `radius` (may be infinite), and the separating planes

@@ -1,6 +1,6 @@
 // The world that the tool collides with, the tool's own shape, and the visible fraction of a body. Fixed
 // obstacles are joined into one solid; bodies that move keep frames of their own. World and tool are built at
-// load; poses and switches may change between ticks, which does not allocate.
+// load; Body::pose and Body::on may change between ticks, which does not allocate.
 #pragma once
 
 #include <optional>
@@ -89,7 +89,7 @@ std::vector<SurfacePoint> sample_surface(const ContactMesh& mesh, std::size_t co
 std::vector<SurfacePoint> sample_outer_surface(const Solid& solid, std::size_t count);
 
 struct Visibility {
-    double share = 0.0;  // 0…1 of the angle that is visible without the other bodies; 0 if that is 0
+    double share = 0.0;  // 0…1, `angle` divided by the angle without other bodies; 0 if the latter is 0
     double angle = 0.0;  // sr, visible solid angle
 };
 

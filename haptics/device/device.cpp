@@ -6,14 +6,13 @@
 #include <chrono>
 #include <thread>
 
+#include "engine/base/steady_seconds.hpp"
+
 namespace bolt::device {
 
 Timer steady_timer() {
-    return {
-        [] {
-            return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-        },
-        [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }};
+    return {steady_seconds,
+            [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }};
 }
 
 Timer virtual_timer(VirtualTime& time) {

@@ -13,10 +13,6 @@ namespace bolt::device {
 
 namespace {
 
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
-
-bool finite(const force::OutputCommand& c) { return finite(c.force) && finite(c.torque); }
-
 bool renders(const Description& d) {
     return std::any_of(d.renders.begin(), d.renders.end(), [](bool axis) { return axis; });
 }
@@ -114,10 +110,11 @@ Status DeviceSupervisor::write(const ForceCommand& requested, double now) {
     }
     const bool stale = now - command_time_ >= options_.command_timeout;
     force::OutputCommand command;
-    if (requested.enabled && !stale && finite(requested.command))
+    const bool is_finite = finite(requested.command.force) && finite(requested.command.torque);
+    if (requested.enabled && !stale && is_finite)
         command = clamp_to_limits(*report_.description, requested.command);
     const bool forces = command.force != Vec3(0.0) || command.torque != Vec3(0.0);
-    // Repeat an unchanged force: some devices drop it when writes stop.
+    // A new command is written even if its force is unchanged: some devices drop the force when writes stop.
     if (!(forces && is_new) && !(!forces && may_hold_force_)) return {};
     if (stale && requested.enabled && rendering_) ++report_.lapses;
     BOLT_TRY(device_->write(command));
@@ -130,8 +127,8 @@ void DeviceSupervisor::track_silence(bool received, double now) {
     if (received) {
         ++report_.samples;
         last_sample_ = now;
-        retry_delay_ = options_.first_retry_delay;  // a successful opening is not enough: some devices are
-                                                    // lost at the first read or write
+        // A successful opening does not reset the delay: some devices are lost at the first read or write.
+        retry_delay_ = options_.first_retry_delay;
         report_.state = DeviceState::usable;
         report_.trouble.clear();
         return;
@@ -275,9 +272,11 @@ double DeviceThread::blocked_for() const {
 Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(double timeout) {
     const double until = shared_->timer.now() + timeout;
     while (report().openings == 0) {
-        if (shared_->timer.now() >= until)
-            return fail(ErrorCode::no_device,
-                        report().trouble.empty() ? "the device does not open in time" : report().trouble);
+        if (shared_->timer.now() >= until) {
+            if (!report().trouble.empty()) return fail(ErrorCode::no_device, report().trouble);
+            return fail(ErrorCode::no_device, "the device does not open in time",
+                        fmt::format("a connected device that opens within {:g} s", timeout));
+        }
         shared_->timer.wait(5e-3);
     }
     return report().description;

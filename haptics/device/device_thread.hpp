@@ -13,7 +13,7 @@ namespace bolt::device {
 
 struct SupervisorOptions {
     double first_retry_delay = 0.05, max_retry_delay = 1.0;  // s between two attempts to open; doubles
-    // s without a new command until the force is released; with one poll and one write at most 20 ms.
+    // s without a new command until the force is released; at most 20 ms including one poll and one write.
     double command_timeout = 0.015;
     double silence = 0.25;      // s without a valid sample until this is reported
     double reopen_after = 1.0;  // s of silence until the device is reopened
@@ -117,7 +117,7 @@ class DeviceThread {
     DeviceThread& operator=(DeviceThread&&) noexcept;
     ~DeviceThread();  // joins; the device is closed without force
 
-    // Never wait. One calling thread each: the servo's.
+    // For the servo thread; wait-free.
     void command(const force::OutputCommand& command, bool enabled);
     const DeviceSnapshot& snapshot();
 

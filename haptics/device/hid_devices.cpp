@@ -24,8 +24,8 @@ std::string utf8(const wchar_t* wide) {
     for (; wide != nullptr && *wide != 0; ++wide) {
         const auto c = static_cast<std::uint32_t>(*wide);
         if (c < 0x80) {
-            if (c >= 0x20 && c != 0x7f)
-                out += static_cast<char>(c);  // no control characters, because names are printed on terminals
+            // No control characters, because names are printed on terminals.
+            if (c >= 0x20 && c != 0x7f) out += static_cast<char>(c);
         } else if (c < 0x800) {
             out += static_cast<char>(0xc0 | c >> 6U);
             out += static_cast<char>(0x80 | (c & 0x3fU));
@@ -136,9 +136,8 @@ std::string udev_rule(const HidIdentity& identity) {
 std::vector<ListedDevice> list_devices(bool others) {
     std::vector<ListedDevice> out;
     for (const HidNode& one : enumerate_nodes()) out.push_back(listed(one));
-    std::erase_if(out, [](const ListedDevice& device) {
-        return device.trouble && device.trouble->lost;
-    });  // disconnected in the meantime
+    // Disconnected in the meantime.
+    std::erase_if(out, [](const ListedDevice& device) { return device.trouble && device.trouble->lost; });
     // Supported devices first, so that their ids do not depend on `others`: a puck's receiver is also a
     // keyboard.
     const auto is_other = [](const ListedDevice& device) { return device.kind == HidKind::other; };

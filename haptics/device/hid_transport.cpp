@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -87,10 +86,6 @@ class HidapiTransport : public HidTransport {
 std::mutex& hidapi_lock() {
     static std::mutex lock;
     return lock;
-}
-
-double steady_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 Status can_open_hid(const std::filesystem::path& node) {

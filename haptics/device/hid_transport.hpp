@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/result.hpp"
+#include "engine/base/steady_seconds.hpp"
 
 namespace bolt::device {
 
@@ -36,8 +37,6 @@ class HidTransport {
 
 // A monotonic clock in s, for time stamps and timeouts.
 using SecondsClock = std::function<double()>;
-
-double steady_seconds();
 
 // hidapi has one global error string and frees it in every call without an open device. Hold this lock during
 // such calls; two threads that enumerate at once crash without it.

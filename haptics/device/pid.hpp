@@ -35,7 +35,7 @@ struct PidLayout {
     std::int64_t load_success = 0;       // value of `status` after a successful load
 };
 
-// Error: the device has no constant force, or none of both signs.
+// Fails if the device has no constant force, or one of a single sign.
 Result<PidLayout> pid_layout(const ReportDescriptor& descriptor);
 
 // Parses the `block_load` report: the block index, nullopt if loading is not complete, an error if memory is
@@ -54,7 +54,7 @@ class PidForce {
   public:
     explicit PidForce(PidLayout layout) : layout_(std::move(layout)) {}
 
-    // Resets the device, stops all effects of earlier users, then creates ours and starts it at zero.
+    // Resets the device, stops all effects of earlier users, then creates the effect and starts it at zero.
     Status start(HidTransport& transport, double now);
     // `share` is −1 … 1 of full scale, positive to the left. Sends changes at once, and repeats the value
     // before the effect's duration ends; some devices also drop a force that is not refreshed.

@@ -37,7 +37,6 @@ enum Tag : std::uint8_t {  // tag and type bits of the item's first byte
     usage = 0x08,
     usage_low = 0x18,
     usage_high = 0x28,
-    delimiter = 0xa8,
 };
 
 struct Global {
@@ -76,8 +75,11 @@ class DescriptorParser {
             BOLT_TRY(apply_item(head & 0xfcU, value, size));
         }
         item_ = at_;
-        if (!open_.empty()) return error_at_item("a collection is not ended", "an end of every collection");
-        if (descriptor_.fields.empty()) return error_at_item("the descriptor has no fields", "a report");
+        if (!open_.empty())
+            return error_at_item("a collection is not ended",
+                                 "as many End Collection items as Collection items");
+        if (descriptor_.fields.empty())
+            return error_at_item("the descriptor has no fields", "an Input, Output or Feature item");
         return std::move(descriptor_);
     }
 
@@ -87,7 +89,8 @@ class DescriptorParser {
                     std::move(expected));
     }
     [[nodiscard]] tl::unexpected<Error> truncated_item() const {
-        return error_at_item("it ends within an item", "a whole item");
+        return error_at_item("it ends within an item",
+                             "as many bytes after the first byte of an item as that byte states");
     }
 
     static std::int64_t signed_of(std::uint32_t value, std::size_t size) {
@@ -121,7 +124,8 @@ class DescriptorParser {
             }
             case end_collection:
                 if (open_.empty())
-                    return error_at_item("a collection ends that was not begun", "a collection");
+                    return error_at_item("a collection ends that was not begun",
+                                         "a Collection item before each End Collection item");
                 open_.pop_back();
                 locals_ = {};
                 return {};
@@ -160,20 +164,22 @@ class DescriptorParser {
                 return {};
             case report_id:
                 if (value == 0 || value > 255)
-                    return error_at_item(fmt::format("the report id {}", value), "1 … 255");
+                    return error_at_item(fmt::format("the report id is {}", value), "1 … 255");
                 if (!descriptor_.numbered && !descriptor_.fields.empty())
                     return error_at_item("a report id after reports without one",
-                                         "ids for all reports or for none");
+                                         "a Report ID item before the first report, or none at all");
                 globals_.report = static_cast<std::uint8_t>(value);
                 descriptor_.numbered = true;
                 return {};
             case push:
                 if (global_stack_.size() == max_nesting)
-                    return error_at_item("too many nested push items", "at most 32");
+                    return error_at_item("too many nested Push items", "at most 32 levels");
                 global_stack_.push_back(globals_);
                 return {};
             case pop:
-                if (global_stack_.empty()) return error_at_item("a pop without a push", "a push before it");
+                if (global_stack_.empty())
+                    return error_at_item("a Pop item without a Push item",
+                                         "a Push item before each Pop item");
                 globals_ = global_stack_.back();
                 global_stack_.pop_back();
                 return {};
@@ -186,7 +192,7 @@ class DescriptorParser {
                 const Usage high = usage_of(value, size);
                 if (!locals_.low || locals_.low->page != high.page || high.id < locals_.low->id)
                     return error_at_item("a range of usages ends before it begins",
-                                         "the smallest usage first");
+                                         "a Usage Minimum of the same page that does not exceed it");
                 for (std::uint32_t id = locals_.low->id; id <= high.id; ++id)
                     BOLT_TRY(add_usage({high.page, static_cast<std::uint16_t>(id)}));
                 locals_.low.reset();
@@ -198,7 +204,8 @@ class DescriptorParser {
     }
 
     Status add_usage(const Usage& one) {
-        if (locals_.usages.size() == 65536) return error_at_item("too many usages", "at most 65536");
+        if (locals_.usages.size() == 65536)
+            return error_at_item("too many usages", "at most 65536 for one item");
         locals_.usages.push_back(one);
         return {};
     }
@@ -216,11 +223,14 @@ class DescriptorParser {
         }
         const bool constant = (flags & 1U) != 0;
         if (globals_.count > max_fields_per_item)
-            return error_at_item(fmt::format("one item declares {} fields", globals_.count), "at most 4096");
+            return error_at_item(fmt::format("one item declares {} fields", globals_.count),
+                                 "a Report Count of at most 4096");
         if (globals_.bits > max_field_bits && !constant)
-            return error_at_item(fmt::format("a field of {} bits", globals_.bits), "at most 256");
+            return error_at_item(fmt::format("a field of {} bits", globals_.bits),
+                                 "a Report Size of at most 256 bits");
         if (globals_.bits > max_report_bits)
-            return error_at_item(fmt::format("a field of {} bits", globals_.bits), "less");
+            return error_at_item(fmt::format("padding of {} bits", globals_.bits),
+                                 "a report of at most 64 KiB");
         std::uint32_t& bit = bits_of(kind);
         ReportField field;
         field.kind = kind;
@@ -236,27 +246,26 @@ class DescriptorParser {
                                   : globals_.physical_high;
         field.exponent = globals_.exponent;
         field.unit = globals_.unit;
-        field.constant = constant;
         field.array = (flags & 2U) == 0;
         field.relative = (flags & 4U) != 0;
         field.null_state = (flags & 64U) != 0;
         field.collection = open_.empty() ? 0 : open_.back();
         if (!constant && field.high < field.low)
             return error_at_item(fmt::format("values from {} to {}", field.low, field.high),
-                                 "the smaller value first");
+                                 "a Logical Minimum that does not exceed the Logical Maximum");
         if (field.array && !constant && !locals_.usages.empty()) {
             if (descriptor_.slots.size() + locals_.usages.size() > max_slots)
-                return error_at_item("too many usages in arrays", "at most 65536");
+                return error_at_item("too many usages in arrays", "at most 65536 in the descriptor");
             field.slots = static_cast<std::uint32_t>(descriptor_.slots.size());
             descriptor_.slots.insert(descriptor_.slots.end(), locals_.usages.begin(), locals_.usages.end());
         }
         for (std::uint32_t i = 0; i < globals_.count; ++i) {
             field.bit = bit;
             bit += globals_.bits;
-            if (bit > max_report_bits) return error_at_item("a report of more than 64 KiB", "a shorter one");
+            if (bit > max_report_bits) return error_at_item("a report of more than 64 KiB", "at most 64 KiB");
             if (constant || globals_.bits > max_value_bits) continue;
             if (descriptor_.fields.size() == max_fields)
-                return error_at_item("too many fields", "at most 16384");
+                return error_at_item("too many fields", "at most 16384 in the descriptor");
             if (locals_.usages.empty()) {
                 field.usage = {globals_.page, 0};
                 field.usages = field.array ? 0 : 1;
@@ -349,7 +358,7 @@ bool write_value(const ReportField& field, std::int64_t value, std::span<std::ui
 double normalized_value(const ReportField& field, std::int64_t value) {
     const auto v = static_cast<double>(std::clamp(value, field.low, field.high));
     const auto low = static_cast<double>(field.low), high = static_cast<double>(field.high);
-    if (field.low < 0 && field.high > 0) return v / std::max(-low, high);
+    if (field.low < 0) return v / std::max(-low, high);
     return high > low ? (v - low) / (high - low) : 0.0;
 }
 

@@ -29,13 +29,13 @@ struct ReportField {
     std::uint32_t bit = 0;    // offset after the id byte
     std::uint8_t bits = 0;    // 1 … 32
     Usage usage;              // for an array slot the first usage that it can hold
-    std::uint32_t slots = 0,
-                  usages = 1;        // for an array slot: first index and count in ReportDescriptor::slots
-    std::int64_t low = 0, high = 0;  // logical range
+    // For an array slot: first index and count of its usages in ReportDescriptor::slots.
+    std::uint32_t slots = 0, usages = 1;
+    std::int64_t low = 0, high = 0;                    // logical range
     std::int64_t physical_low = 0, physical_high = 0;  // both 0: same as logical
     std::int32_t exponent = 0;                         // power of ten of the physical unit
     std::uint32_t unit = 0;
-    bool constant = false, array = false, relative = false, null_state = false;
+    bool array = false, relative = false, null_state = false;
     std::uint32_t collection = 0;  // index of the innermost collection
 };
 
@@ -85,7 +85,8 @@ std::optional<std::int64_t> value_of(const ReportField& field, std::span<const s
 // is too short.
 bool write_value(const ReportField& field, std::int64_t value, std::span<std::uint8_t> report);
 
-// Maps the logical range to −1 … 1 if it includes negative values, otherwise to 0 … 1.
+// Normalises a value of the logical range. If the range includes negative values, the value is divided by the
+// largest magnitude, which gives −1 … 1 and keeps the sign; otherwise the range is mapped to 0 … 1.
 double normalized_value(const ReportField& field, std::int64_t value);
 
 // One-bit fields of the Button page, sorted by button number.

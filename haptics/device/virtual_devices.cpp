@@ -297,8 +297,7 @@ void SimulatedDevice::step(const Sample& intended, double dt) {
         hand.stiffness * (intended.pose.position - now_.pose.position) - hand.damping * velocity_;
     velocity_ += (input + force.force) / hand.mass * dt;
     now_.pose.position += velocity_ * dt;
-    const Vec3 off =
-        rotation_vector(glm::normalize(intended.pose.orientation * glm::conjugate(now_.pose.orientation)));
+    const Vec3 off = turn_between(now_.pose.orientation, intended.pose.orientation);
     const Vec3 twist = hand.torsion * off - hand.angular_damping * angular_velocity_;
     angular_velocity_ += (twist + force.torque) / hand.inertia * dt;
     now_.pose.orientation = glm::normalize(rotation(angular_velocity_ * dt) * now_.pose.orientation);

@@ -5,7 +5,7 @@
 
 namespace bolt::force {
 
-WorkspaceState place(const Workspace& w, const Pose& device, const Pose& tool) {
+WorkspaceState align_workspace(const Workspace& w, const Pose& device, const Pose& tool) {
     WorkspaceState state;
     state.centre = tool.position - w.scale * (w.turn * device.position);
     state.grip = glm::normalize(glm::conjugate(w.turn * device.orientation) * tool.orientation);
@@ -22,7 +22,7 @@ Pose to_assembly(const Workspace& w, WorkspaceState& s, const Pose& device, bool
     s.share = std::clamp(s.share + (clutch ? -step : step), 0.0, 1.0);
     if (clutch) {
         const double share = s.share;
-        s = place(w, device, s.tool);
+        s = align_workspace(w, device, s.tool);
         s.share = share;
     } else {
         s.tool.position = s.centre + w.scale * (w.turn * device.position);
@@ -70,7 +70,7 @@ OutputCommand render_torque(const TorqueRendering& r, double torque, const Vec3&
     return {glm::cross(axis, handle) * (torque * r.as_force), axis * (torque * r.scale)};
 }
 
-double stored_torque(const TorqueRendering& r, double torque, double stiffness, double handle_length) {
+double stored_torque_energy(const TorqueRendering& r, double torque, double stiffness, double handle_length) {
     const double whole = 0.5 * torque * torque / stiffness;
     // A rotation moves the grip by handle_length, so the force's work is as_force · handle_length of the
     // torque's.

@@ -28,7 +28,7 @@ struct WorkspaceState {
 };
 
 // Returns the state in which the device pose `device` maps to the tool pose `tool`.
-WorkspaceState place(const Workspace& workspace, const Pose& device, const Pose& tool);
+WorkspaceState align_workspace(const Workspace& workspace, const Pose& device, const Pose& tool);
 
 // One tick of dt. Returns the tool's pose in the assembly's frame. Releasing the clutch does not move the
 // tool. A device pose that is not finite is returned unchanged for the watchdog to reject.
@@ -49,7 +49,7 @@ struct TorqueRendering {
     double as_force = 0.0;  // N at the grip per N·m; the physical value is 1/handle length
 };
 
-// The scales never exceed the physical values. `greatest_torque` in N·m, at least 1 is assumed;
+// The scales never exceed the physical values. `greatest_torque` in N·m, less than 1 counts as 1;
 // `handle_length` in m.
 TorqueRendering make_torque_rendering(const OutputLimits& limits, double greatest_torque,
                                       double handle_length);
@@ -60,6 +60,7 @@ OutputCommand render_torque(const TorqueRendering& rendering, double torque, con
                             const Vec3& handle);
 
 // J that the device can return of the energy in a spring of `stiffness` (N·m/rad) under this torque.
-double stored_torque(const TorqueRendering& rendering, double torque, double stiffness, double handle_length);
+double stored_torque_energy(const TorqueRendering& rendering, double torque, double stiffness,
+                            double handle_length);
 
 }  // namespace bolt::force

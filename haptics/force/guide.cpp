@@ -36,9 +36,9 @@ double guiding_pull(const GuidingParameters& g, double distance) {
 }
 
 Vec3 guiding_force(const GuidingParameters& guiding, const Vec3& tool, const Vec3& target) {
-    const Vec3 away = target - tool;
-    const double d = glm::length(away);
-    return d > 0.0 ? away * (guiding_pull(guiding, d) / d) : Vec3(0.0);
+    const Vec3 to_target = target - tool;
+    const double d = glm::length(to_target);
+    return d > 0.0 ? to_target * (guiding_pull(guiding, d) / d) : Vec3(0.0);
 }
 
 double guiding_potential(const GuidingParameters& g, double distance) {
@@ -154,7 +154,7 @@ GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree f
     return best.count == 0 && is_free ? straight : best;
 }
 
-double lowest_ahead(const GuideTarget& target, const Vec3& tool) {
+double lowest_permitted_height(const GuideTarget& target, const Vec3& tool) {
     const AxialOffset offset = axial_offset(target, tool);
     return std::clamp(std::min((offset.aside - on_axis) / cone, offset.above), 0.0, target.approach);
 }
@@ -183,10 +183,12 @@ Vec3 point_at(const GuidePath& path, double along) {
 
 namespace {
 
-constexpr double carrot_speed = 0.6;  // m/s of the pull point along the path
-constexpr double patience = 0.25;  // s between two attempts to plan, and of `stuck` before a path is dropped
-constexpr double driven_back = 0.05;  // m of retreat after which a path is dropped
-constexpr double soft = 0.01;         // m to the pull point below which the pull fades, except at the target
+constexpr double pull_point_speed = 0.6;  // m/s of the pull point along the path
+// s between two attempts to plan, and of `stuck` before a path is dropped.
+constexpr double replan_interval = 0.25;
+constexpr double driven_back = 0.05;  // m of retreat of the pull point after which a path is dropped
+// m to the pull point below which the pull fades, except at the target.
+constexpr double softening_radius = 0.01;
 
 double step_towards(double now, double target, double most) {
     return now + std::clamp(target - now, -most, most);
@@ -203,7 +205,7 @@ void begin(GuideState& s, const Vec3& tool, const GuideGoal& goal, IsSegmentFree
     s = {};
     s.goal = goal;
     s.path = plan_path(tool, goal.target, free);
-    s.patience = patience;
+    s.patience = replan_interval;
     // The planner has checked that the first segment is free.
     if (s.path.count > 1) s.along = glm::length(s.path.points[1] - s.path.points[0]);
 }
@@ -212,7 +214,7 @@ void begin(GuideState& s, const Vec3& tool, const GuideGoal& goal, IsSegmentFree
 // otherwise. Returns false if it is not in line of sight even then.
 bool advance_pull_point(GuideState& s, const Vec3& tool, double most, IsSegmentFree free, double dt) {
     const GuideTarget& target = s.goal.target;
-    const double step = carrot_speed * dt;
+    const double step = pull_point_speed * dt;
     s.along = std::min(s.along, std::max(most, s.along - 4.0 * step));
     const double ahead = std::max(s.along, std::min(s.along + step, most));
     if (free_to(tool, point_at(s.path, ahead), target, free)) {
@@ -238,47 +240,50 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
     if (s.strength == 0.0 && s.alignment == 0.0 && (goal.id != s.goal.id || s.path.count == 0))
         begin(s, tool.position, goal, free, dt);
     if (s.path.count == 0) return {};
-    const double stored_before =
-        stored_in(g, s, tool);  // with the spring of the last tick and the tool of this one
+    // J stored with the spring of the last tick and the tool of this one.
+    const double stored_before = stored_in(g, s, tool);
+    // J that the force of the last tick did along the path.
     const double led = s.at_end ? 0.0 : glm::dot(s.force, tool.position - s.tool);
 
-    const bool here = goal.id >= 0 && goal.id == s.goal.id;
-    if (here) {  // the nut descends as it turns
+    const bool goal_unchanged = goal.id >= 0 && goal.id == s.goal.id;
+    if (goal_unchanged) {  // the nut descends as it turns
         s.goal = goal;
         move_end(s.path, goal.target);
         if (s.at_end) s.along = s.farthest = length(s.path);
     }
     const double whole = length(s.path);
     // A path of one segment ends at the target itself.
-    const double most = s.path.count > 2 ? whole - lowest_ahead(s.goal.target, tool.position) : whole;
+    const double most =
+        s.path.count > 2 ? whole - lowest_permitted_height(s.goal.target, tool.position) : whole;
     s.along = std::min(s.along, whole);
     const bool seen = advance_pull_point(s, tool.position, most, free, dt);
     const double remaining = whole - s.along;
     s.at_end = remaining <= 0.0;
-    const Vec3 away = point_at(s.path, s.along) - tool.position;
-    const double distance = glm::length(away), left = distance + remaining;
+    const Vec3 to_pull_point = point_at(s.path, s.along) - tool.position;
+    const double distance = glm::length(to_pull_point), left = distance + remaining;
 
-    // If the pull point was driven back, or the tool waits at it without sight beyond, an obstacle blocks
-    // this path and another one may exist. A pull point held at `most` until the tool is above the target is
-    // neither.
+    // The path is dropped if the pull point has retreated, or if the tool waits at it without line of sight
+    // to the path beyond: an obstacle blocks this path, and another one may exist. A pull point that is held
+    // at `most` until the tool is above the target does not count.
     s.farthest = std::min(std::max(s.farthest, s.along), std::max(s.along, most));
-    s.stuck = s.along < most && distance < 2.0 * soft ? s.stuck + dt : 0.0;
-    const bool good = seen && s.farthest - s.along < driven_back && s.stuck < patience;
+    s.stuck = s.along < most && distance < 2.0 * softening_radius ? s.stuck + dt : 0.0;
+    const bool path_usable = seen && s.farthest - s.along < driven_back && s.stuck < replan_interval;
 
-    const double strength = here && good ? std::clamp(g.strength, 0.0, 1.0) : 0.0;
+    const double strength = goal_unchanged && path_usable ? std::clamp(g.strength, 0.0, 1.0) : 0.0;
     s.strength = step_towards(s.strength, strength, g.slew * dt);
     s.alignment = step_towards(s.alignment, left < g.near ? strength : 0.0, g.slew * dt);
 
     // Softens the pull near a point of the path; at the target the law is exact.
-    const double least = std::clamp(remaining, 1e-12, soft);
-    s.force = away * (s.strength * guiding_pull(g, left) / std::max(distance, least));
+    const double least = std::clamp(remaining, 1e-12, softening_radius);
+    s.force = to_pull_point * (s.strength * guiding_pull(g, left) / std::max(distance, least));
     s.tool = tool.position;
     ForceRequest out;
     out.command.force = s.force;
     out.command.torque = s.alignment * aligning_torque(g.torque, s.goal.hexagon, tool.jaw, tool.normal);
     out.stored_energy = stored_in(g, s, tool);
     out.injected_energy = out.stored_energy - stored_before + led;
-    if (s.strength == 0.0 && s.alignment == 0.0 && !good) s.path = {};  // plan another path after `patience`
+    // Another path is planned after `patience`.
+    if (s.strength == 0.0 && s.alignment == 0.0 && !path_usable) s.path = {};
     return out;
 }
 

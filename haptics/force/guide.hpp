@@ -1,6 +1,7 @@
 // The guiding force: its law, the planning of its path around obstacles, and its step. The force points
-// towards the target and is inversely proportional to the distance, as in the paper of 2018, but bounded and
-// with limited stiffness; a torque aligns the jaw with the hexagon.
+// towards the target and is inversely proportional to the distance, as in the 2018 paper
+// (haptics/joint/published.hpp), but bounded and with limited stiffness; a torque aligns the jaw with the
+// hexagon.
 #pragma once
 
 #include <array>
@@ -70,10 +71,10 @@ struct GuidePath {
 // returns the straight segment if that is free, else an empty path. Queries `free` at most 100 times.
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free);
 
-// The lowest height above the target, m, to which the tool may be led from its present position. The queries
-// treat the tool as a line, but it is wide: near the target it is known to fit only along the axis. So it is
-// led level until it is inside a cone about the axis, then down.
-double lowest_ahead(const GuideTarget& target, const Vec3& tool);
+// The lowest height above the target, m, to which the tool may be led from its present position. The segment
+// queries ignore the width of the tool, and near the target the tool is certain to fit only along the axis.
+// So it is led at constant height until it is inside a cone about the axis, then down.
+double lowest_permitted_height(const GuideTarget& target, const Vec3& tool);
 
 // Moves the end of the path, and the approach point if there is one, to the target's present position.
 void move_end(GuidePath& path, const GuideTarget& target);
@@ -81,7 +82,7 @@ void move_end(GuidePath& path, const GuideTarget& target);
 double length(const GuidePath& path);
 Vec3 point_at(const GuidePath& path, double along);  // `along` in m from the start, clamped
 
-// `free` for the segment without the ball of the target's own nut and bolt.
+// Returns `free` of those parts of the segment that are outside the ball of GuideTarget::shell.
 bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegmentFree free);
 
 // The guiding force: plans a path to a nut, pulls the tool towards the farthest point of the path in its line
@@ -103,7 +104,7 @@ struct GuideGoal {
 struct GuideState {
     GuideGoal goal;  // goal of the present force; replaced once that has faded out
     GuidePath path;
-    double along = 0.0;      // m along the path: the pull point
+    double along = 0.0;      // m along the path to the pull point, towards which the force points
     double farthest = 0.0;   // m, largest value of `along` on this path
     double strength = 0.0;   // 0 … 1, of the force
     double alignment = 0.0;  // 0 … 1, of the torque

@@ -21,10 +21,10 @@ bool is_pose(const PortInput& input) {
 
 // Updates the motion from the sample. Returns false if it is farther from the last one than a hand can move.
 bool update_motion(const OutputLimits& limits, WatchdogState& s, const Pose& pose, double dt) {
-    const auto ticks = static_cast<double>(s.quiet);
+    const auto ticks = static_cast<double>(s.ticks_since_sample);
     Motion& m = s.motion;
     m.shift = pose.position - s.last.position;
-    m.turn = rotation_vector(glm::normalize(pose.orientation * glm::conjugate(s.last.orientation)));
+    m.turn = turn_between(s.last.orientation, pose.orientation);
     s.last = pose;
     if (glm::length(m.shift) > limits.jump * ticks || glm::length(m.turn) > limits.angular_jump * ticks) {
         m = {};
@@ -44,24 +44,24 @@ bool update_motion(const OutputLimits& limits, WatchdogState& s, const Pose& pos
 
 Fault check_sample(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
                    bool request_is_finite, double dt) {
-    s.quiet += 1 + input.missed;
+    s.ticks_since_sample += 1 + input.missed;
     s.motion.fresh = s.motion.begins = false;
     if (input.fresh) {
         if (!is_pose(input)) {
-            s.known = false;  // the next pose starts a new motion
+            s.has_last = false;  // the next pose starts a new motion
             s.motion = {};
-            s.quiet = 0;
+            s.ticks_since_sample = 0;
             return Fault::no_pose;
         }
-        if (s.known && !update_motion(limits, s, input.pose, dt)) {
-            s.quiet = 0;
+        if (s.has_last && !update_motion(limits, s, input.pose, dt)) {
+            s.ticks_since_sample = 0;
             return Fault::jumped;
         }
-        s.motion.begins = !s.known;
+        s.motion.begins = !s.has_last;
         s.last = input.pose;
-        s.known = true;
-        s.quiet = 0;
-    } else if (static_cast<double>(s.quiet) * dt > limits.silence) {
+        s.has_last = true;
+        s.ticks_since_sample = 0;
+    } else if (static_cast<double>(s.ticks_since_sample) * dt > limits.silence) {
         s.motion = {};
         return Fault::silent;
     }
@@ -103,13 +103,14 @@ bool watch(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
     // by itself.
     if (input.stop || (before == Fault::stopped && !(input.reset && !input.enabled))) {
         s.fault = Fault::stopped;
-        s.sound = 0;
+        s.ticks_without_fault = 0;
     } else if (now != Fault::none) {
         s.fault = now;
-        s.sound = 0;
+        s.ticks_without_fault = 0;
     } else if (before == Fault::stopped) {
         s.fault = Fault::none;
-    } else if (before != Fault::none && static_cast<double>(++s.sound) * dt >= limits.recovery * (1 - 1e-9)) {
+    } else if (before != Fault::none &&
+               static_cast<double>(++s.ticks_without_fault) * dt >= limits.recovery * (1 - 1e-9)) {
         s.fault = Fault::none;
     }
     if (s.fault != before && s.fault != Fault::none) ++s.counts[static_cast<std::size_t>(s.fault)];
@@ -153,8 +154,8 @@ OutputCommand control(const OutputLimits& limits, PassivityState& s, const Motio
     const double stored = strength * full;
     // Energy that enters with the ramp is not work of the hand and counts as injected.
     const double injected = strength * request.injected_energy + (strength - before) * full;
-    s.balance = std::min(s.balance + injected - (stored - s.stored_energy), saved_at_most);
-    if (s.balance > 0.0) s.balance *= std::max(0.0, 1.0 - dt / saved_for);
+    s.balance = std::min(s.balance + injected - (stored - s.stored_energy), max_credit);
+    if (s.balance > 0.0) s.balance *= std::max(0.0, 1.0 - dt / credit_decay_time);
     s.stored_energy = stored;
 
     const double b = damping_share * limits.damping, b_angular = damping_share * limits.angular_damping;
@@ -162,7 +163,7 @@ OutputCommand control(const OutputLimits& limits, PassivityState& s, const Motio
                          b_angular * glm::dot(motion.angular_velocity, motion.angular_velocity);
     const double needed = std::max(0.0, -s.balance) / dt;
     const double target = needed < power ? needed / power : needed > 0.0 ? 1.0 : 0.0;
-    s.damping += std::clamp(target - s.damping, -damping_goes * dt, damping_comes * dt);
+    s.damping += std::clamp(target - s.damping, -damping_fall_rate * dt, damping_rise_rate * dt);
     s.removed += s.damping * power * dt;
     // Damping is subtracted after the clamp; subtracted from a force far above the limit it would have no
     // effect.
@@ -176,8 +177,6 @@ void note_sent(PassivityState& s, const OutputCommand& sent) {
 }
 
 namespace {
-
-bool finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 Vec3 step_towards(const Vec3& now, const Vec3& target, double most) {
     return now + clamp_length(target - now, most);
@@ -216,8 +215,9 @@ OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const
 
 OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortInput& input,
                      const ForceRequest& request, double dt) {
-    const bool sound = finite(request.command.force) && finite(request.command.torque) &&
-                       std::isfinite(request.stored_energy) && std::isfinite(request.injected_energy);
+    const bool finite_command = finite(request.command.force) && finite(request.command.torque);
+    const bool sound =
+        finite_command && std::isfinite(request.stored_energy) && std::isfinite(request.injected_energy);
     const bool permitted = watch(limits, stage.watchdog, input, sound, dt) && input.enabled;
     const Motion& motion = stage.watchdog.motion;
     PassivityState& passivity = stage.passivity;
@@ -230,7 +230,12 @@ OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortI
         command = control(limits, passivity, motion, request, strength, before, dt);
     } else {
         passivity.balance = passivity.stored_energy = passivity.damping = 0.0;
-        if (!sound) command = request.command;  // the limiter counts it as a fault and outputs none of it
+        // A request that is not finite is a fault. The limiter counts a command that is not, and outputs none
+        // of it.
+        if (!finite_command)
+            command = request.command;
+        else if (!sound)
+            ++stage.output.faults;
     }
     // The release time counts from the last sample, and part of it has already passed.
     const bool silent = stage.watchdog.fault == Fault::silent;

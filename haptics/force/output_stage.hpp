@@ -50,13 +50,13 @@ struct Motion {
 struct WatchdogState {
     Fault fault = Fault::none;                        // reason for which the output is held at zero
     std::array<std::uint64_t, fault_kinds> counts{};  // occurrences of each fault
-    std::uint64_t quiet = 0;                          // ticks since the last sample
-    std::uint64_t sound = 0;                          // ticks without a fault since the last one
-    bool known = false;                               // `last` is valid
+    std::uint64_t ticks_since_sample = 0;             // ticks since the last sample
+    std::uint64_t ticks_without_fault = 0;            // ticks without a fault since the last one
+    bool has_last = false;                            // `last` is valid
     Pose last;
     Motion motion;
-    Vec3 mean_velocity{0.0},
-        mean_angular_velocity{0.0};  // smoothed over 5 ms; compared with the speed limits
+    // m/s and rad/s, smoothed over 5 ms; compared with the speed limits.
+    Vec3 mean_velocity{0.0}, mean_angular_velocity{0.0};
 };
 
 // The watchdog. One tick of dt. Returns true if the output may be rendered. `request_is_finite`: the
@@ -96,15 +96,16 @@ struct PassivityState {
 // 1997).
 inline constexpr double damping_share = 0.9;
 
-// Largest credit, J, and time constant of its decay, s: energy dissipated long ago must not pay for vibration
-// now. With 0.5 mJ of credit a tool rocking on a ball vibrated for one second. A spring of 1 N/mm pressed at
-// 0.3 m/s at 1 kHz generates 45 µJ per tick, so 0.2 mJ prevents a reaction to single ticks.
-inline constexpr double saved_at_most = 0.2e-3;
-inline constexpr double saved_for = 0.03;
+// Largest positive balance, J, and time constant of its decay, s: energy dissipated long ago must not offset
+// energy that a vibration generates now. With 0.5 mJ a tool rocking on a ball vibrated for one second. A
+// spring of 1 N/mm pressed at 0.3 m/s at 1 kHz generates 45 µJ per tick, so 0.2 mJ prevents a reaction to
+// single ticks.
+inline constexpr double max_credit = 0.2e-3;
+inline constexpr double credit_decay_time = 0.03;
 
 // 1/s, rates at which damping sets in and ends. A step of damping would itself be a jolt of up to 2 N at 0.1
 // m/s; energy that is not removed at once is removed a few milliseconds later.
-inline constexpr double damping_comes = 60.0, damping_goes = 40.0;
+inline constexpr double damping_rise_rate = 60.0, damping_fall_rate = 40.0;
 
 // The observer: adds the work of the applied commands along the motion since the last sample. `ticks`:
 // periods that passed, missed deadlines included.

@@ -20,7 +20,7 @@ bool pushes_towards(const FingertipContact& one, const FingertipContact& other) 
 
 FingertipGrasp fingertip_grasp(const collision::ToolShape& tool, const Fingertips& tips) {
     FingertipGrasp grasp;
-    for (std::size_t i = 0; i < fingers; ++i) {
+    for (std::size_t i = 0; i < digit_count; ++i) {
         FingertipContact& tip = grasp.tips[i];
         std::array<collision::SeparatingPlane, 1> planes;
         const double distance = std::abs(
@@ -34,7 +34,7 @@ FingertipGrasp fingertip_grasp(const collision::ToolShape& tool, const Fingertip
         tip = {planes[0].distance - tips.radius, planes[0].point, planes[0].normal};
     }
     const FingertipContact& thumb = grasp.tips[0];
-    for (std::size_t i = 1; i < fingers; ++i) {
+    for (std::size_t i = 1; i < digit_count; ++i) {
         const FingertipContact& finger = grasp.tips[i];
         grasp.held = grasp.held || (thumb.distance <= touch_distance && finger.distance <= touch_distance &&
                                     pushes_towards(thumb, finger) && pushes_towards(finger, thumb));
@@ -82,8 +82,8 @@ double signed_distance(const collision::ToolShape& tool, const Vec3& at, double 
     return distance == infinite_distance ? query_range : distance;
 }
 
-std::size_t sphere_count(const Capsule& tube) {
-    const double length = glm::length(tube.to - tube.from);
+std::size_t sphere_count(const Capsule& capsule) {
+    const double length = glm::length(capsule.to - capsule.from);
     return std::min(max_spheres, static_cast<std::size_t>(std::ceil(length / ball_spacing)) + 1);
 }
 
@@ -91,16 +91,17 @@ struct Sphere {
     Vec3 at;
     double radius;
 };
-Sphere sphere_of(const Capsule& tube, std::size_t i, std::size_t spheres) {
+Sphere sphere_of(const Capsule& capsule, std::size_t i, std::size_t spheres) {
     const double t = static_cast<double>(i) / static_cast<double>(spheres - 1);
-    return {tube.from + t * (tube.to - tube.from),
-            tube.radius_from + t * (tube.radius_to - tube.radius_from)};
+    return {capsule.from + t * (capsule.to - capsule.from),
+            capsule.radius_from + t * (capsule.radius_to - capsule.radius_from)};
 }
 
 // Lower bound (m) of the distance of all spheres of a capsule; it may be loose beyond `enough`.
-double capsule_clearance(const collision::ToolShape& tool, const Capsule& tube, double enough) {
-    const double around = 0.5 * glm::length(tube.to - tube.from) + std::max(tube.radius_from, tube.radius_to);
-    return signed_distance(tool, 0.5 * (tube.from + tube.to), around + enough) - around;
+double capsule_clearance(const collision::ToolShape& tool, const Capsule& capsule, double enough) {
+    const double around =
+        0.5 * glm::length(capsule.to - capsule.from) + std::max(capsule.radius_from, capsule.radius_to);
+    return signed_distance(tool, 0.5 * (capsule.from + capsule.to), around + enough) - around;
 }
 
 struct MovingDigit {
@@ -117,8 +118,8 @@ struct MovingDigit {
 
     // False for the thumb's metacarpal, which is inside the flesh of the palm and touches nothing.
     [[nodiscard]] bool collides(std::size_t link) const { return number != 0 || link != 0; }
-    [[nodiscard]] Capsule tube_of(std::size_t link) const {
-        return hand::tube(hand, joints, number, link + (number == 0 ? 0 : 1));
+    [[nodiscard]] Capsule capsule_of(std::size_t link) const {
+        return hand::bone_capsule(hand, joints, number, link + (number == 0 ? 0 : 1));
     }
 
     void bend(const std::array<double, 3>& share) {
@@ -164,15 +165,15 @@ DigitQuery query_digit(MovingDigit& digit, std::size_t first, double share, doub
     };
     for (std::size_t link = 0; link < links; ++link) {
         if (!digit.collides(link)) continue;
-        const Capsule tube = digit.tube_of(link);
-        const double clear = capsule_clearance(digit.tool, tube, sphere_query_distance);
+        const Capsule capsule = digit.capsule_of(link);
+        const double clear = capsule_clearance(digit.tool, capsule, sphere_query_distance);
         if (clear > sphere_query_distance) {
-            found(link, clear, digit.speed(link, first, tube.to));
+            found(link, clear, digit.speed(link, first, capsule.to));
             continue;
         }
-        const std::size_t spheres = sphere_count(tube);
+        const std::size_t spheres = sphere_count(capsule);
         for (std::size_t i = 0; i < spheres; ++i) {
-            const Sphere sphere = sphere_of(tube, i, spheres);
+            const Sphere sphere = sphere_of(capsule, i, spheres);
             const double speed = digit.speed(link, first, sphere.at);
             CachedDistance& cached = digit.cached[link][i];
             const double bound = cached.distance - speed * std::abs(share - cached.share);
@@ -193,11 +194,11 @@ void record_open_penetration(MovingDigit& digit) {
     digit.bend({0.0, 0.0, 0.0});
     for (std::size_t link = 0; link < links; ++link) {
         if (!digit.collides(link)) continue;
-        const Capsule tube = digit.tube_of(link);
-        if (capsule_clearance(digit.tool, tube, 0.0) > 0.0) continue;
-        const std::size_t spheres = sphere_count(tube);
+        const Capsule capsule = digit.capsule_of(link);
+        if (capsule_clearance(digit.tool, capsule, 0.0) > 0.0) continue;
+        const std::size_t spheres = sphere_count(capsule);
         for (std::size_t i = 0; i < spheres; ++i) {
-            const Sphere sphere = sphere_of(tube, i, spheres);
+            const Sphere sphere = sphere_of(capsule, i, spheres);
             digit.open_penetration[link][i] =
                 std::min(0.0, signed_distance(digit.tool, sphere.at, sphere.radius) - sphere.radius);
         }
@@ -245,10 +246,10 @@ std::optional<std::size_t> advance(MovingDigit& digit, std::size_t first, DigitS
 hand::FingertipContact nearest_of(const MovingDigit& digit) {
     hand::FingertipContact best;
     for (std::size_t link = 1; link < links; ++link) {
-        const Capsule tube = digit.tube_of(link);
-        const std::size_t spheres = sphere_count(tube);
+        const Capsule capsule = digit.capsule_of(link);
+        const std::size_t spheres = sphere_count(capsule);
         for (std::size_t i = 0; i < spheres; ++i) {
-            const Sphere sphere = sphere_of(tube, i, spheres);
+            const Sphere sphere = sphere_of(capsule, i, spheres);
             const collision::OctreeQuery octree_query = collision::query(digit.tool.octree, sphere.at);
             if (octree_query.lower - sphere.radius >= best.distance) continue;
             const double centre = signed_distance(digit.tool, sphere.at, query_range);

@@ -8,12 +8,9 @@
 
 namespace bolt::hand {
 
-// Thumb first, then index to little finger.
-inline constexpr std::size_t fingers = 5;
-
 struct Fingertips {
-    std::array<Vec3, fingers> at{};  // m, centres of the fingertip pads, tool frame
-    double radius = 8e-3;            // m, of a pad modelled as a sphere
+    std::array<Vec3, digit_count> at{};  // m, centres of the fingertip pads, tool frame
+    double radius = 8e-3;                // m, of a pad modelled as a sphere
 };
 
 struct FingertipContact {
@@ -24,7 +21,7 @@ struct FingertipContact {
 };
 
 struct FingertipGrasp {
-    std::array<FingertipContact, fingers> tips;
+    std::array<FingertipContact, digit_count> tips;
     bool held = false;  // thumb and another finger press from opposite sides
 };
 

@@ -24,10 +24,6 @@ bool is_pij(Sensor s) {
     return s == Sensor::index_pij || s == Sensor::middle_pij || s == Sensor::ring_pij ||
            s == Sensor::little_pij;
 }
-bool is_dij(Sensor s) {
-    return s == Sensor::index_dij || s == Sensor::middle_dij || s == Sensor::ring_dij ||
-           s == Sensor::little_dij;
-}
 
 std::optional<double> degrees_in(Posture posture, Sensor s) {
     switch (posture) {
@@ -149,15 +145,14 @@ Result<CalibrationResult> calibrate(std::span<const PostureSamples> held) {
                             name_of(sensor), q.span));
             continue;
         }
-        for (const PostureReading& s : at) {
-            q.noise = std::max(q.noise, std::abs(line->gain) * s.deviation);
-            q.residual = std::max(q.residual, std::abs(angle(*line, s.raw) - s.angle));
-        }
+        for (const PostureReading& s : at) q.noise = std::max(q.noise, std::abs(line->gain) * s.deviation);
         trembled = trembled || q.noise > poor_noise;
         result.calibration.fits[i] = line;
         result.score = std::min(result.score, score_of(q));
     }
-    if (!any) return fail(ErrorCode::failed, "no sensor has readings in two postures");
+    if (!any)
+        return fail(ErrorCode::failed, "no sensor has readings in two postures",
+                    "a glove whose finger sensors are connected");
     if (trembled)
         result.remarks.emplace_back("the hand moved while a posture was held; hold still for two seconds");
     return result;
@@ -282,8 +277,10 @@ void restart_posture(CalibrationSession& session, double now) {
 void finish(CalibrationSession& session) {
     Result<CalibrationResult> calibrated = calibrate(session.taken);
     session.phase = calibrated ? CalibrationPhase::done : CalibrationPhase::failed;
-    session.trouble = calibrated ? CalibrationTrouble::none : CalibrationTrouble::unmoved;
-    if (calibrated) session.result = std::move(*calibrated);
+    if (calibrated)
+        session.result = std::move(*calibrated);
+    else
+        session.failure = std::move(calibrated.error());
 }
 
 // Continues with the next posture, or finishes after the last.
@@ -321,8 +318,6 @@ const char* message_for(CalibrationTrouble trouble) {
             return "The glove sends no data; is it switched on and plugged in?";
         case CalibrationTrouble::restless:
             return "Take the posture and hold the hand still for two seconds.";
-        case CalibrationTrouble::unmoved:
-            return "No sensor moved between the postures; is the glove on a hand?";
     }
     return "";
 }

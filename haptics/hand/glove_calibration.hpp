@@ -45,9 +45,8 @@ struct PostureSamples {
 };
 
 struct SensorQuality {
-    double span = 0.0;      // counts between the postures
-    double noise = 0.0;     // rad, standard deviation within a posture
-    double residual = 0.0;  // rad, greatest deviation of a posture from the fit
+    double span = 0.0;   // counts between the postures
+    double noise = 0.0;  // rad, standard deviation within a posture
 };
 
 struct CalibrationResult {
@@ -78,10 +77,10 @@ enum class CalibrationPhase : std::uint8_t {
     moving,   // waiting for the hand to reach the posture and rest
     holding,  // sampling the posture
     done,     // `result` is set
-    failed,   // no sensor moved between postures; start again
+    failed,   // `failure` is set; start again
 };
 
-enum class CalibrationTrouble : std::uint8_t { none, silent, restless, unmoved };
+enum class CalibrationTrouble : std::uint8_t { none, silent, restless };
 
 struct CalibrationSessionOptions {
     double settle = 0.3;     // s of rest before sampling starts
@@ -101,6 +100,7 @@ struct CalibrationSession {
     double held_for = 0.0;  // s of `hold` sampled so far, for a progress bar
     CalibrationTrouble trouble = CalibrationTrouble::none;
     std::optional<CalibrationResult> result;
+    std::optional<Error> failure;
 
     std::vector<PostureSamples> taken;
     PerSensor<std::uint8_t> rest{};  // readings when the hand came to rest

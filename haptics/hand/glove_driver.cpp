@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "engine/base/lock_free.hpp"
+#include "engine/base/steady_seconds.hpp"
 
 namespace bolt::hand {
 
@@ -86,8 +87,8 @@ SerialPort& SerialPort::operator=(SerialPort&& other) noexcept {
 }
 SerialPort::~SerialPort() {
     if (file_ < 0) return;
-    ioctl(file_,
-          TIOCNXCL);  // otherwise a pseudo-terminal would stay exclusive as long as its other end is open
+    // Otherwise a pseudo-terminal would stay exclusive as long as its other end is open.
+    ioctl(file_, TIOCNXCL);
     close(file_);
 }
 
@@ -168,10 +169,6 @@ namespace {
 constexpr double first_retry_delay = 0.1, max_retry_delay = 1.0;  // s between two attempts to open the port
 constexpr double read_timeout = 5e-3;                             // s, longest wait of the thread
 
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 void copy_text(std::array<char, 200>& target, const std::string& text) {
     const std::size_t n = std::min(text.size(), target.size() - 1);
     std::copy_n(text.begin(), n, target.begin());
@@ -198,7 +195,7 @@ struct GloveDriver::Shared {
         const GloveReport before = report;
         std::vector<std::uint8_t> received;
         while (!stop.stop_requested()) {
-            const double time = now();
+            const double time = steady_seconds();
             update_silence(report, number, time);
             const auto outgoing = session.update(received, time, [&](const GloveFrame& frame) {
                 samples.write({frame, ++number, time});
@@ -237,9 +234,9 @@ struct GloveDriver::Shared {
             }
             report.open = false;
             report.state = GloveState::silent;
-            update_silence(report, number, now());
+            update_silence(report, number, steady_seconds());
             reports.write(report);
-            for (double until = now() + pause; now() < until && !stop.stop_requested();)
+            for (double until = steady_seconds() + pause; steady_seconds() < until && !stop.stop_requested();)
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));
             pause = std::min(2.0 * pause, max_retry_delay);
         }

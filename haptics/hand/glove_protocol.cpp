@@ -9,11 +9,6 @@ namespace bolt::hand {
 
 namespace {
 
-constexpr bool is_dij(Sensor s) {
-    return s == Sensor::index_dij || s == Sensor::middle_dij || s == Sensor::ring_dij ||
-           s == Sensor::little_dij;
-}
-
 constexpr std::array<Sensor, 22> all = [] {
     std::array<Sensor, 22> sensors{};
     for (std::size_t i = 0; i < sensors.size(); ++i) sensors[i] = static_cast<Sensor>(i);

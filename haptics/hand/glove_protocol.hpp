@@ -50,6 +50,11 @@ using PerSensor = std::array<T, sensor_count>;
 
 constexpr std::size_t index(Sensor sensor) { return static_cast<std::size_t>(sensor); }
 
+constexpr bool is_dij(Sensor s) {
+    return s == Sensor::index_dij || s == Sensor::middle_dij || s == Sensor::ring_dij ||
+           s == Sensor::little_dij;
+}
+
 // The sensors of a glove with `count` sensors, in the order of its samples; empty unless `count` is 18 or 22.
 // A glove with 18 lacks the four DIJ.
 std::span<const Sensor> sensors_of(std::size_t count);
@@ -177,9 +182,8 @@ class GloveSession {
                                      FunctionRef<void(const GloveFrame&)> on_frame);
 
     [[nodiscard]] GloveState state() const { return state_; }
-    [[nodiscard]] const GloveIdentity& identity() const {
-        return identity_;
-    }  // from the last successful handshake
+    // From the last successful handshake.
+    [[nodiscard]] const GloveIdentity& identity() const { return identity_; }
     [[nodiscard]] const std::string& trouble() const { return trouble_; }  // empty: none
     [[nodiscard]] std::uint64_t frames() const { return frames_; }
     [[nodiscard]] std::uint64_t lost_bytes() const { return lost_ + reader_.lost; }

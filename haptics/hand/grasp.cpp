@@ -66,32 +66,32 @@ bool away(const FingerClosure& closure, double distance) {
     return nearest > distance || closure.digits[0].nearest.distance > distance;
 }
 
-GraspEvent update_glove_loss(GraspState& grip, const GraspOptions& options, const GraspInput& input) {
+GraspEvent update_glove_loss(GraspState& grasp, const GraspOptions& options, const GraspInput& input) {
     if (input.fresh) {
-        if (!grip.lost) return GraspEvent::none;
-        grip.lost = false;
-        grip.release_blocked_for = options.regrasp_time;
-        grip.change_pending = false;
+        if (!grasp.lost) return GraspEvent::none;
+        grasp.lost = false;
+        grasp.release_blocked_for = options.regrasp_time;
+        grasp.change_pending = false;
         return GraspEvent::glove_back;
     }
-    if (grip.lost || !grip.has_frame || grip.frame_age <= options.silence) return GraspEvent::none;
-    grip.lost = true;
+    if (grasp.lost || !grasp.has_frame || grasp.frame_age <= options.silence) return GraspEvent::none;
+    grasp.lost = true;
     return GraspEvent::glove_lost;
 }
 
 // Updates by a frame that arrived `gap` seconds after the one before.
-GraspEvent decide(GraspState& grip, const GraspOptions& options, double gap) {
-    grip.release_blocked_for = std::max(0.0, grip.release_blocked_for - gap);
+GraspEvent decide(GraspState& grasp, const GraspOptions& options, double gap) {
+    grasp.release_blocked_for = std::max(0.0, grasp.release_blocked_for - gap);
     const bool contradicts =
-        grip.held ? grip.release_blocked_for == 0.0 && away(grip.closure, options.release_distance)
-                  : grip.grasping;
-    grip.change_pending_for = contradicts && grip.change_pending ? grip.change_pending_for + gap : 0.0;
-    grip.change_pending = contradicts;
-    if (!contradicts || grip.change_pending_for < (grip.held ? options.release_delay : options.grasp_delay))
+        grasp.held ? grasp.release_blocked_for == 0.0 && away(grasp.closure, options.release_distance)
+                   : grasp.grasping;
+    grasp.change_pending_for = contradicts && grasp.change_pending ? grasp.change_pending_for + gap : 0.0;
+    grasp.change_pending = contradicts;
+    if (!contradicts || grasp.change_pending_for < (grasp.held ? options.release_delay : options.grasp_delay))
         return GraspEvent::none;
-    grip.held = !grip.held;
-    grip.change_pending = false;
-    return grip.held ? GraspEvent::grasped : GraspEvent::released;
+    grasp.held = !grasp.held;
+    grasp.change_pending = false;
+    return grasp.held ? GraspEvent::grasped : GraspEvent::released;
 }
 
 bool same(const Pose& a, const Pose& b) { return a.position == b.position && a.orientation == b.orientation; }
@@ -115,23 +115,23 @@ const char* message_for(GraspEvent event, bool held) {
     return "";
 }
 
-GraspEvent update_grasp(GraspState& grip, const GraspOptions& options, const collision::ToolShape& tool,
+GraspEvent update_grasp(GraspState& grasp, const GraspOptions& options, const collision::ToolShape& tool,
                         const hand::Hand& hand, const GraspInput& input, double dt) {
-    grip.frame_age += dt;
-    const double gap = grip.frame_age;
-    const GraspEvent glove_event = update_glove_loss(grip, options, input);
-    const bool moved = !grip.held && !same(grip.wrist, input.wrist);
-    if (!grip.held) grip.wrist = input.wrist;
+    grasp.frame_age += dt;
+    const double gap = grasp.frame_age;
+    const GraspEvent glove_event = update_glove_loss(grasp, options, input);
+    const bool moved = !grasp.held && !same(grasp.wrist, input.wrist);
+    if (!grasp.held) grasp.wrist = input.wrist;
     if (input.fresh) {
-        grip.measured = input.measured;
-        grip.has_frame = true;
-        grip.frame_age = 0.0;
+        grasp.measured = input.measured;
+        grasp.has_frame = true;
+        grasp.frame_age = 0.0;
     }
     if (input.fresh || moved) {
-        grip.closure = close_fingers(tool, hand, grip.measured, grip.wrist);
-        grip.grasping = grasps(tool, grip.closure, options.fingers);
+        grasp.closure = close_fingers(tool, hand, grasp.measured, grasp.wrist);
+        grasp.grasping = grasps(tool, grasp.closure, options.fingers);
     }
-    return input.fresh && glove_event == GraspEvent::none ? decide(grip, options, gap) : glove_event;
+    return input.fresh && glove_event == GraspEvent::none ? decide(grasp, options, gap) : glove_event;
 }
 
 }  // namespace bolt::hand

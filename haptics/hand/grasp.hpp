@@ -33,7 +33,7 @@ struct GraspState {
     bool lost = false;      // the glove is lost
     Pose wrist;             // in the tool frame; while held the pose at the grasp
     hand::Angles measured;  // of the latest frame
-    FingerClosure closure;  // the drawn posture
+    FingerClosure closure;  // the displayed posture
     bool grasping = false;  // the condition for a grasp holds
 
     bool has_frame = false;            // at least one frame was received
@@ -43,7 +43,7 @@ struct GraspState {
     double release_blocked_for = 0.0;  // s left of regrasp_time
 };
 
-GraspEvent update_grasp(GraspState& grip, const GraspOptions& options, const collision::ToolShape& tool,
+GraspEvent update_grasp(GraspState& grasp, const GraspOptions& options, const collision::ToolShape& tool,
                         const hand::Hand& hand, const GraspInput& input, double dt);
 
 }  // namespace bolt::hand

@@ -25,11 +25,12 @@ Angles clamp_to_limits(const Angles& angles) {
         to.pip = clamp_to_range(pip_range, from.pip);
         to.dip = clamp_to_range(dip_range, from.dip);
         const double share = std::clamp(1.0 - to.mcp / (0.5 * pi), 0.0, 1.0);
-        to.side = clamp_to_range({side_range.low * share, side_range.high * share}, from.side);
+        to.abduction =
+            clamp_to_range({abduction_range.low * share, abduction_range.high * share}, from.abduction);
     }
     out.arch = clamp_to_range(arch_range, angles.arch);
     out.wrist_flexion = clamp_to_range(wrist_flexion_range, angles.wrist_flexion);
-    out.wrist_side = clamp_to_range(wrist_side_range, angles.wrist_side);
+    out.wrist_deviation = clamp_to_range(wrist_deviation_range, angles.wrist_deviation);
     return out;
 }
 
@@ -148,7 +149,7 @@ Skeleton flat_right_skeleton() {
 Skeleton mirrored(const Skeleton& skeleton) {
     Skeleton out = skeleton;
     for (Vec3& p : out.position) p.x = -p.x;
-    for (Quat& q : out.rotation) q = Quat(q.w, q.x, -q.y, -q.z);
+    for (Quat& q : out.rotation) q = mirrored(q);
     return out;
 }
 
@@ -190,7 +191,7 @@ void pose_thumb(DigitPose& hand, const ThumbAngles& angles) {
 
 void pose_finger(DigitPose& hand, const FingerAngles& angles, double arch, double to_little) {
     hand.attach(0, no_rotation, flexed(arch));
-    hand.attach(1, glm::angleAxis(-to_little * angles.side, along_y), flexed(angles.mcp));
+    hand.attach(1, glm::angleAxis(-to_little * angles.abduction, along_y), flexed(angles.mcp));
     hand.attach(2, no_rotation, flexed(angles.pip));
     hand.attach(3, no_rotation, flexed(angles.dip));
     hand.attach(4, no_rotation, no_rotation);
@@ -199,10 +200,9 @@ void pose_finger(DigitPose& hand, const FingerAngles& angles, double arch, doubl
 // Maps a joint of the unit right hand to this hand and wrist pose.
 void write_joint(const Hand& hand, const Pose& wrist_pose, std::size_t joint, const Pose& at, Skeleton& out) {
     const bool right = hand.side == Side::right;
-    const Quat& q = at.orientation;
-    const Vec3 position = right ? at.position : at.position * Vec3(-1.0, 1.0, 1.0);
-    out.position[joint] = wrist_pose * (hand.scale * position);
-    out.rotation[joint] = glm::normalize(wrist_pose.orientation * (right ? q : Quat(q.w, q.x, -q.y, -q.z)));
+    const Pose on_side = right ? at : mirrored(at);
+    out.position[joint] = wrist_pose * (hand.scale * on_side.position);
+    out.rotation[joint] = glm::normalize(wrist_pose.orientation * on_side.orientation);
 }
 
 }  // namespace
@@ -232,24 +232,24 @@ Skeleton joints(const Hand& hand, const Angles& angles, const Pose& wrist_pose) 
 }
 
 Pose wrist_of(const Hand& hand, const Angles& angles, const Pose& forearm) {
-    const double to_thumb = hand.side == Side::right ? angles.wrist_side : -angles.wrist_side;
+    const double to_thumb = hand.side == Side::right ? angles.wrist_deviation : -angles.wrist_deviation;
     return {forearm.position, glm::normalize(forearm.orientation * flexed(angles.wrist_flexion) *
                                              glm::angleAxis(to_thumb, along_y))};
 }
 
-Capsule tube(const Hand& hand, const Skeleton& joints, std::size_t digit, std::size_t bone) {
+Capsule bone_capsule(const Hand& hand, const Skeleton& joints, std::size_t digit, std::size_t bone) {
     const std::size_t joint = digits[digit].first + bone;
     const auto& breadth = half_breadths_mm[digit];
-    Capsule tube{joints.position[joint], joints.position[joint + 1], hand.scale * breadth[bone] * mm,
-                 hand.scale * breadth[bone + 1] * mm};
+    Capsule capsule{joints.position[joint], joints.position[joint + 1], hand.scale * breadth[bone] * mm,
+                    hand.scale * breadth[bone + 1] * mm};
     if (bone + 2 == digits[digit].count)  // the last ends at the tip of the glove
-        tube.to += joints.rotation[joint] * Vec3(0.0, 0.0, tube.radius_to - hand.scale * glove_mm * mm);
-    return tube;
+        capsule.to += joints.rotation[joint] * Vec3(0.0, 0.0, capsule.radius_to - hand.scale * glove_mm * mm);
+    return capsule;
 }
 
-Vec3 pad(const Hand& hand, const Skeleton& joints, std::size_t digit) {
+Vec3 fingertip_pad_centre(const Hand& hand, const Skeleton& joints, std::size_t digit) {
     const std::size_t bone = digits[digit].count - 2;
-    const Capsule last = tube(hand, joints, digit, bone);
+    const Capsule last = bone_capsule(hand, joints, digit, bone);
     const double radius = 0.5 * (last.radius_from + last.radius_to);
     const Vec3 to_palm = joints.rotation[digits[digit].first + bone] * Vec3(0.0, -1.0, 0.0);
     return 0.45 * last.from + 0.55 * last.to + to_palm * (radius - hand.scale * pad_radius);

@@ -14,8 +14,8 @@ namespace bolt::hand {
 // Anatomical names: MCP is the knuckle, then PIP and DIP.
 struct FingerAngles {
     double mcp = 0.0, pip = 0.0, dip = 0.0;
-    // Abduction, away from the middle finger; for the middle finger towards the little finger.
-    double side = 0.0;
+    // Positive away from the middle finger; of the middle finger, positive towards the little finger.
+    double abduction = 0.0;
 };
 
 struct ThumbAngles {
@@ -29,16 +29,15 @@ struct Angles {
     std::array<FingerAngles, 4> fingers;  // index to little finger
     double arch = 0.0;                    // of the little finger's metacarpal towards the palm
     double wrist_flexion = 0.0;
-    double wrist_side = 0.0;  // towards the thumb
+    double wrist_deviation = 0.0;  // towards the thumb
 };
 
 // Ranges of the joints. Readings beyond them are errors of the glove and would display a broken finger.
 //
-// Sources: the American Academy of Orthopaedic Surgeons (Joint Motion: Method of Measuring and
-// Recording, 1965), a PIP of 110° as in J. Lin, Y. Wu, T. S. Huang, Modeling the constraints of human hand
-// motion (IEEE Workshop on Human Motion, 2000); of the carpometacarpal joints those of M. El-shennawy et al.
-// (J. Hand Surg. 26A(6), 2001, 1030-1035). They are population means, so `range_margin` is added on both
-// sides.
+// Sources: American Academy of Orthopaedic Surgeons, Joint Motion: Method of Measuring and Recording, 1965.
+// PIP of 110°: J. Lin, Y. Wu, T. S. Huang, Modeling the constraints of human hand motion, IEEE Workshop on
+// Human Motion, 2000. Carpometacarpal joints: M. El-shennawy et al., J. Hand Surg. 26A(6), 2001, 1030-1035.
+// They are population means, so `range_margin` is added on both sides.
 
 struct AngleRange {
     double low = 0.0, high = 0.0;  // rad
@@ -53,14 +52,14 @@ constexpr AngleRange degrees(double low, double high) {
 inline constexpr AngleRange mcp_range = degrees(-45.0, 90.0);
 inline constexpr AngleRange pip_range = degrees(0.0, 110.0);
 inline constexpr AngleRange dip_range = degrees(0.0, 90.0);
-inline constexpr AngleRange side_range = degrees(-10.0, 20.0);
+inline constexpr AngleRange abduction_range = degrees(-10.0, 20.0);
 inline constexpr AngleRange thumb_roll_range = degrees(0.0, 90.0);
 inline constexpr AngleRange thumb_abduction_range = degrees(0.0, 60.0);
 inline constexpr AngleRange thumb_mcp_range = degrees(0.0, 50.0);
 inline constexpr AngleRange thumb_ip_range = degrees(-20.0, 80.0);
 inline constexpr AngleRange arch_range = degrees(0.0, 27.0);
 inline constexpr AngleRange wrist_flexion_range = degrees(-70.0, 80.0);
-inline constexpr AngleRange wrist_side_range = degrees(-30.0, 20.0);
+inline constexpr AngleRange wrist_deviation_range = degrees(-30.0, 20.0);
 
 // Clamps each angle to its range; NaN becomes 0. The abduction range of a finger decreases linearly to zero
 // at 90° of MCP flexion (I. A. Kapandji, The Physiology of the Joints, vol. 1, on the collateral ligaments;
@@ -183,6 +182,12 @@ Skeleton right_skeleton();
 Skeleton flat_right_skeleton();
 Skeleton mirrored(const Skeleton& skeleton);
 
+// Mirrored in the plane x = 0, as from a right hand to a left one.
+inline Quat mirrored(const Quat& q) { return {q.w, q.x, -q.y, -q.z}; }
+inline Pose mirrored(const Pose& pose) {
+    return {pose.position * Vec3(-1.0, 1.0, 1.0), mirrored(pose.orientation)};
+}
+
 // Forward kinematics: joint angles to the 26 joints of XR_EXT_hand_tracking.
 //
 // A finger's MCP has two axes, abduction in the palm's plane and then flexion; its other joints have one. The
@@ -218,10 +223,10 @@ struct Capsule {
     double radius_from = 0.0, radius_to = 0.0;  // m, gloved
 };
 // The capsule of bone `bone` of a digit; 0 is the metacarpal.
-Capsule tube(const Hand& hand, const Skeleton& joints, std::size_t digit, std::size_t bone);
+Capsule bone_capsule(const Hand& hand, const Skeleton& joints, std::size_t digit, std::size_t bone);
 
 // The centre of the fingertip pad, modelled as a sphere of radius pad_radius that touches the skin.
 inline constexpr double pad_radius = 8e-3;  // m, for a hand of scale 1
-Vec3 pad(const Hand& hand, const Skeleton& joints, std::size_t digit);
+Vec3 fingertip_pad_centre(const Hand& hand, const Skeleton& joints, std::size_t digit);
 
 }  // namespace bolt::hand

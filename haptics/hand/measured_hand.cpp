@@ -34,13 +34,13 @@ hand::Angles hand_angles(const PerSensor<double>& angles) {
     hand.thumb = {of(Sensor::thumb_roll), of(Sensor::thumb_abduction), of(Sensor::thumb_mpj),
                   of(Sensor::thumb_ij)};
     const double ring = of(Sensor::ring_abduction);
-    const std::array<double, 4> side{of(Sensor::middle_abduction), 0.0, ring,
-                                     ring + of(Sensor::little_abduction)};
+    const std::array<double, 4> abduction{of(Sensor::middle_abduction), 0.0, ring,
+                                          ring + of(Sensor::little_abduction)};
     for (std::size_t i = 0; i < fingers.size(); ++i)
-        hand.fingers[i] = {of(fingers[i][0]), of(fingers[i][1]), of(fingers[i][2]), side[i]};
+        hand.fingers[i] = {of(fingers[i][0]), of(fingers[i][1]), of(fingers[i][2]), abduction[i]};
     hand.arch = of(Sensor::palm_arch);
     hand.wrist_flexion = of(Sensor::wrist_pitch);
-    hand.wrist_side = of(Sensor::wrist_yaw);
+    hand.wrist_deviation = of(Sensor::wrist_yaw);
     return hand;
 }
 

@@ -69,9 +69,9 @@ struct MeasuredHand {
     bool any = false;     // a frame has been received
 };
 
-// `time`: when the frame was read, s on a monotonic clock. Frames closer than `least_gap` count as that far
-// apart.
-inline constexpr double least_gap = 1e-3;  // s
+inline constexpr double least_gap = 1e-3;  // s; frames that are closer count as this far apart
+
+// `time`: when the frame was read, s on a monotonic clock.
 void update(MeasuredHand& state, const GloveWearer& wearer, const GloveFrame& frame, double time);
 
 }  // namespace bolt::hand

@@ -11,7 +11,7 @@
 
 namespace bolt::joint {
 
-// Friction presets for repeated use; the coefficients themselves are given apart.
+// Selects how friction changes with re-use (wear_of in mechanistic.cpp). FrictionDesign has the coefficients.
 enum class Lubrication { as_received, dry, oiled, mos2 };
 
 struct FrictionDesign {
@@ -39,7 +39,7 @@ struct JointDesign {
     std::vector<Member> members;   // clamped parts, without washers
     double member_diameter = 0.0;  // m, D_A of VDI 2230 (outer diameter of the clamped part); 0: unlimited
     FrictionDesign friction;
-    double roughness_Rz = 16e-6;   // m, of the faces: chooses the embedding class
+    double roughness_Rz = 16e-6;   // m, of the faces; determines the amount of embedding
     double misfit = 5e-6;          // m, scale over which the seat closes (non-parallel faces, thread draw-in)
     double embedding_time = 5.0;   // s, time constant of embedding
     double prevailing_torque = 0;  // N·m, of a locking nut

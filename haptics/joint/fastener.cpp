@@ -76,6 +76,18 @@ constexpr ClassRow classes[] = {
 
 std::string pitch_text(double pitch) { return fmt::format("{:g}", std::round(pitch / mm * 1000.0) / 1000.0); }
 
+// The pitches of a size in mm, such as "2, 1.5 or 1". Every size has at least two.
+std::string pitches_text(const FastenerSize& size) {
+    std::string text = pitch_text(size.coarse_pitch);
+    std::string last;
+    for (const double p : size.fine_pitches) {
+        if (p <= 0.0) continue;
+        if (!last.empty()) text += ", " + last;
+        last = pitch_text(p);
+    }
+    return text + " or " + last;
+}
+
 tl::unexpected<Error> unknown(std::string what, std::string_view given, const std::vector<std::string>& names,
                               std::string fallback) {
     const std::string best = nearest(given, names);
@@ -111,11 +123,8 @@ Result<ThreadSize> parse_thread(std::string_view text) {
         if (whole && (is(size.coarse_pitch) ||
                       std::any_of(std::begin(size.fine_pitches), std::end(size.fine_pitches), is)))
             return ThreadSize{size, metric_thread(size.d, pitch * mm)};
-        std::string pitches = pitch_text(size.coarse_pitch);
-        for (const double p : size.fine_pitches)
-            if (p > 0.0) pitches += ", " + pitch_text(p);
         return fail(ErrorCode::bad_content, fmt::format("\"{}\" is not a known thread", text),
-                    fmt::format("pitches of {} in mm: {}", name, pitches));
+                    fmt::format("{} with a pitch of {} mm", name, pitches_text(size)));
     }
     return unknown(fmt::format("\"{}\" is not a known thread size", text), text, thread_names(),
                    "one of M4 to M39, a fine pitch as in \"M16x1.5\"");
@@ -139,7 +148,6 @@ Result<PropertyClass> property_class(std::string_view name, double d) {
         result.fracture_strain = c.fracture_strain;
         result.E = c.stainless ? 200e9 : 205e9;
         result.kappa = c.stainless ? 2.0 : 1.5;
-        result.stainless = c.stainless;
         return result;
     }
     return unknown(fmt::format("\"{}\" is not a known property class", name), name, property_class_names(),

@@ -24,7 +24,6 @@ struct ScrewThread {
     [[nodiscard]] double d0() const { return 0.5 * (d2 + d3); }        // diameter of the stress area
     [[nodiscard]] double A_d3() const { return 0.25 * pi * d3 * d3; }  // core section
     [[nodiscard]] double A_N() const { return 0.25 * pi * d * d; }     // nominal section
-    [[nodiscard]] double lead_angle() const { return std::atan(pitch / (pi * d2)); }
 };
 
 inline constexpr double thread_half_angle = pi / 6.0;  // β, flank angle of the ISO profile
@@ -79,7 +78,6 @@ struct PropertyClass {
     double fracture_strain = 0;  // elongation after fracture A
     double E = 0.0;              // Young's modulus
     double kappa = 0.0;  // torsion: 3/2 fully plastic (VDI 2230), 2 elastic (published stainless tables)
-    bool stainless = false;
 };
 
 // Class at a nominal diameter (8.8 changes above M16). The error names the nearest valid name.

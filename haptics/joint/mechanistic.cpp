@@ -105,12 +105,12 @@ double wear_factor(const MechanisticParameters& p, double all_uses) {
 
 // Drag of the free thread: it rises from zero as the nut starts and then fluctuates with the angle, as in
 // measured runs.
-double running_drag(const MechanisticParameters& p, double angle) {
+double running_drag_at(const MechanisticParameters& p, double angle) {
     const double start = angle < 20.0 ? -std::expm1(-std::max(angle, 0.0) / 0.5) : 1.0;  // 1 − e⁻⁴⁰ is 1
     const double ripple = 0.25 * std::sin(angle + p.ripple_phase[0]) +
                           0.15 * std::sin(2.3 * angle + p.ripple_phase[1]) +
                           0.10 * std::sin(5.1 * angle + p.ripple_phase[2]);
-    return p.running * start * (1.0 + ripple);
+    return p.running_drag * start * (1.0 + ripple);
 }
 
 double nut_mass(const FastenerSize& size, const ScrewThread& thread) {
@@ -154,7 +154,7 @@ double balanced_closure(const SeatSpring& seat, double low, BalanceIterate at, c
 // Load capacity of the joint.
 struct Capacity {
     double ratio = 1.0;            // equivalent over tensile stress
-    PlasticCurve::LoadSlope bolt;  // equivalent load and its slope at the present set
+    PlasticCurve::LoadSlope bolt;  // equivalent load and its slope at the present plastic elongation
     double strip = 0.0;            // N, of the nut's threads
 
     [[nodiscard]] double force() const { return std::min(bolt.load / ratio, strip); }
@@ -163,7 +163,7 @@ struct Capacity {
 // Plastic flow of the bolt or shearing of the nut's threads, whichever is weaker. Rate-independent plasticity
 // would kink the torque when a loaded joint starts to flow again, so the flow follows the rate-independent
 // solution with a short time constant (Duvaut and Lions 1972). The slope is then continuous on every path,
-// and dissipation is positive because the set grows only while F > 0.
+// and dissipation is positive because the plastic elongation grows only while F > 0.
 void flow(const MechanisticParameters& p, MechanisticState& s, double closure, const Capacity& capacity,
           double dt) {
     const double progress = -std::expm1(-dt / p.flow_time);
@@ -182,7 +182,7 @@ void flow(const MechanisticParameters& p, MechanisticState& s, double closure, c
         return;
     }
     const auto evaluate = [&](BalanceIterate& t) {
-        // At zero set the slope is infinite, which would stop Newton's method.
+        // Without plastic elongation the slope is infinite, which would stop Newton's method.
         const double set = std::max(s.plastic + (closure - t.closure), 1e-12);
         const PlasticCurve::LoadSlope y = set == s.plastic ? capacity.bolt : p.bolt.at(set);
         t.excess = capacity.ratio * t.force - y.load;
@@ -256,8 +256,8 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
     p.wear_early_uses = wear.early_uses;
     p.wear_per_use = wear.per_use;
 
-    p.drag = design.prevailing_torque;
-    p.running = design.running_torque;
+    p.prevailing_torque = design.prevailing_torque;
+    p.running_drag = design.running_torque;
     const double weight = gravity * (design.nut_mass > 0.0 ? design.nut_mass : nut_mass(size, p.thread));
     p.weight_lead = -weight * design.axis.y * p.levers.lead;
     p.weight_friction = weight * std::abs(design.axis.y) * p.levers.thread;
@@ -268,7 +268,7 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
 Resistance resistance(const MechanisticParameters& p, const MechanisticState& s) {
     const double breakaway = 1.0 + (p.static_ratio - 1.0) * s.dwell;
     const double friction_lever = p.levers.friction() * wear_factor(p, s.uses) * breakaway;
-    const double drag = (p.drag + running_drag(p, s.angle) + p.weight_friction) * breakaway;
+    const double drag = (p.prevailing_torque + running_drag_at(p, s.angle) + p.weight_friction) * breakaway;
     const double rate = s.stiffness * p.levers.lead;  // dF/dθ, N/rad: dx/dθ = P/2π
     Resistance r;
     r.lead = s.clamp * p.levers.lead + p.weight_lead;

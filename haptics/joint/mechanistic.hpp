@@ -46,8 +46,6 @@ struct PlasticCurve {
         double slope = 0.0;  // dY/du, N/m; +∞ at u = 0
     };
     [[nodiscard]] LoadSlope at(double elongation) const;
-    [[nodiscard]] double load(double elongation) const { return at(elongation).load; }
-    [[nodiscard]] double slope(double elongation) const { return at(elongation).slope; }
 };
 
 struct MechanisticParameters {
@@ -69,9 +67,9 @@ struct MechanisticParameters {
     double healing_time = 0.0;    // s of rest over which it recovers
     double wear_early = 0.0;      // relative change of friction that saturates over the first re-uses
     double wear_early_uses = 1;
-    double wear_per_use = 0.0;   // relative change of friction per use that continues
-    double drag = 0.0;           // N·m, prevailing torque
-    double running = 0.0;        // N·m, mean drag of the free thread
+    double wear_per_use = 0.0;       // relative change of friction per use that continues
+    double prevailing_torque = 0.0;  // N·m
+    double running_drag = 0.0;       // N·m, mean drag of the free thread
     double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
     double weight_friction = 0;  // N·m
     double ripple_phase[3] = {0.0, 0.0, 0.0};  // of the running drag over the angle

@@ -80,7 +80,7 @@ NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const
 // spring that is wound further. This follows from c (swung' − swung)/dt = T' − holds inserted into T' = K
 // (hand − nut' − swung' ∓ play).
 DriveHandle swinging_handle(const DriveHandle& handle, double holds, double dt) {
-    const double share = dt / handle.click.settles;
+    const double share = dt / handle.click.settling_time;
     DriveHandle soft = handle;
     soft.angle += share * holds / handle.stiffness - handle.swung;
     soft.stiffness = handle.stiffness / (1.0 + share);
@@ -93,7 +93,8 @@ DriveHandle swinging_handle(const DriveHandle& handle, double holds, double dt) 
 NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const DriveHandle& handle,
                       double dt) {
     const Click& click = handle.click;
-    const double on = click.falls_to * click.setting, back = click.rearms_at * click.setting;
+    const double on = click.swing_torque_share * click.setting,
+                 back = click.rearm_torque_share * click.setting;
     const auto standing_at = [&](double swung) {
         DriveHandle stiff = handle;
         stiff.angle -= swung;
@@ -108,7 +109,7 @@ NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const 
     if (!goes_on && !goes_back) return stood;
     const double holds = goes_on ? on : back;
     NutStep step = step_rigid(r, inertia, nut, swinging_handle(handle, holds, dt), dt);
-    const double swung = handle.swung + (step.torque - holds) * dt / (handle.stiffness * click.settles);
+    const double swung = handle.swung + (step.torque - holds) * dt / (handle.stiffness * click.settling_time);
     if (swung >= click.swing)
         step = standing_at(click.swing);
     else if (swung <= 0.0)

@@ -14,19 +14,20 @@ namespace bolt::joint {
 // torque until it bottoms and is rigid again, so a further pull applies more torque. When released it swings
 // back and rearms. Only tightening trips it.
 //
-//   not swung     T ≤ setting
-//   swinging on   T = falls_to · setting + c · speed      back   T = rearms_at · setting + c · speed
-//   bottomed      T ≥ rearms_at · setting
+//   not swung      T ≤ setting
+//   swinging on    T = swing_torque_share · setting + c · speed
+//   swinging back  T = rearm_torque_share · setting + c · speed
+//   bottomed       T ≥ rearm_torque_share · setting
 //
-// c = stiffness · settles: at rest the torque falls with that time constant instead of jumping. Between its
-// two torques a mechanism that has swung stands still, so swinging back and forth dissipates energy and never
-// generates any. The shares and times are ours, because the standard specifies the setting only.
+// c = stiffness · settling_time: at rest the torque falls with that time constant instead of jumping. Between
+// its two torques a mechanism that has swung stands still, so swinging back and forth dissipates energy and
+// never generates any. The shares and times are ours, because the standard specifies the setting only.
 struct Click {
-    double setting = 0.0;    // N·m at which it trips; 0: never
-    double swing = 0.0;      // rad that the handle swings before it bottoms; 0: no mechanism
-    double falls_to = 0.5;   // of the setting, above rearms_at
-    double rearms_at = 0.2;  // of the setting, above 0
-    double settles = 0.01;   // s
+    double setting = 0.0;             // N·m at which it trips; 0: never
+    double swing = 0.0;               // rad that the handle swings before it bottoms; 0: no mechanism
+    double swing_torque_share = 0.5;  // of the setting, above rearm_torque_share
+    double rearm_torque_share = 0.2;  // of the setting, above 0
+    double settling_time = 0.01;      // s
 
     [[nodiscard]] bool trips() const { return setting > 0.0 && swing > 0.0; }
 };
@@ -45,9 +46,9 @@ struct NutMotion {
 // The drive of the nut: a spring with play between the angles of hand and nut, or nothing.
 struct DriveHandle {
     bool engaged = false;
-    double angle = 0.0;         // rad, the hand's angle on the nut's scale, without re-grips
-    double half_play = 0.0;     // rad, backlash to either side
-    double stiffness = 0.0;     // N·m/rad
+    double angle = 0.0;      // rad, the hand's, counted as the nut's; motion between two grips does not count
+    double half_play = 0.0;  // rad, backlash to either side
+    double stiffness = 0.0;  // N·m/rad
     double torque_limit = 0.0;  // N·m at which the grip slips (fingers); 0: never
     Click click;                // between hand and spring
     double swung = 0.0;         // rad that the click mechanism has swung, 0 … click.swing
@@ -106,7 +107,7 @@ struct CornerGrip {
     double height = 0.0;                             // e, m, height of the contact between flats
     double toward_throat = 0.0, toward_mouth = 0.0;  // x1, x2: m from the axis to the ends of the strips
     double tilt = 0.0;                               // rad, about the flats' length
-    double clearance = 0.0;                          // m, half of opening less across flats
+    double clearance = 0.0;                          // m, half of (opening − across flats)
     double lost = 0.0;                               // m of each flat that is rounded off at a corner
 };
 

@@ -76,8 +76,8 @@ PublishedReading published_read(const PublishedParameters& p, const PublishedSta
                                 Direction direction) {
     const PublishedBoundaries b = published_boundaries(p);
     const bool virgin = theta_deg >= s.peak_deg;
-    const double theta =
-        virgin ? theta_deg : theta_deg - s.set_deg;  // along the shifted elastic line once set
+    // Below the furthest angle the joint follows the elastic line, shifted by the permanent set.
+    const double theta = virgin ? theta_deg : theta_deg - s.set_deg;
     PublishedReading reading;
 
     if (virgin && theta >= b.yield) {

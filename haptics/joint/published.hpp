@@ -13,8 +13,8 @@ namespace bolt::joint {
 
 struct PublishedParameters {
     double nut_mass_g = 33.3;
-    double alpha = pi / 6,
-           beta = pi / 6;  // rad; the paper calls α the helix angle and gives it the profile angle
+    // rad; the paper calls α the helix angle but gives it the value of the profile angle.
+    double alpha = pi / 6, beta = pi / 6;
     double mu = 0.3, mu1 = 0.4, mu2 = 0.3;
     double pitch_mm = 2.0;  // ρ = P
     double d2_mm = 14.7, D1_mm = 24.0, D2_mm = 14.7, r_t_mm = 14.7, r_b_mm = 24.0;

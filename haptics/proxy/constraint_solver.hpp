@@ -9,6 +9,7 @@
 #include <span>
 
 #include "engine/base/math.hpp"
+#include "haptics/collision/solid.hpp"
 
 namespace bolt::proxy {
 
@@ -30,24 +31,18 @@ inline Pose moved(const Pose& pose, const Twist& twist) {
 
 // The twist from one pose to the other; its rotation is at most half a turn.
 inline Twist twist_between(const Pose& from, const Pose& to) {
-    return {to.position - from.position,
-            rotation_vector(glm::normalize(to.orientation * glm::conjugate(from.orientation)))};
+    return {to.position - from.position, turn_between(from.orientation, to.orientation)};
 }
-
-// A box, in the body's frame.
-struct Extent {
-    Vec3 low{0.0}, high{0.0};  // m
-};
 
 // Upper bound (m) of the path of any point within `radius` of the origin during `twist`.
 inline double travel(const Twist& twist, double radius) {
     return glm::length(twist.linear) + radius * glm::length(twist.angular);
 }
 
-// The same for points that also lie in `box`, which is a tighter bound for a long tool. The linear part of a
-// point's motion is greatest at a corner of the box; the arc deviates from it by at most half the square of
-// the turn times the radius.
-inline double travel(const Twist& twist, double radius, const Quat& orientation, const Extent& box) {
+// The same for points that also lie in `box` (in the body's frame), which is a tighter bound for a long tool.
+// The linear part of a point's motion is greatest at a corner of the box; the arc deviates from it by at most
+// half the square of the turn times the radius.
+inline double travel(const Twist& twist, double radius, const Quat& orientation, const collision::Box& box) {
     const Quat back = glm::conjugate(orientation);
     const Vec3 linear = back * twist.linear, angular = back * twist.angular;
     double longest = 0.0;
@@ -60,7 +55,7 @@ inline double travel(const Twist& twist, double radius, const Quat& orientation,
     return std::min(travel(twist, radius), std::sqrt(longest) + 0.5 * radius * glm::dot(angular, angular));
 }
 
-// Constraints used in one call; further ones of a longer span are ignored.
+// Greatest number of constraints in one call; any more are ignored.
 inline constexpr std::size_t max_constraints = 48;
 
 // The point at `arm` may move towards the obstacle by at most `slack`; below 0 it must move away.

@@ -20,8 +20,8 @@ constexpr double tiny_motion = 25e-6;
 constexpr double imperceptible_energy = 1e-3;
 constexpr double query_margin = 50e-6;         // m, margin of the query's band beyond the skin
 constexpr double least_clearance_share = 0.2;  // of the skin; a motion that ends nearer is rejected
-constexpr double finder_tolerance =
-    250e-6;                      // m, deepest penetration at which the finder first detects a feature
+// m, deepest penetration at which the finder first detects a feature.
+constexpr double finder_tolerance = 250e-6;
 constexpr int max_attempts = 4;  // motions tried from a pose
 constexpr int search_iterations = 24;
 
@@ -75,18 +75,18 @@ class Stepper {
 
     GodObjectStep run() {
         const double displacement = path_bound(twist_between(before_.device, device_));
-        current_query_ = query(pose_, std::min(displacement, before_.free));
+        current_query_ = query(pose_, std::min(displacement, before_.nearest_contact));
         recovering_ = current_query_.nearest < 0.0;
         set_change_limits();
-        bool settled = false, arrived = false;
-        while (!settled && !arrived) {
+        bool rate_limited = false, arrived = false;
+        while (!rate_limited && !arrived) {
             const AdvanceResult advance = advance_once();
-            settled = advance == AdvanceResult::rate_limited;
+            rate_limited = advance == AdvanceResult::rate_limited;
             arrived = advance == AdvanceResult::arrived;
             if (advance == AdvanceResult::budget_exhausted) break;
         }
-        step_.spent = !settled && !arrived;
-        step_.settled = settled;
+        step_.budget_exhausted = !rate_limited && !arrived;
+        step_.rate_limited = rate_limited;
         step_.nearest = current_query_.nearest;
         step_.contacts = current_query_.count;
         return step_;
@@ -193,13 +193,13 @@ class Stepper {
 
     // Limits of the change of the rendered force or torque in this tick. Permitted are the change due to the
     // hand's motion and its projections (contacts constrain some directions only; by Thales the projections
-    // lie in the ball whose diameter is that change), plus `event` in any direction, plus a part along the
+    // lie in the ball whose diameter is that change), plus `any_direction`, plus a part along the
     // trend of the last tick.
     struct ForceChangeLimit {
-        Vec3 hand{0.0};            // change due to the hand's motion with the tool held
-        Vec3 trend{0.0};           // permitted change along the direction of the last tick's event
-        double event = 0.0;        // permitted change in any direction
-        double total_limit = 0.0;  // limit of the whole change
+        Vec3 hand{0.0};              // change due to the hand's motion with the tool held
+        Vec3 trend{0.0};             // permitted change along the direction of the last tick's event
+        double any_direction = 0.0;  // permitted change in any direction
+        double total_limit = 0.0;    // limit of the whole change
 
         // Size of the part of a change that neither the hand's motion nor the trend explains.
         [[nodiscard]] double excess(const Vec3& change) const {
@@ -210,7 +210,7 @@ class Stepper {
         }
         [[nodiscard]] double utilisation(const Vec3& change, bool recovering) const {
             if (recovering) return glm::length(change) / std::max(total_limit, 1e-9);
-            return std::max(excess(change) / std::max(event, 1e-9),
+            return std::max(excess(change) / std::max(any_direction, 1e-9),
                             glm::length(change) / std::max(total_limit, 1e-9));
         }
         [[nodiscard]] Vec3 event_of(const Vec3& change) const {
@@ -226,7 +226,8 @@ class Stepper {
             ms * std::max(p_.rate_limits.of_rendered * present, p_.rate_limits.of_maximum * greatest);
         // While the tool is pushed out of an obstacle only the total limit applies.
         const double most = p_.rate_limits.maximum * greatest * ms;
-        const double any_direction = p_.rate_limits.at_once * event, along = event - any_direction;
+        const double any_direction = p_.rate_limits.any_direction_share * event,
+                     along = event - any_direction;
         const double was = glm::length(before);
         return {hand, was > along ? before * (along / was) : before, any_direction,
                 recovering_ ? most : std::min(most, event + glm::length(hand))};
@@ -406,7 +407,7 @@ GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectSt
     state.felt = felt;
     state.offset = offset;
     state.device = device;
-    state.free = step.contacts == 0 ? std::numeric_limits<double>::infinity() : step.nearest;
+    state.nearest_contact = step.contacts == 0 ? std::numeric_limits<double>::infinity() : step.nearest;
     return step;
 }
 

@@ -32,17 +32,17 @@ struct ForceRateLimits {
     double of_rendered = 0.05;  // share of the rendered force
     double of_maximum = 0.005;  // share of the greatest force; applies where the rendered force is small
     double maximum = 0.08;      // share of the greatest force, the hand's own motion included
-    // Share of the limit that is free in any direction. The rest applies only along the change of the last
-    // tick: a change that alternates from tick to tick would be felt as trembling.
-    double at_once = 0.3;
+    // Share of the limit that is permitted in any direction. The rest is permitted only along the change of
+    // the last tick: a change that alternates from tick to tick would be felt as trembling.
+    double any_direction_share = 0.3;
 };
 
 struct GodObjectParameters {
     proxy::Coupling coupling;
     ForceRateLimits rate_limits;
-    double radius = 0.3;        // m; bounds the distance of the tool's points from its origin
-    std::optional<Extent> box;  // bounds the tool as well, in its own frame
-    double friction = 0.15;     // coefficient
+    double radius = 0.3;                // m; bounds the distance of the tool's points from its origin
+    std::optional<collision::Box> box;  // bounds the tool as well, in its own frame
+    double friction = 0.15;             // coefficient
     // m, kept between tool and obstacles. Features between the finder's samples are detected up to 0.19 mm
     // late (bolt-contact-validation, on the ZQ350), so the penetration stays below 0.1 mm.
     double skin = 110e-6;
@@ -64,7 +64,7 @@ struct GodObjectState {
     force::OutputCommand felt;   // N and N·m, rendered by the coupling
     force::OutputCommand event;  // part of its change that the hand's motion did not cause
     // m, nearest contact; infinite without contacts.
-    double free = std::numeric_limits<double>::infinity();
+    double nearest_contact = std::numeric_limits<double>::infinity();
     Twist first_motion;  // first constrained motion of the tick; warm-starts the next solve
 };
 
@@ -75,8 +75,8 @@ struct GodObjectStep {
     int queries = 0;
     std::uint32_t work = 0;  // cost of the queries
     int solves = 0;
-    bool spent = false;    // the query budget ended before the tool reached its constrained pose
-    bool settled = false;  // the motion was shortened to limit the change of force
+    bool budget_exhausted = false;  // the query budget ended before the tool reached its constrained pose
+    bool rate_limited = false;      // the motion was shortened to limit the change of force
 };
 
 // The tool must not penetrate anything at `pose`.

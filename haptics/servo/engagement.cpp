@@ -96,7 +96,7 @@ void update_engagement(const Setup& setup, std::span<const joint::JointState> jo
             std::abs(turned) < leap) {
             e.hand_angle += turned;
             e.azimuth = azimuth;
-            e.held_at *= 1.0 - setup.dt / hold_relaxation;
+            e.offset_at_engagement *= 1.0 - setup.dt / hold_relaxation;
             return;
         }
         e = {};
@@ -115,7 +115,7 @@ void update_engagement(const Setup& setup, std::span<const joint::JointState> jo
         e.grip = grip;
         e.azimuth = azimuth;
         e.hand_angle = nut_angle + (grip == Grip::wrench ? misalignment : 0.0);
-        e.held_at = from_centre;
+        e.offset_at_engagement = from_centre;
         return;
     }
 }

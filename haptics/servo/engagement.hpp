@@ -27,7 +27,8 @@ struct Engagement {
     Grip grip = Grip::none;
     double azimuth = 0.0;  // rad, last angle of the tool about the bolt, tightening positive, not unwrapped
     double hand_angle = 0.0;  // rad, the same unwrapped and counted as the nut's angle
-    Vec3 held_at{0.0};        // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s
+    // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.
+    Vec3 offset_at_engagement{0.0};
 
     // Click-type torque wrench; armed anew at each engagement.
     double setting = 0.0;  // N·m on the scale
@@ -54,11 +55,11 @@ void update_engagement(const Setup& setup, std::span<const joint::JointState> jo
 // Grip of a wrench on a nut with contact simulation. Geometry alone determines whether the jaw holds the nut
 // (haptics/collision/jaw.hpp); the corners limit the torque that it can transmit (haptics/joint/nut.hpp).
 //
-// For contacts the hexagon turns with the jaw beyond the play, and the contacts' moment about the bolt is
-// removed. So the joint law with its implicit step acts about the bolt's axis, and contacts act in the other
-// five directions. If contacts drove the nut instead, the law would pass through the god-object's tolerance,
-// and 0.01 mm at a corner is 3 N·m of 100 N·m. The force is continuous at engagement: inside the play both
-// the law's torque and the removed moment are zero.
+// In the contact query the hexagon turns with the jaw beyond the play, and the contacts' moment about the
+// bolt is removed. So the joint law with its implicit step acts about the bolt's axis, and contacts act in
+// the other five directions. If contacts drove the nut instead, its torque would depend on the position error
+// of the god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3 N·m. The force is continuous at
+// engagement: inside the play both the law's torque and the removed moment are zero.
 
 // Pose of the wrench in the nut's frame.
 Pose on_nut(const NutGeometry& nut, double nut_angle, const ToolPose& tool);

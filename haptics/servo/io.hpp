@@ -58,9 +58,11 @@ struct Output {
 
     force::Fault fault = force::Fault::none;  // reason for which the output is held at zero
 
-    Pose tool;                      // constrained by obstacles, in the assembly's frame
-    std::uint16_t contacts = 0;     // constraints within the contact band
-    collision::ObstacleId touched;  // obstacle in contact (ToolContact::touched)
+    Pose tool;                   // constrained by obstacles, in the assembly's frame
+    std::uint16_t contacts = 0;  // constraints within the contact band
+    // The obstacle in contact at the pose of the tick's last contact query. If the god-object rejected that
+    // pose, or moved on within certified clearance, it is not the pose of `tool`.
+    collision::ObstacleId touched;
 
     // Physical values, before scaling to the device.
     std::int16_t joint = -1;  // engaged joint; −1: none

@@ -56,9 +56,8 @@ Setup make_setup(const SetupDescription& d) {
     setup.wrench.jaw = collision::make_jaw(d.jaw, d.head_angle, d.head_thickness, d.jaw_throat, d.jaw_tip);
     setup.wrench.half_play = joint::rounded_half_play(d.jaw, across_flats, 0.0);
     const double greatest = std::max(d.greatest_torque, 1.0);
-    setup.wrench.stiffness =
-        greatest /
-        to_radians(2.5);  // modelling assumption: wrench and wrists yield 2.5° at the largest torque
+    // Modelling assumption: wrench and wrists yield 2.5° at the largest torque.
+    setup.wrench.stiffness = greatest / to_radians(2.5);
 
     setup.wrench.click.swing = d.click_swing;
     Random random(d.seed, tool_stream);

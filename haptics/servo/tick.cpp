@@ -70,12 +70,13 @@ force::ForceRequest hold_request(const Setup& setup, State& state, const ToolPos
     const auto i = static_cast<std::size_t>(state.engagement.joint);
     const NutGeometry& nut = setup.nuts[i];
     const double torque = state.joints[i].torque;
-    const Vec3 target = nut_centre(nut, state.joints[i].nut.angle) + state.engagement.held_at;
+    const Vec3 target = nut_centre(nut, state.joints[i].nut.angle) + state.engagement.offset_at_engagement;
     force::ForceRequest request;
     request.command = force::render_torque(setup.torque, torque, nut.axis, tool.handle);
     const double stiffness =
         state.engagement.grip == Grip::wrench ? setup.wrench.stiffness : setup.finger_stiffness;
-    request.stored_energy = force::stored_torque(setup.torque, torque, stiffness, setup.wrench.handle_length);
+    request.stored_energy =
+        force::stored_torque_energy(setup.torque, torque, stiffness, setup.wrench.handle_length);
     if (held_by_contact(state)) return request;
     const Vec3 off = target - tool.position;
     request.command.force += setup.hold_stiffness * off;
@@ -113,12 +114,10 @@ force::ForceRequest release_request(const Setup& setup, ReleaseFade& release_fad
 // difference counts as injected energy.
 double relative_work(const force::OutputCommand& help, const Pose& hand_before, const Pose& hand,
                      const Pose& tool_before, const Pose& tool) {
-    const auto turn = [](const Pose& from, const Pose& to) {
-        return rotation_vector(glm::normalize(to.orientation * glm::conjugate(from.orientation)));
-    };
     const Vec3 relative = (hand.position - hand_before.position) - (tool.position - tool_before.position);
     return glm::dot(help.force, relative) +
-           glm::dot(help.torque, turn(hand_before, hand) - turn(tool_before, tool));
+           glm::dot(help.torque, turn_between(hand_before.orientation, hand.orientation) -
+                                     turn_between(tool_before.orientation, tool.orientation));
 }
 
 constexpr double undo_clearance = 0.12;  // m between tool and nuts; an undo moves the nuts in one tick
@@ -127,9 +126,9 @@ constexpr double undo_clearance = 0.12;  // m between tool and nuts; an undo mov
 // change of energy is not work of the hand.
 std::uint8_t update_checkpoints(const Setup& setup, State& state, const ToolPose& tool, std::uint8_t undo) {
     if (undo == save_checkpoint) {
-        Checkpoint& mark = state.checkpoints.at(state.checkpoint_count++ % max_checkpoints);
-        std::copy(state.joints.begin(), state.joints.end(), mark.joints.begin());
-        std::copy(state.rounded.begin(), state.rounded.end(), mark.rounded.begin());
+        Checkpoint& checkpoint = state.checkpoints.at(state.checkpoint_count++ % max_checkpoints);
+        std::copy(state.joints.begin(), state.joints.end(), checkpoint.joints.begin());
+        std::copy(state.rounded.begin(), state.rounded.end(), checkpoint.rounded.begin());
         return 0;
     }
     if (undo == 0 || undo > std::min<std::uint32_t>(state.checkpoint_count, max_checkpoints)) return 0;
@@ -138,9 +137,9 @@ std::uint8_t update_checkpoints(const Setup& setup, State& state, const ToolPose
         if (tool.valid && glm::distance(tool.position, nut_centre(setup.nuts[i], state.joints[i].nut.angle)) <
                               undo_clearance)
             return 0;
-    const Checkpoint& mark = state.checkpoints.at((state.checkpoint_count - undo) % max_checkpoints);
-    std::copy(mark.joints.begin(), mark.joints.end(), state.joints.begin());
-    std::copy(mark.rounded.begin(), mark.rounded.end(), state.rounded.begin());
+    const Checkpoint& checkpoint = state.checkpoints.at((state.checkpoint_count - undo) % max_checkpoints);
+    std::copy(checkpoint.joints.begin(), checkpoint.joints.end(), state.joints.begin());
+    std::copy(checkpoint.rounded.begin(), checkpoint.rounded.end(), state.rounded.begin());
     state.checkpoint_count -= undo - 1U;  // later checkpoints are discarded; the restored one is kept
     return undo;
 }
@@ -182,7 +181,7 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
                 relative_work(state.guiding_command, before.device, now, before.tool, tool_now);
     }
     const int engaged_before = state.engagement.joint;
-    const bool drawn_before = engaged_before >= 0 && !held_by_contact(state);
+    const bool held_by_spring_before = engaged_before >= 0 && !held_by_contact(state);
     if (state.tool_contact && grip == Grip::wrench)
         update_jaw_grip(setup, state.joints, state.rounded, tool, state.engagement);
     else
@@ -204,7 +203,7 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
         force::guide(setup.guiding, state.guide, guided_tool(setup, tool),
                      goal_at(setup, state.joints, guides ? input.guide : -1), free, setup.dt);
     state.guiding_command = help.command;
-    if (drawn_before && engaged != engaged_before) state.release_fade = {state.hold_target, 1.0};
+    if (held_by_spring_before && engaged != engaged_before) state.release_fade = {state.hold_target, 1.0};
     if (!tool.valid || !input.enabled) state.release_fade.share = 0.0;
     const force::ForceRequest released = release_request(setup, state.release_fade, tool);
     if (engaged >= 0) {

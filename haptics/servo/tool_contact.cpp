@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "haptics/collision/smooth_normals.hpp"
+#include "haptics/collision/narrow_phase.hpp"
 #include "haptics/joint/nut.hpp"
 #include "haptics/servo/engagement.hpp"
 
@@ -198,15 +198,17 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
     contact.wrench = std::move(*wrench);
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         contact.nut_bodies.push_back(collision::find_body(contact.world, collision::ObstacleId::nut(i)));
-        contact.hexagons.push_back(collision::hexagon(prism_of(setup.nuts[i])));
+        BOLT_TRY_ASSIGN(auto hexagon, collision::hexagon(prism_of(setup.nuts[i])));
+        contact.hexagons.push_back(std::move(hexagon));
         contact.nut_poses.push_back(nut_pose(setup.nuts[i], 0.0));
     }
-    contact.jaw = collision::jaw_parts(setup.wrench.jaw);
+    BOLT_TRY_ASSIGN(auto jaw, collision::jaw_parts(setup.wrench.jaw));
+    contact.jaw = std::move(jaw);
     contact.narrow_phase = collision::make_narrow_phase(contact.world, contact.wrench);
 
     set_coupling(setup, contact);
     contact.parameters.radius = contact.wrench.reach();
-    contact.parameters.box = {contact.wrench.solid.box.low, contact.wrench.solid.box.high};
+    contact.parameters.box = contact.wrench.solid.box;
     contact.parameters.friction = d.friction;
     return contact;
 }

@@ -51,7 +51,7 @@ struct ToolContact {
     proxy::GodObjectStep last_step;  // result of the last tick
     ContactCache cache;
     bool in_hand = false;           // the wrench was held in the last tick
-    collision::ObstacleId touched;  // the nearest obstacle in contact
+    collision::ObstacleId touched;  // the nearest obstacle in contact, see Output::touched
 };
 
 // Builds the collision structures; the only function here that allocates. Fails if a mesh is not closed.

@@ -16,17 +16,17 @@ hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const han
         hand::update(state.gloved, setup.wearer, sample.frame, sample.time);
     }
     const Pose wrist = inverse(tool.actual) * tool.commanded * setup.wrist;
-    return hand::update_grasp(state.grip, setup.grip, setup.tool, setup.wearer.hand,
+    return hand::update_grasp(state.grasp, setup.grasp, setup.tool, setup.wearer.hand,
                               {fresh, state.gloved.angles, wrist}, dt);
 }
 
 DisplayedHand display(const HandSetup& setup, const HandState& state) {
     DisplayedHand shown;
-    shown.joints = hand::joints(setup.wearer.hand, state.grip.closure.angles, state.grip.wrist);
+    shown.joints = hand::joints(setup.wearer.hand, state.grasp.closure.angles, state.grasp.wrist);
     shown.side = setup.wearer.hand.side;
-    shown.has_frame = state.grip.has_frame;
-    shown.held = state.grip.held;
-    shown.lost = state.grip.lost;
+    shown.has_frame = state.grasp.has_frame;
+    shown.held = state.grasp.held;
+    shown.lost = state.grasp.lost;
     return shown;
 }
 
@@ -77,8 +77,8 @@ struct HandThread::Shared {
             last = SteadyClock::now();
             tool.update();
             update_hand(setup, state, sample, tool.latest(), dt);
-            held.store(state.grip.held, std::memory_order_relaxed);
-            lost.store(state.grip.lost, std::memory_order_release);
+            held.store(state.grasp.held, std::memory_order_relaxed);
+            lost.store(state.grasp.lost, std::memory_order_release);
             displayed.write(station::display(setup, state));
         }
     }

@@ -19,7 +19,7 @@ struct HandSetup {
     hand::GloveWearer wearer;
     collision::ToolShape tool;
     Pose wrist;  // in the frame of the commanded tool
-    hand::GraspOptions grip;
+    hand::GraspOptions grasp;
 };
 
 // In the assembly's frame.
@@ -30,7 +30,7 @@ struct ToolPoses {
 
 struct HandState {
     hand::MeasuredHand gloved;
-    hand::GraspState grip;
+    hand::GraspState grasp;
     std::uint64_t number = 0;  // of the last glove sample
 };
 
@@ -41,7 +41,7 @@ hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const han
 
 // The servo's grip of this hand.
 constexpr servo::Grip grip_of(const HandState& state) {
-    return state.grip.held ? servo::Grip::wrench : servo::Grip::none;
+    return state.grasp.held ? servo::Grip::wrench : servo::Grip::none;
 }
 
 // For display, in the frame of the tool: combine it with servo::Output::tool of any tick.

@@ -57,11 +57,10 @@ force::OutputLimits limits_of(const Layout& layout) {
 
 namespace {
 
-using device::Description;
 using device::DeviceSnapshot;
-using device::Sensing;
 
-constexpr double servo_stall = 0.010;  // s without a tick; less than device::SupervisorOptions::stale
+// s without a tick; less than device::SupervisorOptions::command_timeout.
+constexpr double servo_stall = 0.010;
 // Chosen for a gliding tool: 12 cm/s from 8 cm on, slower than a user who pushes it away.
 constexpr force::GuidingParameters gliding{.gain = 0.25, .greatest = 3.0, .torque = 0.2};
 constexpr double glide_speed = 0.04;  // m/s per N of the guiding law
@@ -94,16 +93,16 @@ bool has_current_data(const Description& d, const DeviceLink& link) {
     return d.sensing == Sensing::pose || renders(d) ? link.fresh : link.usable;
 }
 
-// Factor on a pushed tool's angular rate: faster with fingers, slower the more torque the wrench transmits,
-// which is the only feedback of torque that such a device gives.
+// Factor on the angular rate of a device that gives rates: above 1 with fingers, and the lower the more
+// torque the wrench transmits, which is the only feedback of torque with such a device.
 double angular_rate_factor(const servo::Setup& setup, const StationState& s) {
     if (s.output.joint < 0) return 1.0;
-    if (s.input.grip == servo::Grip::fingers) return spinning;
+    if (s.input.grip == servo::Grip::fingers) return finger_rate_factor;
     const double greatest = setup.wrench.stiffness * largest_deflection;
-    return 1.0 / (1.0 + firmness * std::abs(s.output.wrench_torque) / greatest);
+    return 1.0 / (1.0 + torque_slowdown * std::abs(s.output.wrench_torque) / greatest);
 }
 
-// Integrates the device's rates into the tool's pose, at most the permitted lead over the constrained
+// Integrates the device's rates into the tool's pose, at most the permitted lead ahead of the constrained
 // pose.
 void integrate_rates(const Layout& layout, const servo::Setup& setup, StationState& s,
                      const device::Sample& sample, const Quat& view, double dt) {
@@ -113,12 +112,11 @@ void integrate_rates(const Layout& layout, const servo::Setup& setup, StationSta
     const Vec3 turned_on = angular_rate_factor(setup, s) * (turn * sample.angular_velocity) * dt;
     tool.orientation = glm::normalize(rotation(turned_on) * tool.orientation);
     const Pose& held_back = s.output.tool;
-    tool.position = held_back.position + force::clamp_length(tool.position - held_back.position, ahead);
-    const Vec3 turned =
-        rotation_vector(glm::normalize(tool.orientation * glm::conjugate(held_back.orientation)));
-    if (glm::length(turned) > turned_ahead)
+    tool.position = held_back.position + force::clamp_length(tool.position - held_back.position, max_lead);
+    const Vec3 turned = turn_between(held_back.orientation, tool.orientation);
+    if (glm::length(turned) > max_angular_lead)
         tool.orientation =
-            glm::normalize(rotation(force::clamp_length(turned, turned_ahead)) * held_back.orientation);
+            glm::normalize(rotation(force::clamp_length(turned, max_angular_lead)) * held_back.orientation);
 }
 
 void move(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
@@ -132,7 +130,7 @@ void move(const Layout& layout, const servo::Setup& setup, StationState& s, cons
         s.hand = snapshot.sample.pose;
         if (snapshot.opening != s.mover.opening) {
             const Pose tool = s.workspace.tool;
-            s.workspace = force::place(layout.workspace, s.hand, tool);
+            s.workspace = force::align_workspace(layout.workspace, s.hand, tool);
             s.workspace.share = 0.0;
         }
         s.mover.opening = snapshot.opening;
@@ -145,7 +143,7 @@ void move(const Layout& layout, const servo::Setup& setup, StationState& s, cons
 // Moves the tool; it follows the hand from there.
 void place_tool(const Layout& layout, StationState& s, const Pose& tool) {
     const double share = s.workspace.share;
-    s.workspace = force::place(layout.workspace, s.hand, tool);
+    s.workspace = force::align_workspace(layout.workspace, s.hand, tool);
     s.workspace.share = share;
 }
 
@@ -200,7 +198,7 @@ StationControls merge_buttons(const Layout& layout, StationState& s, const Stati
     s.dead_man_pressed = false;
     const auto press = [&](const DeviceLink& link, const DeviceSnapshot& snapshot, const Buttons& buttons) {
         if (!link.usable) return;
-        s.dead_man_pressed |= (snapshot.sample.buttons & buttons.held) != 0;
+        s.dead_man_pressed |= (snapshot.sample.buttons & buttons.dead_man) != 0;
         controls.clutch |= (snapshot.sample.buttons & buttons.clutch) != 0;
         controls.stop |= (snapshot.sample.buttons & buttons.stop) != 0;
         controls.reset |= (snapshot.sample.buttons & buttons.reset) != 0;
@@ -252,7 +250,7 @@ force::OutputCommand part(const force::OutputCommand& whole, double share) {
 
 StationState initial_state(const Layout& layout) {
     StationState state;
-    state.workspace = force::place(layout.workspace, {}, layout.home);
+    state.workspace = force::align_workspace(layout.workspace, {}, layout.home);
     state.output.tool = layout.home;
     return state;
 }
@@ -314,7 +312,7 @@ void glide(const Layout& layout, const servo::Setup& setup, StationState& s, con
         return !servo.tool_contact || !servo::occluded(*servo.tool_contact, from, to, joint);
     };
     const force::OutputCommand guiding =
-        force::guide(gliding, s.glides, servo::guided_tool(setup, now),
+        force::guide(gliding, s.glide_guide, servo::guided_tool(setup, now),
                      servo::goal_at(setup, servo.joints, joint), free, setup.dt)
             .command;
     tool.position += glide_speed * setup.dt * guiding.force;

@@ -19,7 +19,7 @@ namespace bolt::station {
 
 // Bit masks of a device's buttons; 0: no button has that function.
 struct Buttons {
-    std::uint32_t held = 1;  // dead-man switch
+    std::uint32_t dead_man = 1;
     std::uint32_t clutch = 2;
     std::uint32_t stop = 0, reset = 0;
 };
@@ -48,12 +48,12 @@ inline constexpr double transport_delay = 2e-3;
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
 force::OutputLimits limits_of(const Layout& layout);
 
-// Return true if the device renders any force or any torque.
+// Return true if the device renders force or torque, respectively, along or about any axis.
 bool renders_force(const device::Description& description);
 bool renders_torque(const device::Description& description);
 
-// The application's inputs. StationControls are states: only
-// the latest value counts. StationCommands are events: each is executed once, in order, and none is lost.
+// The application's inputs. StationControls are states: only the latest value counts. StationCommands are
+// events: each is executed once, in order, and none is lost.
 
 struct StationControls {
     servo::Grip grip = servo::Grip::none;  // `wrench` has no effect if a gloved hand determines the grip
@@ -98,8 +98,8 @@ struct AmendRestore {
 
 using StationCommand = std::variant<PlaceTool, SaveCheckpoint, RestoreCheckpoint, AmendRestore>;
 
-// Commands that fit into a station's queue. The servo thread empties it every tick, in a pause too, so it
-// fills only if that thread does not run. Station::send then fails.
+// Commands that fit into a station's queue. The servo thread takes up to 16 of them in every tick, in a pause
+// too, so the queue fills only if that thread does not run. Station::send then fails.
 inline constexpr std::size_t command_queue_capacity = 64;
 
 struct StationInputs {
@@ -131,8 +131,8 @@ struct StationState {
     bool restarting = false;          // after a stall or a pause: no force until the output stage is at zero
     // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest.
     std::optional<Pose> wrench_rest;
-    force::GuideState glides;
-    int carrying_joint = -1;   // joint whose nut carries a pushed tool along; −1: none
+    force::GuideState glide_guide;
+    int carrying_joint = -1;   // joint whose nut moves the tool along (see glide()); −1: none
     Vec3 carrying_point{0.0};  // m, centre of that nut at the last tick
     // Commands received and not executed yet.
     std::optional<Pose> tool_to_place;
@@ -178,11 +178,13 @@ inline constexpr double handle_capture_distance = 0.10;  // m from the handle's 
 DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const StationInputs& inputs);
 
-// The largest lead of a pushed tool over its constrained pose, so that it reverses without delay.
-inline constexpr double ahead = 0.01, turned_ahead = 0.15;  // m, rad
-// Chosen: fingers that are pushed turn a nut `spinning` times faster than the puck's rate; at the largest
-// torque a pushed wrench turns 1 + `firmness` times more slowly.
-inline constexpr double spinning = 4.0, firmness = 15.0;
+// The following apply to a tool whose device gives rates.
+//
+// The largest lead of its commanded pose over its constrained pose, so that it reverses without delay.
+inline constexpr double max_lead = 0.01, max_angular_lead = 0.15;  // m, rad
+// Fingers turn a nut `finger_rate_factor` times faster than the device's rate; at the largest torque a wrench
+// turns 1 + `torque_slowdown` times more slowly. Chosen values.
+inline constexpr double finger_rate_factor = 4.0, torque_slowdown = 15.0;
 // s for which a rate is valid without a new sample.
 inline constexpr double rate_timeout = 0.25;
 

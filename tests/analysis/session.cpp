@@ -29,8 +29,8 @@ struct Loosened {
         const Result<std::string> text = read_file(file, 1U << 20U, ErrorCode::bad_content);
         REQUIRE_MESSAGE(text, (text ? "" : text.error().message()));
         header.assembly_text = *text;
-        header.law = "mechanistic";
-        header.task = "loosen";
+        header.law = joint::Law::mechanistic;
+        header.task = lesson::Task::loosen;
         Result<session::SessionWriter> writer = session::SessionWriter::create(path, header);
         REQUIRE(writer);
         for (int i = 0; i < 50; ++i) put(*writer, 0.0, loosening_torque(0.0) * i / 50.0);

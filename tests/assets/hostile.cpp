@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "engine/assets/image.hpp"
 #include "tests/assets/document.hpp"
 
 using namespace bolt;
@@ -235,6 +236,7 @@ const std::vector<Hostile> bytes = {
          d["accessors"][0]["count"] = 2147483647;
          d["accessors"][0].erase("bufferView");
      }},
+    {"a negative count as a float", "/accessors/0/count", [](json& d) { d["accessors"][0]["count"] = -3.0; }},
     {"an accessor of nothing", "/accessors/0/count", [](json& d) { d["accessors"][0]["count"] = 0; }},
     {"a component type that is none", "/accessors/0/componentType",
      [](json& d) { d["accessors"][0]["componentType"] = 5124; }},
@@ -350,6 +352,30 @@ TEST_CASE("Hostile files: an unsupported required extension is named") {
     document.erase("extensionsRequired");
     document["extensionsUsed"] = {"EXT_meshopt_compression"};
     CHECK(parse_gltf(document.dump(), "used.gltf"));
+}
+
+TEST_CASE("Hostile files: an integer with a sign or a fraction is quoted, with the range that is expected") {
+    json document = triangle_document();
+    document["accessors"][0]["count"] = -3.0;
+    CHECK(refusal(document).what == "is -3.0");
+    document["accessors"][0]["count"] = 1.5;
+    const Error error = refusal(document);
+    CHECK(error.what == "is 1.5");
+    CHECK(error.expected == "an integer from 1 to 2147483647");
+    document["accessors"][0]["count"] = 3.0;  // an integer, in JSON and in glTF
+    CHECK(parse_gltf(document.dump(), "integer.gltf"));
+}
+
+TEST_CASE("Hostile files: an image with too many pixels is refused before it is decoded") {
+    const std::uint8_t grey[] = {128};
+    std::string png = encode_png(1, 1, 1, grey).value();
+    png.replace(16, 4, std::string("\0\0\x40\x01", 4));  // the width in IHDR: 16385
+    Image image;
+    image.encoded.assign(png.begin(), png.end());
+    const Status decoded = decode(image);
+    REQUIRE_FALSE(decoded);
+    CHECK(decoded.error().what == "the image has 16385 × 1 pixels");
+    CHECK(decoded.error().expected == "at most 16384 pixels a side and 67108864 pixels in total");
 }
 
 TEST_CASE("Hostile files: invalid JSON is an error with its line") {

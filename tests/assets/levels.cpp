@@ -9,6 +9,8 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
+namespace assets_levels_test {
+
 using namespace bolt;
 using namespace bolt::assets;
 
@@ -67,7 +69,7 @@ struct Corner {
 Corner corner(const Mesh& mesh, const LevelOfDetail& level, std::uint32_t index) {
     if (index < mesh.positions.size()) return {mesh.positions[index], mesh.normals[index]};
     const AddedVertex& added = level.added.at(index - mesh.positions.size());
-    return {mesh.positions.at(added.of), added.normal};
+    return {mesh.positions.at(added.source), added.normal};
 }
 
 double angle_between(const glm::vec3& a, const glm::vec3& b) {
@@ -164,3 +166,5 @@ TEST_CASE("Levels of detail: small and empty meshes have no coarser level") {
     CHECK(coarser_levels(points, normals, indices).empty());
     CHECK(coarser_levels(points, {}, indices).size() <= 6);
 }
+
+}  // namespace assets_levels_test

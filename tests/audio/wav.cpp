@@ -68,7 +68,9 @@ TEST_CASE("WavWriter: header and samples are correct for every block size") {
     const std::vector<int> expected{0, 16384, -16384, 32767, -32767, 32767, -32767, 0, 1};
     for (std::size_t i = 0; i < samples.size(); ++i) CHECK(sample(bytes, i) == expected[i]);
     CHECK_FALSE(std::filesystem::exists(folder / "a.wav.part"));
-    CHECK_FALSE(wav->write(samples));  // write() fails after finish()
+    const Status late = wav->write(samples);  // write() fails after finish()
+    REQUIRE_FALSE(late);
+    CHECK(late.error().what == "is already finished");
 }
 
 TEST_CASE("WavWriter: without finish() the previous file stays, and no other file remains") {

@@ -1,7 +1,13 @@
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <future>
 
 #include "engine/base/file.hpp"
 #include "engine/base/hash.hpp"
@@ -46,6 +52,10 @@ TEST_CASE("Nearest name: finds a typing error, and nothing if no name is near") 
     const std::vector<std::string> sizes = {"M4", "M5", "M8"};
     CHECK(nearest("M9", sizes).empty());  // a tie
     CHECK(nearest(std::string(10'000, 'x'), names).empty());
+    // A duplicate is not a tie, and does not hide one.
+    const std::vector<std::string> repeated = {"size", "size", "pitch"}, tie_repeated = {"M4", "M5", "M5"};
+    CHECK(nearest("sise", repeated) == "size");
+    CHECK(nearest("M9", tie_repeated).empty());
 }
 
 TEST_CASE("Random: the first outputs are those published for PCG32") {
@@ -101,6 +111,27 @@ TEST_CASE("Files: written completely or not at all, and errors give the reason")
     CHECK(std::filesystem::is_symlink(folder / "null"));
     CHECK_FALSE(require_different_files(folder / "a", folder / "." / "a").has_value());
     CHECK(require_different_files(folder / "a", folder / "b").has_value());
+}
+
+TEST_CASE("Files: a failed rename leaves the target and no temporary file") {
+    const test::Folder temporary;
+    const std::filesystem::path target = temporary.path() / "a", part = temporary.path() / "a.part";
+    // A pipe in place of the temporary file delays the write until the target has become a folder.
+    REQUIRE(::mkfifo(part.c_str(), 0600) == 0);
+    const int reader = ::open(part.c_str(), O_RDONLY | O_NONBLOCK);
+    REQUIRE(reader >= 0);
+    std::future<Status> written = std::async(
+        std::launch::async, [&] { return write_file(target, std::string(std::size_t{1} << 20U, 'x')); });
+    pollfd ready{reader, POLLIN, 0};
+    REQUIRE(::poll(&ready, 1, 10'000) == 1);
+    std::filesystem::create_directories(target / "b");
+    REQUIRE(::fcntl(reader, F_SETFL, 0) == 0);  // reads wait for the writer
+    std::array<char, 65536> block{};
+    while (::read(reader, block.data(), block.size()) > 0) continue;
+    CHECK_FALSE(written.get().has_value());
+    (void)::close(reader);
+    CHECK(std::filesystem::is_directory(target / "b"));
+    CHECK_FALSE(std::filesystem::exists(part));
 }
 
 TEST_CASE("Fnv1a: the published test values") {

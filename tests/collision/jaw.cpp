@@ -21,8 +21,8 @@ constexpr double opening = 24.2e-3, flats = 24e-3;
 struct Pair {
     Jaw jaw = make_jaw(opening, to_radians(15.0), 12e-3);
     HexagonPrism prism{flats, 14.8e-3, 22.5e-3};
-    JawParts parts = jaw_parts(jaw);
-    Convex nut = hexagon(prism);
+    JawParts parts = jaw_parts(jaw).value();
+    Convex nut = hexagon(prism).value();
 
     // Pose of the wrench in the nut's frame. `at`: from the nut's middle to the jaw's (m). Rotations (rad)
     // apply in the order `pitch` (about the line across the flats), `tilt` (about the flats' length), `yaw`
@@ -261,4 +261,22 @@ TEST_CASE("Jaw: the contact query makes no forbidden call and repeats to the sam
         CHECK(first[i].distance == second[i].distance);
         CHECK(first[i].on_tool == second[i].on_tool);
     }
+}
+
+TEST_CASE("Convex: a solid with more corners than fit is an error") {
+    const auto prism_of = [](int sides) {
+        std::vector<HalfSpace> planes{{{0, 0, 1}, 0.01}, {{0, 0, -1}, 0.01}};
+        for (int i = 0; i < sides; ++i) {
+            const double angle = 2.0 * pi * i / sides;
+            planes.push_back({{std::cos(angle), std::sin(angle), 0.0}, 0.02});
+        }
+        return make_convex(planes);
+    };
+    const Result<Convex> largest = prism_of(32);
+    REQUIRE(largest);
+    CHECK(largest->points.size() == max_convex_points);
+    const Result<Convex> refused = prism_of(33);
+    REQUIRE(!refused);
+    CHECK(refused.error().message() ==
+          "a convex solid has 66 corners and 35 faces; expected at most 64 of each");
 }

@@ -111,10 +111,10 @@ TEST_CASE("Contact reduction: deferred contacts give the same result as contacts
                 continue;
             }
             DeferredContact w;
-            w.blur = static_cast<float>(random.uniform(0.0, 0.6) * mm);
+            w.position_error = static_cast<float>(random.uniform(0.0, 0.6) * mm);
             w.spread = static_cast<float>(random.uniform(0.001, 0.3));
             w.lower = c.distance - random.uniform(0.0, 0.2) * mm;
-            w.on_tool = c.on_tool + 0.999 * static_cast<double>(w.blur) * random_direction(random);
+            w.on_tool = c.on_tool + 0.999 * static_cast<double>(w.position_error) * random_direction(random);
             w.normal = rotation(0.99 * static_cast<double>(w.spread) * random_direction(random)) * c.normal;
             w.obstacle = c.obstacle;
             w.sample = c.feature;

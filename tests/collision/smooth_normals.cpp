@@ -1,5 +1,5 @@
 // Facets that approximate a round surface have continuous normals; creases keep theirs.
-#include "haptics/collision/smooth_normals.hpp"
+#include "haptics/collision/narrow_phase.hpp"
 
 #include <doctest/doctest.h>
 

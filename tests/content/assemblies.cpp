@@ -8,6 +8,8 @@
 #include "haptics/joint/published.hpp"
 #include "support.hpp"
 
+namespace content_assemblies_test {
+
 using namespace bolt;
 using content::Assembly;
 using content::AssemblyJoint;
@@ -242,3 +244,5 @@ TEST_CASE("Assemblies: properties that a file omits have the documented defaults
     CHECK(loaded.assembly.wrench.head_angle == doctest::Approx(to_radians(15.0)));
     CHECK(loaded.assembly.passes[0].order == std::vector<std::size_t>{0, 1, 2, 3});
 }
+
+}  // namespace content_assemblies_test

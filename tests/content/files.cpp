@@ -13,6 +13,8 @@
 #include "support.hpp"
 #include "tests/support/folder.hpp"
 
+namespace content_files_test {
+
 using namespace bolt;
 namespace fs = std::filesystem;
 
@@ -196,3 +198,5 @@ TEST_CASE("Model files: jaw dimensions are in millimetres and must leave room fo
         only(with(world.inside, "", R"("jaw_tip_mm": 3, )")) ==
         R"(3:54: /tool/jaw_tip_mm: a jaw tip of 3 mm is too short for 13 mm across flats; expected at least 3.75 mm)");
 }
+
+}  // namespace content_files_test

@@ -9,6 +9,8 @@
 #include "content/format/json_syntax.hpp"
 #include "support.hpp"
 
+namespace content_json_document_test {
+
 using namespace bolt::content;
 using nlohmann::json;
 
@@ -84,3 +86,5 @@ TEST_CASE("JSON document: integers beyond 2^53 are numbers") {
     CHECK(document->root()[1].get<double>() == -9223372036854775808.0);
     CHECK(document->root()[2].is_number_integer());
 }
+
+}  // namespace content_json_document_test

@@ -12,6 +12,8 @@
 #include "support.hpp"
 #include "tests/support/folder.hpp"
 
+namespace content_load_test {
+
 using namespace bolt;
 namespace fs = std::filesystem;
 using test::Folder;
@@ -196,3 +198,5 @@ TEST_CASE("Load: a new assembly in the content folder uses the common schema") {
     CHECK(loaded.assembly.text.find("\"../../schema/assembly.schema.json\"") != std::string::npos);
     CHECK_FALSE(fs::exists(folder.path() / "assemblies" / "pump" / "assembly.schema.json"));
 }
+
+}  // namespace content_load_test

@@ -4,6 +4,8 @@
 
 #include "support.hpp"
 
+namespace content_mistakes_test {
+
 using namespace content_test;
 
 namespace {
@@ -20,7 +22,7 @@ const Mistake mistakes[] = {
     {R"("size": "M8")", R"("size": "M9")",
      {R"(22:15: /joint_types/M8x30/size: "M9" is not a known thread size; expected one of M4 to M39, a fine pitch as in "M16x1.5")"}},
     {R"("size": "M8")", R"("size": "M8x1.2")",
-     {R"(22:15: /joint_types/M8x30/size: "M8x1.2" is not a known thread; expected pitches of M8 in mm: 1.25, 1, 0.75)"}},
+     {R"(22:15: /joint_types/M8x30/size: "M8x1.2" is not a known thread; expected M8 with a pitch of 1.25, 1 or 0.75 mm)"}},
     {R"("size": "M8")", R"("size": 8)",
      {R"(22:15: /joint_types/M8x30/size: the number 8 is not allowed here; expected a text in double quotes)"}},
     {R"("size": "M8")", R"("sise": "M8")",
@@ -405,8 +407,8 @@ TEST_CASE("Errors: a thread in another notation gives the correct spelling, neve
     CHECK(expected("M16 2") == "did you mean \"M16x2\"?");
     CHECK(expected(" M8") == "did you mean \"M8\"?");
     CHECK(expected("N8") == "did you mean \"M8\"?");
-    CHECK(expected("M 8 x 1.2") == "pitches of M8 in mm: 1.25, 1, 0.75");
-    CHECK(expected("M12x1.57") == "pitches of M12 in mm: 1.75, 1.5, 1.25, 1");
+    CHECK(expected("M 8 x 1.2") == "M8 with a pitch of 1.25, 1 or 0.75 mm");
+    CHECK(expected("M12x1.57") == "M12 with a pitch of 1.75, 1.5, 1.25 or 1 mm");
     for (const char* unknown :
          {"M9", "M7x1", "M1 6", "M13 x 1.75", "M88", "M1O", "M", "", "x", "M12.5", "16M"}) {
         CAPTURE(unknown);
@@ -432,3 +434,5 @@ TEST_CASE("Errors: the list of errors is limited to 200") {
     CHECK(all.size() == 201);
     CHECK(all.back().find("are not shown: fix those above first") != std::string::npos);
 }
+
+}  // namespace content_mistakes_test

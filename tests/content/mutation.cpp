@@ -5,6 +5,8 @@
 #include "engine/base/random.hpp"
 #include "support.hpp"
 
+namespace content_mutation_test {
+
 using namespace content_test;
 
 namespace {
@@ -91,3 +93,5 @@ TEST_CASE("Errors: a file cut at any byte gives one error near its end") {
         REQUIRE(loaded.errors[0].line <= count_lines(text));
     }
 }
+
+}  // namespace content_mutation_test

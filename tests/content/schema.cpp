@@ -11,6 +11,8 @@
 #include "engine/base/file.hpp"
 #include "support.hpp"
 
+namespace content_schema_test {
+
 using namespace bolt::content;
 using namespace content_test;
 using nlohmann::json;
@@ -194,3 +196,5 @@ TEST_CASE("Schema: each value of a wrong type gives exactly one error at its pos
         }
     });
 }
+
+}  // namespace content_schema_test

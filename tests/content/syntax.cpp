@@ -4,6 +4,8 @@
 
 #include "support.hpp"
 
+namespace content_syntax_test {
+
 using namespace content_test;
 
 namespace {
@@ -198,3 +200,5 @@ TEST_CASE("JSON syntax: a duplicate name inside a duplicate name is reported onc
     CHECK(std::count(all.begin(), all.end(),
                      "2:15: /a/b: \"b\" is given twice; expected one value; the first is in line 2") == 1);
 }
+
+}  // namespace content_syntax_test

@@ -3,6 +3,8 @@
 
 #include "support.hpp"
 
+namespace content_tools_test {
+
 using namespace bolt;
 using namespace content_test;
 
@@ -77,3 +79,5 @@ TEST_CASE("Tools: every shipped assembly has a torque wrench, and a name for eac
         CHECK_FALSE(loaded.assembly.wrench.model.empty());
     }
 }
+
+}  // namespace content_tools_test

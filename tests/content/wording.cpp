@@ -4,6 +4,8 @@
 
 #include <vector>
 
+namespace content_wording_test {
+
 using bolt::content::in_quotes;
 using bolt::content::nearest_name;
 using bolt::content::suggest;
@@ -33,3 +35,5 @@ TEST_CASE("Wording: a quoted text is cut between characters and shows no control
     const std::string long_text = std::string(59, 'x') + "µµ";
     CHECK(in_quotes(long_text) == "\"" + std::string(59, 'x') + "\"...");
 }
+
+}  // namespace content_wording_test

@@ -101,7 +101,7 @@ void InvariantChecker::check_checkpoints(const servo::Output& output) {
 }
 
 void InvariantChecker::check_verdicts() {
-    const session::LessonOutcome played = session_.outcome();
+    const session::LessonOutcome played = session_.outcome(world_.write(session_.state(), {}, false));
     if (!(played.result.score >= 0.0 && played.result.score <= 100.0)) report("the score is outside 0 … 100");
     if (played.result.finished != session_.finished())
         report("the result and the lesson disagree on whether it is finished");
@@ -129,7 +129,7 @@ void InvariantChecker::frame(const servo::Output& output, bool wrench_in_hand, d
     const lesson::Lesson& lesson = session_.lesson();
     const servo::State& state = session_.state();
     const lesson::WorkState scene{lesson, session_.setup(),
-                                  world_.write(state.joints, state.rounded, output, wrench_in_hand, room)};
+                                  world_.write(state, output, wrench_in_hand, room)};
     const lesson::Situation now = lesson::situation(scene);
     if (previous_ && *previous_ != now) ++coverage_.left.at(index(*previous_));
     if (!previous_ || *previous_ != now) ++coverage_.reached.at(index(now));

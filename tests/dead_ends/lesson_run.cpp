@@ -14,13 +14,14 @@ constexpr double fastest_hand = 0.03;  // m per tick; the servo rejects faster m
 
 LessonRun::LessonRun(session::LessonSession& lesson_session, InvariantChecker& invariant_checker)
     : session(lesson_session), checker(invariant_checker) {
+    world::add_haptics(world, session.state());
     player.hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
     last.device = servo::sample_of(player.hand.pose);
 }
 
 bool LessonRun::tick(servo::Input input, bool wrench_in_hand, double room, bool hint_key) {
     input.setting = static_cast<float>(setting_scale * lesson::wrench_setting(session.lesson()));
-    const auto stepped = session.step(input);
+    const auto stepped = session.step(world, input);
     if (!stepped) {
         checker.report(stepped.error().message());
         return false;

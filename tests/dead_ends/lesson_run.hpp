@@ -15,6 +15,7 @@ inline constexpr double frame_seconds = 0.016;
 struct LessonRun {
     session::LessonSession& session;
     InvariantChecker& checker;
+    world::World world;
     servo::Output output;
     servo::Input last;
     trainer_test::Player player;

@@ -4,6 +4,8 @@
 
 #include "tests/device/support.hpp"
 
+namespace device_describe_test {
+
 using namespace bolt;
 using namespace bolt::device;
 
@@ -44,3 +46,5 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
           "buttons\n"
           "renders no force\n");
 }
+
+}  // namespace device_describe_test

@@ -6,6 +6,8 @@
 #include "haptics/device/space_mouse.hpp"
 #include "tests/device/descriptors.hpp"
 
+namespace device_report_descriptor_test {
+
 using namespace bolt;
 using namespace bolt::device;
 using namespace bolt::test;
@@ -142,6 +144,23 @@ TEST_CASE("ReportDescriptor: fields wider than a value keep their offset, and ar
     CHECK(stop->value == 1);
 }
 
+TEST_CASE("ReportDescriptor: normalised values keep their sign if the range includes negative ones") {
+    const auto normalised = [](std::int64_t low, std::int64_t high, std::int64_t value) {
+        ReportField field;
+        field.low = low;
+        field.high = high;
+        return normalized_value(field, value);
+    };
+    CHECK(normalised(-350, 350, -175) == -0.5);
+    CHECK(normalised(-128, 127, 64) == 0.5);
+    CHECK(normalised(0, 1023, 1023) == 1.0);
+    CHECK(normalised(10, 20, 15) == 0.5);
+    CHECK(normalised(-100, 0, -100) == -1.0);
+    CHECK(normalised(-100, 0, 0) == 0.0);
+    CHECK(normalised(-100, -20, -20) == -0.2);
+    CHECK(normalised(0, 0, 0) == 0.0);
+}
+
 TEST_CASE("ReportDescriptor: errors name the problem and the byte") {
     const auto message = [](const Bytes& bytes) {
         const auto d = parse_report_descriptor(bytes);
@@ -151,7 +170,8 @@ TEST_CASE("ReportDescriptor: errors name the problem and the byte") {
     CHECK(message({}).find("no fields") != std::string::npos);
     CHECK(message({0xc0}).find("not begun") != std::string::npos);
     CHECK(message({0x05}).find("byte 0: it ends within an item") != std::string::npos);
-    CHECK(message({0xb4}).find("pop without a push") != std::string::npos);
+    CHECK(message({0xb4}).find("a Pop item without a Push item; expected a Push item before each Pop item") !=
+          std::string::npos);
     Bytes open = mouse();
     open.pop_back();
     CHECK(message(open).find("not ended") != std::string::npos);
@@ -164,3 +184,5 @@ TEST_CASE("ReportDescriptor: errors name the problem and the byte") {
     for (std::size_t cut = 0; cut < whole.size(); ++cut)
         CHECK(!parse_report_descriptor(std::span(whole).first(cut)));
 }
+
+}  // namespace device_report_descriptor_test

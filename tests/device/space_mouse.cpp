@@ -7,6 +7,8 @@
 #include "tools/emulate/hid_device.hpp"
 #include "tools/emulate/puck.hpp"
 
+namespace device_space_mouse_test {
+
 using namespace bolt;
 using namespace bolt::device;
 
@@ -146,3 +148,5 @@ TEST_CASE("SpaceMouse: truncated, foreign or corrupt reports never exceed the to
     }
     CHECK(moved > 1000);
 }
+
+}  // namespace device_space_mouse_test

@@ -10,6 +10,8 @@
 #include "haptics/device/virtual_devices.hpp"
 #include "tests/device/support.hpp"
 
+namespace device_supervisor_test {
+
 using namespace bolt;
 using namespace bolt::device;
 
@@ -320,3 +322,5 @@ TEST_CASE(
         CHECK(state->commands[i].force.x == doctest::Approx(state->began[i]).epsilon(1e-2).scale(0.1));
     CHECK(supervisor.report().lapses == 0);
 }
+
+}  // namespace device_supervisor_test

@@ -6,8 +6,8 @@ sources=$(cd "$(dirname "$0")/../.." && pwd)
 build=${BUILD:-$sources/build/release}
 program=$(mktemp)
 trap 'rm -f "$program"' EXIT
-# CMake's compiler, warnings and sanitizers for the supervisor's test.
-flags=$(grep -oE '"command": ".* -o tests/[^ ]*/device/supervisor\.cpp\.o ' "$build/compile_commands.json" |
+# CMake's compiler, warnings and sanitizers for the tests of the devices.
+flags=$(grep -m1 -oE '"command": ".* -o tests/[^ ]*/test_device\.dir/[^ ]*\.o ' "$build/compile_commands.json" |
     sed -E 's/^"command": "//; s/ -o .*//; s/ -Winvalid-pch//; s, -include [^ ]*cmake_pch[^ ]*,,g; s/\\"/"/g')
 [[ -n $flags ]] || { echo "nothing is built in $build"; exit 1; }
 libraries=(tests/libtest_main.a haptics/device/libdevice.a haptics/force/libforce.a haptics/hand/libhand.a engine/base/libbase.a)

@@ -8,6 +8,8 @@
 #include "tests/device/driver_contract.hpp"
 #include "tools/emulate/hid_device.hpp"
 
+namespace device_wheel_test {
+
 using namespace bolt;
 using namespace bolt::device;
 using namespace bolt::test;
@@ -299,3 +301,5 @@ TEST_CASE("Wheel: a reversed configuration reverses the torque and keeps the ang
     b.run(0.01, [] { return 1.0; });
     CHECK(b.wheel.torque() == doctest::Approx(-1.0).epsilon(0.01));
 }
+
+}  // namespace device_wheel_test

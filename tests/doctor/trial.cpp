@@ -91,7 +91,7 @@ TEST_CASE("Trial: the introduction names the button that enables forces") {
     layout.wheel = test::wheel_of(2.0);
     CHECK(describe_station(layout, both).find("only while button 1 of a puck is held") != std::string::npos);
     layout.wheel->buttons = 4;
-    layout.wheel_buttons.held = 4;
+    layout.wheel_buttons.dead_man = 4;
     CHECK(describe_station(layout, both).find("button 1 of a puck or button 3 of a wheel is held") !=
           std::string::npos);
     layout.mover->buttons = layout.wheel->buttons = 0;

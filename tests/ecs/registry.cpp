@@ -8,6 +8,8 @@
 
 #include "engine/ecs/system.hpp"
 
+namespace ecs_registry_test {
+
 using namespace bolt::ecs;
 
 namespace {
@@ -131,3 +133,5 @@ TEST_CASE("Schedule: systems run in list order and can be timed") {
     });
     CHECK(frame.trace == "accelerate;move;");
 }
+
+}  // namespace ecs_registry_test

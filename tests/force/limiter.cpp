@@ -8,6 +8,8 @@
 
 #include "engine/base/random.hpp"
 
+namespace force_limiter_test {
+
 using namespace bolt;
 using namespace bolt::force;
 
@@ -157,3 +159,5 @@ TEST_CASE("Limiter: a device without torque output gets no torque") {
     for (int i = 0; i < 1000; ++i)
         CHECK(limit_output(limits, state, {Vec3(0.0), Vec3(0, 1, 0)}, true, 1e-3).torque == Vec3(0.0));
 }
+
+}  // namespace force_limiter_test

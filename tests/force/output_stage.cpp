@@ -9,6 +9,8 @@
 #include "engine/base/random.hpp"
 #include "tests/support/forbidden.hpp"
 
+namespace force_output_stage_test {
+
 using namespace bolt;
 using namespace bolt::force;
 
@@ -132,6 +134,23 @@ TEST_CASE("Output stage: for any input the output is finite, within the limits a
         if (i != static_cast<std::size_t>(Fault::silent)) CHECK(stage.watchdog.counts[i] > 0);
 }
 
+TEST_CASE("Output stage: a request that is not finite counts as a fault in the watchdog and in the limiter") {
+    const OutputLimits limits;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (int part = 0; part < 3; ++part) {
+        CAPTURE(part);
+        OutputStage stage = at_full(limits);
+        ForceRequest request = hard;
+        if (part == 0) request.command.force.x = nan;
+        if (part == 1) request.stored_energy = nan;
+        if (part == 2) request.injected_energy = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 3; ++i) render(limits, stage, held(), request, dt);
+        CHECK(stage.watchdog.fault == Fault::bad_request);
+        CHECK(stage.watchdog.counts[static_cast<std::size_t>(Fault::bad_request)] == 1);
+        CHECK(stage.output.faults == 3);
+    }
+}
+
 TEST_CASE("Output stage: during missed deadlines the last command counts for as long as it was applied") {
     OutputLimits limits;
     limits.delay = 0;
@@ -191,3 +210,5 @@ TEST_CASE("Output stage: no allocation, lock or clock; the same inputs give the 
     CHECK(test::forbidden_in([&] { first = run(); }).all() == 0);
     CHECK(run() == first);
 }
+
+}  // namespace force_output_stage_test

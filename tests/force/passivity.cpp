@@ -7,6 +7,8 @@
 
 #include "engine/base/random.hpp"
 
+namespace force_passivity_test {
+
 using namespace bolt;
 using namespace bolt::force;
 
@@ -104,7 +106,7 @@ TEST_CASE("Passivity: damping stays below nine tenths of the device's limit and 
     for (int i = 0; i < 20; ++i) {  // the damping is complete within 10 ms
         const double before = s.damping;
         out = control(limits, s, motion, {}, 1.0, 1.0, dt);
-        CHECK(s.damping - before <= damping_comes * dt + 1e-12);
+        CHECK(s.damping - before <= damping_rise_rate * dt + 1e-12);
     }
     CHECK(glm::length(out.force + 0.9 * limits.damping * motion.velocity) < 1e-12);
     CHECK(glm::length(out.torque + 0.9 * limits.angular_damping * motion.angular_velocity) < 1e-12);
@@ -135,10 +137,10 @@ TEST_CASE("Passivity: credit from dissipation decays") {
         observe(limits, s, moved(Vec3(1e-3, 0, 0)), 1.0);  // the device dissipates 10 mJ per tick
         control(limits, s, {}, {}, 1.0, 1.0, dt);
     }
-    CHECK(s.balance <= saved_at_most);
-    CHECK(s.balance > 0.9 * saved_at_most);
+    CHECK(s.balance <= max_credit);
+    CHECK(s.balance > 0.9 * max_credit);
     for (int i = 0; i < 100; ++i) control(limits, s, {}, {}, 1.0, 1.0, dt);
-    CHECK(s.balance < 0.05 * saved_at_most);  // the credit decays
+    CHECK(s.balance < 0.05 * max_credit);  // the credit decays
 }
 
 TEST_CASE("Passivity: injected energy is no deficit; stored energy that grows without work is one") {
@@ -192,3 +194,5 @@ TEST_CASE("Passivity: a component that the device does not render does not reduc
         if (!torque) CHECK(out.force.x == doctest::Approx(5.0));
     }
 }
+
+}  // namespace force_passivity_test

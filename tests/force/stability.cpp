@@ -12,6 +12,8 @@
 #include "tests/support/range.hpp"
 #include "tests/support/simulated_arm.hpp"
 
+namespace force_stability_test {
+
 using namespace bolt;
 using namespace bolt::force;
 
@@ -190,3 +192,5 @@ TEST_CASE("Stability: without the controller most cases generate energy and many
     CHECK(most > 1.0);
     MESSAGE("energy came out of ", active, ", ", trembling, " tremble on; the worst, J: ", most);
 }
+
+}  // namespace force_stability_test

@@ -48,6 +48,6 @@ TEST_CASE("Torque rendering: the stored energy is the work of the rendered torqu
             const double turn = wound / steps;
             work += glm::dot(out.torque, Vec3(0, turn, 0)) + glm::dot(out.force, Vec3(0, 0, -turn * length));
         }
-        CHECK(work == doctest::Approx(stored_torque(r, stiffness * wound, stiffness, length)));
+        CHECK(work == doctest::Approx(stored_torque_energy(r, stiffness * wound, stiffness, length)));
     }
 }

@@ -8,6 +8,8 @@
 #include <limits>
 #include <string>
 
+namespace force_watchdog_test {
+
 using namespace bolt;
 using namespace bolt::force;
 
@@ -220,3 +222,5 @@ TEST_CASE("Watchdog: every fault has a message") {
         for (std::size_t j = 0; j < i; ++j)
             CHECK(std::string(name(static_cast<Fault>(i))) != name(static_cast<Fault>(j)));
 }
+
+}  // namespace force_watchdog_test

@@ -7,6 +7,8 @@
 
 #include "engine/base/random.hpp"
 
+namespace force_workspace_test {
+
 using namespace bolt;
 using namespace bolt::force;
 
@@ -25,8 +27,7 @@ Workspace any_workspace(Random& random) {
 }
 
 double apart(const Pose& a, const Pose& b) {
-    return glm::length(a.position - b.position) +
-           glm::length(rotation_vector(glm::normalize(a.orientation * glm::conjugate(b.orientation))));
+    return glm::length(a.position - b.position) + glm::length(turn_between(b.orientation, a.orientation));
 }
 
 }  // namespace
@@ -37,7 +38,7 @@ TEST_CASE(
     for (int i = 0; i < 100; ++i) {
         const Workspace w = any_workspace(random);
         const Pose device{any(random), rotation(any(random))}, tool{any(random), rotation(any(random))};
-        WorkspaceState s = place(w, device, tool);
+        WorkspaceState s = align_workspace(w, device, tool);
         CHECK(apart(to_assembly(w, s, device, false, dt), tool) < 1e-12);
         const Vec3 shift = any(random), turn = 0.3 * any(random);
         const Pose there{device.position + shift, glm::normalize(rotation(turn) * device.orientation)};
@@ -51,7 +52,7 @@ TEST_CASE("Workspace: the clutch holds the tool, and releasing it moves nothing"
     Random random(2);
     const Workspace w = any_workspace(random);
     Pose device{any(random), rotation(any(random))};
-    WorkspaceState s = place(w, device, {any(random), rotation(any(random))});
+    WorkspaceState s = align_workspace(w, device, {any(random), rotation(any(random))});
     Pose last = s.tool;
     bool clutch = false;
     double moved = 0.0;
@@ -76,7 +77,7 @@ TEST_CASE("Workspace: the clutch holds the tool, and releasing it moves nothing"
 
 TEST_CASE("Workspace: an invalid sample is passed on and leaves the state unchanged") {
     const Workspace w;
-    WorkspaceState s = place(w, {}, {Vec3(1, 2, 3), rotation(Vec3(0, 1, 0))});
+    WorkspaceState s = align_workspace(w, {}, {Vec3(1, 2, 3), rotation(Vec3(0, 1, 0))});
     Pose broken;
     broken.position.y = std::numeric_limits<double>::quiet_NaN();
     for (const bool clutch : {false, true}) {
@@ -90,7 +91,7 @@ TEST_CASE("Workspace: the power at the device is the stated multiple of the powe
     for (int i = 0; i < 200; ++i) {
         const Workspace w = any_workspace(random);
         const Pose device{any(random), rotation(any(random))};
-        WorkspaceState s = place(w, device, {any(random), rotation(any(random))});
+        WorkspaceState s = align_workspace(w, device, {any(random), rotation(any(random))});
         const Vec3 v = any(random), omega = any(random);
         const double h = 1e-7;
         const Pose before = to_assembly(w, s, device, false, dt);
@@ -98,8 +99,7 @@ TEST_CASE("Workspace: the power at the device is the stated multiple of the powe
             w, s, {device.position + h * v, glm::normalize(rotation(h * omega) * device.orientation)}, false,
             dt);
         const Vec3 tool_v = (after.position - before.position) / h;
-        const Vec3 tool_omega =
-            rotation_vector(glm::normalize(after.orientation * glm::conjugate(before.orientation))) / h;
+        const Vec3 tool_omega = turn_between(before.orientation, after.orientation) / h;
         const OutputCommand on_tool{any(random), any(random)};
         const OutputCommand on_hand = to_device(w, s, on_tool);
         const double there = glm::dot(on_tool.force, tool_v) + glm::dot(on_tool.torque, tool_omega);
@@ -158,3 +158,5 @@ TEST_CASE("Workspace: a command at the device's limit is at the mapped limit") {
         CHECK(limits.torque_rate / limits.torque == doctest::Approx(device.torque_rate / device.torque));
     }
 }
+
+}  // namespace force_workspace_test

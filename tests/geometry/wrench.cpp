@@ -9,6 +9,8 @@
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/wrench.hpp"
 
+namespace geometry_wrench_test {
+
 using namespace bolt;
 using namespace geometry_test;
 
@@ -302,3 +304,5 @@ TEST_CASE("Geometry: the tree finds the same ray hits as all triangles") {
     }
     CHECK(hits > 50);
 }
+
+}  // namespace geometry_wrench_test

@@ -9,7 +9,7 @@ namespace bolt::test {
 struct Stage {
     Studio studio;
     Gallery pictures = gallery(studio.device());
-    render::EnvironmentLight light = studio.light(shading::studio(128));
+    render::EnvironmentLight light = studio.light(shading::studio_environment(128));
 
     // An empty scene with this light on grey.
     render::Scene scene();

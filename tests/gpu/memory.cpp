@@ -124,3 +124,15 @@ TEST_CASE(
     CHECK(memory.blocks() == before + 2);  // one spare block of each kind is kept
     CHECK(memory.bytes_in_use() == 0);
 }
+
+TEST_CASE("Memory: a dedicated block that is smaller than a shared one is released at once") {
+    test::Gpu gpu;
+    Memory& memory = gpu.device().memory();
+    const std::size_t before = memory.blocks();
+    {
+        const Buffer large = gpu.need(Buffer::create(gpu.device(), VkDeviceSize{40} << 20,
+                                                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryUse::device));
+        CHECK(memory.blocks() == before + 1);
+    }
+    CHECK(memory.blocks() == before);
+}

@@ -133,3 +133,19 @@ TEST_CASE("CalibrationSession: a glove whose sensors hardly move fails or gets a
     CHECK(trainee.session.result->score == 0.0);
     CHECK(!trainee.session.result->remarks.empty());
 }
+
+TEST_CASE("CalibrationSession: a failure reports the error of the calibration") {
+    CalibrationSession session;
+    double now = 0.0;
+    // Only the wrist is connected, and the postures define its angle for the flat hand only.
+    for (int i = 0; i < 2000 && session.phase != CalibrationPhase::failed; ++i) {
+        const bool odd = static_cast<int>(session.requested) % 2 != 0;
+        GloveFrame frame;
+        frame.raw[index(Sensor::wrist_yaw)] = odd ? 140 : 100;
+        update(session, &frame, now += 0.0125);
+    }
+    REQUIRE(session.phase == CalibrationPhase::failed);
+    REQUIRE(session.failure);
+    CHECK(session.failure->message() ==
+          "no sensor has readings in two postures; expected a glove whose finger sensors are connected");
+}

@@ -189,10 +189,7 @@ TEST_CASE("FingerClosure: fingers wrap around a bar, and the joints beyond the c
     for (const hand::Side side : {hand::Side::right, hand::Side::left}) {
         const hand::Hand hand = hand::make_hand(side);
         Pose wrist = across_the_palm();
-        if (side == hand::Side::left) {  // mirrored in the bar's plane of symmetry
-            const Quat& q = wrist.orientation;
-            wrist = {wrist.position * Vec3(-1.0, 1.0, 1.0), Quat(q.w, q.x, -q.y, -q.z)};
-        }
+        if (side == hand::Side::left) wrist = mirrored(wrist);  // in the bar's plane of symmetry
         const FingerClosure closure = close_fingers(held.tool, hand, closed(1.0), wrist);
         for (std::size_t d = 1; d < hand::digit_count; ++d) {
             const DigitStop& stop = closure.digits[d];

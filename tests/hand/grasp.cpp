@@ -26,7 +26,7 @@ struct GraspBench {
     TestTool held = bar();
     hand::Hand hand = hand::make_hand(hand::Side::right);
     GraspOptions options;
-    GraspState grip;
+    GraspState grasp;
     Random random{7};
     double noise = 0.0;  // counts, amplitude
     std::vector<GraspEvent> events;
@@ -43,10 +43,10 @@ struct GraspBench {
         shake(input.measured.thumb.abduction);
         shake(input.measured.thumb.mcp);
         shake(input.measured.thumb.ip);
-        const bool before = grip.held;
-        const GraspEvent now = update_grasp(grip, options, held.tool, hand, input, dt);
+        const bool before = grasp.held;
+        const GraspEvent now = update_grasp(grasp, options, held.tool, hand, input, dt);
         if (now != GraspEvent::none) events.push_back(now);
-        if (grip.held != before) ++changes;
+        if (grasp.held != before) ++changes;
     }
     void close_to(double share, double seconds, bool fresh = true) {
         for (double t = 0.0; t < seconds; t += dt) frame(closed(share), fresh);
@@ -58,20 +58,20 @@ struct GraspBench {
 TEST_CASE("Grasp: a closing hand takes the tool and an opening one releases it, each reported once") {
     GraspBench bench;
     bench.close_to(0.0, 0.5);
-    CHECK(!bench.grip.held);
+    CHECK(!bench.grasp.held);
     bench.close_to(1.0, 0.02);  // too brief for a grasp
-    CHECK(!bench.grip.held);
+    CHECK(!bench.grasp.held);
     bench.close_to(0.0, 0.5);
     bench.close_to(1.0, 0.5);
-    CHECK(bench.grip.held);
+    CHECK(bench.grasp.held);
     CHECK(bench.events == std::vector<GraspEvent>{GraspEvent::grasped});
     // The displayed hand is around the handle, not the measured fist.
-    CHECK(bench.grip.closure.angles.fingers[0].mcp < 0.8 * bench.grip.measured.fingers[0].mcp);
+    CHECK(bench.grasp.closure.angles.fingers[0].mcp < 0.8 * bench.grasp.measured.fingers[0].mcp);
     bench.close_to(0.0, 0.1);  // too brief for a release
-    CHECK(bench.grip.held);
+    CHECK(bench.grasp.held);
     bench.close_to(1.0, 0.1);
     bench.close_to(0.0, 0.5);
-    CHECK(!bench.grip.held);
+    CHECK(!bench.grasp.held);
     CHECK(bench.events == std::vector<GraspEvent>{GraspEvent::grasped, GraspEvent::released});
 }
 
@@ -83,12 +83,12 @@ TEST_CASE("Grasp: with the shipped 24 mm wrench, contacts agree with brute force
     // The handle lies along x; its end is 0.28 m from the jaw.
     const Pose wrist = across_the_palm();
     const Pose at{wrist.position + Vec3(0.2, 0.0, 0.0), wrist.orientation};
-    GraspState grip;
-    for (int i = 0; i < 8; ++i) update_grasp(grip, {}, wrench.tool, hand, {true, closed(1.0), at}, dt);
-    CHECK(grip.held);
+    GraspState grasp;
+    for (int i = 0; i < 8; ++i) update_grasp(grasp, {}, wrench.tool, hand, {true, closed(1.0), at}, dt);
+    CHECK(grasp.held);
     for (std::size_t d = 0; d < hand::digit_count; ++d) {
-        CHECK(grip.closure.digits[d].touches);
-        CHECK(deepest(wrench, hand, at, d, grip.closure.angles) < 0.65 * mm);
+        CHECK(grasp.closure.digits[d].touches);
+        CHECK(deepest(wrench, hand, at, d, grasp.closure.angles) < 0.65 * mm);
         CHECK(deepest(wrench, hand, at, d, closed(1.0)) > 0.0);  // the measured angles alone would penetrate
     }
 }
@@ -96,11 +96,11 @@ TEST_CASE("Grasp: with the shipped 24 mm wrench, contacts agree with brute force
 TEST_CASE("Grasp: a held tool follows the hand") {
     GraspBench bench;
     bench.close_to(1.0, 0.5);
-    REQUIRE(bench.grip.held);
+    REQUIRE(bench.grasp.held);
     GraspInput input{true, closed(1.0), {{0.0, 0.0, 5.0}, {1.0, 0.0, 0.0, 0.0}}};
-    update_grasp(bench.grip, bench.options, bench.held.tool, bench.hand, input, dt);
-    CHECK(bench.grip.held);
-    CHECK(bench.grip.wrist.position == across_the_palm().position);
+    update_grasp(bench.grasp, bench.options, bench.held.tool, bench.hand, input, dt);
+    CHECK(bench.grasp.held);
+    CHECK(bench.grasp.wrist.position == across_the_palm().position);
 }
 
 TEST_CASE("Grasp: a step neither allocates nor locks nor calls the system") {
@@ -109,7 +109,7 @@ TEST_CASE("Grasp: a step neither allocates nor locks nor calls the system") {
         const GraspInput input{true, closed(share), across_the_palm()};
         GraspEvent events{};
         const test::Forbidden forbidden = test::forbidden_in([&] {
-            events = update_grasp(bench.grip, bench.options, bench.held.tool, bench.hand, input, 0.02);
+            events = update_grasp(bench.grasp, bench.options, bench.held.tool, bench.hand, input, 0.02);
         });
         CHECK(forbidden.all() == 0);
         bench.events.push_back(events);
@@ -123,7 +123,7 @@ TEST_CASE("Grasp: fingers alone do not hold, nor does the thumb") {
         hand::Angles angles = closed(thumb ? 0.0 : 1.0);
         angles.thumb = closed(thumb ? 1.0 : 0.0).thumb;
         for (int i = 0; i < 80; ++i) bench.frame(angles);
-        CHECK(!bench.grip.held);
+        CHECK(!bench.grasp.held);
     }
 }
 
@@ -166,33 +166,33 @@ TEST_CASE(
     for (const double back : {0.0, 1.0}) {
         GraspBench bench;
         bench.close_to(1.0, 0.5);
-        REQUIRE(bench.grip.held);
+        REQUIRE(bench.grasp.held);
         bench.events.clear();
         bench.close_to(0.0, 0.09, false);
-        CHECK(!bench.grip.lost);
+        CHECK(!bench.grasp.lost);
         bench.close_to(0.0, 20.0, false);
-        CHECK(bench.grip.held);
-        CHECK(bench.grip.lost);
+        CHECK(bench.grasp.held);
+        CHECK(bench.grasp.lost);
         CHECK(bench.events == std::vector<GraspEvent>{GraspEvent::glove_lost});
         CHECK(std::string(message_for(GraspEvent::glove_lost, true)).find("stays") != std::string::npos);
         bench.close_to(back, 0.5);
-        CHECK(bench.grip.held);
-        CHECK(!bench.grip.lost);
+        CHECK(bench.grasp.held);
+        CHECK(!bench.grasp.lost);
         CHECK(bench.events == std::vector<GraspEvent>{GraspEvent::glove_lost, GraspEvent::glove_back});
         bench.close_to(back, 0.5);
-        CHECK(bench.grip.held == (back > 0.5));
+        CHECK(bench.grasp.held == (back > 0.5));
     }
 }
 
 TEST_CASE("Grasp: a lost glove grasps nothing, and one that never sent is not lost") {
     GraspBench bench;
     bench.close_to(1.0, 2.0, false);
-    CHECK(!bench.grip.held);
+    CHECK(!bench.grasp.held);
     CHECK(bench.events.empty());
     bench.close_to(0.0, 0.2);
     bench.frame(closed(1.0));
     bench.close_to(1.0, 2.0, false);
-    CHECK(bench.grip.lost);
-    CHECK(!bench.grip.held);
+    CHECK(bench.grasp.lost);
+    CHECK(!bench.grasp.held);
     CHECK(bench.events == std::vector<GraspEvent>{GraspEvent::glove_lost});
 }

@@ -18,10 +18,10 @@ Angles random_angles(Random& random) {
     const auto in = [&](const AngleRange& span) { return random.uniform(span.low, span.high); };
     Angles a;
     a.thumb = {in(thumb_roll_range), in(thumb_abduction_range), in(thumb_mcp_range), in(thumb_ip_range)};
-    for (FingerAngles& f : a.fingers) f = {in(mcp_range), in(pip_range), in(dip_range), in(side_range)};
+    for (FingerAngles& f : a.fingers) f = {in(mcp_range), in(pip_range), in(dip_range), in(abduction_range)};
     a.arch = in(arch_range);
     a.wrist_flexion = in(wrist_flexion_range);
-    a.wrist_side = in(wrist_side_range);
+    a.wrist_deviation = in(wrist_deviation_range);
     return a;
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("Kinematics: every angle has the documented sign") {
         a.fingers[i].dip = some;
         CHECK(tip_of(a, tip).y < -2.0 * mm);
         a = {};
-        a.fingers[i].side = some;
+        a.fingers[i].abduction = some;
         CHECK((i == 0 ? -1.0 : 1.0) * tip_of(a, tip).x > 10.0 * mm);
         CHECK(std::abs(tip_of(a, tip).y) < 6.0 * mm);
     }
@@ -160,7 +160,7 @@ TEST_CASE("Kinematics: every angle has the documented sign") {
     a.wrist_flexion = some;
     CHECK((wrist_of(hand, a, {}) * flat.position[middle_tip]).y < -20.0 * mm);
     a = {};
-    a.wrist_side = some;
+    a.wrist_deviation = some;
     CHECK((wrist_of(hand, a, {}) * flat.position[middle_tip]).x < -20.0 * mm);
     CHECK((wrist_of(make_hand(Side::left), a, {}) * flat.position[middle_tip]).x > 20.0 * mm);
 }
@@ -202,14 +202,16 @@ TEST_CASE("Kinematics: the thumb can oppose every finger pad to pad") {
                 near(f.mcp, to.mcp);
                 near(f.pip, to.pip);
                 near(f.dip, to.dip);
-                near(f.side, to.side);
+                near(f.abduction, to.abduction);
                 near(a.arch, best.arch);
             }
             a = clamp_to_limits(a);
             const Skeleton s = joints(hand, a, {});
             const Vec3 thumb = s.rotation[thumb_distal] * Vec3(0, -1, 0);
             const Vec3 other = s.rotation[digits[finger].first + 3] * Vec3(0, -1, 0);
-            const double apart = glm::length(pad(hand, s, 0) - pad(hand, s, finger)) - 2.0 * pad_radius;
+            const double apart =
+                glm::length(fingertip_pad_centre(hand, s, 0) - fingertip_pad_centre(hand, s, finger)) -
+                2.0 * pad_radius;
             // The pads touch and face each other.
             const double badness = std::abs(apart) + 20.0 * mm * std::max(0.0, 0.5 + glm::dot(thumb, other));
             if (badness >= least) continue;
@@ -229,8 +231,8 @@ TEST_CASE("HandLimits: feasible angles stay, others are clamped, and NaN becomes
         const Angles twice = clamp_to_limits(once);
         for (std::size_t i = 0; i < 4; ++i) {
             CHECK(once.fingers[i].mcp == a.fingers[i].mcp);
-            CHECK(once.fingers[i].side == twice.fingers[i].side);
-            CHECK(std::abs(once.fingers[i].side) <= std::abs(a.fingers[i].side));
+            CHECK(once.fingers[i].abduction == twice.fingers[i].abduction);
+            CHECK(std::abs(once.fingers[i].abduction) <= std::abs(a.fingers[i].abduction));
         }
         a.fingers[2].pip = 3.0;
         a.thumb.ip = -2.0;
@@ -241,8 +243,8 @@ TEST_CASE("HandLimits: feasible angles stay, others are clamped, and NaN becomes
         CHECK(bound.arch == 0.0);
     }
     Angles spread;
-    spread.fingers[3].side = 0.3;
-    CHECK(clamp_to_limits(spread).fingers[3].side == 0.3);
+    spread.fingers[3].abduction = 0.3;
+    CHECK(clamp_to_limits(spread).fingers[3].abduction == 0.3);
     spread.fingers[3].mcp = 0.5 * pi;
-    CHECK(clamp_to_limits(spread).fingers[3].side == 0.0);
+    CHECK(clamp_to_limits(spread).fingers[3].abduction == 0.0);
 }

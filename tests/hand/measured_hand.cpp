@@ -105,10 +105,10 @@ TEST_CASE(
     CHECK(angles[index(Sensor::ring_dij)] == doctest::Approx(0.6));  // two thirds of 0.9
     CHECK(angles[index(Sensor::wrist_pitch)] == 0.0);
     const hand::Angles hand = hand_angles(angles);
-    CHECK(hand.fingers[0].side == doctest::Approx(0.1));
-    CHECK(hand.fingers[1].side == 0.0);
-    CHECK(hand.fingers[2].side == doctest::Approx(0.1));
-    CHECK(hand.fingers[3].side == doctest::Approx(0.2));
+    CHECK(hand.fingers[0].abduction == doctest::Approx(0.1));
+    CHECK(hand.fingers[1].abduction == 0.0);
+    CHECK(hand.fingers[2].abduction == doctest::Approx(0.1));
+    CHECK(hand.fingers[3].abduction == doctest::Approx(0.2));
     CHECK(hand.fingers[2].pip == doctest::Approx(0.9));
     CHECK(hand.thumb.roll == doctest::Approx(0.1));
     frame.raw[index(Sensor::ring_dij)] = 150;  // a glove with 22 sensors measures it

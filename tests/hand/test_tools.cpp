@@ -22,7 +22,7 @@ Pose across_the_palm() {
 hand::Angles opened(const hand::Angles& angles) {
     hand::Angles out = angles;
     for (hand::FingerAngles& f : out.fingers)
-        f = {std::min(f.mcp, 0.0), std::min(f.pip, 0.0), std::min(f.dip, 0.0), f.side};
+        f = {std::min(f.mcp, 0.0), std::min(f.pip, 0.0), std::min(f.dip, 0.0), f.abduction};
     out.thumb.abduction = std::max(out.thumb.abduction, hand::thumb_abduction_range.high);
     out.thumb.mcp = std::min(out.thumb.mcp, 0.0);
     out.thumb.ip = std::min(out.thumb.ip, 0.0);
@@ -31,9 +31,10 @@ hand::Angles opened(const hand::Angles& angles) {
 
 namespace {
 
-double depth(const TestTool& held, const hand::Capsule& tube, double t) {
-    const double radius = tube.radius_from + t * (tube.radius_to - tube.radius_from);
-    return radius - contact_oracle::signed_distance(held.surface, tube.from + t * (tube.to - tube.from));
+double depth(const TestTool& held, const hand::Capsule& capsule, double t) {
+    const double radius = capsule.radius_from + t * (capsule.radius_to - capsule.radius_from);
+    return radius -
+           contact_oracle::signed_distance(held.surface, capsule.from + t * (capsule.to - capsule.from));
 }
 
 }  // namespace
@@ -43,7 +44,8 @@ double deeper(const TestTool& held, const hand::Hand& hand, const Pose& wrist, s
     const hand::Skeleton now = hand::joints(hand, angles, wrist), before = hand::joints(hand, than, wrist);
     double most = -1.0;
     for (std::size_t bone = 1; bone + 1 < hand::digits[digit].count; ++bone) {
-        const hand::Capsule a = hand::tube(hand, now, digit, bone), b = hand::tube(hand, before, digit, bone);
+        const hand::Capsule a = hand::bone_capsule(hand, now, digit, bone),
+                            b = hand::bone_capsule(hand, before, digit, bone);
         const auto points = static_cast<int>(glm::length(a.to - a.from) / mm) + 1;
         for (int i = 0; i <= points; ++i) {
             const double t = static_cast<double>(i) / points;
@@ -59,10 +61,10 @@ double deepest(const TestTool& held, const hand::Hand& hand, const Pose& wrist, 
     const hand::Skeleton joints = hand::joints(hand, angles, wrist);
     double most = -1.0;
     for (std::size_t bone = 1; bone + 1 < hand::digits[digit].count; ++bone) {
-        const hand::Capsule tube = hand::tube(hand, joints, digit, bone);
-        const auto points = static_cast<int>(glm::length(tube.to - tube.from) / mm) + 1;
+        const hand::Capsule capsule = hand::bone_capsule(hand, joints, digit, bone);
+        const auto points = static_cast<int>(glm::length(capsule.to - capsule.from) / mm) + 1;
         for (int i = 0; i <= points; ++i)
-            most = std::max(most, depth(held, tube, static_cast<double>(i) / points));
+            most = std::max(most, depth(held, capsule, static_cast<double>(i) / points));
     }
     return most;
 }

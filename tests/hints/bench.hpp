@@ -3,7 +3,6 @@
 
 #include "game/lesson/hints.hpp"
 #include "tests/lesson/script.hpp"
-#include "tests/support/haptic_world.hpp"
 
 namespace bolt::test {
 
@@ -22,7 +21,6 @@ inline bool at_work(Situation s) {
 struct Bench : Script {
     servo::Setup setup;
     servo::Output output;
-    std::vector<double> rounded{0.0, 0.0};
     bool wrench = false;
     double room = std::numeric_limits<double>::infinity();
     HintState hints;
@@ -62,9 +60,7 @@ struct Bench : Script {
         for (const int joint : {0, 1}) pull(joint, 70.0);
     }
 
-    [[nodiscard]] WorkState work_state() {
-        return {lesson, setup, world.write(state.joints, rounded, output, wrench, room)};
-    }
+    [[nodiscard]] WorkState work_state() { return {lesson, setup, world.write(state, output, wrench, room)}; }
     [[nodiscard]] Situation now() { return situation(work_state()); }
     const std::optional<Hint>& frame(double dt = 0.05, bool requested = false) {
         return update(hints, work_state(), dt, requested);

@@ -35,6 +35,7 @@ struct Outcome {
         assembly.passes = {pass};
         lesson = begin(assembly, Mode::guided, task);
         state.joints.resize(4);
+        state.rounded.resize(4);
         for (std::size_t i = 0; i < 4; ++i) done(i, 70.0, 30.0);
         lesson.current = lesson.steps.size();
     }
@@ -43,7 +44,9 @@ struct Outcome {
         lesson.joints[joint].result.angle = to_radians(degrees);
         state.joints[joint].stage = joint::Stage::linearity;
     }
-    [[nodiscard]] Review review() const { return lesson::review(assembly, judge(lesson, state, 1e-3)); }
+    [[nodiscard]] Review review() const {
+        return lesson::review(assembly, judge(lesson, test::make_world(state), 1e-3));
+    }
     [[nodiscard]] std::vector<std::string> reasons() const {
         const words::Words en = words_in("en");
         std::vector<std::string> texts;
@@ -135,13 +138,13 @@ TEST_CASE("Feedback: advice begins with the costliest mistake and has at most th
     const Review review = r.review();
     double points = 0.0;
     for (const Remark& remark : review.reasons) points += remark.points;
-    CHECK(points == doctest::Approx(judge(r.lesson, r.state, 1e-3).score - 100.0));
+    CHECK(points == doctest::Approx(judge(r.lesson, test::make_world(r.state), 1e-3).score - 100.0));
 }
 
 TEST_CASE("Feedback: reasons from a session file keep their stored text") {
     Outcome r;
     r.done(0, 50.0, 30.0);
-    LessonResult result = judge(r.lesson, r.state, 1e-3);
+    LessonResult result = judge(r.lesson, test::make_world(r.state), 1e-3);
     for (ScoreReason& reason : result.reasons) reason = {reason.points, reason.text};
     const Review review = lesson::review(r.assembly, result);
     REQUIRE(review.reasons.size() == 1);

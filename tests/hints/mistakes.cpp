@@ -4,6 +4,8 @@
 
 #include "tests/hints/bench.hpp"
 
+namespace hints_mistakes_test {
+
 using namespace bolt;
 using namespace bolt::lesson;
 using test::Bench;
@@ -61,8 +63,9 @@ TEST_CASE("Mistakes: each mistake has its complete text and remedy in every lang
              servo::Output output;
              output.slipped = 0;
              output.rounded = 0.25e-3;
+             b.state.rounded[0] = output.rounded;
              ++b.state.tick;
-             observe(b.lesson, b.state, output);
+             test::observe_tick(b.lesson, b.components, b.state, output);
          }},
         {MistakeKind::stripped, "The thread of A is stripped.",
          [](Bench& b) {
@@ -123,6 +126,8 @@ TEST_CASE("Mistakes: undoing a step hides its mistake") {
     w.b.seat_both();
     w.b.turn(0, 80.0);
     CHECK(w.after(0.5) == MistakeKind::over_torque);
-    REQUIRE(undo_steps(w.b.lesson, w.b.state, 0));
+    REQUIRE(w.b.undo(0));
     CHECK(w.after(0.05) == MistakeKind::none);
 }
+
+}  // namespace hints_mistakes_test

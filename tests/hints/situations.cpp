@@ -7,6 +7,8 @@
 #include "game/lesson/hints.hpp"
 #include "tests/hints/bench.hpp"
 
+namespace hints_situations_test {
+
 using namespace bolt;
 using namespace bolt::lesson;
 using test::Bench;
@@ -57,7 +59,7 @@ const Case cases[] = {
     {Situation::set_on_rounded, "hint.set_on_rounded", HandMotion::set_on,
      [](Bench& b) {
          b.seat_both();
-         b.rounded[0] = 0.4e-3;
+         b.state.rounded[0] = 0.4e-3;
          b.wrench = true;
          b.near(0);
      }},
@@ -367,3 +369,5 @@ TEST_CASE("Hints: with a glove, controls name the device that moves the hand and
     CHECK(of(gloved, HandMotion::take).find("close your hand") != std::string::npos);
     CHECK(of(gloved, HandMotion::grip_nut).find("pinch") != std::string::npos);
 }
+
+}  // namespace hints_situations_test

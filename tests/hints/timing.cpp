@@ -205,7 +205,7 @@ TEST_CASE("Hints: restarting a step announces it and resets the level") {
     b.pull(0, 35.0);
     b.frame();
     CHECK(b.hints.shown->level == 0);
-    REQUIRE(undo_steps(b.lesson, b.state, 1));
+    REQUIRE(b.undo(1));
     CHECK(b.frame()->situation == Situation::next);
     CHECK(b.hints.shown->joint == 0);
 }

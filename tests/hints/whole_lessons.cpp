@@ -65,6 +65,7 @@ HintLog play_through(const char* trainee, std::uint64_t seed, Mode mode, Task ta
     Lesson lesson = begin(assembly, mode, task);
     trainees::SimulatedTrainee hand(trainees::find_profile(trainee).value(), seed, setup);
     HintState hints;
+    world::World components = test::make_world(state);
     test::HapticWorld world(state.joints.size());
     MistakeState mistakes;
     HintLog log;
@@ -75,12 +76,12 @@ HintLog play_through(const char* trainee, std::uint64_t seed, Mode mode, Task ta
     while (lesson.due() != nullptr && state.tick < 1'800'000) {
         const servo::Input input = hand.act(setup, state, lesson);
         const servo::Output output = servo::tick(setup, state, input);
-        observe(lesson, state, output);
+        test::observe_tick(lesson, components, state, output);
         if (input.grip != servo::Grip::none) wrench = input.grip == servo::Grip::wrench;
         for (const LessonEvent& event : lesson.events) add_event(mistakes, lesson, event);
         lesson.events.clear();
         if (state.tick % frame_ticks != 0) continue;
-        const WorkState work{lesson, setup, world.write(state.joints, state.rounded, output, wrench)};
+        const WorkState work{lesson, setup, world.write(state, output, wrench)};
         const std::optional<Hint>& hint = update(hints, work, frame_time);
         ++log.frames;
         if (const auto& mistake = update(mistakes, frame_time)) {

@@ -59,7 +59,7 @@ struct Bench {
     [[nodiscard]] double stored() const {
         const Click& c = handle.click;
         const double wound = last.torque / stiffness;
-        return 0.5 * stiffness * wound * wound + c.rearms_at * c.setting * handle.swung;
+        return 0.5 * stiffness * wound * wound + c.rearm_torque_share * c.setting * handle.swung;
     }
 };
 
@@ -98,12 +98,13 @@ TEST_CASE(
         Bench bench(dt);
         while (bench.clicks == 0) bench.to(bench.hand + 0.05 * dt);
         const Click& c = bench.handle.click;
-        const double low = c.falls_to * setting, share = dt / c.settles;
+        const double low = c.swing_torque_share * setting, share = dt / c.settling_time;
         double expected = bench.last.torque;
         const double begin = expected;
         for (int i = 0; i < static_cast<int>(0.2 / dt); ++i) {
             const double before = bench.last.torque, torque = bench.to(bench.hand);
-            expected = (expected + share * low) / (1.0 + share);  // backward Euler of T' = −(T − low)/settles
+            expected =
+                (expected + share * low) / (1.0 + share);  // backward Euler of T' = −(T − low)/settling_time
             REQUIRE(torque == doctest::Approx(expected).epsilon(1e-9));
             REQUIRE(before - torque <= share * (setting - low) * 1.001);
         }
@@ -116,8 +117,8 @@ TEST_CASE(
 
 TEST_CASE("Torque wrench: a further pull reaches the end of the swing and exceeds the setting") {
     Bench bench;
-    const double low = bench.handle.click.falls_to * setting;
-    const double speed = 0.02, extra = stiffness * bench.handle.click.settles * speed;
+    const double low = bench.handle.click.swing_torque_share * setting;
+    const double speed = 0.02, extra = stiffness * bench.handle.click.settling_time * speed;
     bench.slowly_to(play + low / stiffness + 0.9 * swing, speed);
     CHECK(bench.last.torque == doctest::Approx(low + extra).epsilon(0.01));  // torque while it swings
     CHECK(bench.handle.swung < swing);
@@ -132,11 +133,11 @@ TEST_CASE(
     "setting again") {
     Bench bench;
     const Click& c = bench.handle.click;
-    bench.slowly_to(play + 0.5 * swing + c.falls_to * setting / stiffness);
+    bench.slowly_to(play + 0.5 * swing + c.swing_torque_share * setting / stiffness);
     for (int i = 0; i < 500; ++i) bench.to(bench.hand);
     const double swung = bench.handle.swung;
     REQUIRE(swung > 0.3 * swing);
-    bench.slowly_to(play + swung + 1.05 * c.rearms_at * setting / stiffness);
+    bench.slowly_to(play + swung + 1.05 * c.rearm_torque_share * setting / stiffness);
     CHECK(bench.handle.swung == swung);  // it does not move between the two torques
     bench.slowly_to(play);
     for (int i = 0; i < 2000; ++i) bench.to(bench.hand);
@@ -177,9 +178,9 @@ TEST_CASE("Torque wrench: it never generates energy with random hands and nuts a
         Bench bench(trial % 2 == 0 ? 1e-3 : 2.5e-4);
         Click& c = bench.handle.click;
         c.setting = random.uniform(2.0, 80.0);
-        c.falls_to = random.uniform(0.3, 0.9);
-        c.rearms_at = random.uniform(0.05, 0.95) * c.falls_to;
-        c.settles = random.uniform(2e-3, 40e-3);
+        c.swing_torque_share = random.uniform(0.3, 0.9);
+        c.rearm_torque_share = random.uniform(0.05, 0.95) * c.swing_torque_share;
+        c.settling_time = random.uniform(2e-3, 40e-3);
         c.swing = to_radians(random.uniform(0.5, 10.0));
         bench.handle.half_play = random.uniform(0.0, 0.03);
         bench.held_by = constant(random.chance(0.5) ? fixed : random.uniform(0.3, 2.0) * c.setting);

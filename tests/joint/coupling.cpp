@@ -5,6 +5,8 @@
 #include "haptics/joint/nut.hpp"
 #include "tests/joint/support.hpp"
 
+namespace joint_coupling_test {
+
 using namespace bolt;
 using namespace bolt::joint;
 
@@ -122,3 +124,5 @@ TEST_CASE("Hand and nut: fingers slow a faster nut with their limit torque in bo
         CHECK(step.nut.speed == doctest::Approx(15.0 * sign));
     }
 }
+
+}  // namespace joint_coupling_test

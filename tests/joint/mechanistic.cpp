@@ -227,12 +227,13 @@ TEST_CASE("Mechanistic law: 0.2 % plastic strain at R_p0.2, R_m at uniform elong
         const double length = 0.03;
         const PlasticCurve c = PlasticCurve::make(m16.thread, grade, length, 3e-9);
         CAPTURE(name);
-        CHECK(c.load(0.002 * length) == doctest::Approx(grade.R_p02 * m16.thread.A_s).epsilon(1e-6));
-        CHECK(c.load(c.uniform) == doctest::Approx(grade.R_m * m16.thread.A_s).epsilon(1e-9));
-        CHECK(c.load(0.0) == doctest::Approx(grade.proof_ratio * grade.R_p02 * m16.thread.A_s));
-        CHECK(c.load(c.fracture) == 0.0);
+        CHECK(c.at(0.002 * length).load == doctest::Approx(grade.R_p02 * m16.thread.A_s).epsilon(1e-6));
+        CHECK(c.at(c.uniform).load == doctest::Approx(grade.R_m * m16.thread.A_s).epsilon(1e-9));
+        CHECK(c.at(0.0).load == doctest::Approx(grade.proof_ratio * grade.R_p02 * m16.thread.A_s));
+        CHECK(c.at(c.fracture).load == 0.0);
         const double u = 0.3 * c.uniform, h = 1e-9;
-        CHECK(c.slope(u) == doctest::Approx((c.load(u + h) - c.load(u - h)) / (2 * h)).epsilon(1e-4));
+        CHECK(c.at(u).slope ==
+              doctest::Approx((c.at(u + h).load - c.at(u - h).load) / (2 * h)).epsilon(1e-4));
     }
 }
 

@@ -4,6 +4,8 @@
 
 #include "tests/joint/support.hpp"
 
+namespace joint_nut_test {
+
 using namespace bolt;
 using namespace bolt::joint;
 
@@ -155,3 +157,5 @@ TEST_CASE("Nut: the same pull gives the same torque at 1 and 4 kHz") {
     };
     CHECK(peak(1e-3) == doctest::Approx(peak(2.5e-4)).epsilon(0.005));
 }
+
+}  // namespace joint_nut_test

@@ -9,8 +9,8 @@
 namespace bolt::test {
 
 bool holds_within(const std::function<bool()>& condition, double seconds) {
-    for (const double deadline = device::steady_seconds() + seconds; !condition();) {
-        if (device::steady_seconds() > deadline) return false;
+    for (const double deadline = steady_seconds() + seconds; !condition();) {
+        if (steady_seconds() > deadline) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     return true;

@@ -7,6 +7,7 @@
 #include "game/lesson/lesson.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
+#include "tests/support/haptic_world.hpp"
 
 using namespace bolt;
 using namespace bolt::trainees;
@@ -25,7 +26,7 @@ Pose held_for(const Impedance& i, ArmDeflection& arm, const force::OutputCommand
 }
 
 double angle_between(const Pose& a, const Pose& b) {
-    return glm::length(rotation_vector(glm::normalize(a.orientation * glm::conjugate(b.orientation))));
+    return glm::length(turn_between(b.orientation, a.orientation));
 }
 
 }  // namespace
@@ -106,6 +107,7 @@ std::uint64_t motion_hash(double force, bool guides) {
     device.torque = 0.1 * force;
     const servo::Setup setup = session::make_setup(loaded.assembly, joint::Law::mechanistic, device, 5, dt);
     servo::State state = servo::initial_state(setup);
+    world::World world = test::make_world(state);
     lesson::Lesson lesson = lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
     lesson.guides = guides;
     SimulatedTrainee hand(find_profile("clumsy").value(), 5, setup);
@@ -115,7 +117,7 @@ std::uint64_t motion_hash(double force, bool guides) {
         CHECK(input.guide == (guides ? static_cast<int>(lesson.due()->joint) : -1));
         const auto* bytes = reinterpret_cast<const unsigned char*>(&input.device);
         for (std::size_t i = 0; i < sizeof input.device; ++i) hash = (hash ^ bytes[i]) * 1099511628211ULL;
-        lesson::observe(lesson, state, servo::tick(setup, state, input));
+        test::observe_tick(lesson, world, state, servo::tick(setup, state, input));
         lesson.events.clear();
     }
     return hash;

@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "game/lesson/lesson.hpp"
+#include "tests/support/haptic_world.hpp"
 
 using namespace bolt;
 using namespace bolt::lesson;
@@ -32,6 +33,7 @@ struct Bench {
         assembly.passes = {pass};
         lesson = begin(assembly, mode, task);
         state.joints.resize(joints);
+        state.rounded.resize(joints);
         for (std::size_t i = 0; i < joints; ++i) done(i, 70.0, 0.5);
         lesson.current = lesson.steps.size();
     }
@@ -42,8 +44,10 @@ struct Bench {
         state.joints[i].stage = joint::Stage::linearity;
         state.joints[i].clamp = 30e3;
     }
-    [[nodiscard]] JointResult joint(std::size_t i = 0) const { return judge_joint(lesson, i, state); }
-    [[nodiscard]] LessonResult result() const { return judge(lesson, state, 1e-3); }
+    [[nodiscard]] JointResult joint(std::size_t i = 0) const {
+        return judge_joint(lesson, i, test::make_world(state));
+    }
+    [[nodiscard]] LessonResult result() const { return judge(lesson, test::make_world(state), 1e-3); }
 };
 
 }  // namespace

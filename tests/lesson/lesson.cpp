@@ -11,6 +11,9 @@
 #include "game/session/session_file.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/haptic_world.hpp"
+
+namespace lesson_lesson_test {
 
 using namespace bolt;
 using namespace bolt::lesson;
@@ -38,12 +41,13 @@ LessonRun play_through(const content::Assembly& given, const char* trainee, std:
     LessonRun run;
     run.state = servo::initial_state(setup);
     if (task == Task::loosen) REQUIRE(session::pretighten(assembly, setup, run.state).has_value());
+    world::World world = test::make_world(run.state);
     Lesson lesson = begin(assembly, mode, task);
     trainees::SimulatedTrainee hand(trainees::find_profile(trainee).value(), seed, setup);
     while (lesson.due() != nullptr && run.state.tick < 3'600'000) {
         const servo::Input input = hand.act(setup, run.state, lesson);
         const servo::Output output = servo::tick(setup, run.state, input);
-        observe(lesson, run.state, output);
+        test::observe_tick(lesson, world, run.state, output);
         const double values[] = {output.force.x,       output.force.y,   output.force.z, output.torque.y,
                                  output.wrench_torque, output.nut_angle, output.clamp};
         const auto* bytes = reinterpret_cast<const unsigned char*>(values);
@@ -51,7 +55,7 @@ LessonRun play_through(const content::Assembly& given, const char* trainee, std:
         for (LessonEvent& event : lesson.events) run.events.push_back(std::move(event));
         lesson.events.clear();
     }
-    run.result = judge(lesson, run.state, 1e-3);
+    run.result = judge(lesson, world, 1e-3);
     return run;
 }
 
@@ -259,3 +263,5 @@ TEST_CASE("Lesson: the error for an unknown trainee suggests the nearest name") 
     CHECK(slip.error().expected == "did you mean expert?");
     CHECK(slip.error().code == ErrorCode::usage);
 }
+
+}  // namespace lesson_lesson_test

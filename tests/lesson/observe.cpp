@@ -183,9 +183,9 @@ TEST_CASE("Lesson: excess torque outside the joint's step counts in its result")
     s.pull(0, 70.0);
     s.pull(1, 70.0);
     REQUIRE(s.lesson.due() == nullptr);
-    CHECK(judge_joint(s.lesson, 0, s.state).torque == doctest::Approx(95.0).epsilon(less_breakaway));
-    CHECK(judge_joint(s.lesson, 0, s.state).overall == Verdict::high);
-    CHECK(judge_joint(s.lesson, 1, s.state).overall == Verdict::ok);
+    CHECK(s.judged(0).torque == doctest::Approx(95.0).epsilon(less_breakaway));
+    CHECK(s.judged(0).overall == Verdict::high);
+    CHECK(s.judged(1).overall == Verdict::ok);
 }
 
 TEST_CASE("Lesson: a nut that leaves its seat resets torque, snug and yield") {
@@ -201,7 +201,7 @@ TEST_CASE("Lesson: a nut that leaves its seat resets torque, snug and yield") {
     const double before = s.state.joints[0].nut.angle;
     s.pull(0, 70.0);
     CHECK(s.lesson.joints[0].snug_angle > before);
-    CHECK(judge_joint(s.lesson, 0, s.state).torque == doctest::Approx(70.0).epsilon(less_breakaway));
+    CHECK(s.judged(0).torque == doctest::Approx(70.0).epsilon(less_breakaway));
 }
 
 TEST_CASE("Lesson: turning a nut in short movements counts as turning") {
@@ -248,7 +248,7 @@ TEST_CASE(
     CHECK(s.lesson.current == 5);
     s.idle(1500);
     CHECK(s.lesson.due() == nullptr);
-    CHECK(judge_joint(s.lesson, 1, s.state).overall == Verdict::low);
+    CHECK(s.judged(1).overall == Verdict::low);
 }
 
 TEST_CASE("Lesson: the other modes never end a step that is not done") {
@@ -272,7 +272,7 @@ TEST_CASE("Lesson: a broken bolt keeps its torque and is reported, and the lesso
     s.idle();
     CHECK(s.lesson.current == 3);
     CHECK(s.lesson.joints[0].result.torque == doctest::Approx(120.0));
-    CHECK(judge_joint(s.lesson, 0, s.state).overall == Verdict::high);
+    CHECK(s.judged(0).overall == Verdict::high);
     // Excess torque precedes the break, and both are reported.
     std::vector<MistakeKind> kinds;
     for (const LessonEvent& event : s.lesson.events)

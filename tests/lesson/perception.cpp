@@ -10,6 +10,9 @@
 #include "game/lesson/lesson.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/trainees/trainee.hpp"
+#include "tests/support/haptic_world.hpp"
+
+namespace lesson_perception_test {
 
 using namespace bolt;
 using namespace bolt::trainees;
@@ -87,16 +90,18 @@ TEST_CASE("Perception: accuracy depends on skill; the reaction time alone does n
             const servo::Setup setup =
                 session::make_setup(loaded.assembly, joint::Law::mechanistic, {}, seed, dt);
             servo::State state = servo::initial_state(setup);
+            world::World world = test::make_world(state);
             lesson::Lesson lesson =
                 lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
             SimulatedTrainee hand(find_profile(trainee).value(), seed, setup);
             while (lesson.due() != nullptr && state.tick < 600'000) {
-                lesson::observe(lesson, state, servo::tick(setup, state, hand.act(setup, state, lesson)));
+                const servo::Output output = servo::tick(setup, state, hand.act(setup, state, lesson));
+                test::observe_tick(lesson, world, state, output);
                 lesson.events.clear();
             }
             CHECK(lesson.due() == nullptr);
             for (std::size_t i = 0; i < lesson.joints.size(); ++i)
-                shares.push_back(lesson::judge_joint(lesson, i, state).torque /
+                shares.push_back(lesson::judge_joint(lesson, i, world).torque /
                                  loaded.assembly.joints[i].spec.torque.target);
         }
         std::sort(shares.begin(), shares.end());
@@ -116,3 +121,5 @@ TEST_CASE("Perception: accuracy depends on skill; the reaction time alone does n
     CHECK(high(clumsy) < 15);
     for (const auto* all : {&expert, &novice, &clumsy}) CHECK(std::abs(median(*all) - 1.0) < 0.1);
 }
+
+}  // namespace lesson_perception_test

@@ -5,6 +5,7 @@
 #include <initializer_list>
 
 #include "game/lesson/lesson.hpp"
+#include "tests/support/haptic_world.hpp"
 
 namespace bolt::test {
 
@@ -16,6 +17,7 @@ struct Script {
     Lesson lesson;
     servo::State state;
     servo::Output output;  // of the last tick
+    world::World components;
 
     Script(const Script&) = delete;  // the lesson refers to the assembly
     Script& operator=(const Script&) = delete;
@@ -35,6 +37,8 @@ struct Script {
         assembly.passes = {run, half, full};
         lesson = begin(assembly, mode, Task::tighten);
         state.joints.resize(2);
+        state.rounded.resize(2);
+        world::add_haptics(components, state);
     }
 
     void tick(int joint, servo::Grip grip, double torque, double speed = 0.0, bool clicked = false) {
@@ -57,8 +61,15 @@ struct Script {
         }
         for (joint::JointState& j : state.joints) wear_breakaway(j, &j == turned ? speed : 0.0);
         ++state.tick;
-        observe(lesson, state, output);
+        observe_tick(lesson, components, state, output);
     }
+    // The world, with the joints as the test has set them in `state` since the last tick.
+    const world::World& present() {
+        world::write_initial_state(components, state);
+        return components;
+    }
+    [[nodiscard]] JointResult judged(std::size_t joint) { return judge_joint(lesson, joint, present()); }
+    bool undo(std::size_t steps) { return undo_steps(lesson, present(), steps); }
     static void wear_breakaway(joint::JointState& j, double speed) {
         j.breakaway = speed != 0.0 ? j.breakaway * std::exp(-std::abs(speed) * 1e-3 / to_radians(2.0))
                                    : 1.0 + (j.breakaway - 1.0) * std::exp(-1e-3 / 0.3);

@@ -33,6 +33,7 @@ LessonRun play_through(const content::Assembly& assembly, const char* trainee, s
     const content::Assembly under = apply_law(assembly, law);
     const servo::Setup setup = session::make_setup(under, law, {}, seed, 1e-3);
     servo::State state = servo::initial_state(setup);
+    world::World world = test::make_world(state);
     Lesson lesson = begin(under, Mode::practice, Task::tighten);
     trainees::SimulatedTrainee hand(trainees::find_profile(trainee).value(), seed, setup);
     LessonRun run;
@@ -46,11 +47,11 @@ LessonRun play_through(const content::Assembly& assembly, const char* trainee, s
             ++run.clicks;
             run.worst_click = std::max(run.worst_click, output.wrench_torque / trips - 1.0);
         }
-        observe(lesson, state, output);
+        test::observe_tick(lesson, world, state, output);
         lesson.events.clear();
     }
     run.finished = lesson.due() == nullptr;
-    for (const JointResult& joint : judge(lesson, state, 1e-3).joints)
+    for (const JointResult& joint : judge(lesson, world, 1e-3).joints)
         run.in_window += joint.torque_verdict == Verdict::ok ? 1 : 0;
     return run;
 }
@@ -111,7 +112,7 @@ TEST_CASE("Torque wrench: pulling on past the click is excess torque and is repo
     s.tick(0, servo::Grip::wrench, 70.0, 0.0, true);
     s.pull(0, 90.0);
     CHECK(s.count(EventKind::mistake) == 1);
-    CHECK(judge_joint(s.lesson, 0, s.state).torque_verdict == Verdict::high);
+    CHECK(s.judged(0).torque_verdict == Verdict::high);
 }
 
 TEST_CASE("Torque wrench: trainees stop at the click under both laws, and tighten more accurately with it") {

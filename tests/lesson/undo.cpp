@@ -59,7 +59,7 @@ TEST_CASE("Undo: returning to a step restores the joint tracks of its start") {
         REQUIRE(states.size() == 7);
         const std::size_t to = 6 - steps;
         s.state.joints = states[to].joints;
-        REQUIRE(undo_steps(s.lesson, s.state, steps));
+        REQUIRE(s.undo(steps));
         CHECK(s.lesson.current == to);
         for (std::size_t i = 0; i < 2; ++i) CHECK(same(s.lesson.joints[i], states[to].tracks[i]));
         // The lesson continues from there as before.
@@ -74,17 +74,17 @@ TEST_CASE("Undo: undoing a step clears its excess torque, but not the deduction"
     s.seat_both();
     const auto before = s.state.joints;
     s.pull(0, 95.0);
-    CHECK(judge_joint(s.lesson, 0, s.state).overall == Verdict::high);
+    CHECK(s.judged(0).overall == Verdict::high);
     s.state.joints = before;
-    REQUIRE(undo_steps(s.lesson, s.state, 1));
+    REQUIRE(s.undo(1));
     CHECK(s.lesson.due()->joint == 0);
     s.pull(0, 35.0);
     s.pull(1, 35.0);
     s.pull(0, 70.0);
     s.pull(1, 70.0);
     REQUIRE(s.lesson.due() == nullptr);
-    CHECK(judge_joint(s.lesson, 0, s.state).overall == Verdict::ok);
-    const LessonResult result = judge(s.lesson, s.state, 1e-3);
+    CHECK(s.judged(0).overall == Verdict::ok);
+    const LessonResult result = judge(s.lesson, s.present(), 1e-3);
     REQUIRE(result.reasons.size() == 1);
     CHECK(result.reasons[0].kind == DeductionKind::over_torque);
     CHECK(result.score == 98.0);
@@ -98,7 +98,7 @@ TEST_CASE("Undo: mistakes stay counted, and an event reports the undo") {
     s.pull(0, 36.0);  // done already
     s.lesson.events.clear();
     s.tick(1, servo::Grip::wrench, 5.0);
-    REQUIRE(undo_steps(s.lesson, s.state, 3));
+    REQUIRE(s.undo(3));
     CHECK(s.lesson.joints[1].result.order_errors == 1);
     CHECK(s.lesson.joints[0].result.rehits == 1);
     std::vector<EventKind> kinds;
@@ -122,7 +122,7 @@ TEST_CASE("Undo: restarting a step keeps the step, announces no pass and clears 
     s.pull(0, 20.0);
     CHECK(s.lesson.joints[0].result.strokes == 1);
     const int passes = s.count(EventKind::pass_begin);
-    REQUIRE(undo_steps(s.lesson, s.state, 0));
+    REQUIRE(s.undo(0));
     CHECK(s.lesson.current == 2);
     CHECK(s.lesson.joints[0].peak_torque == 0.0);
     CHECK(s.lesson.joints[0].result.strokes == 0);
@@ -137,20 +137,20 @@ TEST_CASE("Undo: refused in assessment, before the first step and beyond the fir
     Script examined(Mode::assessment);
     examined.seat_both();
     const std::size_t undo = examined.lesson.events.size();
-    CHECK_FALSE(undo_steps(examined.lesson, examined.state, 1));
+    CHECK_FALSE(examined.undo(1));
     CHECK(examined.lesson.current == 2);
     CHECK(examined.lesson.events.size() == undo);
 
     Script s;
-    CHECK_FALSE(undo_steps(s.lesson, s.state, 0));  // it has not begun
+    CHECK_FALSE(s.undo(0));  // it has not begun
     s.seat_both();
-    CHECK_FALSE(undo_steps(s.lesson, s.state, 3));
+    CHECK_FALSE(s.undo(3));
     CHECK(s.lesson.current == 2);
     for (const double torque : {35.0, 70.0})
         for (const int joint : {0, 1}) s.pull(joint, torque);
     REQUIRE(s.lesson.due() == nullptr);
-    CHECK_FALSE(undo_steps(s.lesson, s.state, 0));
-    CHECK(undo_steps(s.lesson, s.state, 1));
+    CHECK_FALSE(s.undo(0));
+    CHECK(s.undo(1));
     CHECK(s.lesson.current == 5);
 }
 
@@ -163,6 +163,7 @@ TEST_CASE("Undo: after undoing any step, with joints restored or not, a simulate
         for (const bool restored : {true, false}) {
             servo::State state = servo::initial_state(setup);
             if (task == Task::loosen) REQUIRE(session::pretighten(assembly, setup, state).has_value());
+            world::World world = test::make_world(state);
             Lesson lesson = begin(assembly, Mode::guided, task);
             trainees::SimulatedTrainee hand(trainees::find_profile("expert").value(), 5, setup);
             std::vector<std::vector<joint::JointState>> before{state.joints};
@@ -171,7 +172,7 @@ TEST_CASE("Undo: after undoing any step, with joints restored or not, a simulate
             // Two steps forward and one back, until the end.
             while (lesson.due() != nullptr && state.tick < 3'600'000) {
                 const servo::Output output = servo::tick(setup, state, hand.act(setup, state, lesson));
-                observe(lesson, state, output);
+                test::observe_tick(lesson, world, state, output);
                 before.resize(std::min(before.size(), lesson.current + 1));
                 if (before.size() == lesson.current) before.push_back(state.joints);
                 if (lesson.current > furthest) {
@@ -179,7 +180,8 @@ TEST_CASE("Undo: after undoing any step, with joints restored or not, a simulate
                     const std::size_t steps = furthest % 3 == 0 ? 2 : 1;
                     if (furthest < steps) continue;
                     if (restored) state.joints = before[furthest - steps];
-                    REQUIRE(undo_steps(lesson, state, steps));
+                    world::write_initial_state(world, state);
+                    REQUIRE(undo_steps(lesson, world, steps));
                     ++backs;
                 }
             }
@@ -187,7 +189,7 @@ TEST_CASE("Undo: after undoing any step, with joints restored or not, a simulate
             CAPTURE(restored);
             CHECK(lesson.due() == nullptr);
             CHECK(backs == static_cast<int>(lesson.steps.size()));
-            for (const JointResult& joint : judge(lesson, state, 1e-3).joints) {
+            for (const JointResult& joint : judge(lesson, world, 1e-3).joints) {
                 CAPTURE(joint.id);
                 if (restored) CHECK(joint.overall == Verdict::ok);
             }

@@ -29,15 +29,15 @@ GodObjectParameters for_device(double dt) {
     return p;
 }
 
-struct Result {
+struct CollisionResult {
     std::string name;
     double speed = 0.0;
     Shock god_object, every_point, deepest;
 };
 
-std::vector<Result> run_all(double dt, std::span<const double> at) {
+std::vector<CollisionResult> run_all(double dt, std::span<const double> at) {
     const GodObjectParameters p = for_device(dt);
-    std::vector<Result> results;
+    std::vector<CollisionResult> results;
     for (const Script& s : collisions())
         for (const double v : at)
             results.push_back(
@@ -52,11 +52,11 @@ void write(const std::filesystem::path& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
 }
 
-std::string csv(const std::vector<Result>& results) {
+std::string csv(const std::vector<CollisionResult>& results) {
     std::string text =
         "collision,speed_m_s,method,step_of_greatest_force_per_ms,step_of_greatest_torque_per_ms,"
         "step_beyond_own_motion_of_force_felt_per_ms\n";
-    for (const Result& r : results)
+    for (const CollisionResult& r : results)
         for (const auto& [method, shock] :
              {std::pair("god-object", r.god_object), std::pair("penalty, every point", r.every_point),
               std::pair("penalty, deepest point", r.deepest)})
@@ -66,14 +66,14 @@ std::string csv(const std::vector<Result>& results) {
 }
 
 // One line per collision: greatest step over the speed.
-plot::Plot step_plot(const std::vector<Result>& results) {
+plot::Plot step_plot(const std::vector<CollisionResult>& results) {
     plot::Plot plot;
     plot.width = 760.0;
     plot.height = 320.0;
     plot.title = "Greatest change of force in a millisecond, by collision";
     plot.x = {plot::covering_ticks(0.0, 0.5), "speed, m/s"};
     plot.y = {plot::covering_ticks(0.0, 200.0), "change in 1 ms, % of the greatest force"};
-    const auto lines = [&](Shock Result::*method, std::string_view style) {
+    const auto lines = [&](Shock CollisionResult::*method, std::string_view style) {
         for (std::size_t i = 0; i < results.size(); i += std::size(speeds)) {
             plot::PlotLine line{{}, style, false};
             for (std::size_t k = 0; k < std::size(speeds); ++k)
@@ -81,9 +81,9 @@ plot::Plot step_plot(const std::vector<Result>& results) {
             plot.lines.push_back(line);
         }
     };
-    lines(&Result::every_point, "ln rest");
-    lines(&Result::deepest, "ln cl");
-    lines(&Result::god_object, "ln p2");
+    lines(&CollisionResult::every_point, "ln rest");
+    lines(&CollisionResult::deepest, "ln cl");
+    lines(&CollisionResult::god_object, "ln p2");
     plot.reference_lines.push_back({10.0, "tgt", "10 %", true});
     return plot;
 }
@@ -108,7 +108,7 @@ plot::Plot time_plot(const Script& script, double speed, double dt) {
     return plot;
 }
 
-std::string figure(const std::vector<Result>& results, const Script& script, double dt) {
+std::string figure(const std::vector<CollisionResult>& results, const Script& script, double dt) {
     const plot::Plot steps = step_plot(results), time = time_plot(script, 0.2, dt);
     constexpr double head = 28.0;
     plot::Svg svg(760.0, head + steps.height + time.height,
@@ -133,9 +133,9 @@ std::string figure(const std::vector<Result>& results, const Script& script, dou
 }  // namespace
 
 TEST_CASE("No shock: at 0.05 to 0.5 m/s force steps stay below a tenth of the maximum and imperceptible") {
-    const std::vector<Result> results = run_all(1e-3, speeds);
+    const std::vector<CollisionResult> results = run_all(1e-3, speeds);
     Shock worst, worst_every, worst_deepest;
-    for (const Result& r : results) {
+    for (const CollisionResult& r : results) {
         CAPTURE(r.name);
         CAPTURE(r.speed);
         CHECK(r.god_object.step <= 0.1);
@@ -168,7 +168,7 @@ TEST_CASE("No shock: at 0.05 to 0.5 m/s force steps stay below a tenth of the ma
 }
 
 TEST_CASE("No shock: the limits per millisecond hold at 4 kHz") {
-    for (const Result& r : run_all(0.25e-3, std::array{0.1, 0.5})) {
+    for (const CollisionResult& r : run_all(0.25e-3, std::array{0.1, 0.5})) {
         CAPTURE(r.name);
         CAPTURE(r.speed);
         CHECK(r.god_object.step <= 0.1);

@@ -14,7 +14,7 @@ using namespace bolt::pathtrace;
 using bolt::about;
 
 TEST_CASE("Environment: sampling estimates the same light as the integral over the sphere") {
-    const Environment environment(studio(128));
+    const Environment environment(studio_environment(128));
     double direct = 0.0;
     double density = 0.0;
     constexpr int rows = 512;
@@ -42,7 +42,7 @@ TEST_CASE("Environment: sampling estimates the same light as the integral over t
 }
 
 TEST_CASE("Environment: the image has −Z in the middle, +X to the right and +Y at the top") {
-    RadianceImage image = constant(glm::vec3(0.0F));
+    RadianceImage image = constant_environment(glm::vec3(0.0F));
     image.width = 64;
     image.height = 32;
     image.pixels.assign(64 * 32, glm::vec3(0.0F));

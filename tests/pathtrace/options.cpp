@@ -84,7 +84,7 @@ TEST_CASE("Path tracer options: invalid values are usage errors") {
 TEST_CASE("Environment: an image written to .hdr and read back is equal within 1 %") {
     const test::Folder folder;
     const auto path = folder / "light.hdr";
-    const RadianceImage image = studio(32);
+    const RadianceImage image = studio_environment(32);
     REQUIRE(write_hdr(path, image));
     const auto read = read_hdr(path);
     REQUIRE_MESSAGE(read, read.error().message());

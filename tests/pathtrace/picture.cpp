@@ -12,6 +12,8 @@
 #include "tools/verify/pathtrace/flatten.hpp"
 #include "tools/verify/pathtrace/render.hpp"
 
+namespace pathtrace_picture_test {
+
 using namespace bolt;
 using namespace bolt::pathtrace;
 
@@ -59,7 +61,7 @@ TEST_CASE("Path tracer: a white sphere is invisible before white surroundings (w
                 material.clearcoat = coat;
                 material.clearcoat_roughness = 0.1F;
                 const TracedScene scene = build(single(sphere(96, 48), material));
-                const Environment environment(constant(glm::vec3(1.0F)));
+                const Environment environment(constant_environment(glm::vec3(1.0F)));
                 const auto image = render(scene, environment, telescope(24), {.samples = 64});
                 CAPTURE(roughness);
                 CAPTURE(metallic);
@@ -189,7 +191,7 @@ TEST_CASE("Path tracer: the image depends on the seed, not on the number of thre
     material.roughness = 0.3F;
     material.clearcoat = 1.0F;
     const TracedScene scene = build(single(sphere(24, 12), material), {.nodes = {}, .floor = true});
-    const Environment environment(studio(64));
+    const Environment environment(studio_environment(64));
     const PinholeCamera camera{.eye = {0.0F, 2.0F, 5.0F}, .width = 40, .height = 30};
     const auto one = render(scene, environment, camera, {.samples = 4, .threads = 1});
     for (const int threads : {2, 5}) {
@@ -228,3 +230,5 @@ TEST_CASE("Camera: a framed model is inside the image and fills it") {
     }
     CHECK(most > 0.9F);
 }
+
+}  // namespace pathtrace_picture_test

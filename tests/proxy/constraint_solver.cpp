@@ -9,6 +9,8 @@
 
 #include "engine/base/random.hpp"
 
+namespace proxy_constraint_solver_test {
+
 using namespace bolt;
 using namespace bolt::proxy;
 
@@ -337,3 +339,5 @@ TEST_CASE("Constraint solver: the full set of 48 constraints is solved and repea
     }
     MESSAGE("most factorisations " << most);
 }
+
+}  // namespace proxy_constraint_solver_test

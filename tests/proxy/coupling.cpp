@@ -6,6 +6,8 @@
 
 #include "tests/proxy/scene.hpp"
 
+namespace proxy_coupling_test {
+
 using namespace bolt;
 using namespace bolt::force;
 using namespace bolt::proxy;
@@ -142,3 +144,5 @@ TEST_CASE("Coupling: without force output it keeps its stiffness as a weight and
     CHECK(felt.torque == Vec3(0.0));
     CHECK(stored_energy(c, off) == 0.0);
 }
+
+}  // namespace proxy_coupling_test

@@ -7,6 +7,8 @@
 
 #include "tests/proxy/scene.hpp"
 
+namespace proxy_god_object_test {
+
 using namespace bolt;
 using namespace bolt::collision;
 using namespace bolt::proxy;
@@ -28,7 +30,7 @@ GodObjectParameters frictionless() {
 GodObjectStep lead(const GodObjectParameters& p, GodObjectState& state, const Pose& to, const Scene& scene,
                    int ticks = 200, int hold = 300) {
     const Pose from = state.device;
-    const Vec3 turn = rotation_vector(glm::normalize(to.orientation * glm::conjugate(from.orientation)));
+    const Vec3 turn = turn_between(from.orientation, to.orientation);
     GodObjectStep step;
     for (int i = 1; i <= ticks + hold; ++i) {
         const double t = std::min(1.0, static_cast<double>(i) / ticks);
@@ -221,3 +223,5 @@ TEST_CASE("God-object: an invalid device pose changes neither tool nor force") {
         CHECK(state.felt.force == before.felt.force);
     }
 }
+
+}  // namespace proxy_god_object_test

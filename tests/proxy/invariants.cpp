@@ -7,6 +7,8 @@
 #include "tests/proxy/support.hpp"
 #include "tests/support/forbidden.hpp"
 
+namespace proxy_invariants_test {
+
 using namespace bolt;
 using namespace bolt::collision;
 using namespace bolt::proxy;
@@ -37,7 +39,7 @@ Scene random_scene(std::uint64_t seed, const Pose& start) {
             scene.obstacles.push_back(Ball{where, random.uniform(0.003, 0.03)});
             scene.pins.push_back(std::get<Ball>(scene.obstacles.back()));
         } else if (kind < 0.6) {
-            const Box box{
+            const test::Box box{
                 placed(where, 3.0 * any_direction(random)),
                 Vec3(random.uniform(0.0005, 0.02), random.uniform(0.005, 0.03), random.uniform(0.01, 0.05))};
             scene.obstacles.push_back(box);
@@ -65,7 +67,7 @@ struct Tally {
     double fastest = 0.0;  // m per tick
     int in_contact = 0;
     int most_queries = 0, most_solves = 0;
-    int spent = 0, settled = 0;
+    int budget_exhausted = 0, rate_limited = 0;
     std::vector<GodObjectState> states;
 };
 
@@ -86,8 +88,8 @@ Tally wander(const Scene& scene, const GodObjectParameters& p, std::uint64_t see
         tally.in_contact += clear < 2.0 * p.skin ? 1 : 0;
         tally.most_queries = std::max(tally.most_queries, step.queries);
         tally.most_solves = std::max(tally.most_solves, step.solves);
-        tally.spent += step.spent ? 1 : 0;
-        tally.settled += step.settled ? 1 : 0;
+        tally.budget_exhausted += step.budget_exhausted ? 1 : 0;
+        tally.rate_limited += step.rate_limited ? 1 : 0;
         tally.fastest = std::max(tally.fastest, travel(twist_between(before.tool, state.tool), p.radius));
         tally.states.push_back(state);
     }
@@ -110,12 +112,13 @@ TEST_CASE("God-object: in random scenes it never penetrates and keeps the query 
         sum.in_contact += tally.in_contact;
         sum.most_queries = std::max(sum.most_queries, tally.most_queries);
         sum.most_solves = std::max(sum.most_solves, tally.most_solves);
-        sum.spent += tally.spent;
-        sum.settled += tally.settled;
+        sum.budget_exhausted += tally.budget_exhausted;
+        sum.rate_limited += tally.rate_limited;
     }
     MESSAGE("in contact " << sum.in_contact << " of 18000 ticks; queries up to " << sum.most_queries
-                          << ", solves up to " << sum.most_solves << "; spent " << sum.spent << ", settled "
-                          << sum.settled << "; farthest in a tick " << 1e3 * sum.fastest << " mm; deepest "
+                          << ", solves up to " << sum.most_solves << "; budget exhausted "
+                          << sum.budget_exhausted << ", rate limited " << sum.rate_limited
+                          << "; farthest in a tick " << 1e3 * sum.fastest << " mm; deepest "
                           << 1e6 * sum.deepest << " um");
     CHECK(sum.in_contact > 5000);
 }
@@ -152,7 +155,7 @@ TEST_CASE("God-object: expensive queries only delay the tool") {
         bool arrived = false;
         for (int i = 0; i < 1000 && !arrived; ++i) {
             const GodObjectStep step = step_god_object(p, state, device, dear, dt);
-            arrived = !step.spent && !step.settled;
+            arrived = !step.budget_exhausted && !step.rate_limited;
         }
         CHECK(arrived);
     }
@@ -187,7 +190,7 @@ TEST_CASE("God-object: a flick at 2 m/s does not tunnel through a rib of 1 mm at
             Scene scene;
             add_wrench(scene);
             scene.nearest_only = trial % 2 == 0;
-            scene.obstacles.push_back(Box{placed(Vec3(0.0)), Vec3(0.5 * thickness, 0.6, 0.6)});
+            scene.obstacles.push_back(test::Box{placed(Vec3(0.0)), Vec3(0.5 * thickness, 0.6, 0.6)});
             if (trial % 3 == 0)  // a floor that the wrench slides on
                 scene.obstacles.push_back(HalfSpace{Vec3(0, 0, 1), -0.3});
             const Vec3 turn = 3.0 * any_direction(random);
@@ -216,9 +219,9 @@ TEST_CASE("God-object: a tip in a gap of 1 mm stays in it under any pull") {
     p.radius = 0.04;
     Scene scene;
     add_box(scene, {placed(Vec3(0.0)), Vec3(0.03, 0.4e-3, 0.005)}, 0.003);
-    const Box left{placed(Vec3(0, 5.5e-3, 0)), Vec3(0.05, 5e-3, 0.05)};
-    const Box right{placed(Vec3(0, -5.5e-3, 0)), Vec3(0.05, 5e-3, 0.05)};
-    for (const Box& block : {left, right}) {
+    const test::Box left{placed(Vec3(0, 5.5e-3, 0)), Vec3(0.05, 5e-3, 0.05)};
+    const test::Box right{placed(Vec3(0, -5.5e-3, 0)), Vec3(0.05, 5e-3, 0.05)};
+    for (const test::Box& block : {left, right}) {
         scene.obstacles.push_back(block);
         add_edges_as_pins(scene, block, 0.005);
     }
@@ -268,7 +271,7 @@ TEST_CASE("God-object: a frictionless wall pushes only along its normal and neve
             // limit holds it back.
             REQUIRE(push >= -0.0075 * p.coupling.force);
             // Rate-limited steps are excluded: the tool has not reached its constrained pose.
-            if (!step.settled && !step.spent)
+            if (!step.rate_limited && !step.budget_exhausted)
                 REQUIRE(glm::length(state.felt.force - push * n) < 0.02 + 0.01 * push);
         }
     }
@@ -305,3 +308,5 @@ TEST_CASE("God-object: a round trip yields no more energy than a sampled spring"
         CHECK(work <= 0.5 * sampled);
     }
 }
+
+}  // namespace proxy_invariants_test

@@ -10,6 +10,8 @@
 #include "tests/collision/support.hpp"
 #include "tests/support/forbidden.hpp"
 
+namespace proxy_meshes_test {
+
 using namespace bolt;
 using namespace bolt::collision;
 using namespace bolt::proxy;
@@ -135,3 +137,5 @@ TEST_CASE("God-object on meshes: a step makes no call that is forbidden in a tic
     CHECK(most > 0);
     CHECK(seen.all() == 0);
 }
+
+}  // namespace proxy_meshes_test

@@ -5,10 +5,12 @@
 
 #include <cmath>
 
-#include "haptics/collision/smooth_normals.hpp"
+#include "haptics/collision/narrow_phase.hpp"
 #include "haptics/proxy/god_object.hpp"
 #include "tests/collision/support.hpp"
 #include "tests/proxy/scene.hpp"
+
+namespace proxy_trembling_test {
 
 using namespace bolt;
 using namespace bolt::collision;
@@ -55,7 +57,8 @@ ContactMesh cylinder(double radius, int sides) {
     return t.mesh();
 }
 
-constexpr ForceRateLimits any{.of_rendered = 10.0, .of_maximum = 10.0, .maximum = 10.0, .at_once = 1.0};
+constexpr ForceRateLimits any{
+    .of_rendered = 10.0, .of_maximum = 10.0, .maximum = 10.0, .any_direction_share = 1.0};
 
 // Moves the device around the cylinder below its surface; the tool is a die that touches with one corner.
 Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_limits) {
@@ -118,10 +121,12 @@ TEST_CASE("God-object: with smooth normals a faceted bar renders as a round one"
 TEST_CASE("God-object: the rate limits reduce alternating forces, also without smooth normals") {
     for (const int sides : {16, 24, 48, 96}) {
         const Trembling free = about_cylinder(sides, false, any), held = about_cylinder(sides, false, {}),
-                        leaping = about_cylinder(sides, false, {.at_once = 1.0});
+                        leaping = about_cylinder(sides, false, {.any_direction_share = 1.0});
         MESSAGE(fmt::format("{} sides: {:.3f} N free, {:.3f} N as it comes, {:.3f} N held", sides, free.rms(),
                             leaping.rms(), held.rms()));
         CHECK(held.rms() < 0.5 * free.rms());
         CHECK(held.worst < 0.6);
     }
 }
+
+}  // namespace proxy_trembling_test

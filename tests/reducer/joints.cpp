@@ -19,6 +19,8 @@
 #include "shipped.hpp"
 #include "tools/assets/models/reducer/layout.hpp"
 
+namespace reducer_joints_test {
+
 namespace {
 
 using namespace reducer_test;
@@ -185,3 +187,5 @@ TEST_CASE("Reducer joints: a 24 mm wrench has at least 30 degrees free at every 
         CHECK(2.5 * static_cast<double>(best) >= 30.0);
     }
 }
+
+}  // namespace reducer_joints_test

@@ -12,6 +12,8 @@
 #include "shipped.hpp"
 #include "tools/assets/models/reducer/layout.hpp"
 
+namespace reducer_teeth_test {
+
 namespace {
 
 using namespace reducer_test;
@@ -81,3 +83,5 @@ TEST_CASE("Reducer teeth: the flank check finds the other hand and another profi
     other.shift += 0.01;
     CHECK(deviation(all_gears[1], other).largest > 0.005);
 }
+
+}  // namespace reducer_teeth_test

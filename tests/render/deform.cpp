@@ -210,7 +210,7 @@ TEST_CASE("Deform: a hand with curled fingers is drawn, lit and shadowed like a 
     const assets::Model model = hand();
     const assets::Model plate = test::plate({});
     const GpuModel gpu_model = studio.upload(model), ground = studio.upload(plate);
-    const EnvironmentLight light = studio.light(shading::studio(128));
+    const EnvironmentLight light = studio.light(shading::studio_environment(128));
     const glm::mat4 floor =
         glm::translate(glm::mat4(1.0F), {0, -0.12F, 0}) * glm::scale(glm::mat4(1.0F), glm::vec3(0.3F));
     Scene scene;
@@ -252,7 +252,7 @@ TEST_CASE("Deform: a hand with curled fingers is drawn, lit and shadowed like a 
         (void)studio.shoot(scene, eye, extent);
         test::Studio fresh;
         const GpuModel again = fresh.upload(model), fresh_ground = fresh.upload(plate);
-        const EnvironmentLight fresh_light = fresh.light(shading::studio(128));
+        const EnvironmentLight fresh_light = fresh.light(shading::studio_environment(128));
         scene.environment = &fresh_light;
         scene.objects.front().model = &fresh_ground;
         scene.objects.back().model = &again;

@@ -14,6 +14,8 @@
 #include "tools/verify/pathtrace/camera.hpp"
 #include "tools/verify/pathtrace/scene.hpp"
 
+namespace render_depth_test {
+
 using namespace bolt;
 
 namespace {
@@ -142,3 +144,5 @@ TEST_CASE(
         CHECK(compare(shifted, expected).silhouette > 1e-3);
     }
 }
+
+}  // namespace render_depth_test

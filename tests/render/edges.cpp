@@ -52,7 +52,7 @@ TEST_CASE("Edges: rounded edges cause no pixel brighter than the scene") {
     REQUIRE(model.has_value());
     test::Studio studio;
     const GpuModel gpu_model = studio.upload(*model);
-    const EnvironmentLight light = studio.light(shading::studio(128));
+    const EnvironmentLight light = studio.light(shading::studio_environment(128));
     Scene scene;
     add_model(scene, *model, gpu_model);
     scene.environment = &light;

@@ -50,7 +50,7 @@ Picture ball(const ShaderCode& code) {
     test::Studio studio(options);
     const assets::Model model = test::sphere({}, 16);
     const GpuModel gpu_model = studio.upload(model);
-    const EnvironmentLight light = studio.light(shading::studio(64));
+    const EnvironmentLight light = studio.light(shading::studio_environment(64));
     Scene scene;
     add_model(scene, model, gpu_model);
     scene.environment = &light;

@@ -6,6 +6,8 @@
 #include "engine/text/layout.hpp"
 #include "tests/render/support.hpp"
 
+namespace render_labels_test {
+
 using namespace bolt;
 using namespace bolt::render;
 
@@ -367,3 +369,5 @@ TEST_CASE("Labels: each of several views equals its single picture, and a full a
         CHECK(test::largest_difference(studio.shoot(scene, eyes[0], extent), both[0]) <= 1);
     }
 }
+
+}  // namespace render_labels_test

@@ -19,7 +19,7 @@ TEST_CASE("Levels of detail: the ZQ350 with less than half of its triangles look
     constexpr VkExtent2D extent{640, 360};
     const auto shoot = [&](test::Studio& studio, const render::UploadOptions& options) {
         const render::GpuModel gpu_model = studio.upload(*model, options);
-        const render::EnvironmentLight light = studio.light(shading::studio(128));
+        const render::EnvironmentLight light = studio.light(shading::studio_environment(128));
         render::Scene scene;
         render::add_model(scene, *model, gpu_model);
         scene.environment = &light;

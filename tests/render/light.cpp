@@ -6,6 +6,8 @@
 
 #include "tests/render/support.hpp"
 
+namespace render_light_test {
+
 using namespace bolt;
 using namespace bolt::render;
 
@@ -33,7 +35,7 @@ assets::Material white(float metallic, float roughness, float coat = 0.0F) {
 
 TEST_CASE("White furnace: a white sphere in white surroundings is invisible within 1 %") {
     test::Studio studio;
-    const EnvironmentLight light = studio.light(shading::constant(glm::vec3(0.5F)));
+    const EnvironmentLight light = studio.light(shading::constant_environment(glm::vec3(0.5F)));
     for (const float coat : {0.0F, 1.0F}) {
         for (const float metallic : {0.0F, 0.5F, 1.0F}) {
             for (const float roughness : {0.0F, 0.25F, 0.5F, 0.75F, 1.0F}) {
@@ -61,7 +63,7 @@ TEST_CASE("White furnace: a white sphere in white surroundings is invisible with
 
 TEST_CASE("White furnace: a grey sphere is visible (negative control)") {
     test::Studio studio;
-    const EnvironmentLight light = studio.light(shading::constant(glm::vec3(0.5F)));
+    const EnvironmentLight light = studio.light(shading::constant_environment(glm::vec3(0.5F)));
     assets::Material grey = white(0.0F, 0.5F);
     grey.base_color = {0.8F, 0.8F, 0.8F, 1.0F};
     const assets::Model model = test::sphere(grey);
@@ -162,7 +164,7 @@ TEST_CASE("Ambient occlusion: an open floor is not occluded, and a wall occludes
     dark.double_sided = true;
     const assets::Model model = test::plate(dark);
     const GpuModel gpu_model = studio.upload(model);
-    const EnvironmentLight light = studio.light(shading::constant(glm::vec3(5.0F)));
+    const EnvironmentLight light = studio.light(shading::constant_environment(glm::vec3(5.0F)));
     Scene scene;
     scene.environment = &light;
     const glm::mat4 floor(glm::vec4(4, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 4, 0),
@@ -193,3 +195,5 @@ TEST_CASE("Ambient occlusion: an open floor is not occluded, and a wall occludes
     const Picture without = studio.shoot(scene, eye, {160, 120});
     CHECK(test::largest_difference(picture, without) > 30);
 }
+
+}  // namespace render_light_test

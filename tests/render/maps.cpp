@@ -32,7 +32,7 @@ TEST_CASE("Maps: base colour, normals, roughness and holes are independent of th
     other.meshes[0].primitives[0].indices = {0, 1, 3, 1, 2, 3};
 
     test::Studio studio;
-    const EnvironmentLight light = studio.light(shading::studio(64));
+    const EnvironmentLight light = studio.light(shading::studio_environment(64));
     const auto shoot = [&](const assets::Model& plate) {
         const GpuModel gpu_model = studio.upload(plate);
         Scene scene;

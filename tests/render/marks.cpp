@@ -18,7 +18,7 @@ struct Hidden {
     test::Studio studio;
     assets::Model ball = test::sphere({}, 32), wall;
     GpuModel gpu_ball, gpu_wall;
-    EnvironmentLight light = studio.light(shading::constant(glm::vec3(0.5F)));
+    EnvironmentLight light = studio.light(shading::constant_environment(glm::vec3(0.5F)));
     Scene scene;
     Eye eye;
 

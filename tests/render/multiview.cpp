@@ -4,6 +4,8 @@
 #include "tests/render/support.hpp"
 #include "tests/support/skip.hpp"
 
+namespace render_multiview_test {
+
 using namespace bolt;
 using namespace bolt::render;
 
@@ -24,7 +26,7 @@ struct Still {
     test::Studio studio;
     assets::Model ball, floor;
     GpuModel gpu_ball, gpu_floor;
-    EnvironmentLight light = studio.light(shading::studio(64));
+    EnvironmentLight light = studio.light(shading::studio_environment(64));
     Scene scene;
 
     explicit Still(Multiview multiview) : studio(with(multiview)) {
@@ -130,3 +132,5 @@ TEST_CASE(
     }
     CHECK(largest <= 1);
 }
+
+}  // namespace render_multiview_test

@@ -17,7 +17,7 @@ TEST_CASE("Objects: a mirrored ball looks like the ball, from outside and throug
     auto& indices = bowl.meshes[0].primitives[0].indices;
     indices.erase(indices.begin(), indices.begin() + static_cast<std::ptrdiff_t>(indices.size() / 2));
     const GpuModel gpu_ball = studio.upload(ball), gpu_bowl = studio.upload(bowl);
-    const EnvironmentLight light = studio.light(shading::studio(64));
+    const EnvironmentLight light = studio.light(shading::studio_environment(64));
     Perspective p;
     p.fov = 0.6F;
     const Eye eye = make_eye({0, 3, 6}, {0, 0, 0}, p);
@@ -41,4 +41,18 @@ TEST_CASE("Objects: a mirrored ball looks like the ball, from outside and throug
         scene.lights[0].light.direction = {0.5F, -0.6F, -0.6F, 0.0F};
         CHECK(test::largest_difference(straight, studio.shoot(scene, eye, {96, 96})) > 60);
     }
+}
+
+TEST_CASE("Objects: more materials than the geometry buffer can index are an error") {
+    test::Studio studio;
+    const assets::Model model = test::plate({});
+    GpuModel gpu_model = studio.upload(model);
+    Scene scene;
+    add_model(scene, model, gpu_model);
+    gpu_model.materials.resize(max_materials + 1);
+    const Eye eye = make_eye({0, 3, 6}, {0, 0, 0}, {});
+    const auto refused =
+        take_pictures(studio.device(), studio.frames(), studio.renderer(), scene, {&eye, 1}, {8, 8});
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message() == "the scene's models have 32769 materials; expected at most 32768");
 }

@@ -6,6 +6,8 @@
 
 #include "tests/render/support.hpp"
 
+namespace render_overlay_test {
+
 using namespace bolt;
 using namespace bolt::render;
 
@@ -128,7 +130,7 @@ TEST_CASE(
     metal.roughness = 0.3F;
     const assets::Model model = test::sphere(metal, 32);
     const GpuModel gpu_model = studio.upload(model);
-    const EnvironmentLight light = studio.light(shading::studio(128));
+    const EnvironmentLight light = studio.light(shading::studio_environment(128));
     Scene scene;
     add_model(scene, model, gpu_model);
     scene.environment = &light;
@@ -182,7 +184,7 @@ TEST_CASE("Inset: each eye of a stereo picture has it in the corner, with the pi
         test::Studio studio(options);
         const assets::Model model = test::sphere({}, 24);
         const GpuModel gpu_model = studio.upload(model);
-        const EnvironmentLight light = studio.light(shading::studio(64));
+        const EnvironmentLight light = studio.light(shading::studio_environment(64));
         Scene scene;
         add_model(scene, model, gpu_model);
         scene.environment = &light;
@@ -214,3 +216,5 @@ TEST_CASE("Inset: each eye of a stereo picture has it in the corner, with the pi
                       1) == 0);
     }
 }
+
+}  // namespace render_overlay_test

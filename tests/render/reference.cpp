@@ -10,6 +10,8 @@
 #include "tools/verify/pathtrace/camera.hpp"
 #include "tools/verify/pathtrace/render.hpp"
 
+namespace render_reference_test {
+
 using namespace bolt;
 
 namespace {
@@ -32,7 +34,7 @@ imagediff::RgbImage traced(const assets::Model& model, const glm::vec3& eye, con
     settings.samples = 48;
     settings.background = grey;
     const std::vector<glm::vec3> radiance =
-        pathtrace::render(*scene, pathtrace::Environment(shading::studio(128)), camera, settings);
+        pathtrace::render(*scene, pathtrace::Environment(shading::studio_environment(128)), camera, settings);
     depth = pathtrace::depth(*scene, camera);
     return {width, height, pathtrace::to_srgb8(radiance, 1.0F)};
 }
@@ -40,7 +42,7 @@ imagediff::RgbImage traced(const assets::Model& model, const glm::vec3& eye, con
 imagediff::RgbImage rendered(const assets::Model& model, const glm::vec3& eye, const glm::vec3& target) {
     test::Studio studio;
     const render::GpuModel gpu_model = studio.upload(model);
-    const render::EnvironmentLight light = studio.light(shading::studio(128));
+    const render::EnvironmentLight light = studio.light(shading::studio_environment(128));
     render::Scene scene;
     render::add_model(scene, model, gpu_model);
     scene.environment = &light;
@@ -92,3 +94,5 @@ TEST_CASE("Reference: paint, zinc and steel of the M8 cover agree with the path 
     CHECK(difference_on_the_model(reference, rendered(*model, eye, target + glm::vec3(0.02F, 0, 0)), depth) >
           1.2 * difference);
 }
+
+}  // namespace render_reference_test

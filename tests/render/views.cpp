@@ -6,6 +6,8 @@
 #include "engine/render/draw_list.hpp"
 #include "tests/render/support.hpp"
 
+namespace render_views_test {
+
 using namespace bolt;
 using namespace bolt::render;
 
@@ -16,7 +18,7 @@ struct Still {
     test::Studio studio;
     assets::Model model;
     GpuModel gpu_model;
-    EnvironmentLight light = studio.light(shading::studio(128));
+    EnvironmentLight light = studio.light(shading::studio_environment(128));
     Scene scene;
 
     Still() {
@@ -188,3 +190,5 @@ TEST_CASE("Shadow: the map of static objects is kept while another object moves"
     CHECK(test::largest_difference(moved, anew) == 0);
     CHECK(test::largest_difference(before, moved) > 50);
 }
+
+}  // namespace render_views_test

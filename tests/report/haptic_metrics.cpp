@@ -22,14 +22,14 @@ using collision::ObstacleId;
 
 namespace {
 
-session::Header header_of(const char* guide = "on") {
+session::Header header_of(bool guide = true) {
     session::Header header;
     header.dt = 0.001;
-    header.mode = "guided";
+    header.mode = lesson::Mode::guided;
     header.guide = guide;
-    header.obstacles = "casing.glb";
-    header.device = session::limits_text(force::OutputLimits{});
-    header.servo = "virtual time";
+    header.contact_models = "casing.glb";
+    header.device = force::OutputLimits{};
+    header.servo_rate = 0.0;
     header.obstacle_names = {{ObstacleId::fixed(0), "casing"},
                              {ObstacleId::fixed(1), "lid"},
                              {ObstacleId::nut(0), "J01_nut"},

@@ -93,8 +93,6 @@ TEST_CASE("Report: names with markup are escaped") {
     SessionData& data = session.data;
     data.assembly.title["en"] = attack;
     data.header.operator_name = attack;
-    data.header.law = attack;
-    data.header.mode = attack;
     data.header.variant = attack;
     data.header.program = attack;
     data.file = "/tmp/" + attack;
@@ -123,7 +121,7 @@ TEST_CASE("Report: of an empty session") {
     empty.assembly = synthetic_assembly();
     empty.joints = results_by_joint(empty.assembly, {});
     empty.curves.resize(empty.joints.size());
-    empty.header.task = "tighten";
+    empty.header.task = lesson::Task::tighten;
     const std::string html = report_of(empty);
     CHECK(markup_fault(html) == "");
     CHECK(has(html, "not reached"));
@@ -214,7 +212,7 @@ SessionData checked_again(double full, double check, double degrees) {
                                {content::PassKind::recheck, 1.0, {0}}};
     session.pass_texts = {"50 %", "100 %", "re-check"};
     session.joints = results_by_joint(session.assembly, {});
-    session.header.task = "tighten";
+    session.header.task = lesson::Task::tighten;
     CurveRequest request{{20.0}, 0.001, joint::Direction::tighten, {0, 1000, 2000}};
     std::vector<session::TickRecord> ticks;
     const auto pass = [&](double from, double to, double low, double high) {
@@ -304,8 +302,8 @@ TEST_CASE("Report: paths break only after a slash") {
 
 TEST_CASE("Report: only attempts with the same assembly, task, variant and law are compared") {
     std::vector<SessionData> sessions(4, synthetic_session({}).data);
-    sessions[1].header.task = "loosen";
-    sessions[3].header.law = "published";
+    sessions[1].header.task = lesson::Task::loosen;
+    sessions[3].header.law = joint::Law::published;
     std::vector<Attempt> attempts;
     for (const SessionData& session : sessions) attempts.push_back(attempt_of(session));
     CHECK(attempt_groups(attempts) == std::vector<std::vector<std::size_t>>{{0, 2}, {1}, {3}});
@@ -360,9 +358,9 @@ TEST_CASE("Trainees: the kind of operator follows from the session's record, not
     // Older programs: no key for the trainee.
     header.trainee.reset();
     CHECK(trainee_text(header) == "novice (person or simulated: not recorded)");
-    header.view_help = "off";
+    header.view_help = false;
     CHECK(trainee_text(header) == "novice (simulated)");
-    header.view_help.clear();
+    header.view_help.reset();
     header.tool = "ratchet";
     CHECK(session::operator_kind(header) == session::OperatorKind::person);
     CHECK(trainee_text(header) == "novice");
@@ -390,7 +388,7 @@ TEST_CASE("Joint plot: loosened joints share their axes and are shown to the end
     session.assembly = synthetic_assembly();
     session.assembly.joints.resize(2);
     session.joints = results_by_joint(session.assembly, {});
-    session.header.task = "loosen";
+    session.header.task = lesson::Task::loosen;
     CurveRequest request{{20.0, 20.0}, 0.001, joint::Direction::loosen, {}};
     std::vector<session::TickRecord> ticks;
     for (int j = 0; j < 2; ++j)

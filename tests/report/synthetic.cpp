@@ -133,9 +133,9 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     header.assembly = "flange";
     header.assembly_file = "flange/assembly.json";
     header.variant = "carbon";
-    header.law = "mechanistic";
-    header.mode = "practice";
-    header.task = "tighten";
+    header.law = joint::Law::mechanistic;
+    header.mode = lesson::Mode::practice;
+    header.task = lesson::Task::tighten;
     header.operator_name = "expert";
     header.trainee = "";
     header.seed = options.seed;

@@ -235,7 +235,8 @@ TEST_CASE("Hand clearance: a hand that cannot avoid a solid fades with its depth
     const auto opacity = [&](double depth) {
         fingers.clearance.depth = depth;
         render::Scene drawn;
-        scene::collect_objects(world, drawn);
+        scene::appearance_system(world);
+        view::collect_objects(world, drawn);
         return drawn.objects.at(0).opacity;
     };
     CHECK(opacity(-1e-3) == 1.0F);

@@ -9,6 +9,8 @@
 #include "engine/base/file.hpp"
 #include "tests/support/folder.hpp"
 
+namespace sculpt_content_test {
+
 using namespace bolt;
 
 namespace {
@@ -52,3 +54,5 @@ TEST_CASE("Sculpt: the committed files are valid models") {
     REQUIRE(workshop.has_value());
     CHECK(workshop->lights.size() >= 3);
 }
+
+}  // namespace sculpt_content_test

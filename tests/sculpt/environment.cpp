@@ -5,6 +5,8 @@
 
 #include "engine/base/random.hpp"
 
+namespace sculpt_environment_test {
+
 using namespace bolt;
 using namespace bolt::sculpt;
 
@@ -53,3 +55,5 @@ TEST_CASE(
         CHECK(std::min({light.x, light.y, light.z}) > 0.0);
     }
 }
+
+}  // namespace sculpt_environment_test

@@ -6,6 +6,8 @@
 #include "engine/base/random.hpp"
 #include "tools/assets/sculpt/mesh.hpp"
 
+namespace sculpt_field_test {
+
 using namespace bolt;
 using namespace bolt::sculpt;
 
@@ -71,3 +73,5 @@ TEST_CASE("Mesh: cut() keeps the surface closed and leaves no triangle across th
         CHECK(std::min(-low, high) < 1e-9);
     }
 }
+
+}  // namespace sculpt_field_test

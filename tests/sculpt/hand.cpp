@@ -9,12 +9,14 @@
 #include "tools/assets/sculpt/field.hpp"
 #include "tools/assets/sculpt/glove.hpp"
 
+namespace sculpt_hand_test {
+
 using namespace bolt;
 using namespace bolt::sculpt;
 
 TEST_CASE("Hand mesh: is closed, oriented outward and within its triangle budget") {
-    for (const assets::Model* hand : {&test::hands().left, &test::hands().right}) {
-        const TriMesh mesh = test::joined(*hand);
+    for (const assets::Model* hand : {&sculpt::test::hands().left, &sculpt::test::hands().right}) {
+        const TriMesh mesh = sculpt::test::joined(*hand);
         CHECK(mesh.triangles.size() <= hand_triangles);
         CHECK(mesh.triangles.size() > hand_triangles / 2);
         CHECK(open_edges(mesh) == 0);
@@ -25,12 +27,12 @@ TEST_CASE("Hand mesh: is closed, oriented outward and within its triangle budget
 }
 
 TEST_CASE("Hand mesh: vertices lie on the sculpted surface with outward normals") {
-    const TriMesh mesh = test::as_stored(test::hands().right);
+    const TriMesh mesh = sculpt::test::as_stored(sculpt::test::hands().right);
     double furthest = 0.0;
-    for (const Vec3& p : mesh.positions) furthest = std::max(furthest, std::abs(test::shape()(p)));
+    for (const Vec3& p : mesh.positions) furthest = std::max(furthest, std::abs(sculpt::test::shape()(p)));
     CHECK(furthest < 0.1 * mm);
     std::size_t against = 0;
-    for (const assets::Primitive& part : test::hands().right.meshes[0].primitives) {
+    for (const assets::Primitive& part : sculpt::test::hands().right.meshes[0].primitives) {
         for (std::size_t i = 0; i < part.indices.size(); i += 3) {
             const Vec3 a(part.positions[part.indices[i]]);
             const Vec3 b(part.positions[part.indices[i + 1]]);
@@ -44,7 +46,7 @@ TEST_CASE("Hand mesh: vertices lie on the sculpted surface with outward normals"
 }
 
 TEST_CASE("Hand mesh: neighbouring fingers do not merge past the web") {
-    const HandShape& shape = test::shape();
+    const HandShape& shape = sculpt::test::shape();
     const Skeleton& hand = shape.skeleton();
     for (std::size_t d = 1; d < 4; ++d) {
         for (const double part : {0.9, 1.0}) {
@@ -58,7 +60,7 @@ TEST_CASE("Hand mesh: neighbouring fingers do not merge past the web") {
 }
 
 TEST_CASE("Hand weights: each vertex has at most four existing joints, and its weights sum to exactly one") {
-    for (const assets::Model* hand : {&test::hands().left, &test::hands().right}) {
+    for (const assets::Model* hand : {&sculpt::test::hands().left, &sculpt::test::hands().right}) {
         for (const assets::Primitive& part : hand->meshes[0].primitives) {
             REQUIRE(part.weights.size() == part.positions.size());
             REQUIRE(part.joints.size() == part.positions.size());
@@ -81,8 +83,8 @@ TEST_CASE("Hand weights: each vertex has at most four existing joints, and its w
 }
 
 TEST_CASE("Hand mesh: the left hand is the exact mirror of the right") {
-    const assets::Model& left = test::hands().left;
-    const assets::Model& right = test::hands().right;
+    const assets::Model& left = sculpt::test::hands().left;
+    const assets::Model& right = sculpt::test::hands().right;
     REQUIRE(left.meshes[0].primitives.size() == right.meshes[0].primitives.size());
     for (std::size_t i = 0; i < left.meshes[0].primitives.size(); ++i) {
         const assets::Primitive& l = left.meshes[0].primitives[i];
@@ -96,7 +98,8 @@ TEST_CASE("Hand mesh: the left hand is the exact mirror of the right") {
         CHECK(l.weights == r.weights);
         CHECK(l.texcoords[0] == r.texcoords[0]);
     }
-    CHECK(volume(test::joined(left)) == doctest::Approx(volume(test::joined(right))).epsilon(1e-12));
+    CHECK(volume(sculpt::test::joined(left)) ==
+          doctest::Approx(volume(sculpt::test::joined(right))).epsilon(1e-12));
     const glm::mat4 mirror = glm::mat4(glm::vec4(-1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 1, 0),
                                        glm::vec4(0, 0, 0, 1));
     for (std::size_t i = 0; i < 26; ++i) {
@@ -109,7 +112,7 @@ TEST_CASE("Hand mesh: the left hand is the exact mirror of the right") {
 }
 
 TEST_CASE("Hand mesh: tangents are unit and perpendicular to the normals") {
-    for (const assets::Primitive& part : test::hands().right.meshes[0].primitives) {
+    for (const assets::Primitive& part : sculpt::test::hands().right.meshes[0].primitives) {
         for (std::size_t v = 0; v < part.normals.size(); ++v) {
             CHECK(glm::length(part.normals[v]) == doctest::Approx(1.0).epsilon(1e-4));
             CHECK(glm::length(glm::vec3(part.tangents[v])) == doctest::Approx(1.0).epsilon(1e-4));
@@ -122,7 +125,7 @@ TEST_CASE("Hand mesh: tangents are unit and perpendicular to the normals") {
 TEST_CASE("Hand textures: few edges of the knit are stretched beyond a factor of 1.75") {
     double area = 0.0;
     double stretched = 0.0;
-    for (const assets::Primitive& part : test::hands().right.meshes[0].primitives) {
+    for (const assets::Primitive& part : sculpt::test::hands().right.meshes[0].primitives) {
         for (std::size_t i = 0; i < part.indices.size(); i += 3) {
             std::array<Vec3, 3> p{};
             std::array<glm::dvec2, 3> uv{};
@@ -144,3 +147,5 @@ TEST_CASE("Hand textures: few edges of the knit are stretched beyond a factor of
     }
     CHECK(stretched < 0.05 * area);
 }
+
+}  // namespace sculpt_hand_test

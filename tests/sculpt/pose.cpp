@@ -6,6 +6,8 @@
 #include "support.hpp"
 #include "tools/assets/sculpt/field.hpp"
 
+namespace sculpt_pose_test {
+
 using namespace bolt;
 using namespace bolt::sculpt;
 
@@ -14,26 +16,27 @@ namespace {
 TriMesh posed_mesh(const assets::Model& hand, const HandPosture& pose) {
     const Result<assets::Model> out = posed(hand, pose);
     REQUIRE(out.has_value());
-    return test::as_stored(*out);
+    return sculpt::test::as_stored(*out);
 }
 
 // Returns the digit of a point past the web; 5: palm or cuff.
 std::size_t digit_of(const Vec3& p) {
     std::size_t best = 0;
     for (std::size_t d = 1; d < 5; ++d) {
-        if (test::shape().digit_distance(d, p) < test::shape().digit_distance(best, p)) best = d;
+        if (sculpt::test::shape().digit_distance(d, p) < sculpt::test::shape().digit_distance(best, p))
+            best = d;
     }
-    const double web = test::shape().travel(best, 1) + (best == 0 ? 16 * mm : 24 * mm);
-    const bool own =
-        test::shape().locate(best, p).travel > web && test::shape().digit_distance(best, p) < 1.5 * mm;
+    const double web = sculpt::test::shape().travel(best, 1) + (best == 0 ? 16 * mm : 24 * mm);
+    const bool own = sculpt::test::shape().locate(best, p).travel > web &&
+                     sculpt::test::shape().digit_distance(best, p) < 1.5 * mm;
     return own ? best : 5;
 }
 
 }  // namespace
 
 TEST_CASE("Skin: at rest the skinned mesh equals the mesh") {
-    const TriMesh rest = test::as_stored(test::hands().right);
-    const TriMesh same = posed_mesh(test::hands().right, HandPosture());
+    const TriMesh rest = sculpt::test::as_stored(sculpt::test::hands().right);
+    const TriMesh same = posed_mesh(sculpt::test::hands().right, HandPosture());
     double furthest = 0.0;
     for (std::size_t i = 0; i < rest.positions.size(); ++i) {
         furthest = std::max(furthest, glm::length(rest.positions[i] - same.positions[i]));
@@ -42,12 +45,12 @@ TEST_CASE("Skin: at rest the skinned mesh equals the mesh") {
 }
 
 TEST_CASE("Skin: a bent finger does not move its neighbours") {
-    const TriMesh rest = test::as_stored(test::hands().right);
+    const TriMesh rest = sculpt::test::as_stored(sculpt::test::hands().right);
     for (std::size_t moved = 0; moved < 5; ++moved) {
         HandPosture pose;
         const Digit& digit = digits[moved];
         for (std::size_t k = 1; k + 1 < digit.count; ++k) pose.flex(digit.first + k, 60.0);
-        const TriMesh now = posed_mesh(test::hands().right, pose);
+        const TriMesh now = posed_mesh(sculpt::test::hands().right, pose);
         std::array<double, 6> furthest{};
         std::array<std::size_t, 6> count{};
         for (std::size_t i = 0; i < rest.positions.size(); ++i) {
@@ -70,15 +73,15 @@ TEST_CASE("Skin: a bent finger does not move its neighbours") {
 
 TEST_CASE("Skin: poses preserve the volume and flip few triangles") {
     for (const bool left : {false, true}) {
-        const assets::Model& hand = left ? test::hands().left : test::hands().right;
-        const TriMesh rest = test::as_stored(hand);
+        const assets::Model& hand = left ? sculpt::test::hands().left : sculpt::test::hands().right;
+        const TriMesh rest = sculpt::test::as_stored(hand);
         const double whole = volume(weld(rest));
         for (const std::string_view name : pose_names) {
             CAPTURE(name);
             const HandPosture pose = *named_pose(name);
             const Result<assets::Model> out = posed(hand, left ? mirrored(pose) : pose);
             REQUIRE(out.has_value());
-            const TriMesh now = test::as_stored(*out);
+            const TriMesh now = sculpt::test::as_stored(*out);
             CHECK(volume(now) > 0.85 * whole);
             CHECK(volume(now) < 1.15 * whole);
             // A triangle is flipped if its normal opposes the skinned normals of its corners.
@@ -106,7 +109,7 @@ TEST_CASE("Skin: poses preserve the volume and flip few triangles") {
 }
 
 TEST_CASE("Skin: in a fist the tips reach the palm, in a pinch thumb and index meet") {
-    const assets::Model& hand = test::hands().right;
+    const assets::Model& hand = sculpt::test::hands().right;
     const Result<Skeleton> rest = posed_joints(hand, HandPosture());
     const Result<Skeleton> fist = posed_joints(hand, *named_pose("fist"));
     const Result<Skeleton> pinch = posed_joints(hand, *named_pose("pinch"));
@@ -124,7 +127,7 @@ TEST_CASE("Skin: in a fist the tips reach the palm, in a pinch thumb and index m
 TEST_CASE("Skin: a model that is not a hand is rejected") {
     assets::Model nothing;
     CHECK_FALSE(posed(nothing, HandPosture()).has_value());
-    assets::Model lacking = test::hands().right;
+    assets::Model lacking = sculpt::test::hands().right;
     for (assets::Node& node : lacking.nodes) {
         if (node.name == "ring_distal") node.name = "ring_dsital";
     }
@@ -133,3 +136,5 @@ TEST_CASE("Skin: a model that is not a hand is rejected") {
     CHECK(out.error().what.find("ring_distal") != std::string::npos);
     CHECK_FALSE(named_pose("wave").has_value());
 }
+
+}  // namespace sculpt_pose_test

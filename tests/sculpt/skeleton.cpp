@@ -9,6 +9,8 @@
 #include "support.hpp"
 #include "tools/assets/sculpt/field.hpp"
 
+namespace sculpt_skeleton_test {
+
 using namespace bolt;
 using namespace bolt::hand;
 using sculpt::mm;
@@ -104,3 +106,5 @@ TEST_CASE("Skeleton: the breadth over the knuckles matches a gloved hand") {
     CHECK((right - left) / mm > 84.0);
     CHECK((right - left) / mm < 92.0);
 }
+
+}  // namespace sculpt_skeleton_test

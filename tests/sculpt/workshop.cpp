@@ -9,6 +9,8 @@
 #include "tools/assets/sculpt/environment.hpp"
 #include "tools/assets/sculpt/mesh.hpp"
 
+namespace sculpt_workshop_test {
+
 using namespace bolt;
 using namespace bolt::sculpt;
 
@@ -105,3 +107,5 @@ TEST_CASE("Workshop: normals agree with their triangles") {
         CHECK(against <= count / 200);
     }
 }
+
+}  // namespace sculpt_workshop_test

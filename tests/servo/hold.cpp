@@ -75,7 +75,7 @@ TEST_CASE("Hold: engaged off centre, the pull starts at zero and settles with a 
         const double came = 1.0 - std::pow(1.0 - 1e-3 / 0.05, n);
         REQUIRE(glm::dot(output.force, held.nut.e1) == doctest::Approx(-came).epsilon(1e-3));
     }
-    CHECK(glm::length(held.state.engagement.held_at) < 1e-9);
+    CHECK(glm::length(held.state.engagement.offset_at_engagement) < 1e-9);
 }
 
 TEST_CASE("Hold: a tilted wrench is turned square to the bolt, upright and flipped") {

@@ -5,6 +5,8 @@
 #include "tests/servo/support.hpp"
 #include "tests/support/forbidden.hpp"
 
+namespace servo_undo_test {
+
 using namespace bolt;
 using namespace bolt::servo;
 
@@ -95,3 +97,5 @@ TEST_CASE("Undo: saving and restoring allocate nothing") {
     });
     CHECK(found.all() == 0);
 }
+
+}  // namespace servo_undo_test

@@ -11,6 +11,8 @@
 #include "engine/base/math.hpp"
 #include "tests/session/support.hpp"
 
+namespace session_export_csv_test {
+
 using namespace bolt;
 using namespace bolt::session;
 using namespace bolt::session::test;
@@ -194,3 +196,5 @@ TEST_CASE("CSV export: a damaged session is exported up to the damage, followed 
     CHECK(done.error().file == (folder / "a.session").string());
     CHECK(done.error().what.find("damaged") != std::string::npos);
 }
+
+}  // namespace session_export_csv_test

@@ -18,6 +18,8 @@
 #include "tests/session/child.hpp"
 #include "tests/session/support.hpp"
 
+namespace session_file_lock_test {
+
 using namespace bolt;
 using namespace bolt::session;
 using namespace bolt::session::test;
@@ -276,3 +278,5 @@ TEST_CASE("File lock: a foreign file with the name of the lock is not touched") 
         CHECK(std::filesystem::exists(folder / "far"));
     }
 }
+
+}  // namespace session_file_lock_test

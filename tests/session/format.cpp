@@ -20,8 +20,8 @@ TEST_CASE("Session format: a session of format 1 opens with all its data") {
     CHECK(reader->complete());
     CHECK(reader->header().assembly == "cover-m8");
     CHECK(reader->header().operator_name == "novice");
-    CHECK(reader->header().obstacles.empty());  // format 1 does not store them
-    CHECK(reader->header().device.empty());
+    CHECK_FALSE(reader->header().contact_models.has_value());  // format 1 does not store them
+    CHECK_FALSE(reader->header().device);
     CHECK(reader->header().obstacle_names.empty());
     const std::vector<TickRecord> ticks = all_ticks(*reader);
     REQUIRE(ticks.size() == reader->tick_count());
@@ -42,8 +42,8 @@ TEST_CASE("Session format: a session of format 2 opens, without undo") {
     const auto reader = SessionReader::open(bolt::test::test_file("data/format-2.boltwright"));
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     CHECK(reader->complete());
-    CHECK(reader->header().obstacles == "none");
-    CHECK_FALSE(reader->header().device.empty());
+    CHECK(reader->header().contact_models == "");
+    CHECK(reader->header().device);
     const std::vector<TickRecord> ticks = all_ticks(*reader);
     CHECK(ticks.size() > 10'000);
     bool held = false;
@@ -59,7 +59,7 @@ TEST_CASE("Session format: a session of format 3 opens, with a set torque of 0")
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     CHECK(reader->complete());
     CHECK(reader->header().tool.empty());
-    CHECK(reader->header().hand.empty());
+    CHECK_FALSE(reader->header().hand);
 
     const std::vector<TickRecord> ticks = all_ticks(*reader);
     CHECK(ticks.size() > 10'000);

@@ -6,6 +6,8 @@
 #include "tests/session/faulty_disk.hpp"
 #include "tests/session/support.hpp"
 
+namespace session_killed_test {
+
 using namespace bolt;
 using namespace bolt::session;
 using namespace bolt::session::test;
@@ -144,3 +146,5 @@ TEST_CASE("Killed process: a kill at a random time loses at most the last second
         CHECK_MESSAGE(mismatch.empty(), mismatch);
     }
 }
+
+}  // namespace session_killed_test

@@ -71,9 +71,10 @@ bool same(const Header& a, const Header& b) {
            a.assembly_text == b.assembly_text && a.variant == b.variant && a.law == b.law &&
            a.mode == b.mode && a.task == b.task && a.operator_name == b.operator_name && a.seed == b.seed &&
            std::bit_cast<std::uint64_t>(a.dt) == std::bit_cast<std::uint64_t>(b.dt) &&
-           a.program == b.program && a.guide == b.guide && a.obstacles == b.obstacles &&
-           a.device == b.device && a.servo == b.servo && a.tool == b.tool && a.view_help == b.view_help &&
-           a.hand == b.hand && a.trainee == b.trainee &&
+           a.program == b.program && a.guide == b.guide && a.contact_models == b.contact_models &&
+           a.device.has_value() == b.device.has_value() &&
+           (!a.device || limits_text(*a.device) == limits_text(*b.device)) && a.servo_rate == b.servo_rate &&
+           a.tool == b.tool && a.view_help == b.view_help && a.hand == b.hand && a.trainee == b.trainee &&
            std::ranges::equal(a.obstacle_names, b.obstacle_names,
                               [](const auto& x, const auto& y) { return x.id == y.id && x.name == y.name; });
 }
@@ -115,20 +116,20 @@ Header sample_header(double dt) {
     header.assembly_text =
         std::string("{\n  \"name\": \"Getriebe, 减速器\"\n}\n") + std::string(1, '\0') + "end";
     header.variant = "";
-    header.law = "mechanistic";
-    header.mode = "assessment";
-    header.task = "tighten";
+    header.law = joint::Law::published;
+    header.mode = lesson::Mode::assessment;
+    header.task = lesson::Task::loosen;
     header.operator_name = "novice";
     header.seed = 0xFFFF'FFFF'FFFF'FFFEULL;
     header.dt = dt;
     header.program = "boltwright 0.1.0";
-    header.guide = "on";
-    header.obstacles = "cover.contact.glb 12 bytes, fnv1a 00000000075bcd15";
-    header.device = limits_text(force::OutputLimits{});
-    header.servo = "virtual time";
+    header.guide = true;
+    header.contact_models = "cover.contact.glb 12 bytes, fnv1a 00000000075bcd15";
+    header.device = force::OutputLimits{};
+    header.servo_rate = 4000.0;
     header.tool = "torque_wrench";
-    header.view_help = "on";
-    header.hand = "left";
+    header.view_help = true;
+    header.hand = hand::Side::left;
     header.trainee = "Ada";
 
     header.obstacle_names = {{collision::ObstacleId::fixed(0), "housing"},

@@ -30,7 +30,7 @@ TEST_CASE("Cube map: texels cover the sphere once, and a texel's direction maps 
                 sum += 6.0 * static_cast<double>(texel_solid_angle(x, y, size));
         CHECK(sum == doctest::Approx(4.0 * std::numbers::pi).epsilon(1e-5));
     }
-    Cube cube{8, {}};
+    CubeMap cube{8, {}};
     for (int i = 0; i < 6 * 64; ++i) cube.texels.emplace_back(static_cast<float>(i));
     for (std::uint32_t face = 0; face < 6; ++face)
         for (std::uint32_t y = 0; y < 8; ++y)
@@ -40,10 +40,10 @@ TEST_CASE("Cube map: texels cover the sphere once, and a texel's direction maps 
 }
 
 TEST_CASE("Prefilter: white surroundings stay white at every roughness and in the diffuse light") {
-    const std::vector<Cube> levels = prefilter(constant(glm::vec3(1.0F, 0.5F, 0.25F)), 32);
+    const std::vector<CubeMap> levels = prefilter(constant_environment(glm::vec3(1.0F, 0.5F, 0.25F)), 32);
     REQUIRE(levels.size() == 4);
     CHECK(levels.back().size == 4);
-    for (const Cube& level : levels)
+    for (const CubeMap& level : levels)
         for (const glm::vec3& texel : level.texels) {
             REQUIRE(texel.x == doctest::Approx(1.0F).epsilon(1e-4));
             REQUIRE(texel.z == doctest::Approx(0.25F).epsilon(1e-4));
@@ -56,13 +56,13 @@ TEST_CASE("Prefilter: white surroundings stay white at every roughness and in th
 TEST_CASE(
     "Prefilter: under a bright upper hemisphere irradiance is (1 + cos)/2 within 2 %, and reflections are "
     "bright upwards") {
-    const std::vector<Cube> levels = prefilter(sky(), 64);
+    const std::vector<CubeMap> levels = prefilter(sky(), 64);
     const Harmonics h = diffuse_harmonics(levels[0]);
     for (float angle = 0.0F; angle <= pi; angle += 0.1F) {
         const glm::vec3 n(std::sin(angle), std::cos(angle), 0.0F);
         CHECK(std::abs(evaluate(h, n).x - 0.5F * (1.0F + std::cos(angle))) < 0.02F);
     }
-    for (const Cube& level : levels) {
+    for (const CubeMap& level : levels) {
         CHECK(lookup(level, {0, 1, 0}).x > 0.94F);
         CHECK(lookup(level, {0, -1, 0}).x < 0.06F);
     }

@@ -8,6 +8,8 @@
 #include "tests/support/eventually.hpp"
 #include "tests/support/forbidden.hpp"
 
+namespace sound_cue_queue_test {
+
 using namespace bolt;
 using namespace bolt::sound;
 
@@ -155,3 +157,5 @@ TEST_CASE("Cue queue: filling does not allocate, and two threads can use the que
     });
     for (int k = 0; k < 20000; ++k) queue.push(running(10.0));
 }
+
+}  // namespace sound_cue_queue_test

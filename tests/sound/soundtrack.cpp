@@ -33,8 +33,7 @@ void write_track(const session::SessionReader& session, const std::filesystem::p
     REQUIRE(track);
     world::World world;
     world::add_haptics(world, at->state);
-    const auto replayed = session::replay(session, std::move(*at), [&](const session::ReplayTick& m) {
-        world::write_snapshot(world, {m.state, m.input, m.output});
+    const auto replayed = session::replay(session, std::move(*at), world, [&](const session::ReplayTick& m) {
         REQUIRE(track->add_tick(m.setup, world, sound::lesson_cues(m.lesson.events), m.time));
         return true;
     });

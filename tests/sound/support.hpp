@@ -99,15 +99,13 @@ inline session::LessonOutcome run_lesson(const char* name, const char* trainee, 
     world::add_haptics(world, lesson_session.state());
     while (!lesson_session.finished() && lesson_session.time() < longest) {
         const auto output = lesson_session.step(
-            hand.act(lesson_session.setup(), lesson_session.state(), lesson_session.lesson()));
+            world, hand.act(lesson_session.setup(), lesson_session.state(), lesson_session.lesson()));
         REQUIRE(output);
-        world::write_joints(world, lesson_session.state().joints, lesson_session.state().rounded);
-        world::write_output(world, *output);
         const sound::SoundCues cues = sound::detect_events(detector, lesson_session.setup(), world,
                                                            sound::lesson_cues(lesson_session.events()));
         visit(*output, cues, renderer.next(cues));
     }
-    const auto outcome = lesson_session.finish();
+    const auto outcome = lesson_session.finish(world);
     REQUIRE(outcome);
     return *outcome;
 }

@@ -4,6 +4,8 @@
 #include "tests/sound/support.hpp"
 #include "tests/support/forbidden.hpp"
 
+namespace sound_synth_test {
+
 using namespace bolt;
 using namespace bolt::sound;
 
@@ -314,3 +316,5 @@ TEST_CASE("Synth: rendering does not allocate, lock or call the system") {
     });
     CHECK(found.all() == 0);
 }
+
+}  // namespace sound_synth_test

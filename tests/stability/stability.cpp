@@ -54,7 +54,7 @@ Trial trial(std::uint64_t seed) {
             t.scene.obstacles.push_back(HalfSpace{{-1, 0, 0}, -0.03});
             break;
         case Before::edge: {
-            const Box box{{Vec3(0.1, 0.0, -0.05), Quat(1, 0, 0, 0)}, Vec3(0.1, 0.1, 0.05)};
+            const test::Box box{{Vec3(0.1, 0.0, -0.05), Quat(1, 0, 0, 0)}, Vec3(0.1, 0.1, 0.05)};
             t.scene.obstacles.emplace_back(box);
             add_edges_as_pins(t.scene, box, 0.002);
             break;

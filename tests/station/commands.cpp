@@ -1,6 +1,8 @@
 // Commands to a station: pause, checkpoints, undo, and the placement of wrench and hand.
 #include "tests/station/test_station.hpp"
 
+namespace station_commands_test {
+
 using namespace bolt;
 using namespace bolt::station;
 using test::nothing;
@@ -209,3 +211,5 @@ TEST_CASE("Station: the dead-man switch of a window that hangs expires, a device
     rig.tick();
     CHECK(rig.state.input.enabled);
 }
+
+}  // namespace station_commands_test

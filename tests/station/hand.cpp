@@ -95,7 +95,7 @@ TEST_CASE(
     worn.place = {somewhere, somewhere};
     worn.send(test::raw_open(), 0.5);
     const hand::Skeleton open =
-        hand::joints(worn.plan.wearer.hand, worn.state.grip.closure.angles, worn.plan.wrist);
+        hand::joints(worn.plan.wearer.hand, worn.state.grasp.closure.angles, worn.plan.wrist);
     CHECK(apart(display(worn.plan, worn.state).joints, open) < 1e-12);
     // An obstacle holds the tool 0.1 m below the hand.
     worn.place.actual.position -= Vec3(0.0, 0.1, 0.0);

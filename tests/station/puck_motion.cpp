@@ -44,10 +44,9 @@ TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stop
             read_inputs(rig.layout, rig.setup, rig.state, rig.inputs);
             rig.state.output.tool = held;
         }
-        CHECK(glm::length(rig.tool().position - held.position) == doctest::Approx(ahead).epsilon(0.05));
-        const Vec3 turned =
-            rotation_vector(glm::normalize(rig.tool().orientation * glm::conjugate(held.orientation)));
-        CHECK(glm::length(turned) <= turned_ahead * 1.01);
+        CHECK(glm::length(rig.tool().position - held.position) == doctest::Approx(max_lead).epsilon(0.05));
+        const Vec3 turned = turn_between(held.orientation, rig.tool().orientation);
+        CHECK(glm::length(turned) <= max_angular_lead * 1.01);
     }
 }
 
@@ -123,8 +122,7 @@ TEST_CASE("Wheel: without an engaged nut it turns nothing, and that rotation is 
     ++on.inputs.wheel.opening;  // replugged: its count restarts
     on.inputs.wheel.sample.turn = 40.0;
     on.ticks(5);
-    CHECK(glm::length(rotation_vector(
-              glm::normalize(on.tool().orientation * glm::conjugate(there.orientation)))) < 1e-9);
+    CHECK(glm::length(turn_between(there.orientation, on.tool().orientation)) < 1e-9);
     CHECK(on.state.output.joint == 0);
 }
 
@@ -145,7 +143,7 @@ TEST_CASE("Puck: the tool glides onto the nut, descends with it, and leaves it w
     // Spun clockwise, seen from above.
     rig.inputs.mover.sample.angular_velocity = Vec3(0.0, -2.0, 0.0);
     rig.ticks(500);
-    CHECK(rig.state.output.nut_angle == doctest::Approx(spinning * 1.0).epsilon(0.1));
+    CHECK(rig.state.output.nut_angle == doctest::Approx(finger_rate_factor * 1.0).epsilon(0.1));
     CHECK(rig.state.output.joint == 0);
     CHECK(glm::length(rig.tool().position - servo::nut_centre(nut, rig.state.output.nut_angle)) < 5e-3);
     rig.inputs.mover.sample.angular_velocity = Vec3(0.0);

@@ -16,6 +16,8 @@
 #include "tests/support/sanitized.hpp"
 #include "tools/emulate/glove.hpp"
 
+namespace station_soak_test {
+
 using namespace bolt;
 using namespace bolt::station;
 using device::InjectedFault;
@@ -150,9 +152,7 @@ class Soak {
         const double azimuth = setup_.wrench.head_angle + servo_.joints[0].nut.angle;
         const servo::ToolPose wanted = servo::pose_of(test::tool_at(nut, at, azimuth));
         const Vec3 turn =
-            state_.output.joint >= 0
-                ? Vec3(0.0)
-                : rotation_vector(glm::normalize(wanted.orientation * glm::conjugate(tool.orientation)));
+            state_.output.joint >= 0 ? Vec3(0.0) : turn_between(tool.orientation, wanted.orientation);
         device::Sample sample;
         const Pose& hand = state_.hand;
         sample.pose.position = hand.position + force::clamp_length(at - tool.position, 0.02);
@@ -230,14 +230,14 @@ class Soak {
             open_ = !open_;
             hand_until_ = now_ + (open_ ? random_.uniform(0.5, 4.0) : random_.uniform(1.0, 20.0));
             moved_at_ = now_;
-            if (open_ && hand_.grip.held && hand_.grip.lost) ++statistics_.opened_meanwhile;
+            if (open_ && hand_.grasp.held && hand_.grasp.lost) ++statistics_.opened_meanwhile;
         }
         glove_.raw = open_ ? raw_open_ : raw_closed_;
     }
 
     void update_gloved_hand() {
         move_hand();
-        const bool held = hand_.grip.held, lost = hand_.grip.lost, fresh = sample_.number != hand_.number;
+        const bool held = hand_.grasp.held, lost = hand_.grasp.lost, fresh = sample_.number != hand_.number;
         const ToolPoses place{state_.workspace.tool, state_.output.tool};
         hand::GraspEvent event{};
         const test::Forbidden forbidden = test::forbidden_in(
@@ -247,7 +247,7 @@ class Soak {
         statistics_.released += event == hand::GraspEvent::released ? 1 : 0;
         statistics_.lost_in_grasp += event == hand::GraspEvent::glove_lost && held ? 1 : 0;
 
-        const hand::GraspState& now = hand_.grip;
+        const hand::GraspState& now = hand_.grasp;
         if (fresh) frame_at_ = now_;
         if (fresh && lost) back_at_ = now_;
         const bool dropped = held && !now.held;
@@ -417,3 +417,5 @@ TEST_CASE("Station: hours of faulty devices leave no force behind, and all devic
     CHECK(statistics.lost_in_grasp > 5);
     CHECK(statistics.opened_meanwhile > 0);
 }
+
+}  // namespace station_soak_test

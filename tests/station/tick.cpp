@@ -5,6 +5,8 @@
 #include "tests/station/test_station.hpp"
 #include "tests/support/forbidden.hpp"
 
+namespace station_tick_test {
+
 using namespace bolt;
 using namespace bolt::station;
 using test::nothing;
@@ -217,3 +219,5 @@ TEST_CASE("Station: a tick neither allocates nor waits, and the same inputs give
     CHECK(run(&forbidden) == run(nullptr));
     CHECK(forbidden.all() == 0);
 }
+
+}  // namespace station_tick_test

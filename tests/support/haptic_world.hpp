@@ -1,14 +1,29 @@
-// A world as haptic_system writes it, for tests that set the servo's values by hand.
+// Worlds as world::haptic_system writes them, for tests that step a servo or set its values by hand.
 #pragma once
 
+#include "game/lesson/lesson.hpp"
 #include "game/world/world.hpp"
 
 namespace bolt::test {
+
+inline world::World make_world(const servo::State& state) {
+    world::World world;
+    world::add_haptics(world, state);
+    return world;
+}
+
+// What follows a tick: the systems of session::tick_systems, without undo.
+inline void observe_tick(lesson::Lesson& lesson, world::World& world, const servo::State& state,
+                         const servo::Output& output) {
+    world::haptic_system(world, {state, {}, output});
+    lesson::observe(lesson, world);
+}
 
 class HapticWorld {
   public:
     explicit HapticWorld(std::size_t joints) {
         state_.joints.resize(joints);
+        state_.rounded.resize(joints);
         world::add_haptics(world_, state_);
     }
 
@@ -21,14 +36,12 @@ class HapticWorld {
             joint.clamp = output.clamp;
             joint.stage = output.stage;
         }
-        return write(state_.joints, {}, output, wrench);
+        return write(state_, output, wrench);
     }
 
-    const world::World& write(std::span<const joint::JointState> joints, std::span<const double> rounded,
-                              const servo::Output& output, bool wrench,
+    const world::World& write(const servo::State& state, const servo::Output& output, bool wrench,
                               double room = std::numeric_limits<double>::infinity()) {
-        world::write_joints(world_, joints, rounded);
-        world::write_output(world_, output);
+        world::haptic_system(world_, {state, {}, output});
         world::WorkingHand& hand = world_.only<world::WorkingHand>();
         hand.wrench = wrench;
         hand.action = world::HandAction::holding;

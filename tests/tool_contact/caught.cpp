@@ -65,7 +65,7 @@ TEST_CASE("Tool contact: a wrench pulled through the reducer is never caught for
             const proxy::GodObjectStep& step = puller.touch().last_step;
             const bool stays = glm::length(output.tool.position - before.position) < still &&
                                glm::length(proxy::twist_between(before, output.tool).angular) < still;
-            caught = step.spent && stays ? caught + 1 : 0;
+            caught = step.budget_exhausted && stays ? caught + 1 : 0;
             longest = std::max(longest, caught);
             if (output.contacts > 0) deepest = std::min(deepest, step.nearest);
             before = output.tool;

@@ -8,6 +8,7 @@
 #include "game/lesson/lesson.hpp"
 #include "haptics/joint/nut.hpp"
 #include "haptics/servo/engagement.hpp"
+#include "tests/support/haptic_world.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/tool_contact/support.hpp"
 
@@ -227,6 +228,7 @@ TEST_CASE(
     const double stood = bench.state.joints[0].nut.angle;
     const int first = 900;
     double most = 0.0, lost = 0.0;
+    world::World world = test::make_world(bench.state);
     lesson::Lesson lesson = lesson::begin(bench.assembly, lesson::Mode::guided, lesson::Task::tighten);
     std::string message;
     int slipped_at = -1, again_at = -1;
@@ -235,7 +237,7 @@ TEST_CASE(
         const double angle = to_radians(0.05) * i;
         const Output o = bench.step(turned(on, nut.axis, -angle));
         way(bench, o);
-        lesson::observe(lesson, bench.state, o);
+        test::observe_tick(lesson, world, bench.state, o);
         for (const lesson::LessonEvent& event : lesson.events)
             if (event.text.find("slipped") != std::string::npos) message = event.text;
         lesson.events.clear();

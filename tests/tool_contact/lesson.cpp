@@ -8,6 +8,7 @@
 #include "game/session/session_file.hpp"
 #include "game/trainees/trainee.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/haptic_world.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/tool_contact/support.hpp"
@@ -31,6 +32,7 @@ struct LessonStatistics {
 
 LessonStatistics run_lesson(test::Workbench& bench, const char* trainee, std::uint64_t seed,
                             bool guides = true, std::size_t steps = 1000) {
+    world::World world = test::make_world(bench.state);
     lesson::Lesson lesson = lesson::begin(bench.assembly, lesson::Mode::guided, lesson::Task::tighten);
     lesson.guides = guides;
     trainees::SimulatedTrainee hand(trainees::find_profile(trainee).value(), seed, bench.setup);
@@ -39,7 +41,7 @@ LessonStatistics run_lesson(test::Workbench& bench, const char* trainee, std::ui
     bool touched = false;
     while (lesson.due() != nullptr && lesson.current < steps && bench.state.tick < 600'000) {
         const Output output = tick(bench.setup, bench.state, hand.act(bench.setup, bench.state, lesson));
-        lesson::observe(lesson, bench.state, output);
+        test::observe_tick(lesson, world, bench.state, output);
         lesson.events.clear();
         if (output.joint < 0 && bench.state.tool_contact->in_hand && lesson.due() != nullptr) {
             const std::size_t due = lesson.due()->joint;
@@ -114,7 +116,7 @@ TEST_CASE("Tool contact: a lesson among obstacles replays to the same bits") {
     REQUIRE(reader);
     auto at = session::restore_setup(*reader);
     REQUIRE(at);
-    CHECK(at->obstacles == reader->header().obstacles);
+    CHECK(at->contact_models == reader->header().contact_models);
     CHECK(at->obstacle_names.size() == reader->header().obstacle_names.size());
     std::uint64_t touched = 0;
     const auto replayed = session::replay(*reader, std::move(*at), [&](const session::ReplayTick& moment) {

@@ -4,10 +4,13 @@
 
 #include "game/lesson/lesson.hpp"
 #include "game/trainees/trainee.hpp"
+#include "tests/support/haptic_world.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/tool_contact/support.hpp"
 #include "tools/verify/contact/scene.hpp"
+
+namespace tool_contact_through_test {
 
 using namespace bolt;
 using namespace bolt::servo;
@@ -45,6 +48,7 @@ Pose half_a_millimetre_in(const contact_validation::ContactScene& scene) {
 TEST_CASE("Tool contact: a clumsy hand never passes through the pipe flange, nor moves faster than a hand") {
     if (test::sanitized) return test::skip_rest("a round of the flange takes minutes under a sanitizer");
     test::Workbench bench("dn200-pn16");
+    world::World world = test::make_world(bench.state);
     lesson::Lesson lesson = lesson::begin(bench.assembly, lesson::Mode::guided, lesson::Task::tighten);
     trainees::SimulatedTrainee hand(trainees::find_profile("clumsy").value(), 1, bench.setup);
     const contact_validation::ContactScene scene =
@@ -56,7 +60,7 @@ TEST_CASE("Tool contact: a clumsy hand never passes through the pipe flange, nor
     while (lesson.due() != nullptr && samples < 500) {
         const Input input = hand.act(bench.setup, bench.state, lesson);
         const Output output = tick(bench.setup, bench.state, input);
-        lesson::observe(lesson, bench.state, output);
+        test::observe_tick(lesson, world, bench.state, output);
         lesson.events.clear();
         const Vec3 now(input.device.position[0], input.device.position[1], input.device.position[2]);
         if (bench.state.tick > 1) fastest = std::max(fastest, glm::length(now - before) / bench.setup.dt);
@@ -74,3 +78,5 @@ TEST_CASE("Tool contact: a clumsy hand never passes through the pipe flange, nor
     CHECK(fastest < 2.0);
     CHECK(faults == 0);
 }
+
+}  // namespace tool_contact_through_test

@@ -116,59 +116,56 @@ TEST_CASE("Glove to grasp: from an emulated glove to a wrench in the hand") {
         wearer.calibration = loaded->calibration;
         wearer.hand = hand::make_hand(loaded->hand, loaded->hand_length);
         hand::MeasuredHand worn;
-        hand::GraspState grip;
+        hand::GraspState grasp;
         const grasp_test::TestTool bar = grasp_test::bar();
         Pose wrist = grasp_test::across_the_palm();
-        if (!right) {  // the bar is symmetric
-            const Quat& q = wrist.orientation;
-            wrist = {wrist.position * Vec3(-1.0, 1.0, 1.0), Quat(q.w, q.x, -q.y, -q.z)};
-        }
+        if (!right) wrist = hand::mirrored(wrist);  // the bar is symmetric
         hand::GraspEvent last_event = hand::GraspEvent::none;
         const auto turn = [&] {
             const hand::GloveSample* sample = reader.next();
             if (sample != nullptr) hand::update(worn, wearer, sample->frame, sample->time);
             const hand::GraspEvent now =
-                update_grasp(grip, {}, bar.tool, wearer.hand, {sample != nullptr, worn.angles, wrist}, 0.01);
+                update_grasp(grasp, {}, bar.tool, wearer.hand, {sample != nullptr, worn.angles, wrist}, 0.01);
             if (now != hand::GraspEvent::none) last_event = now;
         };
         line->set_raw(raw_of(hand::Angles{}));
         REQUIRE(test::eventually([&] {
             turn();
-            return grip.has_frame && std::abs(worn.angles.fingers[1].pip) < 0.03;
+            return grasp.has_frame && std::abs(worn.angles.fingers[1].pip) < 0.03;
         }));
-        CHECK(!grip.held);
+        CHECK(!grasp.held);
         const hand::Angles fist = grasp_test::closed(1.0);
         line->set_raw(raw_of(fist));
         REQUIRE(test::eventually([&] {
             turn();
-            return grip.held && !grip.lost && worn.angles.fingers[1].pip > fist.fingers[1].pip - 0.05;
+            return grasp.held && !grasp.lost && worn.angles.fingers[1].pip > fist.fingers[1].pip - 0.05;
         }));
         // The measured angles are those of the hand within the glove's resolution; the displayed fingers stop
         // at the bar.
         CHECK(worn.angles.fingers[2].mcp == doctest::Approx(fist.fingers[2].mcp).epsilon(0.03));
         CHECK(worn.angles.thumb.roll == doctest::Approx(fist.thumb.roll).epsilon(0.03));
         for (std::size_t d = 1; d < hand::digit_count; ++d) {
-            CHECK(grip.closure.digits[d].touches);
-            CHECK(grip.closure.angles.fingers[d - 1].mcp < 0.8 * worn.angles.fingers[d - 1].mcp);
+            CHECK(grasp.closure.digits[d].touches);
+            CHECK(grasp.closure.angles.fingers[d - 1].mcp < 0.8 * worn.angles.fingers[d - 1].mcp);
         }
         line->stall(true);
         REQUIRE(test::eventually([&] {
             turn();
-            return grip.lost;
+            return grasp.lost;
         }));
         for (int i = 0; i < 100; ++i) turn();
-        CHECK(grip.held);
+        CHECK(grasp.held);
         CHECK(last_event == hand::GraspEvent::glove_lost);
         line->stall(false);
         REQUIRE(test::eventually([&] {
             turn();
-            return !grip.lost;
+            return !grasp.lost;
         }));
-        CHECK(grip.held);
+        CHECK(grasp.held);
         line->set_raw(raw_of(hand::Angles{}));
         REQUIRE(test::eventually([&] {
             turn();
-            return !grip.held;
+            return !grasp.held;
         }));
     }
 }

@@ -108,10 +108,8 @@ TEST_CASE("Captions: a played lesson shows exactly the captions of the sounds th
                                c.state());
         const bool tightens = c.lesson().due()->kind != lesson::StepKind::run_down;
         for (int i = 0; i < 20 && !c.finished(); ++i) {
-            const auto output = c.step(trainer::step_hand(player.hand, c.setup(), c.state()));
+            const auto output = c.step(world, trainer::step_hand(player.hand, c.setup(), c.state()));
             REQUIRE(output);
-            world::write_joints(world, c.state().joints, c.state().rounded);
-            world::write_output(world, *output);
             observe(captions,
                     sound::detect_events(detector, c.setup(), world, sound::lesson_cues(c.events())),
                     c.setup().dt);

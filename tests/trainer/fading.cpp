@@ -50,7 +50,8 @@ TEST_CASE("Arms: an arm close to the eye fades, a distant one does not") {
     const auto opacity = [&](const Vec3& eye) {
         scene::fade_near_arms(world, eye);
         render::Scene drawn;
-        scene::collect_objects(world, drawn);
+        scene::appearance_system(world);
+        view::collect_objects(world, drawn);
         return drawn.objects.at(0).opacity;
     };
     const Vec3 aside = glm::normalize(glm::cross(back, Vec3(0.3, 0.5, 0.8)));

@@ -19,7 +19,7 @@ std::string shown(const char* language, const Script& s, bool wrench) {
     setup.nuts.resize(2);
     test::HapticWorld world(2);
     const auto label =
-        scene::work_label(loaded.words, s.lesson, setup, world.write(s.state.joints, {}, s.output, wrench));
+        scene::work_label(loaded.words, s.lesson, setup, world.write(s.state, s.output, wrench));
     return label ? label->text : "";
 }
 

@@ -29,6 +29,8 @@ Outcome play_through(const char* name, session::LessonOptions options, double lo
     auto begun = session::LessonSession::begin(assembly(name), options, file);
     REQUIRE(begun);
     session::LessonSession& session = **begun;
+    world::World world;
+    world::add_haptics(world, session.state());
     Player player;
     player.hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
     Outcome out;
@@ -38,11 +40,11 @@ Outcome play_through(const char* name, session::LessonOptions options, double lo
             trainer::apply_command(player.hand, next_command(player, session, 0.016), session.setup(),
                                    session.state());
         const servo::Input input = trainer::step_hand(player.hand, session.setup(), session.state());
-        REQUIRE(session.step(input));
+        REQUIRE(session.step(world, input));
         out.longest_jump = std::max(out.longest_jump, glm::distance(before, player.hand.pose.position));
         before = player.hand.pose.position;
     }
-    const auto played = session.finish();
+    const auto played = session.finish(world);
     REQUIRE(played);
     out.result = played->result;
     out.time = session.time();

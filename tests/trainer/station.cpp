@@ -32,6 +32,7 @@ struct StationLesson {
     content::Assembly assembly;
     session::LessonOptions options;
     std::unique_ptr<session::LessonSession> session;
+    world::World world;
     StationClient client;
     test::VirtualBench* bench = nullptr;
     StationIntent intent;
@@ -68,6 +69,7 @@ struct StationLesson {
         auto begun = session::LessonSession::begin(std::move(*other), options, file);
         REQUIRE(begun);
         session = std::move(*begun);
+        world::add_haptics(world, session->state());
         client.rest = {Vec3(0.0, 0.01, 0.25), glm::angleAxis(-0.5 * pi, Vec3(1, 0, 0))};
         client.home = make_hand(client.rest).pose;
         next_frame();
@@ -91,7 +93,7 @@ struct StationLesson {
         bench->pass(frame_time);
         for (station::StationTick tick;
              status && continues(undo, *session) && client.link->next_tick(tick);) {
-            status = session->repeat(tick.input, tick.output);
+            status = session->repeat(world, tick.input, tick.output);
             for (const lesson::LessonEvent& event : session->events()) {
                 if (event.kind == lesson::EventKind::mistake) mistakes.push_back(event.text);
                 observe(undo, session->lesson(), event);
@@ -193,7 +195,7 @@ class KeyboardTrainee {
                                               lesson_.session->state(), lesson_.due()->joint, false);
         for (double t = 0.0; t < 8.0; t += frame_time) {
             const Quat& now = lesson_.client.latest.tool.orientation;
-            const Vec3 left = rotation_vector(glm::normalize(ghost.orientation * glm::conjugate(now)));
+            const Vec3 left = turn_between(now, ghost.orientation);
             if (glm::length(left) < 0.08) break;
             std::set<Key> keys;
             const auto add = [&](double about, Key more, Key less) {
@@ -214,7 +216,7 @@ class KeyboardTrainee {
     void spin(std::size_t current) {
         for (double t = 0.0;
              t < 60.0 && lesson_.session->lesson().current == current && lesson_.engaged() >= 0 &&
-             !lesson::step_fulfilled(lesson_.session->lesson(), lesson_.session->state().joints);
+             !lesson::step_fulfilled(lesson_.session->lesson(), lesson_.world);
              t += frame_time)
             hold_for_frame({Key::space, Key::right});
     }
@@ -268,7 +270,7 @@ TEST_CASE("Station client: a lesson is played by keyboard at a station with its 
     MESSAGE("at " << lesson_run.session->time() << " s step " << lesson_run.session->lesson().current
                   << " of " << lesson_run.session->lesson().steps.size());
     for (const std::string& mistake : lesson_run.mistakes) MESSAGE(mistake);
-    const auto finished = lesson_run.session->finish();
+    const auto finished = lesson_run.session->finish(lesson_run.world);
     REQUIRE(finished);
     if (test::sanitized)
         return test::skip_rest("the lesson after its first step takes minutes under a sanitizer");
@@ -286,7 +288,7 @@ TEST_CASE("Station client: a gloved hand pinches and spins nuts, takes the wrenc
     if (!lesson_run.status) FAIL(lesson_run.status.error().message());
     MESSAGE("at " << lesson_run.session->time() << " s step " << lesson_run.session->lesson().current
                   << " of " << lesson_run.session->lesson().steps.size());
-    const auto finished = lesson_run.session->finish();
+    const auto finished = lesson_run.session->finish(lesson_run.world);
     REQUIRE(finished);
     CHECK(lesson_run.session->lesson().current >= 1);
     if (test::sanitized)
@@ -330,7 +332,7 @@ TEST_CASE("Station client: a pause stops the lesson, and undo works as with the 
     CHECK(lesson_run.session->state().joints[first].nut.angle == 0.0);
     lesson_run.frames(0.2);
     REQUIRE(lesson_run.status);
-    REQUIRE(lesson_run.session->finish());
+    REQUIRE(lesson_run.session->finish(lesson_run.world));
     expect_replay(lesson_run);
 }
 
@@ -358,7 +360,7 @@ TEST_CASE("Station client: a mistake in the last step restarts that step before 
     trainee.play(200.0);
     CHECK_FALSE(continues(lesson_run.undo, *lesson_run.session));
     if (!lesson_run.status) FAIL(lesson_run.status.error().message());
-    const auto finished = lesson_run.session->finish();
+    const auto finished = lesson_run.session->finish(lesson_run.world);
     REQUIRE(finished);
     CHECK(finished->result.finished);
     CHECK(finished->result.joints[0].overall == lesson::Verdict::ok);

@@ -68,7 +68,7 @@ TEST_CASE("Step undo: a mistake restarts its step in a guided lesson only, and w
         REQUIRE(s.lesson.current == step + 1);
         CHECK(steps_to_undo(undo, s.lesson) == 1);
         CHECK(due(undo, s.lesson) == &s.lesson.steps[step]);
-        REQUIRE(lesson::undo_steps(s.lesson, s.state, 1));
+        REQUIRE(s.undo(1));
         take(undo, s);
         CHECK_FALSE(steps_to_undo(undo, s.lesson));
         CHECK(s.lesson.current == step);

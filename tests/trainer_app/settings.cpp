@@ -8,6 +8,8 @@
 #include "game/scene/workplace.hpp"
 #include "tests/trainer_app/headless_trainer.hpp"
 
+namespace trainer_app_settings_test {
+
 using namespace bolt;
 using namespace bolt::trainer;
 
@@ -93,7 +95,7 @@ TEST_CASE("Menu: the chosen joint law is saved for the trainee and is in force i
         CHECK(driver.lesson().session->assembly().law == joint::Law::published);
         const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
         REQUIRE(reader);
-        CHECK(reader->header().law == "published");
+        CHECK(reader->header().law == joint::Law::published);
     }
     SettingsTrainer later(options(true));
     CHECK(later.settings().law == "published");
@@ -207,3 +209,5 @@ TEST_CASE("Settings: an unreadable file is reported with its position, and lesso
     CHECK(driver.app().screen() == ShownScreen::lesson);
     CHECK(read_file(path, 100, ErrorCode::failed).value() == "{\n  \"format\": 7\n}\n");
 }
+
+}  // namespace trainer_app_settings_test

@@ -75,7 +75,7 @@ TEST_CASE("Trainer at a station: keys move the tool, a pause stops it, and the s
     const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());
-    CHECK(reader->header().servo == "1000 Hz");
+    CHECK(reader->header().servo_rate == 1000.0);
     CHECK(reader->tick_count() == static_cast<std::uint64_t>(std::lround(paused * 1000.0)));
 }
 
@@ -139,7 +139,7 @@ TEST_CASE(
         REQUIRE(driver.app().end_lesson());
         const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
         REQUIRE(reader);
-        CHECK(reader->header().hand == (gloved ? "left" : "right"));
+        CHECK(reader->header().hand == (gloved ? hand::Side::left : hand::Side::right));
         return aside;
     };
     station::DisplayedHand left;

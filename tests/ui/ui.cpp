@@ -164,7 +164,7 @@ TEST_CASE("Pictures: another view is drawn with one texel per pixel") {
     const assets::Model model = test::sphere({}, 24);
     const GpuModel gpu_model = screen.studio.upload(model);
     add_model(screen.scene, model, gpu_model);
-    const EnvironmentLight light = screen.studio.light(shading::studio(64));
+    const EnvironmentLight light = screen.studio.light(shading::studio_environment(64));
     screen.scene.environment = &light;
     const Eye eye = make_eye({2, 1, 3}, {0, 0, 0}, {});
     const Picture single = screen.studio.shoot(screen.scene, eye, {60, 60});

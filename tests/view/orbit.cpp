@@ -133,10 +133,7 @@ TEST_CASE("Camera: frame_all shows every corner of the box from every direction,
         const Orbit o = frame_all(some(random), box, 1.6F);
         double most = 0.0;
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::dvec2 at =
-                projected(o, {static_cast<double>((corner & 1) != 0 ? box.high.x : box.low.x),
-                              static_cast<double>((corner & 2) != 0 ? box.high.y : box.low.y),
-                              static_cast<double>((corner & 4) != 0 ? box.high.z : box.low.z)});
+            const glm::dvec2 at = projected(o, Vec3(box.corner(corner)));
             most = std::max({most, std::abs(at.x) / 0.8, std::abs(at.y) / 0.5});
         }
         CHECK(most <= 1.0);

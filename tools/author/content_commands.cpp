@@ -52,7 +52,7 @@ void add_new(CLI::App& app, int& exit_code) {
 
 namespace {
 
-// Reports each text with a letter that no font has; the window would show a box for it.
+// Reports each text that has a letter in no font; the window would show a box in its place.
 std::vector<Error> check_letters(const words::LoadedWords& loaded, const std::string& file,
                                  const text::Fonts& fonts) {
     std::vector<Error> errors;
@@ -157,7 +157,7 @@ int run_views(const std::string& name, bool as_json) {
     if (!*contact)
         return print_error({ErrorCode::bad_content,
                             fmt::format("{} has no contact model, so visibility cannot be computed", name),
-                            "\"contact\" under \"models\", and a wrench with a model"});
+                            "\"contact_model\", and a wrench with a model"});
     session::seat_nuts(setup, **contact);
     std::vector<NutVisibility> rows;
     for (std::size_t i = 0; i < assembly.joints.size(); ++i) {

@@ -77,7 +77,7 @@ int import_into_channel(const step_import::ImportOptions& options, step_import::
     return print_error(error);
 }
 
-// Describes the end of a child process that did not return from its work.
+// Describes why a child process ended before its work was done.
 Error describe_end(const ImportCommand& command, const step_import::GuardedRun& run) {
     using step_import::GuardOutcome;
     Error error;
@@ -140,7 +140,7 @@ int import_guarded(ImportCommand command) {
     }
     if (isatty(STDERR_FILENO) == 1) (void)std::fputs("\r\033[K", stderr);
     if (run.outcome != step_import::GuardOutcome::interrupted) return print_error(describe_end(command, run));
-    (void)std::raise(run.code);  // ends this program as if the signal had not been held back
+    (void)std::raise(run.code);  // ends this program as if the signal had not been blocked
     return 128 + run.code;
 }
 

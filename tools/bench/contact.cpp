@@ -1,7 +1,7 @@
 // Benchmarks of contact queries, tick by tick along a path of the shipped wrench near and on a casing. One
-// benchmark iteration is the whole path. The counters are microseconds of this thread's CPU time; for each
-// tick the least of three rounds counts. `touching_*`: only ticks with contacts; `after_load`: the first
-// tick.
+// benchmark iteration is the whole path. The counters are microseconds of this thread's CPU time; the time of
+// a tick is the shortest of three rounds. `touching_*`: ticks with contacts only; `first_max`: the slowest
+// tick at the start or after a jump of the path; `after_load`: the first tick.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -145,18 +145,18 @@ ContactMesh refined(const ContactMesh& mesh, double longest) {
     return collision::make_contact_mesh(vertices, indices).value();
 }
 
-// Returns one pose per millisecond. The tool approaches a random point of the casing with a random point of
-// its own and orientation, moves to between 4 mm before and 8 mm behind the surface, slides along it, and
-// goes to the next point. The profile is minimum jerk; no point of the tool is faster than 0.3 m/s. Poses
-// that penetrate the casing by more than `deepest` (m) are pushed out, as a god-object would.
+// Returns one pose per millisecond. In each segment of the path a random point of the tool, in a random
+// orientation, approaches a random point of the casing, moves to between 4 mm before and 8 mm behind the
+// surface, and slides along it. The profile is minimum jerk; no point of the tool is faster than 0.3 m/s.
+// Poses that penetrate the casing by more than `deepest` (m) are pushed out, as a god-object would.
 std::vector<Pose> make_sweep(const collision::CollisionWorld& world, const collision::Solid& casing,
                              const collision::ToolShape& tool, double deepest, double seconds) {
     Random random(7);
     const std::vector<double> casing_sums = area_sums(casing.mesh);
     const std::vector<double> tool_sums = area_sums(tool.solid.mesh);
     collision::NarrowPhaseState state = collision::make_narrow_phase(world, tool);
-    // Push out along the deepest contact repeatedly and let the shift decay slowly: nearly the motion of a
-    // god-object.
+    // Push out along the deepest contact repeatedly and let the shift decay slowly. This approximates the
+    // motion of a god-object.
     Vec3 shift(0.0);
     const auto put = [&](Pose pose) -> std::optional<Pose> {
         shift *= 0.98;
@@ -250,7 +250,7 @@ constexpr double band = 0.6e-3;
 constexpr double edge_for_a_million_triangles = 8.5e-3;  // m: the longest edge for about a million triangles
 
 constexpr double seconds = 24.0;  // s, duration of the path
-constexpr int rounds = 3;         // the least time of each tick counts
+constexpr int rounds = 3;         // the shortest time of each tick is used
 
 // The benchmark's argument selects the casing: 0 as shipped (about 60,000 triangles), 1 refined.
 struct ContactScenario {
@@ -284,7 +284,8 @@ struct ContactScenario {
     }
 };
 
-// Times of the ticks of a path, by whether the tool touches. The first tick after a jump counts apart.
+// Times of the ticks of a path: all, those in which the tool touches, and the first ticks after a jump, which
+// the others exclude.
 class TickTimes {
   public:
     void add(double took, bool touches, bool continues) {

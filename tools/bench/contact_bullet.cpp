@@ -1,6 +1,6 @@
 // Peer: Bullet. The casing is a triangle tree. The tool is a set of convex hulls, because Bullet needs convex
-// moving bodies; each hull holds a slice across the tool's longest side and fills the jaw. The time is
-// therefore comparable, the contacts are not.
+// moving bodies. Each hull holds one slice across the tool's longest side; the hulls fill the jaw. The times
+// are comparable, the contacts are not.
 #include <btBulletCollisionCommon.h>
 
 #include <algorithm>

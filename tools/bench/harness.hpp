@@ -26,7 +26,7 @@ inline double cpu_milliseconds() {
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-// Returns the value, or throws the error, which guarded() catches.
+// Returns the value, or throws the error, which run_or_skip() catches.
 template <class T>
 T unwrap(Result<T> result) {
     if (!result) throw std::runtime_error(result.error().message());
@@ -36,7 +36,7 @@ inline void unwrap(const Status& status) {
     if (!status) throw std::runtime_error(status.error().message());
 }
 
-// Runs a benchmark. An exception is reported beside its name, and the other benchmarks still run.
+// Runs a benchmark. An exception is reported under the benchmark's name, and the other benchmarks still run.
 template <class Run>
 void run_or_skip(benchmark::State& state, const Run& run) {
     try {

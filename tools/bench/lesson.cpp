@@ -52,12 +52,15 @@ void headless_lesson_unrecorded(benchmark::State& state) {
     double seconds = 0.0;
     for (auto _ : state) {
         servo::State servo = servo::initial_state(setup);
+        world::World world;
+        world::add_haptics(world, servo);
         lesson::Lesson lesson = lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
         trainees::SimulatedTrainee trainee(trainees::find_profile("expert").value(), 1, setup);
         while (lesson.due() != nullptr && servo.tick < 7'200'000) {
             const servo::Input input = trainee.act(setup, servo, lesson);
             const servo::Output output = servo::tick(setup, servo, input);
-            lesson::observe(lesson, servo, output);
+            world::haptic_system(world, {servo, input, output});
+            lesson::observe(lesson, world);
             lesson.events.clear();
         }
         seconds += static_cast<double>(servo.tick) * 1e-3;
@@ -93,13 +96,15 @@ void lesson_frames(benchmark::State& state, const char* name, session::Obstacles
             session::LessonSession& lesson_session = *session;
             trainees::SimulatedTrainee expert(trainees::find_profile("expert").value(), 1,
                                               lesson_session.setup());
+            world::World world;
+            world::add_haptics(world, lesson_session.state());
             double frame_cost = 0.0;
             bool touches = false;
             for (double last_frame = 0.0; !lesson_session.finished() && lesson_session.time() < time_limit;) {
                 const servo::Input input =
                     expert.act(lesson_session.setup(), lesson_session.state(), lesson_session.lesson());
                 const double start = bench::thread_microseconds();
-                const servo::Output output = unwrap(lesson_session.step(input, expert.take_events()));
+                const servo::Output output = unwrap(lesson_session.step(world, input, expert.take_events()));
                 frame_cost += 1e-3 * (bench::thread_microseconds() - start);
                 touches = touches || !output.touched.is_none();
                 if (lesson_session.time() < last_frame + frame) continue;

@@ -1,5 +1,4 @@
-// A generated, deterministic model of a machine with which renderers and loaders are measured, ours and
-// others'.
+// A generated, deterministic model of a machine, for benchmarks of renderers and loaders, ours and others'.
 #pragma once
 
 #include "engine/assets/model.hpp"

@@ -1,4 +1,4 @@
-// bolt-bench: measures each part beside a named baseline in the same run. Ratios are comparable between
+// bolt-bench: measures each part and a named baseline in the same run. Ratios are comparable between
 // machines, nanoseconds are not. No benchmark is a test.
 //   bolt-bench --machine FILE.glb    writes the benchmark model, for other renderers (peer/)
 

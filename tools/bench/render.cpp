@@ -1,4 +1,4 @@
-// Benchmarks of the renderer: the cost of a frame, pass by pass, beside a minimal renderer of the same
+// Benchmarks of the renderer: the cost of a frame, pass by pass, and that of a minimal renderer of the same
 // triangles. The two alternate, so that other load slows both; `x_bare` is the ratio.
 #include <benchmark/benchmark.h>
 
@@ -188,7 +188,7 @@ struct BenchScene {
     BenchScene(gpu::Device& device, const assets::Model& model, const glm::vec3& from, const glm::vec3& to,
                bool levels = false)
         : gpu_model(unwrap(render::upload_model(device, model, {levels}))),
-          light(unwrap(render::upload_environment(device, shading::studio()))) {
+          light(unwrap(render::upload_environment(device, shading::studio_environment()))) {
         render::add_model(scene, model, gpu_model);
         render::SceneLight key;
         key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);

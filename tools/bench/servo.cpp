@@ -1,8 +1,8 @@
 // Benchmark of the whole servo tick (contact, nut and joint, guiding, coupling, output stage) with 12 joints
 // on the ZQ350, over ten minutes of a simulated arm in contact. The counters are microseconds of CPU time.
-// p50 … max: of the ticks of one run; own_*: of the least time of each tick in five runs, which excludes
-// interruptions. step, step_torque: the greatest change in a millisecond, as a fraction of the device's
-// limit.
+// p50 … max: of the ticks of one run; own_*: of the shortest time of each tick in five runs, which excludes
+// interruptions. step, step_torque: the greatest change of force and torque in a millisecond, as a fraction
+// of the device's limit.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -239,8 +239,7 @@ std::vector<servo::Input> make_path(ServoFixture& servo, const DeviceModel& devi
     while (inputs.size() < ticks)
         for (const MotionTarget& leg : hand.plan_next(target)) {
             const Pose from = target;
-            const double turn = glm::length(
-                rotation_vector(glm::normalize(leg.to.orientation * glm::conjugate(from.orientation))));
+            const double turn = glm::length(turn_between(from.orientation, leg.to.orientation));
             const double least = 1.875 * std::max(glm::length(leg.to.position - from.position) / max_speed,
                                                   turn / max_turn_speed);
             const int steps = std::max(1, static_cast<int>(std::max(leg.seconds, least) / dt));

@@ -73,16 +73,17 @@ void sound_event_detection(benchmark::State& state) {
         return;
     }
     sound::EventDetector detector;
+    servo::State servo = servo::initial_state(setup);
     world::World world;
-    world::add_haptics(world, servo::initial_state(setup));
+    world::add_haptics(world, servo);
     servo::Output output;
     output.joint = 0;
     output.touched = collision::ObstacleId::fixed(3);
     for (auto _ : state)
         for (int i = 0; i < 20; ++i) {
             output.tool.position.x += 1e-4;
-            output.nut_angle += 1e-3;
-            world::write_output(world, output);
+            servo.joints[0].nut.angle += 1e-3;
+            world::haptic_system(world, {servo, {}, output});
             benchmark::DoNotOptimize(sound::detect_events(detector, setup, world));
         }
     report_real_time(state);

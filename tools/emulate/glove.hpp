@@ -23,7 +23,7 @@ struct EmulatedGloveOptions {
     hand::Side hand = hand::Side::right;
     std::string version = "1.2";
     bool plugged = true;
-    // Settings that the previous program has left.
+    // Settings that the previous program left in the glove.
     bool status = false, time = false;
     bool streaming = false;
     bool old_firmware = false;  // rejects the optional commands

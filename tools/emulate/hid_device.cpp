@@ -117,7 +117,7 @@ struct Uhid::Shared {
                 handle(event);
                 event = {};
             }
-            for (const Bytes& report : device->advance(device::steady_seconds())) {
+            for (const Bytes& report : device->advance(steady_seconds())) {
                 uhid_event in{};
                 in.type = UHID_INPUT2;
                 in.u.input2.size = static_cast<std::uint16_t>(report.size());

@@ -19,8 +19,8 @@ namespace bolt::emulate {
 // Builds a report descriptor item by item (HID 1.11, section 6.2.2).
 class DescriptorBuilder {
   public:
-    // `head` is the item's prefix without the size bits. `bytes` is the size of the value; 0: as small as
-    // fits.
+    // `head` is the item's prefix without the size bits. `bytes` is the size of the value; 0: the smallest
+    // that fits.
     DescriptorBuilder& item(unsigned head, std::int64_t value, int bytes = 0) {
         const bool fits_one = value >= -128 && value <= 127, fits_two = value >= -32768 && value <= 32767;
         const int n = bytes != 0 ? bytes : fits_one ? 1 : fits_two ? 2 : 4;

@@ -1,4 +1,4 @@
-// bolt-emulate: emulates a glove on a pseudo-terminal, or a puck or wheel in the kernel, for users without
+// bolt-emulate: emulates a glove on a pseudo-terminal, or a puck or a wheel in the kernel, for users without
 // the hardware. Each device repeats one hand motion until a signal ends the program.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -46,7 +46,7 @@ Status play(std::unique_ptr<Device> device, const std::function<Status(Device&, 
     Status status = print(fmt::format("{:04x}:{:04x}  {}\n", design.vendor, design.product, design.name));
     while (status && ended == 0) {
         plug.with([&](HidDevice& d) {
-            status = move(dynamic_cast<Device&>(d), 2.0 * pi / motion_period * device::steady_seconds());
+            status = move(dynamic_cast<Device&>(d), 2.0 * pi / motion_period * steady_seconds());
         });
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

@@ -168,7 +168,8 @@ double EmulatedWheel::torque() const {
     if (!enabled_ || !loaded_ || !set_ || !playing_ ||
         time_ - started_ > std::min(design_.effect_life, duration_))
         return 0.0;
-    // The direction is that from which the force comes: a force from the right turns to the left.
+    // The direction of an effect is the one from which its force comes: a force from the right turns the
+    // wheel to the left.
     return -magnitude_ * effect_gain_ * gain_ * design_.power * design_.full_torque;
 }
 

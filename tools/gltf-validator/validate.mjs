@@ -1,4 +1,4 @@
-// Runs the Khronos glTF validator over the files of the command line and prints, as JSON, what it says of each:
+// Runs the Khronos glTF validator on the files of the command line and prints its messages for each file as JSON:
 // [{ "file", "messages": [{ "severity": 0 error | 1 warning, "code", "message", "pointer" }] }]
 import { readFile } from 'node:fs/promises';
 import { dirname, resolve } from 'node:path';

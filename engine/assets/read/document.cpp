@@ -11,7 +11,7 @@ namespace bolt::assets {
 
 namespace {
 
-constexpr int depth_limit = 64;
+constexpr int json_depth_limit = 64;
 constexpr std::uint32_t json_chunk = 0x4E4F534A;
 constexpr std::uint32_t binary_chunk = 0x004E4942;
 
@@ -22,7 +22,7 @@ std::uint32_t u32(std::string_view bytes, std::size_t offset) {
 }
 
 // JSON parsers recurse, and so do users of the parsed values: the nesting depth is checked before parsing.
-bool exceeds_depth_limit(std::string_view text) {
+bool exceeds_json_depth_limit(std::string_view text) {
     int depth = 0;
     bool quoted = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -33,7 +33,7 @@ bool exceeds_depth_limit(std::string_view text) {
         } else if (c == '"') {
             quoted = true;
         } else if (c == '{' || c == '[') {
-            if (++depth > depth_limit) return true;
+            if (++depth > json_depth_limit) return true;
         } else if (c == '}' || c == ']') {
             --depth;
         }
@@ -89,8 +89,8 @@ Status parse_document(Document& document) {
         BOLT_TRY(split_glb(document, text));
     }
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    if (exceeds_depth_limit(text))
-        return error_at(document, "", "nests deeper than " + std::to_string(depth_limit) + " levels");
+    if (exceeds_json_depth_limit(text))
+        return error_at(document, "", "nests deeper than " + std::to_string(json_depth_limit) + " levels");
     try {
         document.json = nlohmann::json::parse(text);
     } catch (const nlohmann::json::parse_error& error) {

@@ -125,12 +125,12 @@ Status load_images(Document& document) {
 namespace {
 
 // Accessors may share bytes, and sparse accessors may expand to many zeros. A model may expand to this
-// multiple of its buffers' size; more is treated as an attack on memory.
+// multiple of its buffers' size. A larger one is refused, because a small file could exhaust the memory.
 constexpr std::size_t unpacking_factor = 32;
 
-// Lets tinygltf parse the part of the JSON that it handles correctly. This removes buffers and images, which
-// are already loaded; indices, for which tinygltf requires a buffer view; and animations, some of which it
-// drops.
+// Lets tinygltf parse the part of the JSON that it handles correctly. Buffers and images are removed before,
+// because they are already loaded; indices, because tinygltf requires a buffer view for them; and animations,
+// because it drops some.
 Status parse_typed(Document& document) {
     nlohmann::json json = document.json;
     json.erase("buffers");

@@ -15,7 +15,7 @@ namespace bolt::assets {
 namespace {
 
 // Deeper than any real model, and shallow enough for recursive code.
-constexpr int depth_limit = 256;
+constexpr int node_depth_limit = 256;
 
 glm::vec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
@@ -95,9 +95,10 @@ Status check_tree(const Document& document, const Model& model) {
                 return error_at(document, fmt::format("/nodes/{}", i), "is its own descendant",
                                 "a tree of nodes");
             // The ancestors of a node below a cycle never end; the depth limit stops the loop.
-            if (++depth > depth_limit)
-                return error_at(document, fmt::format("/nodes/{}", i),
-                                fmt::format("is more than {} levels deep, or below a cycle", depth_limit));
+            if (++depth > node_depth_limit)
+                return error_at(
+                    document, fmt::format("/nodes/{}", i),
+                    fmt::format("is more than {} levels deep, or below a cycle", node_depth_limit));
         }
     }
     return {};

@@ -58,13 +58,14 @@ std::string escaped(const std::string& key) {
 Status SchemaChecker::check_integer(json& value, const Property& property, const std::string& pointer) {
     // JSON and glTF accept 2.0 as an integer, but the libraries do not: convert it in the document.
     if (value.is_number_float() && std::trunc(value.get<double>()) == value.get<double>() &&
-        std::abs(value.get<double>()) <= INT_MAX)
-        value = static_cast<std::uint64_t>(std::abs(value.get<double>()));
+        value.get<double>() >= 0.0 && value.get<double>() <= INT_MAX)
+        value = static_cast<std::uint64_t>(value.get<double>());
     const double low = std::max(property.low, 0.0);
     const double high = std::min(property.high, static_cast<double>(INT_MAX));
     if (!value.is_number_unsigned() || static_cast<double>(value.get<std::uint64_t>()) > high ||
         static_cast<double>(value.get<std::uint64_t>()) < low)
-        return error_at(document, pointer, value.dump() + " is not allowed here",
+        return error_at(document, pointer,
+                        "is " + (value.is_structured() ? type_phrase(value) : value.dump()),
                         "an integer from " + std::to_string(static_cast<int>(low)) + " to " +
                             std::to_string(static_cast<int>(high)));
     return {};

@@ -14,7 +14,7 @@ enum class PropertyType : std::uint8_t {
     number,   // finite as a float
     index,    // an index into `section`
     object,   // with `schema`
-    strings,  // this and the next two: arrays
+    strings,  // an array, as the next two
     numbers,
     indices,
     index_map,  // an object whose values are indices
@@ -27,7 +27,7 @@ using ObjectSchema = std::vector<Property>;
 struct Property {
     const char* name = "";
     PropertyType type = PropertyType::number;
-    const char* section = "";  // that indices refer to: "nodes", or a JSON pointer
+    const char* section = "";  // the section that indices refer to: "nodes", or a JSON pointer
     const ObjectSchema* schema = nullptr;
     std::size_t length = 0;  // of an array; 0: any
     bool required = false;

@@ -14,7 +14,7 @@ Json numbers(const std::vector<float>& values) {
     return json;
 }
 
-// Indices may be -1.
+// Returns whether an index is valid, or -1 for none.
 bool in_range(int index, std::size_t count) { return index < static_cast<int>(count); }
 
 const char* name_of(TargetPath path) {

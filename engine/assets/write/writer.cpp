@@ -162,7 +162,7 @@ Result<std::string> encode_glb(const Model& model, const WriteOptions& options) 
     root["asset"] = {{"version", "2.0"},
                      {"generator", model.generator.empty() ? "Boltwright" : model.generator}};
     if (!model.copyright.empty()) root["asset"]["copyright"] = model.copyright;
-    if (Status status = write_sections(writer, root); !status) return fail(std::move(status.error()));
+    BOLT_TRY(write_sections(writer, root));
     const std::string chunk = writer.buffer.finish(root);
     writer.used_extensions.insert(writer.required_extensions.begin(), writer.required_extensions.end());
     if (!writer.used_extensions.empty()) root["extensionsUsed"] = writer.used_extensions;

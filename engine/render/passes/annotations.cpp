@@ -212,13 +212,13 @@ Status LabelPass::load(gpu::Device& device) {
 // If the atlas is full, restarts it with this frame's glyphs only; if they do not fit, doubles its size.
 Result<LabelBatch> LabelPass::batch(const Scene& scene, const Eye& eye) {
     for (int size = atlas_->size(); size <= max_atlas_size; size *= 2) {
-        if (std::optional<LabelBatch> created =
+        if (std::optional<LabelBatch> label_batch =
                 make_label_batch(scene.labels, eye.clip_from_world, fonts_, *atlas_))
-            return std::move(*created);
+            return std::move(*label_batch);
         atlas_ = std::make_unique<text::Atlas>(size);
-        if (std::optional<LabelBatch> created =
+        if (std::optional<LabelBatch> label_batch =
                 make_label_batch(scene.labels, eye.clip_from_world, fonts_, *atlas_))
-            return std::move(*created);
+            return std::move(*label_batch);
         atlas_ = std::make_unique<text::Atlas>(2 * size);
     }
     atlas_ = std::make_unique<text::Atlas>(atlas_size);  // a smaller one may suffice for the next picture
@@ -256,12 +256,12 @@ Status LabelPass::prepare(PassContext& context, std::span<const Eye> eyes) {
     count_ = 0;
     if (context.scene.labels.empty()) return {};
     BOLT_TRY(load(context.device));
-    BOLT_TRY_ASSIGN(auto created, batch(context.scene, eyes.front()));
-    if (created.quads.empty()) return {};
+    BOLT_TRY_ASSIGN(auto label_batch, batch(context.scene, eyes.front()));
+    if (label_batch.quads.empty()) return {};
     BOLT_TRY(upload(context));
-    BOLT_TRY(assign(labels_, upload_transient<shared::LabelFrame>(context.frame, created.labels)));
-    BOLT_TRY(assign(quads_, upload_transient<shared::LabelQuad>(context.frame, created.quads)));
-    count_ = static_cast<std::uint32_t>(created.quads.size());
+    BOLT_TRY(assign(labels_, upload_transient<shared::LabelFrame>(context.frame, label_batch.labels)));
+    BOLT_TRY(assign(quads_, upload_transient<shared::LabelQuad>(context.frame, label_batch.quads)));
+    count_ = static_cast<std::uint32_t>(label_batch.quads.size());
     return {};
 }
 
@@ -275,14 +275,14 @@ Result<const gpu::Pipeline*> LabelPass::pipeline(gpu::Device& device, std::uint3
     info.cull = VK_CULL_MODE_NONE;
     info.depth_test = info.depth_write = false;
     info.blend = true;
-    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &pipelines_.emplace(views, std::move(created)).first->second;
+    BOLT_TRY_ASSIGN(auto pipeline, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &pipelines_.emplace(views, std::move(pipeline)).first->second;
 }
 
 Status LabelPass::draw(PassContext& context, const RenderTargets& targets) {
     if (count_ == 0) return {};
-    BOLT_TRY_ASSIGN(const auto created, pipeline(context.device, context.views));
-    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, *created, 0));
+    BOLT_TRY_ASSIGN(const auto pipeline, this->pipeline(context.device, context.views));
+    BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, *pipeline, 0));
     BOLT_TRY_ASSIGN(const auto set, writer.range(0, context.frame_block)
                                         .range(1, labels_)
                                         .range(2, quads_)
@@ -299,7 +299,7 @@ Status LabelPass::draw(PassContext& context, const RenderTargets& targets) {
     const VkRenderingInfo rendering = rendering_info(context.extent, context.views, {&color, 1});
     vkCmdBeginRendering(commands, &rendering);
     set_area(commands, context.extent);
-    bind(commands, *created, set);
+    bind(commands, *pipeline, set);
     vkCmdDraw(commands, 6 * count_, 1, 0, 0);
     vkCmdEndRendering(commands);
     context.frame.end_timing();

@@ -12,8 +12,9 @@
 
 namespace bolt::render {
 
-// Outlines of objects, visible through occluders. Draws the objects' shapes as flat marks, then searches
-// rings around every pixel for marks. Works only in the area that the marks may cover.
+// Draws outlines of objects, visible through occluders. First draws the objects' shapes in one colour (the
+// marks), then searches for marks on rings around every pixel. Works only in the area that the outlines may
+// cover.
 class OutlinePass {
   public:
     static Result<OutlinePass> create(const PassSetup& setup, std::uint32_t views);
@@ -43,7 +44,7 @@ class LabelPass {
   public:
     static Result<LabelPass> create(const PassSetup& setup);
 
-    // Call it once per frame, before any view is drawn. Loads the fonts when there is the first label.
+    // Call it once per frame, before any view is drawn. Loads the fonts when the first label appears.
     Status prepare(PassContext& context, std::span<const Eye> eyes);
 
     // Draws onto `targets.picture`, a colour target before and after; `targets.depth` is in use `depth_read`.

@@ -34,10 +34,8 @@ shared::DeformPart push_constants_of(const MeshPart& part, const Deformation& de
 
 Result<DeformPass> DeformPass::create(const PassSetup& setup) {
     DeformPass pass;
-    if (Status s = assign(pass.pipeline_, gpu::make_compute_pipeline(setup.device, setup.cache,
-                                                                     setup.shaders.at("deform.comp")));
-        !s)
-        return fail(s.error());
+    BOLT_TRY(assign(pass.pipeline_,
+                    gpu::make_compute_pipeline(setup.device, setup.cache, setup.shaders.at("deform.comp"))));
     return pass;
 }
 
@@ -124,26 +122,28 @@ Status DeformPass::draw(PassContext& context) {
 }
 
 Result<const gpu::Pipeline*> SurfacePass::pipeline(gpu::Device& device, const PipelineKind& kind,
-                                                   std::uint32_t views, bool wide) {
+                                                   std::uint32_t views, bool per_pixel_material) {
     // Features that only lighting uses do not need a pipeline of their own.
-    PipelineKey key{kind, views, wide};
+    PipelineKey key{kind, views, per_pixel_material};
     key.kind.features &= SCENE_ANY_MAP | SCENE_SECOND_UV | SCENE_VERTEX_COLORS | SCENE_TANGENTS |
-                         SCENE_ANISOTROPY | SCENE_MASK | SCENE_MARKED | SCENE_WIDE | SCENE_CUT;
+                         SCENE_ANISOTROPY | SCENE_MASK | SCENE_TINTED | SCENE_PER_PIXEL_MATERIAL | SCENE_CUT;
     const auto known = pipelines_.find(key);
     if (known != pipelines_.end()) return &known->second;
     gpu::GraphicsInfo info = part_pipeline(*shaders_, key.kind, views);
     info.fragment = &shaders_->at("surface.frag");
     info.colors = {surface_format};
-    if (wide) info.colors.insert(info.colors.end(), {wide_color_format, wide_rough_format});
-    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &pipelines_.emplace(key, std::move(created)).first->second;
+    if (per_pixel_material)
+        info.colors.insert(info.colors.end(), {material_color_format, material_roughness_format});
+    BOLT_TRY_ASSIGN(auto pipeline, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &pipelines_.emplace(key, std::move(pipeline)).first->second;
 }
 
 Status SurfacePass::draw(PassContext& context, RenderTargets& targets, const DrawList& list) {
-    const bool wide = (list.features & SCENE_WIDE) != 0;
-    if (wide) BOLT_TRY(add_wide_targets(context.device, targets));
+    const bool per_pixel_material = (list.features & SCENE_PER_PIXEL_MATERIAL) != 0;
+    if (per_pixel_material) BOLT_TRY(add_material_targets(context.device, targets));
     std::vector<const gpu::Image*> buffers{&targets.surfaces};
-    if (wide) buffers.insert(buffers.end(), {&targets.wide_colors, &targets.wide_roughs});
+    if (per_pixel_material)
+        buffers.insert(buffers.end(), {&targets.material_colors, &targets.material_roughness});
 
     const VkCommandBuffer commands = context.frame.commands();
     context.frame.begin_timing("surfaces");
@@ -174,11 +174,11 @@ Status SurfacePass::draw(PassContext& context, RenderTargets& targets, const Dra
     PartDrawing drawing;
     drawing.wanted = [](const PipelineKind& kind) { return !kind.forward; };
     drawing.pipeline = [&](const PipelineKind& kind) {
-        return pipeline(context.device, kind, context.views, wide);
+        return pipeline(context.device, kind, context.views, per_pixel_material);
     };
-    drawing.frame_set = [&](const gpu::Pipeline& created) -> Result<VkDescriptorSet> {
+    drawing.frame_set = [&](const gpu::Pipeline& pipeline) -> Result<VkDescriptorSet> {
         BOLT_TRY_ASSIGN(auto writer,
-                        gpu::DescriptorWriter::create(context.device, context.frame, created, 0));
+                        gpu::DescriptorWriter::create(context.device, context.frame, pipeline, 0));
         return writer.range(0, context.frame_block)
             .range(1, context.instances)
             .range(2, context.materials)

@@ -32,8 +32,9 @@ class DeformPass {
     DeformedParts parts_;
 };
 
-// Draws depth and a geometry buffer of normal, material and grain, four samples per pixel. Maps and colours
-// that vary over a part are written to a second, wide buffer, which exists only if needed.
+// Draws depth and a geometry buffer of normal, material and grain (the brushing direction of a metal), four
+// samples per pixel. Base colour, metallic, roughness and occlusion that vary over a part are written to a
+// second buffer, the material buffer, which exists only if needed.
 class SurfacePass {
   public:
     static Result<SurfacePass> create(const PassSetup& setup) { return SurfacePass(setup); }
@@ -46,12 +47,12 @@ class SurfacePass {
   private:
     explicit SurfacePass(const PassSetup& setup) : cache_(&setup.cache), shaders_(&setup.shaders) {}
     Result<const gpu::Pipeline*> pipeline(gpu::Device& device, const PipelineKind& kind, std::uint32_t views,
-                                          bool wide);
+                                          bool per_pixel_material);
 
     struct PipelineKey {
         PipelineKind kind;
         std::uint32_t views = 1;
-        bool wide = false;
+        bool per_pixel_material = false;
         friend auto operator<=>(const PipelineKey&, const PipelineKey&) = default;
     };
     const gpu::PipelineCache* cache_ = nullptr;

@@ -12,14 +12,14 @@ Result<LightPass> LightPass::create(const PassSetup& setup) {
     pass.cache_ = &setup.cache;
     pass.shaders_ = &setup.shaders;
     BOLT_TRY(assign(pass.albedo_table_, upload_albedo_table(setup.device)));
-    gpu::ImageInfo no_wide_buffer;
-    no_wide_buffer.format = wide_rough_format;
-    no_wide_buffer.samples = samples;
-    no_wide_buffer.array = true;
-    no_wide_buffer.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    BOLT_TRY(assign(pass.no_wide_buffer_, gpu::Image::create(setup.device, no_wide_buffer)));
+    gpu::ImageInfo no_material_buffer;
+    no_material_buffer.format = material_roughness_format;
+    no_material_buffer.samples = samples;
+    no_material_buffer.array = true;
+    no_material_buffer.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    BOLT_TRY(assign(pass.no_material_buffer_, gpu::Image::create(setup.device, no_material_buffer)));
     BOLT_TRY(gpu::submit_and_wait(setup.device, [&](VkCommandBuffer commands) {
-        gpu::image_barrier(commands, pass.no_wide_buffer_.get(), ResourceUse::undefined,
+        gpu::image_barrier(commands, pass.no_material_buffer_.get(), ResourceUse::undefined,
                            ResourceUse::sampled);
     }));
     gpu::SamplerInfo clamped;
@@ -45,8 +45,8 @@ Result<const gpu::Pipeline*> LightPass::light_pipeline(gpu::Device& device, std:
     info.cull = VK_CULL_MODE_NONE;
     info.depth_test = info.depth_write = false;
     info.constants |= features;
-    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &lights_.emplace(std::pair{features, views}, std::move(created)).first->second;
+    BOLT_TRY_ASSIGN(auto pipeline, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &lights_.emplace(std::pair{features, views}, std::move(pipeline)).first->second;
 }
 
 void LightPass::bind_inputs(PassContext& context, gpu::DescriptorWriter& writer,
@@ -62,26 +62,27 @@ void LightPass::bind_inputs(PassContext& context, gpu::DescriptorWriter& writer,
 
 Result<VkDescriptorSet> LightPass::light_set(PassContext& context, const RenderTargets& targets,
                                              const gpu::Pipeline& pipeline, const LightInputs& inputs,
-                                             bool wide) {
+                                             bool per_pixel_material) {
     BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, pipeline, 0));
     bind_inputs(context, writer, inputs);
     const VkSampler nearest = nearest_.get();
     return writer.image(7, targets.depth.view(), nearest, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL)
         .image(8, targets.surfaces.view(), nearest)
-        .image(9, wide ? targets.wide_colors.view() : no_wide_buffer_.view(), nearest)
-        .image(10, wide ? targets.wide_roughs.view() : no_wide_buffer_.view(), nearest)
+        .image(9, per_pixel_material ? targets.material_colors.view() : no_material_buffer_.view(), nearest)
+        .image(10, per_pixel_material ? targets.material_roughness.view() : no_material_buffer_.view(),
+               nearest)
         .finish();
 }
 
 Status LightPass::draw_surfaces(PassContext& context, const RenderTargets& targets, const DrawList& list,
                                 const LightInputs& inputs) {
     constexpr std::uint32_t lighting_features =
-        SCENE_TANGENTS | SCENE_COAT | SCENE_ANISOTROPY | SCENE_OCCLUSION_MAP | SCENE_WIDE;
+        SCENE_TANGENTS | SCENE_COAT | SCENE_ANISOTROPY | SCENE_OCCLUSION_MAP | SCENE_PER_PIXEL_MATERIAL;
     const std::uint32_t features = (list.features & lighting_features) | features_of(context.scene) |
-                                   (context.scene.background.w > 0.5F ? SCENE_PLAIN : 0U);
+                                   (context.scene.background.w > 0.5F ? SCENE_COLOR_BACKGROUND : 0U);
     BOLT_TRY_ASSIGN(const auto pipeline, light_pipeline(context.device, features, context.views));
-    BOLT_TRY_ASSIGN(const auto set,
-                    light_set(context, targets, *pipeline, inputs, (list.features & SCENE_WIDE) != 0));
+    BOLT_TRY_ASSIGN(const auto set, light_set(context, targets, *pipeline, inputs,
+                                              (list.features & SCENE_PER_PIXEL_MATERIAL) != 0));
     bind(context.frame.commands(), *pipeline, set);
     draw_screen(context.frame.commands());
     return {};
@@ -133,8 +134,8 @@ Result<const gpu::Pipeline*> ForwardPass::forward_pipeline(gpu::Device& device, 
     info.colors = {layer_format};
     info.blend = kind.blends;
     info.depth_write = !kind.blends;
-    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &forwards_.emplace(kind, std::move(created)).first->second;
+    BOLT_TRY_ASSIGN(auto pipeline, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &forwards_.emplace(kind, std::move(pipeline)).first->second;
 }
 
 Result<const gpu::Pipeline*> ForwardPass::ghost_pipeline(gpu::Device& device, const PipelineKind& kind) {
@@ -145,16 +146,16 @@ Result<const gpu::Pipeline*> ForwardPass::ghost_pipeline(gpu::Device& device, co
     gpu::GraphicsInfo info = part_pipeline(*shaders_, shape, views_);
     info.colors = {layer_format};
     info.color_write = false;
-    BOLT_TRY_ASSIGN(auto created, gpu::make_graphics_pipeline(device, *cache_, info));
-    return &ghosts_.emplace(shape, std::move(created)).first->second;
+    BOLT_TRY_ASSIGN(auto pipeline, gpu::make_graphics_pipeline(device, *cache_, info));
+    return &ghosts_.emplace(shape, std::move(pipeline)).first->second;
 }
 
 Status ForwardPass::draw_all_parts(PassContext& context, const DrawList& list, const LightPass& light,
                                    const LightInputs& inputs) {
     PartDrawing drawing;
-    drawing.frame_set = [&](const gpu::Pipeline& created) -> Result<VkDescriptorSet> {
+    drawing.frame_set = [&](const gpu::Pipeline& pipeline) -> Result<VkDescriptorSet> {
         BOLT_TRY_ASSIGN(auto writer,
-                        gpu::DescriptorWriter::create(context.device, context.frame, created, 0));
+                        gpu::DescriptorWriter::create(context.device, context.frame, pipeline, 0));
         return writer.range(0, context.frame_block).range(1, context.instances).finish();
     };
     // Draws the depth of ghosts first, so that only their nearest layer is visible.
@@ -164,13 +165,13 @@ Status ForwardPass::draw_all_parts(PassContext& context, const DrawList& list, c
     const BoundingBox end_box = cone_end(context.scene.cut_away);
     const VkRect2D all{{0, 0}, context.extent}, end = area_of(context, {&end_box, 1}, 1.0F);
     drawing.area = [&](const PipelineKind& kind) {
-        return (kind.features & SCENE_CUT_REST) != 0 ? end : all;
+        return (kind.features & SCENE_CUT_FADING) != 0 ? end : all;
     };
     drawing.wanted = [](const PipelineKind& kind) { return kind.forward; };
     drawing.pipeline = [&](const PipelineKind& kind) { return forward_pipeline(context.device, kind); };
-    drawing.frame_set = [&](const gpu::Pipeline& created) -> Result<VkDescriptorSet> {
+    drawing.frame_set = [&](const gpu::Pipeline& pipeline) -> Result<VkDescriptorSet> {
         BOLT_TRY_ASSIGN(auto writer,
-                        gpu::DescriptorWriter::create(context.device, context.frame, created, 0));
+                        gpu::DescriptorWriter::create(context.device, context.frame, pipeline, 0));
         light.bind_inputs(context, writer, inputs);
         return writer.range(1, context.instances).finish();
     };
@@ -183,21 +184,22 @@ Status ForwardPass::draw(PassContext& context, RenderTargets& targets, const Dra
     if (area.extent.width == 0 || area.extent.height == 0) return {};
     BOLT_TRY(add_forward_targets(context.device, targets));
     BOLT_TRY_ASSIGN(auto writer, gpu::DescriptorWriter::create(context.device, context.frame, over_, 0));
-    BOLT_TRY_ASSIGN(const auto set, writer.image(3, targets.over.view(), nearest_.get()).finish());
+    BOLT_TRY_ASSIGN(const auto set,
+                    writer.image(3, targets.forward_resolved.view(), nearest_.get()).finish());
 
     const VkCommandBuffer commands = context.frame.commands();
     context.frame.begin_timing("forward");
-    gpu::image_barrier_discarding(commands, targets.drawn.get(), ResourceUse::color_target,
+    gpu::image_barrier_discarding(commands, targets.forward_color.get(), ResourceUse::color_target,
                                   ResourceUse::color_target);
-    gpu::image_barrier_discarding(commands, targets.over.get(), ResourceUse::sampled,
+    gpu::image_barrier_discarding(commands, targets.forward_resolved.get(), ResourceUse::sampled,
                                   ResourceUse::color_target);
     gpu::image_barrier(commands, targets.depth.get(), ResourceUse::depth_read, ResourceUse::depth_target,
                        depth_range);
     VkRenderingAttachmentInfo color =
-        attachment(targets.drawn.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+        attachment(targets.forward_color.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                    VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_DONT_CARE);
     color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
-    color.resolveImageView = targets.over.view();
+    color.resolveImageView = targets.forward_resolved.view();
     color.resolveImageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     const VkRenderingAttachmentInfo depth =
         attachment(targets.depth.view(), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_ATTACHMENT_LOAD_OP_LOAD,
@@ -211,7 +213,8 @@ Status ForwardPass::draw(PassContext& context, RenderTargets& targets, const Dra
     vkCmdEndRendering(commands);
     gpu::image_barrier(commands, targets.depth.get(), ResourceUse::depth_target, ResourceUse::depth_read,
                        depth_range);
-    gpu::image_barrier(commands, targets.over.get(), ResourceUse::color_target, ResourceUse::sampled);
+    gpu::image_barrier(commands, targets.forward_resolved.get(), ResourceUse::color_target,
+                       ResourceUse::sampled);
     gpu::image_barrier(commands, targets.picture.get(), ResourceUse::color_target, ResourceUse::color_target);
 
     color = attachment(targets.picture.view(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,

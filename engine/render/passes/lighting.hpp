@@ -5,7 +5,7 @@
 
 namespace bolt::render {
 
-// Images that lighting reads in addition to the geometry buffer.
+// Images that both lighting passes read in addition to their own inputs.
 struct LightInputs {
     const gpu::Image* shadow_map = nullptr;
     VkImageView occlusion = VK_NULL_HANDLE;  // null: none
@@ -29,7 +29,8 @@ class LightPass {
     Result<const gpu::Pipeline*> light_pipeline(gpu::Device& device, std::uint32_t features,
                                                 std::uint32_t views);
     Result<VkDescriptorSet> light_set(PassContext& context, const RenderTargets& targets,
-                                      const gpu::Pipeline& pipeline, const LightInputs& inputs, bool wide);
+                                      const gpu::Pipeline& pipeline, const LightInputs& inputs,
+                                      bool per_pixel_material);
     Status draw_surfaces(PassContext& context, const RenderTargets& targets, const DrawList& list,
                          const LightInputs& inputs);
 
@@ -37,7 +38,7 @@ class LightPass {
     const Shaders* shaders_ = nullptr;
     std::map<std::pair<std::uint32_t, std::uint32_t>, gpu::Pipeline> lights_;  // by features and views
     gpu::Image albedo_table_;
-    gpu::Image no_wide_buffer_;  // bound if there is no wide buffer
+    gpu::Image no_material_buffer_;  // bound if there is no material buffer
     gpu::Sampler clamped_, nearest_, comparing_;
 };
 

@@ -37,14 +37,14 @@ Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::
     return t;
 }
 
-Status add_wide_targets(gpu::Device& device, RenderTargets& t) {
-    BOLT_TRY(add(device, t, t.wide_colors, wide_color_format, drawn_and_read, samples));
-    return add(device, t, t.wide_roughs, wide_rough_format, drawn_and_read, samples);
+Status add_material_targets(gpu::Device& device, RenderTargets& t) {
+    BOLT_TRY(add(device, t, t.material_colors, material_color_format, drawn_and_read, samples));
+    return add(device, t, t.material_roughness, material_roughness_format, drawn_and_read, samples);
 }
 
 Status add_forward_targets(gpu::Device& device, RenderTargets& t) {
-    BOLT_TRY(add(device, t, t.drawn, layer_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples));
-    return add(device, t, t.over, layer_format, drawn_and_read, VK_SAMPLE_COUNT_1_BIT);
+    BOLT_TRY(add(device, t, t.forward_color, layer_format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, samples));
+    return add(device, t, t.forward_resolved, layer_format, drawn_and_read, VK_SAMPLE_COUNT_1_BIT);
 }
 
 Status add_mark_target(gpu::Device& device, RenderTargets& t) {
@@ -125,11 +125,9 @@ VkRect2D area_of(const PassContext& context, std::span<const BoundingBox> boxes,
     glm::vec2 low(1e30F), high(-1e30F);
     for (const BoundingBox& box : boxes)
         for (std::uint32_t view = 0; view < context.views; ++view)
-            for (int corner = 0; corner < 8; ++corner) {
-                const glm::vec4 c = context.shared.views[view].clip_from_world *
-                                    glm::vec4((corner & 1) != 0 ? box.high.x : box.low.x,
-                                              (corner & 2) != 0 ? box.high.y : box.low.y,
-                                              (corner & 4) != 0 ? box.high.z : box.low.z, 1.0F);
+            for (int i = 0; i < 8; ++i) {
+                const glm::vec4 c =
+                    context.shared.views[view].clip_from_world * glm::vec4(box.corner(i), 1.0F);
                 if (c.w <= 0.0F) return {{0, 0}, context.extent};  // the box reaches behind the eye
                 const glm::vec2 pixel = (glm::vec2(c) / c.w * 0.5F + 0.5F) * size;
                 low = glm::min(low, pixel);

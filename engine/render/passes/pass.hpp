@@ -1,4 +1,4 @@
-// Shared by the passes: render targets, formats, the context of a frame, and commands that draw parts.
+// What all passes use: render targets, formats, the context of a frame, and commands that draw parts.
 #pragma once
 
 #include <cstring>
@@ -14,20 +14,21 @@ namespace bolt::render {
 // comment says otherwise. Optional ones are created when a scene first needs them.
 struct RenderTargets {
     gpu::Image depth;
-    gpu::Image surfaces;                  // normal, material, grain (see shaders/surface.glsl)
-    gpu::Image wide_colors, wide_roughs;  // optional: base colour and metallic; roughness and occlusion
-    gpu::Image drawn;                     // optional: parts shaded while drawn
-    gpu::Image over;                      // optional: the same, resolved to one sample
-    gpu::Image picture;                   // one sample
-    gpu::Image kept_depth;                // optional, one sample: depth of the first sample, for readback
-    gpu::Image marks;                     // optional, one sample: shapes of outlined objects
+    gpu::Image surfaces;  // geometry buffer: normal, material, grain (shaders/surface.glsl)
+    // Optional, the material buffer: base colour and metallic; roughness and occlusion.
+    gpu::Image material_colors, material_roughness;
+    gpu::Image forward_color;     // optional: parts shaded while drawn
+    gpu::Image forward_resolved;  // optional: the same, resolved to one sample
+    gpu::Image picture;           // one sample
+    gpu::Image kept_depth;        // optional, one sample: depth of the first sample, for readback
+    gpu::Image marks;             // optional, one sample: shapes of outlined objects
     gpu::Image small_depth, raw_occlusion, occlusion;  // optional, one sample, half size
     VkExtent2D extent{};
     std::uint32_t layers = 1;
 };
 
 Result<RenderTargets> make_targets(gpu::Device& device, VkExtent2D extent, std::uint32_t layers);
-Status add_wide_targets(gpu::Device& device, RenderTargets& targets);
+Status add_material_targets(gpu::Device& device, RenderTargets& targets);
 Status add_forward_targets(gpu::Device& device, RenderTargets& targets);
 Status add_mark_target(gpu::Device& device, RenderTargets& targets);
 Status add_occlusion_targets(gpu::Device& device, RenderTargets& targets);
@@ -57,9 +58,9 @@ struct ViewGroup {
 template <class Visit>
 void each_image(RenderTargets& targets, const Visit& visit) {
     for (gpu::Image* image :
-         {&targets.depth, &targets.surfaces, &targets.wide_colors, &targets.wide_roughs, &targets.drawn,
-          &targets.over, &targets.picture, &targets.kept_depth, &targets.marks, &targets.small_depth,
-          &targets.raw_occlusion, &targets.occlusion})
+         {&targets.depth, &targets.surfaces, &targets.material_colors, &targets.material_roughness,
+          &targets.forward_color, &targets.forward_resolved, &targets.picture, &targets.kept_depth,
+          &targets.marks, &targets.small_depth, &targets.raw_occlusion, &targets.occlusion})
         visit(*image);
 }
 
@@ -69,8 +70,8 @@ inline constexpr VkFormat color_format = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat layer_format = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;
 inline constexpr VkFormat surface_format = VK_FORMAT_R16G16B16A16_UNORM;
-inline constexpr VkFormat wide_color_format = VK_FORMAT_R8G8B8A8_SRGB;
-inline constexpr VkFormat wide_rough_format = VK_FORMAT_R8G8_UNORM;
+inline constexpr VkFormat material_color_format = VK_FORMAT_R8G8B8A8_SRGB;
+inline constexpr VkFormat material_roughness_format = VK_FORMAT_R8G8_UNORM;
 inline constexpr VkFormat occlusion_format = VK_FORMAT_R8_UNORM;
 inline constexpr VkFormat mark_format = VK_FORMAT_R8G8B8A8_UNORM;
 // light.frag depends on this number.
@@ -95,7 +96,7 @@ struct PassContext {
     const EnvironmentLight& environment;
     shared::FrameData& shared;
     gpu::TransientRange frame_block;  // the uploaded copy of `shared`
-    std::uint32_t views;              // that one pass draws
+    std::uint32_t views;              // number of views that one pass draws
     VkExtent2D extent;
     gpu::TransientRange instances, materials;  // of the draw list
     const GpuTexture& white;                   // replaces missing maps of a material

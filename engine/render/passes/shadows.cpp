@@ -95,7 +95,7 @@ bool ShadowPass::describe(const Scene& scene, shared::FrameData& frame) {
 }
 
 Status ShadowPass::draw(PassContext& context) {
-    drawn_ = false;
+    static_map_redrawn_ = false;
     if (context.shared.shadows == 0) return {};
     // Level-of-detail errors below the size of a texel are not visible.
     const glm::mat4& m = context.shared.shadow_from_world;
@@ -115,7 +115,7 @@ Status ShadowPass::draw(PassContext& context) {
                                       ResourceUse::depth_target, depth_range);
         BOLT_TRY(draw_into(context, static_map_, list, true));
         static_map_key_ = key;
-        drawn_ = true;
+        static_map_redrawn_ = true;
     }
     if (moving_) {
         if (combined_map_.get() == VK_NULL_HANDLE) {

@@ -11,15 +11,15 @@ class ShadowPass {
   public:
     static Result<ShadowPass> create(const PassSetup& setup, std::uint32_t size);
 
-    // Returns whether light 0 casts a shadow in this scene, and if so sets the shadow view in `frame`. Moving
-    // objects do not change the view, unless all objects move.
+    // Returns whether light 0 casts a shadow in this scene, and if so sets the shadow view in `frame`. The
+    // view contains the static objects; it contains the moving objects only if there are no static ones.
     static bool describe(const Scene& scene, shared::FrameData& frame);
 
     Status draw(PassContext& context);
     // Returns the map for shaders, in use `depth_read`.
     [[nodiscard]] const gpu::Image& map() const { return moving_ ? combined_map_ : static_map_; }
     // Returns whether the static map was redrawn in the last frame.
-    [[nodiscard]] bool drawn() const { return drawn_; }
+    [[nodiscard]] bool static_map_redrawn() const { return static_map_redrawn_; }
 
   private:
     Status draw_into(PassContext& context, const gpu::Image& target, const DrawList& list, bool clear);
@@ -29,11 +29,11 @@ class ShadowPass {
     gpu::Image combined_map_;           // with moving objects; created when the first object moves
     bool moving_ = false;               // shaders read combined_map_
     std::uint64_t static_map_key_ = 0;  // hash of the static map's contents; 0: empty
-    bool drawn_ = false;
+    bool static_map_redrawn_ = false;
 };
 
-// Ambient occlusion: halves the depth buffer, integrates a slice between horizons at every pixel, and smooths
-// the result. Pixels without geometry are skipped.
+// Ambient occlusion at half size: halves the depth buffer, integrates the unoccluded angle between the
+// horizons of one slice per pixel, and smooths the result. Pixels without geometry are skipped.
 class OcclusionPass {
   public:
     static Result<OcclusionPass> create(const PassSetup& setup, std::uint32_t views);

@@ -14,8 +14,8 @@ namespace bolt::models {
 
 enum class ThreadDetail { helical, cosmetic };  // cosmetic: a plain cylinder of the nominal diameter
 
-// Hexagon bolt, ISO 4014 (l, b: threaded part). The origin is in the middle of the head's bearing face; the
-// head lies at z < 0, the point at z = length.
+// Hexagon bolt, ISO 4014 (length: l, thread_length: b). The origin is in the middle of the head's bearing
+// face; the head lies at z < 0, the bolt's end at z = length.
 struct BoltSpec {
     double d = 0.0;
     double pitch = 0.0;

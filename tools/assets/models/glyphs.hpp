@@ -1,5 +1,5 @@
-// Digits and a few letters as strokes of even width with round ends, for sizes and scales stamped into metal.
-// They need no font file.
+// Digits and a few letters as strokes of constant width with round ends, for the sizes and scales that are
+// stamped into metal. No font file is needed.
 #pragma once
 
 #include <TopoDS_Shape.hxx>

@@ -13,7 +13,7 @@
 
 namespace bolt::models {
 
-// An outline in the half plane (radius, z), drawn point by point. face() closes it.
+// An outline in the half plane (radius, z) that is built point by point. face() closes it.
 class ProfileOutline {
   public:
     explicit ProfileOutline(gp_Pnt2d start) : start_(start), end_(start) {}

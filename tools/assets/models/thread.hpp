@@ -51,9 +51,9 @@ FieldMesh polygons(const ThreadField& field);
 // Returns θ of a vertex within the range of a sector: sector 1 ends at 2π, not at 0.
 double theta_in_sector(const FieldVertex& vertex, int sector);
 
-// The round body under the field as a closed solid about the Z axis, from z0 to z1, with flat ends. Its faces
-// are exact cylinders and cones and ruled flanks; adjacent faces share their edges. Fails if the solid is not
-// valid.
+// Returns the rod with radius r(θ, z) as a closed solid about the Z axis, from z0 to z1, with flat ends. Its
+// faces are exact cylinders and cones and ruled flanks; adjacent faces share their edges. Fails if the solid
+// is not valid.
 Result<TopoDS_Shape> threaded_rod(const ThreadField& field);
 
 }  // namespace bolt::models

@@ -21,13 +21,13 @@ namespace bolt::models {
 
 namespace {
 
-// X of the far ends of the parts, in the order in which they follow each other, in mm.
+// The x of the far end of each part, in the order along the wrench, mm.
 constexpr double insert_end = 62.0, holder_end = 112.0, tube_end = 336.0, ring_end = 341.0,
                  sleeve_end = 377.0, grip_end = 492.0, knob_end = 508.0;
 constexpr double tube_radius = 12.5, scale_from = 215.0, scale_to = 315.0;  // 40 to 200 N·m
 constexpr double flat = tube_radius - 1.2;  // height of the flat with the scale
 
-// Turned parts are built about Z. This lays one along X, with its z = 0 at x = 0.
+// Rotates a turned part, which is built about Z, to lie along X with its z = 0 at x = 0.
 TopoDS_Shape along_x(const TopoDS_Shape& shape) {
     gp_Trsf trsf;
     trsf.SetTransformation(gp_Ax3(gp_Pnt(0.0, 0.0, 0.0), gp::DX(), gp::DY()), gp_Ax3(gp::XOY()));

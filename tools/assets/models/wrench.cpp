@@ -64,7 +64,7 @@ TopoDS_Shape with_jaw(const TopoDS_Shape& forging, const WrenchSpec& s) {
         const gp_Pnt q = p.Transformed(from_head);
         return upright(along) && std::abs(q.X() - h.tip) < 1e-3 && std::abs(std::abs(q.Y()) - h.half) < 1e-3;
     });
-    // Breaks the edges of the jaw: cuts a shallow, wider slot whose walls lean by 45° past those of the jaw.
+    // Chamfer the edges of the jaw: cut a shallow, wider slot, whose walls lean by 45°, into both faces.
     const double c = 0.025 * s.size, deep = 2.0 * c, floor = 0.5 * s.head_thickness - deep;
     const TopoDS_Shape lean = bevelled(slot(c, floor, high), deep, [&](const gp_Pnt& p, const gp_Dir& along) {
         return !upright(along) && std::abs(p.Z() - floor) < 1e-6 && p.X() > -3.9 * h.radius;
@@ -178,7 +178,7 @@ WrenchSpec wrench_spec(double size, double grip) {
     spec.head_thickness = 0.4 * size + 2.4;
     spec.handle_thickness = 0.27 * size + 2.2;
     spec.handle_width = 0.72 * size + 2.5;
-    spec.end = grip + 50.0;  // half a hand's breadth beyond the middle of the grip
+    spec.end = grip + 50.0;  // half the width of a hand beyond the middle of the grip
     return spec;
 }
 

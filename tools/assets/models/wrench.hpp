@@ -15,7 +15,7 @@ namespace bolt::models {
 struct WrenchSpec {
     double size = 0.0;        // across flats of the nut
     double jaw = 0.0;         // opening of the jaw
-    double grip = 0.0;        // distance from the middle of the jaw to the middle of the grip
+    double grip = 0.0;        // from the middle of the jaw to the middle of the grip
     double head_angle = 0.0;  // rad
     double head_width = 0.0;
     double head_thickness = 0.0;
@@ -31,7 +31,7 @@ Result<TopoDS_Shape> open_end_wrench(const WrenchSpec& spec);
 
 // The parts of a wrench's head, for other wrenches with the same head:
 
-// A disc that is cut off at the tips of the jaws. It is twice as tall as the finished head, so that head and
+// A disc that is cut off at the tips of the jaw. It is twice as tall as the finished head, so that head and
 // handle can be cut to thickness together. The mouth points along −X; the head's angle is not applied yet.
 TopoDS_Shape forged_head(const WrenchSpec& spec);
 

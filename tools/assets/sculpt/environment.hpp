@@ -1,6 +1,6 @@
-// The dimensions of the workshop, shared by its model and its environment map, and the environment map: strip
-// lights, a band of windows on the left, a warm wall on the right, a dark floor. Metres. The origin is the
-// middle of the clamping plate's upper face on the bench, +Z towards the trainee.
+// The dimensions of the workshop, which its model and its environment map share, and the environment map:
+// strip lights, a band of windows on the left, a warm wall on the right, a dark floor. Metres. The origin is
+// the middle of the clamping plate's upper face on the bench, +Z towards the trainee.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@ namespace {
 constexpr int no_digit = 5;
 constexpr int around = 6;
 
-// Returns the digit of a point past the web; no_digit for the palm.
+// Returns the digit of a point beyond the web; no_digit for the palm.
 int digit_at(const HandShape& shape, const Vec3& p) {
     int best = no_digit;
     double depth = 1.0;

@@ -26,7 +26,7 @@ struct TexturePatch {
 };
 TexturePatch patch_of(const HandShape& shape, const Vec3& p, const Vec3& normal, GlovePart part);
 
-// A point in the patch's texture coordinates (m), with the directions of +u and −v in space.
+// A point in the texture coordinates of a patch (m), and the directions of +u and −v in space there.
 struct PatchPoint {
     glm::dvec2 uv{0.0};
     Vec3 along_u{0.0}, against_v{0.0};

@@ -78,8 +78,8 @@ SkinWeights quantise_weights(const JointWeights& weights) {
     return out;
 }
 
-// Returns the skinning weights of a point. They are smooth over the hand; past the web only a finger's own
-// joints move it.
+// Returns the skinning weights of a point. They are smooth over the hand. Beyond the web, only the joints of
+// its own finger move a point.
 SkinWeights skin_weights(const HandShape& shape, const Vec3& p) {
     const Skeleton& hand = shape.skeleton();
     JointWeights weights{};
@@ -100,7 +100,7 @@ SkinWeights skin_weights(const HandShape& shape, const Vec3& p) {
     const double arm = smooth_step(-46 * mm, -12 * mm, p.z) * (1.0 - thumb);
     weights[wrist] += arm;
 
-    // In the palm all fingers contribute; past the web only the nearest finger does.
+    // In the palm all fingers contribute; beyond the web only the nearest finger does.
     const std::size_t knuckle = digits[nearest].first + 1;
     const double distance = glm::dot(p - hand.position[knuckle], forward(hand, knuckle));
     const double parted = smooth_step(2 * mm, 19 * mm, distance);

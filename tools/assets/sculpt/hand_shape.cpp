@@ -67,7 +67,7 @@ double groove(const Vec3& p, const std::array<glm::dvec2, n>& line_mm, double wi
     return std::exp(-nearest2 / (width_mm * width_mm));
 }
 
-// The grooves of a coated glove: where it folds when the fingers bend, and around the thumb.
+// The grooves of a coated glove: one where it folds when the fingers bend, one around the thumb.
 constexpr std::array<glm::dvec2, 6> finger_fold{
     {{40, -66}, {30, -71}, {18, -78}, {4, -85}, {-8, -90}, {-15, -97}}};
 constexpr std::array<glm::dvec2, 6> thumb_fold{

@@ -14,7 +14,7 @@ using namespace hand;  // the joints and their names
 // The position of a point relative to a digit.
 struct DigitPosition {
     double depth = 0.0;    // distance to the digit's skin, negative inside
-    double travel = 0.0;   // m from the metacarpal joint of the chain, measured along the bones
+    double travel = 0.0;   // m from the first joint (the metacarpal), measured along the bones
     double height = 0.0;   // −1 on the side of the palm, +1 on the back
     Vec3 axis{0.0};        // nearest point of the chain
     std::size_t bone = 0;  // 0: metacarpal

@@ -169,8 +169,8 @@ void cut(TriMesh& mesh, const std::function<double(const Vec3&)>& value) {
 
 namespace {
 
-// Removes pairs of triangles back to back on the same three vertices. An edge collapse may fold the surface
-// so; without the pair the surface is closed again.
+// Removes pairs of triangles that lie back to back on the same three vertices. An edge collapse can fold the
+// surface like this. The surface is closed without the pair.
 void drop_folds(LabelledMesh& mesh) {
     const auto key = [](IndexTriangle t) {
         std::sort(t.begin(), t.end());

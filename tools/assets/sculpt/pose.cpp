@@ -159,10 +159,7 @@ std::optional<HandPosture> named_pose(std::string_view name) {
 
 HandPosture mirrored(const HandPosture& pose) {
     HandPosture out;
-    for (std::size_t i = 0; i < joint_count; ++i) {
-        const Quat& q = pose.turn[i];
-        out.turn[i] = Quat(q.w, q.x, -q.y, -q.z);
-    }
+    for (std::size_t i = 0; i < joint_count; ++i) out.turn[i] = hand::mirrored(pose.turn[i]);
     return out;
 }
 

@@ -75,7 +75,7 @@ double grain(double u, double v, const Stave& s) {
     return 0.5 + 0.5 * std::sin(2 * pi * (v * staves * 2.6 + 3.2 * wander + 7.0 * s.shift));
 }
 
-// The grain made periodic in u by blending across the seam of the tile; the noise of a stave is not periodic.
+// Blends the grain across the seam of the tile in u, because the noise of a stave is not periodic.
 double seamless_grain(double u, double v, const Stave& s) {
     const double blend = smooth_step(0.85, 1.0, u);
     return (1.0 - blend) * grain(u, v, s) + blend * grain(u - 1.0, v, s);

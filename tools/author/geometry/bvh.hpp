@@ -1,5 +1,5 @@
-// A tree of axis-aligned boxes over triangles, in double precision: ray queries, and the test whether two
-// triangle sets cross. Metres in every interface.
+// A tree of axis-aligned boxes over triangles, in double precision: ray queries, and a test for crossings of
+// two triangle sets. Metres in every interface.
 #pragma once
 
 #include <cstdint>

@@ -11,7 +11,7 @@ namespace bolt::geometry {
 
 struct Findings {
     std::vector<Error> errors;  // all bad_content, in the order of the file
-    std::vector<Error> notes;   // not errors, but of use to the author
+    std::vector<Error> notes;   // not errors, but useful to the author
 };
 
 // `assembly` must have loaded without errors, and its model files must exist. An assembly without a model has

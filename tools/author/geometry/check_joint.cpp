@@ -313,7 +313,7 @@ namespace {
 
 constexpr double hexagon_turn = to_radians(60.0);  // between two grips on the nut
 constexpr double min_swing = to_radians(30.0);     // for a 15° head that is turned over after every stroke
-constexpr double min_gap = to_radians(5.0);        // narrower gaps are ignored
+constexpr double min_gap = to_radians(5.0);        // narrower free arcs are ignored
 constexpr double clearance = 0.2 * mm;             // between the wrench and the face under the nut
 
 // The swing of a wrench as it is and turned over.
@@ -331,14 +331,14 @@ struct SwingPair {
     }
 };
 
-// Appends the jaw angles of every free handle angle. Ignores gaps too narrow to bring a wrench into.
+// Appends the jaw angles of every free arc. Ignores arcs that are too narrow to bring a wrench into.
 void add_jaw_angles(const Swing& swing, double head_angle, std::vector<std::pair<double, double>>& angles) {
     for (const Arc& arc : swing.arcs)
         if (arc.width() > min_gap) angles.emplace_back(arc.from + head_angle, arc.to + head_angle);
 }
 
-// Returns true if a grip is free for every orientation of the nut, so that it can be turned without end. Jaw
-// angles repeat every 60°. `one_way_up`: without turning the wrench over.
+// Returns true if the wrench can grip the nut in every orientation of the nut, and can therefore turn it
+// without limit. Jaw angles repeat every 60°. `one_way_up`: without turning the wrench over.
 bool can_turn_fully(const SwingPair& swings, double head_angle, bool one_way_up) {
     std::vector<std::pair<double, double>> plain, over;
     add_jaw_angles(swings.plain, head_angle, plain);

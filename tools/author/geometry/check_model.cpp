@@ -118,8 +118,8 @@ OpenEdges open_edges(std::span<const Triangle> triangles) {
         if (fresh) points.push_back(p);
         return it->second;
     };
-    std::map<std::pair<std::uint32_t, std::uint32_t>, long>
-        uses;  // lower corner first; + forward, - backward
+    // By edge (lower corner first): the uses from the lower to the higher corner minus those back.
+    std::map<std::pair<std::uint32_t, std::uint32_t>, long> uses;
     for (const Triangle& t : triangles) {
         const std::uint32_t corners[3] = {weld(t.a), weld(t.b), weld(t.c)};
         for (int i = 0; i < 3; ++i) {

@@ -87,8 +87,8 @@ FlattenedModel flatten(const assets::Model& model) {
     };
     std::vector<PendingNode> stack;
     for (auto root = model.roots.rbegin(); root != model.roots.rend(); ++root) stack.push_back({*root, -1});
-    std::vector<bool> seen(model.nodes.size(),
-                           false);  // each node is visited once, even if the file has a loop
+    // Each node is visited once, even if the file has a loop.
+    std::vector<bool> seen(model.nodes.size(), false);
     while (!stack.empty()) {
         const PendingNode pending = stack.back();
         stack.pop_back();

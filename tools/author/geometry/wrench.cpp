@@ -259,7 +259,7 @@ namespace {
 constexpr double step = 3e-3;                   // m, smaller than the thickness of any modelled wrench
 constexpr double turn_step = to_radians(10.0);  // between the handle angles that are tried
 constexpr double max_lift = 2.0;                // m, beyond which obstacles are ignored
-constexpr double jaw_to_tip = 1.7;              // head sizes of travel that pull the jaw off a hexagon
+constexpr double jaw_to_tip = 1.7;              // travel that frees the jaw from a hexagon / head size
 
 // Moves the wrench along a straight line at a fixed handle angle and tests it for collisions.
 struct PathProbe {

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double friction = 0.12;     // oiled, middle of VDI 2230 class B
 constexpr double utilisation = 0.9;   // of yield
-constexpr double torque_share = 0.8;  // of the torque at that utilisation, so that a tolerance of 10 % fits
+constexpr double torque_share = 0.8;  // of the torque at that utilisation, so that target + 10 % is below it
 constexpr std::array built_in = {"aluminium",    "bronze",          "cast_iron",
                                  "ductile_iron", "stainless_steel", "steel"};
 
@@ -49,7 +49,7 @@ std::string axis_text(const Vec3& a) {
     return fmt::format("[{}, {}, {}]", part(a.x), part(a.y), part(a.z));
 }
 
-// The values that two joints must share to be of one joint type.
+// Joints with equal keys have the same joint type.
 struct JointTypeKey {
     std::string size, property_class;
     double length = 0.0;  // mm

@@ -214,8 +214,8 @@ RevolutionAxis to_scene(const gp_Ax1& axis) {
     return {point_to_scene(axis.Location().XYZ()), direction_to_scene(axis.Direction().XYZ())};
 }
 
-// Axis of the largest circle on the rim of a plane face, about which the face was turned; nullopt without a
-// circle.
+// Axis of the largest circle on the rim of a plane face, taken as the axis about which the face was turned;
+// nullopt without a circle.
 std::optional<RevolutionAxis> rim_axis(const TopoDS_Face& face) {
     std::optional<RevolutionAxis> axis;
     double largest = 0.0;

@@ -20,8 +20,8 @@ struct FastenerShape {
     double low = 0.0;       // bearing face under a bolt's head; lower face of a nut or washer
     double high = 0.0;      // end of a bolt; upper face of a nut or washer
     double diameter = 0.0;  // of a bolt's thread over the crests; of the hole of a nut or washer
-    // Reason why a part that resembles a fastener is none: "<what was found>; expected <what>". Empty for a
-    // fastener and for a part that resembles none.
+    // Why a part that resembles a fastener was not recognised as one: "<what was found>; expected <what>".
+    // Empty for a fastener and for a part that does not resemble one.
     std::string rejection;
     // The same for a part without a hexagon; reported only if the name is that of a fastener.
     std::string without_hexagon;

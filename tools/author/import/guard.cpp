@@ -26,8 +26,8 @@ namespace bolt::step_import {
 
 namespace {
 
-constexpr int memory_exit_code =
-    250;  // of a child process that caught std::bad_alloc; no program of ours uses it
+// Exit code of a child process that caught std::bad_alloc. No program of ours uses it otherwise.
+constexpr int memory_exit_code = 250;
 constexpr std::array stop_signals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 
 void set_limit(decltype(RLIMIT_CPU) resource, rlim_t value) {

@@ -30,7 +30,7 @@ enum class GuardOutcome : std::uint8_t {
     out_of_time,    // it reached the limit on processor time
     out_of_memory,  // it reached the limit on memory
     killed,         // another process stopped it, for example the kernel when memory runs out
-    interrupted,    // a signal told us to stop (Ctrl-C, SIGTERM); the child process has been killed
+    interrupted,    // a stop signal arrived (Ctrl-C, SIGTERM); the child process has been killed
     not_started,    // no process could be created
 };
 
@@ -74,8 +74,8 @@ GuardedRun run_guarded(const GuardLimits& limits, const std::function<int(GuardC
 // it.
 class StagingFolder {
   public:
-    // Removes what killed imports to `output` have left, and creates the folder. Fails if it cannot be
-    // created.
+    // Removes the folders that killed imports to `output` left behind, and creates a new one. Fails if that
+    // cannot be created.
     static Result<StagingFolder> create(const std::filesystem::path& output);
     StagingFolder(StagingFolder&& other) noexcept;
     StagingFolder& operator=(StagingFolder&&) = delete;

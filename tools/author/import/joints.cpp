@@ -16,7 +16,7 @@ namespace bolt::step_import {
 
 namespace {
 
-constexpr double touching = 0.06 * mm;
+constexpr double touching = 0.06 * mm;  // largest gap of faces that count as in contact
 
 // An instance of a fastener, scene frame.
 struct PlacedFastener {
@@ -35,7 +35,7 @@ std::pair<double, double> along(const PlacedFastener& placed, const Vec3& origin
     return {std::min(a, b), std::max(a, b)};
 }
 
-constexpr double flats_slack = 0.5 * mm;
+constexpr double flats_slack = 0.5 * mm;  // tolerance of the width across flats
 
 const joint::FastenerSize& nearest_size(double diameter) {
     const auto& sizes = joint::fastener_sizes();
@@ -73,7 +73,7 @@ constexpr std::array inch_diameters = {
     std::pair{1.0, "1"},       std::pair{1.125, "1 1/8"}, std::pair{1.25, "1 1/4"},
     std::pair{1.375, "1 3/8"}, std::pair{1.5, "1 1/2"}};
 
-// Describes why size_of() finds no size.
+// Explains why size_of() returns null.
 std::string explain_size(const FastenerShape& bolt) {
     const joint::FastenerSize& size = nearest_size(bolt.diameter);
     const double din = din_across_flats(size);
@@ -91,7 +91,8 @@ std::string explain_size(const FastenerShape& bolt) {
     return text;
 }
 
-// Infers a fine pitch from the hole of the nut, D1 = d − 1.0825 P (ISO 68-1); otherwise the pitch is coarse.
+// Returns the name of the thread. `hole`: diameter of the hole of the nut, m, which reveals a fine pitch by
+// D1 = d − 1.0825 P (ISO 68-1). Without a match the pitch is coarse.
 std::string thread_name(const joint::FastenerSize& size, double hole) {
     const auto off = [&](double pitch) { return std::abs(size.d - 1.0825 * pitch - hole); };
     double best = size.coarse_pitch;
@@ -148,7 +149,7 @@ class JointFinder {
     std::map<int, int> bolt_of_nut_;  // nodes
     struct UnusedBolt {
         PlacedFastener bolt;
-        std::optional<PlacedFastener> nut;  // a nut on the bolt, whose size is not metric
+        std::optional<PlacedFastener> nut;  // the nut on it, if the bolt's size is not metric
     };
     std::vector<UnusedBolt> unused_bolts_;
 

@@ -71,7 +71,6 @@ struct PrimitiveBuilder {
     std::vector<int> next;      // by vertex: the next one of its point; −1: none
 
     // Returns the vertex of the point with this normal; adds it if needed.
-
     std::uint32_t vertex(std::uint32_t point, const Vec3& position, const Vec3& normal, const Vec3& tangent) {
         for (int v = first[point]; v >= 0; v = next[static_cast<std::size_t>(v)])
             if (glm::dot(normals[static_cast<std::size_t>(v)], normal) > same_normal)

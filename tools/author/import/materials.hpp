@@ -73,7 +73,7 @@ class MaterialPicker {
     int pick(const FaceAppearance& appearance);
 
     [[nodiscard]] const std::vector<assets::Material>& materials() const { return materials_; }
-    // Material of a clamped part that looks like this; empty: unknown.
+    // Material of a clamped part with the material `index` of materials(); empty: unknown.
     [[nodiscard]] const std::string& member(int index) const {
         return members_[static_cast<std::size_t>(index)];
     }

@@ -10,7 +10,7 @@ namespace bolt::step_import {
 
 namespace {
 
-constexpr double touching = 0.06 * mm;
+constexpr double touching = 0.06 * mm;  // largest gap of faces that count as in contact
 
 struct MemberSpan {
     int node = -1;

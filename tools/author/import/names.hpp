@@ -10,7 +10,7 @@ namespace bolt::step_import {
 // Removes control characters and outer blanks; replaces invalid UTF-8 by U+FFFD.
 std::string clean_name(std::string_view text);
 
-// Returns false for a name that an exporter made up ("NAUO12", "=>[0:1:1:2]", "SOLID", "7").
+// Returns false for a name that an exporter generated ("NAUO12", "=>[0:1:1:2]", "SOLID", "7").
 bool is_meaningful_name(std::string_view name);
 
 class UniqueNames {

@@ -172,6 +172,7 @@ PartMesh tessellate(const TopoDS_Shape& shape, const Deflection& deflection) {
         stitcher.add(one);
     }
 
+    // The point of each set of corners. add(0) returns the number of corners.
     std::vector<std::uint32_t> point_of(sets.add(0), 0xFFFFFFFFU);
     for (std::size_t f = 0; f < meshed.size(); ++f) {
         const MeshedFace& one = meshed[f];

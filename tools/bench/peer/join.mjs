@@ -1,4 +1,4 @@
-// Prints a table of our frame times beside the peer's, and writes it as JSON:  node join.mjs THREE.json OURS.json ... OUT.json
+// Prints a table of our frame times and those of three.js, and writes it as JSON:  node join.mjs THREE.json OURS.json ... OUT.json
 import { readFile, writeFile } from 'node:fs/promises';
 
 const read = async (file) => JSON.parse(await readFile(file, 'utf8'));

@@ -31,15 +31,15 @@ struct NearPose {
 };
 
 // Approaches obstacles from outside until the wrench just touches, and perturbs each of these poses many
-// times by up to 1.5 mm and 1°: some results are free, some cross. The result depends on the seed but not on
-// the number of threads.
+// times by up to 1.5 mm and 1°, so that some poses are free and some cross. The result depends on the seed
+// but not on the number of threads.
 std::vector<NearPose> near_poses(const ContactScene& scene, const collision::CollisionWorld& world,
                                  const collision::ToolShape& tool, const NearOptions& options);
 
-// Deeper than 0.1 mm, but reported as outside.
+// Returns whether the tool is deeper than 0.1 mm, but the query reports no penetration.
 bool reported_outside(const NearPose& pose);
-// Deeper than 0.1 mm, but not even reported within the margin of 0.1 mm that contact keeps for surface
-// between the sample points.
+// Returns whether the tool is deeper than 0.1 mm, but the query reports no contact, or a gap of 0.1 mm or
+// more. Contact keeps that margin because a surface may protrude between its sample points.
 bool missed(const NearPose& pose);
 
 struct NearSummary {
@@ -49,12 +49,13 @@ struct NearSummary {
     double deepest_unreported = 0.0;  // m, greatest depth of a pose reported as outside
     // The greatest errors of all poses.
     double point_error = 0.0, edge_error = 0.0, distance_error = 0.0;
-    // m: the true gap minus the reported one (under), the reported gap minus the true one (over), with the
-    // greatest, the median and the 99th percentile, and the reported gap minus that of the sample points.
+    // Errors of the gap, m. gap_under: the greatest of true minus reported. gap_over, gap_over_p50 and
+    // gap_over_p99: the greatest, the median and the 99th percentile of reported minus true. gap_over_points:
+    // the greatest of reported minus the gap of the sample points.
     double gap_under = 0.0, gap_over = 0.0, gap_over_points = 0.0, gap_over_p50 = 0.0, gap_over_p99 = 0.0;
     // Fraction of the near poses whose reported gap exceeds the true one by at most 1 um.
     double within_micrometre = 0.0;
-    double depth_under_points = 0.0;  // m, depth of the sample points minus the reported depth
+    double depth_under_points = 0.0;  // m, greatest of the depth of the sample points minus the reported one
 };
 
 NearSummary summarize(const std::vector<NearPose>& poses, double band);

@@ -19,8 +19,9 @@ struct PenetrationRun {
     Pose tool{};                       // the pose of the wrench at that depth
 };
 
-// `motions` straight motions between random free poses, through whatever lies between, 1.5 s each. The
-// hexagon of the nut in the jaw is taken to turn with the jaw beyond the play, as in servo/tool_contact.hpp.
+// `motions` straight motions between random free poses, through anything that lies between, 1.5 s each.
+// Beyond the play, the hexagon of the nut in the jaw is assumed to turn with the jaw, as in
+// servo/tool_contact.hpp.
 PenetrationRun run_through_obstacles(const servo::Setup& setup, servo::State& state,
                                      const ContactScene& scene, std::uint64_t seed, int motions);
 
@@ -33,7 +34,8 @@ Result<PenetrationRun> run_flicks(const collision::ToolShape& tool,
                                   const proxy::GodObjectParameters& parameters, std::uint64_t seed,
                                   int times);
 
-// The jaw's end in a slot 1 mm wider than the jaw's `thickness` (m), moved at random at up to 1 m/s.
+// The end of the wrench with the jaw in a slot 1 mm wider than the jaw's `thickness` (m), moved at random at
+// up to 1 m/s.
 Result<PenetrationRun> run_in_slot(const collision::ToolShape& tool,
                                    const proxy::GodObjectParameters& parameters, double thickness,
                                    std::uint64_t seed, int ticks);

@@ -57,7 +57,7 @@ float hyab(const glm::vec3& a, const glm::vec3& b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-using Kernel = std::vector<float>;  // odd length, middle in the middle
+using Kernel = std::vector<float>;  // odd length; the origin is the middle element
 
 // One channel of an image.
 struct Plane {

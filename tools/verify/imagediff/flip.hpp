@@ -1,5 +1,5 @@
-// Compares two images of one size, by channel and by FLIP: the difference for each pixel that a viewer sees
-// when the two images are shown in turn; 0 equal, 1 the greatest.
+// Compares two images of one size, by channel and by FLIP. FLIP is, for each pixel, the difference that a
+// viewer sees when the two images alternate, from 0 (none) to 1 (the greatest).
 //   P. Andersson, J. Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. D. Fairchild, FLIP: A Difference
 //   Evaluator for Alternating Images, Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020. The
 //   low-dynamic-range measure, section 4.

@@ -56,7 +56,8 @@ double perpendicular_distance(const Vec3& a, const Vec3& b, const Vec3& c, const
     return std::abs(glm::dot(between, n)) / std::sqrt(nn);
 }
 
-// A pose as a matrix: faster than a quaternion for many points.
+// A pose as a matrix, which is faster than a quaternion for many points. `size` has the absolute values of
+// `turn`: it maps the half size of a box to that of the box around the rotated box.
 struct RigidTransform {
     glm::dmat3 turn, size;
     Vec3 shift;

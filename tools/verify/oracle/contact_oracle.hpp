@@ -37,8 +37,7 @@ double triangle_triangle(const geometry::Triangle& a, const geometry::Triangle& 
 // ray.
 int winding(const ClosedSurface& surface, const Vec3& point);
 // Returns the same number from the solid angles of all triangles. A. van Oosterom, J. Strackee: The solid
-// angle of a plane
-// triangle, IEEE Trans. Biomed. Eng. 30 (1983).
+// angle of a plane triangle, IEEE Trans. Biomed. Eng. 30 (1983).
 int winding_by_solid_angle(const geometry::Bvh& tree, const Vec3& point);
 
 // Returns the signed distance (m), negative inside; infinite if the surface is further than `reach`.

@@ -5,8 +5,9 @@
 //   base = (1 − m) · [ diffuse + specular(F0 = dielectric) ] + m · specular(F0 = base colour)
 //   specular = D V F · (1 + F0 (1/E − 1)),    diffuse = base colour / π · (1 − E_F(N·V))
 //
-// D: Trowbridge–Reitz (GGX), V: height-correlated Smith over 4 N·L N·V, F: Schlick, with α = roughness²; F0
-// and F90 of the dielectric from ior, specular and specular colour; anisotropy widens α along the tangent.
+// m: metallic, c: clearcoat strength, D: Trowbridge–Reitz (GGX), V: height-correlated Smith over 4 N·L N·V,
+// F: Schlick, with α = roughness²; F0 and F90 of the dielectric from ior, specular and specular colour;
+// anisotropy widens α along the tangent.
 //   glTF 2.0 specification, appendix B; KHR_materials_clearcoat, _anisotropy, _ior, _specular.
 //   B. Walter et al., Microfacet Models for Refraction through Rough Surfaces, EGSR 2007 (D).
 //   E. Heitz, Understanding the Masking-Shadowing Function, JCGT 3(2), 2014 (V).

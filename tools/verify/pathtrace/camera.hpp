@@ -19,8 +19,8 @@ struct PinholeCamera {
 // Returns the unit direction of the ray through a point of the image, in pixels from the top left corner.
 glm::vec3 ray_direction(const PinholeCamera& camera, const glm::vec2& pixel);
 
-// Returns the camera moved so that the box `low`–`high` fills the image, seen from the direction `view` (from
-// the box towards the viewer).
+// Returns the camera moved so that the box from `low` to `high` fills the image. `view` is the direction from
+// the box to the viewer.
 PinholeCamera frame_box(const PinholeCamera& camera, const glm::vec3& low, const glm::vec3& high,
                         const glm::vec3& view);
 

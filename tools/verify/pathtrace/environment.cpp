@@ -78,7 +78,7 @@ DirectionSample Environment::sample(const glm::vec2& u) const {
 
 float Environment::density(const glm::vec3& direction) const {
     if (dark()) return 0.0F;
-    const glm::vec2 uv = shading::to_square(direction);
+    const glm::vec2 uv = shading::to_equirectangular(direction);
     const int x = std::clamp(static_cast<int>(uv.x * static_cast<float>(image_.width)), 0, image_.width - 1);
     const int y =
         std::clamp(static_cast<int>(uv.y * static_cast<float>(image_.height)), 0, image_.height - 1);

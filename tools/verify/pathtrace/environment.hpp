@@ -12,9 +12,9 @@ namespace bolt::pathtrace {
 
 using assets::read_hdr;
 using assets::write_hdr;
-using shading::constant;
+using shading::constant_environment;
 using shading::RadianceImage;
-using shading::studio;
+using shading::studio_environment;
 
 struct DirectionSample {
     glm::vec3 direction{0.0F};

@@ -20,14 +20,14 @@ using namespace bolt::pathtrace;
 
 Result<Environment> light(const PathTraceOptions& options) {
     if (options.light == "none") return Environment();
-    if (options.light == "studio") return Environment(studio());
+    if (options.light == "studio") return Environment(studio_environment());
     BOLT_TRY_ASSIGN(auto image, read_hdr(options.light));
     return Environment(std::move(image));
 }
 
 Status draw(const PathTraceOptions& options) {
     const auto begin = std::chrono::steady_clock::now();
-    if (!options.write_env.empty()) BOLT_TRY(write_hdr(options.write_env, studio(1024)));
+    if (!options.write_env.empty()) BOLT_TRY(write_hdr(options.write_env, studio_environment(1024)));
     if (options.png.empty()) return {};
     BOLT_TRY_ASSIGN(auto model, assets::read_gltf(options.file));
     if (options.no_lights) model.lights.clear();

@@ -187,7 +187,7 @@ bool TracedScene::blocked(const glm::vec3& origin, const glm::vec3& direction, f
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     rtcOccluded1(tree_.get(), &context, &ray);
-    return ray.tfar < 0.0F;  // Embree marks a hit so
+    return ray.tfar < 0.0F;  // Embree sets tfar to −∞ if the ray is blocked
 }
 
 namespace {

@@ -18,7 +18,7 @@
 namespace bolt::models::reducer {
 namespace {
 
-// From the crest of a bearing boss up to the wall.
+// A rib from the crest of a bearing boss up to the wall.
 TopoDS_Shape upper_rib(const ShaftLayout& shaft) {
     const double r = shaft.boss_radius;
     return rib(shaft.x, 11.0,
@@ -37,7 +37,7 @@ struct LiftingEye {
 };
 constexpr std::array<LiftingEye, 2> eyes{{{-44.0, 128.0, -30.0, 84.0}, {512.0, 138.0, 462.0, 92.0}}};
 
-// From the underside of a bearing boss down to the foot, or ending in the wall where there is no foot.
+// A rib from the underside of a bearing boss down to the foot. Without a foot it ends in the wall.
 TopoDS_Shape lower_rib(const ShaftLayout& shaft, bool to_foot) {
     const double r = shaft.boss_radius + misfit;
     if (to_foot)
@@ -64,7 +64,7 @@ constexpr double hook_x = 19.0,
                  hook_z = 71.0;  // distances of the rope's seat from the wall and the parting plane
 
 // A lifting hook under the end flange; its rope seat is cut later. `out` is the sign of x away from the
-// casing's middle. It is upside down, as the whole lower half is.
+// casing's middle. It is built upside down, as the whole lower half is.
 TopoDS_Shape hook(double wall_x, double out) {
     const auto at = [&](double x, double z) { return gp_Pnt(wall_x + out * x, -10.0, z); };
     return lug(polygon({at(-14, 14), at(42, 14), at(42, 64), at(30, 76), at(-14, 106)}));
@@ -317,7 +317,7 @@ std::vector<FaceFinish> machined_faces(const TopoDS_Shape& shape) {
             const gp_Dir n = surface.Plane().Axis().Direction();
             for (const gp_Pln& plane : planes)
                 if (plane.Axis().Direction().IsParallel(n, 1e-6) && plane.Distance(p) < 1e-3) return true;
-            // Spot faces are cut into the cast face, so that their height identifies them.
+            // Spot faces are cut deeper than the cast face, so their height identifies them.
             const double height = std::abs(p.Z());
             return near(std::abs(n.Z()), 1.0) &&
                    (near(height, boss_height) || near(height, flange_thickness) ||

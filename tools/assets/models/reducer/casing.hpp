@@ -39,7 +39,7 @@ TopoDS_Shape flange_half(double grown);
 TopoDS_Shape bearing_boss(const ShaftLayout& shaft, double grown);
 TopoDS_Shape bolt_boss(const JointLayout& joint, double grown);
 TopoDS_Shape side_bosses(const TopoDS_Shape& body, double grown);  // the body with all its bosses
-// Returns whether an edge lies where the shape was cut off: in the plane of symmetry or at the overlap.
+// Returns whether an edge lies where the shape is cut off later: in the plane y = 0 or at z = −overlap.
 bool on_rim(const TopoDS_Edge& edge);
 
 // A rib in the plane x = const: its outline is given in (y, z), its free edges are rounded.

@@ -22,8 +22,8 @@ using RadialOutline = std::vector<std::pair<double, double>>;
 // The axis of a shaft; outlines about it are (radius, y).
 gp_Ax2 axis_at(double x) { return {gp_Pnt(x, 0, 0), gp_Dir(0, 1, 0), gp_Dir(1, 0, 0)}; }
 
-// A gear on the shaft at x with its mid plane at y, turned by `turn` from the position with a gap's middle on
-// +X.
+// A gear on the shaft at x with its mid plane at y. `turn` (rad) rotates it from the position in which the
+// middle of a gap is on +X.
 TopoDS_Shape gear_at(const GearSpec& gear, double x, double y, double turn,
                      const RadialOutline& inside = {}) {
     gp_Trsf placement, rotation;
@@ -68,7 +68,7 @@ DrivePart toothed(std::string name, const TopoDS_Shape& solid) {
     return part;
 }
 
-// Rim, web and hub of a wheel, with broken corners.
+// The outline of rim, web and hub of a wheel, with chamfered corners.
 RadialOutline wheel_inside(double half, double rim, double web, double hub, double bore) {
     const double w = web / 2.0;
     return {{rim + 1.5, half},  {rim, half - 1.5},     {rim - 2.0, w + 5.0},  {rim - 7.0, w},

@@ -250,7 +250,7 @@ Result<TopoDS_Shape> nameplate() {
 Result<TopoDS_Shape> nameplate_text() {
     return catch_build_errors("nameplate text", [] {
         const double z0 = plate_thickness, z1 = plate_thickness + 0.4, stroke = 2.4;
-        // A stroke with square ends about the line from a to b.
+        // A stroke with square ends around the line from a to b.
         const auto bar = [&](double xa, double ya, double xb, double yb) {
             const double dx = xb - xa, dy = yb - ya, l = std::hypot(dx, dy), u = dx / l * stroke / 2.0,
                          v = dy / l * stroke / 2.0;
@@ -273,7 +273,7 @@ Result<TopoDS_Shape> nameplate_text() {
         to_number.SetTranslation(gp_Vec(17.0, (top + low) / 2.0, 0.0));
         for (const TopoDS_Shape& shape : text_strokes("350", top - low + stroke, stroke, z0, z1))
             parts.push_back(moved(shape, to_number));
-        // Below the name, the ruled table of such plates.
+        // Below the name: the lines of an empty table, as on real nameplates.
         for (const double y : {-3.0, -10.0, -17.0})
             parts.push_back(box({-36.0, 36.0, y - 0.4, y + 0.4, z0, z1}));
         for (const double x : {-12.0, 12.0}) parts.push_back(box({x - 0.4, x + 0.4, -16.6, -3.4, z0, z1}));

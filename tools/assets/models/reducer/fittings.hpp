@@ -11,13 +11,15 @@
 
 namespace bolt::models::reducer {
 
-// A bearing cap. Local +Z points out of the casing, z = 0 is the seat's face. A cap with a bore carries a lip
-// seal.
+// A bearing cap. Local +Z points out of the casing; z = 0 is the machined face of the casing. A cap that the
+// shaft passes through holds a lip seal.
 struct CapSpec {
-    double seat = 0.0, flange = 0.0, thickness = 0.0, spigot = 0.0;  // radii and lengths
+    double seat = 0.0, flange = 0.0;       // radii
+    double thickness = 0.0, spigot = 0.0;  // lengths along z
     int screws = 0;
-    double screw_circle = 0.0;                               // radius
-    double shaft = 0.0, seal_outer = 0.0, seal_width = 0.0;  // radii; 0 for a blind cap
+    double screw_circle = 0.0;             // radius
+    double shaft = 0.0, seal_outer = 0.0;  // radii; 0 for a blind cap
+    double seal_width = 0.0;               // along z; 0 for a blind cap
 };
 
 CapSpec cap_spec(const ShaftLayout& shaft, double through_shaft, double seal_outer, double seal_width);

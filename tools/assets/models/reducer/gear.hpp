@@ -1,5 +1,6 @@
 // The geometry of helical involute gears in the transverse plane, by the formulas of ISO 21771 for profile A
-// of ISO 53. Lengths in millimetres, angles in radians. Independent of CAD; the solid and its tests share it.
+// of ISO 53. Lengths in millimetres, angles in radians. Does not depend on the CAD library. The solid and its
+// tests share it.
 #pragma once
 
 #include <vector>
