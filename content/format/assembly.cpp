@@ -108,9 +108,7 @@ LoadedAssembly parse(std::string_view text, std::string_view file, std::string_v
     loaded.assembly = std::move(assembly);
     loaded.errors = reader.take_errors();
     loaded.errors.insert(loaded.errors.begin(), repeated.begin(), repeated.end());
-    std::stable_sort(loaded.errors.begin(), loaded.errors.end(), [](const Error& a, const Error& b) {
-        return std::tie(a.line, a.column) < std::tie(b.line, b.column);
-    });
+    sort_by_position(loaded.errors);
     if (loaded.errors.size() > max_errors) {
         loaded.errors.resize(max_errors);
         Error last = loaded.errors.back();

@@ -98,15 +98,15 @@ void check_load(const LayeredObject& layers, const JointType& type) {
     const double yield_torque = torque_90 / utilisation + design.prevailing_torque;
     const LayeredObject spec = layers.member_layers("spec");
     const JsonNode target = spec.find("target_torque_Nm"), limit = spec.find("max_torque_Nm");
-    const auto report_torque = [&](const JsonNode& at, double torque, const char* of, double max_torque,
-                                   const char* in_all) {
+    const auto report_torque = [&](const JsonNode& at, double torque, const char* torque_suffix,
+                                   double max_torque, const char* limit_suffix) {
         layers.reader().report(
             at.pointer,
             fmt::format("{:g} N·m{} is too much for {} of class {} with friction {:g} and {:g}: it yields "
                         "near {:.1f} N·m",
-                        torque, of, size.name, design.bolt_class.name, design.friction.thread,
+                        torque, torque_suffix, size.name, design.bolt_class.name, design.friction.thread,
                         design.friction.bearing, rounded_down(yield_torque)),
-            fmt::format("at most {:.1f} N·m{}", rounded_down(max_torque), in_all));
+            fmt::format("at most {:.1f} N·m{}", rounded_down(max_torque), limit_suffix));
     };
     const ToleranceWindow& torque = type.spec.torque;
     if (type.spec.strategy == Strategy::yield) {
@@ -116,12 +116,12 @@ void check_load(const LayeredObject& layers, const JointType& type) {
         if (torque.target > max_torque) report_torque(target, torque.target, "", max_torque, "");
     } else if (torque.high > yield_torque) {
         const bool limited = limit && layers.reader().number(limit) == torque.high;
-        const char* in_all = limited ? "" : " with its tolerance";
+        const char* limit_suffix = limited ? "" : " with its tolerance";
         if (torque.target > yield_torque)
-            report_torque(target, torque.target, "", yield_torque, in_all);
+            report_torque(target, torque.target, "", yield_torque, limit_suffix);
         else
             report_torque(limited ? limit : target, torque.high,
-                          limited ? "" : " (the target with its tolerance)", yield_torque, in_all);
+                          limited ? "" : " (the target with its tolerance)", yield_torque, limit_suffix);
     }
 }
 
@@ -135,13 +135,14 @@ double largest_prevailing(std::string_view size) {
 }
 
 // Reports a prevailing torque that is unusually large, or that leaves no torque to load the bolt.
-void check_prevailing(const LayeredObject& layers, const JointType& type, double least_share) {
+void check_prevailing(const LayeredObject& layers, const JointType& type, double smallest_pass_fraction) {
     constexpr double margin = 1.5;  // factor on ISO 2320, for other classes, coatings and dry threads
     const JsonNode node = layers.find("prevailing_torque_Nm");
     const double prevailing = type.design.prevailing_torque, target = type.spec.torque.target;
     if (!node || prevailing <= 0.0) return;
     const bool target_known = static_cast<bool>(layers.member_layers("spec").find("target_torque_Nm"));
-    const double pass_torque = target_known ? least_share * target : std::numeric_limits<double>::infinity();
+    const double pass_torque =
+        target_known ? smallest_pass_fraction * target : std::numeric_limits<double>::infinity();
     const double iso_torque = largest_prevailing(type.design.thread.size.name);
     const double max_torque =
         iso_torque > 0.0 ? margin * iso_torque : std::numeric_limits<double>::infinity();
@@ -151,10 +152,11 @@ void check_prevailing(const LayeredObject& layers, const JointType& type, double
             fmt::format(
                 "a nut that takes {:g} N·m to turn never loads its bolt in a pass that tightens to {:g} N·m "
                 "({:g} percent of {:g})",
-                prevailing, pass_torque, least_share * 100.0, target),
-            max_torque < pass_torque ? fmt::format("at most {:g} N·m", max_torque)
-                                     : fmt::format("less than {:g} N·m{}", pass_torque,
-                                                   least_share < 1.0 ? ", or a higher percentage" : ""));
+                prevailing, pass_torque, smallest_pass_fraction * 100.0, target),
+            max_torque < pass_torque
+                ? fmt::format("at most {:g} N·m", max_torque)
+                : fmt::format("less than {:g} N·m{}", pass_torque,
+                              smallest_pass_fraction < 1.0 ? ", or a higher percentage" : ""));
     else if (prevailing > max_torque)
         layers.reader().report(node.pointer,
                                fmt::format("{:g} N·m is too much for a locking nut {}: ISO 2320 allows {:g} "
@@ -232,7 +234,7 @@ void check_torques(const LayeredObject& spec, const ToleranceWindow& torque, dou
             fmt::format("less than {:g} N·m", torque.low));
 }
 
-void check_joint_type(const LayeredObject& layers, const JointType& type, double least_share) {
+void check_joint_type(const LayeredObject& layers, const JointType& type, double smallest_pass_fraction) {
     const joint::JointDesign& design = type.design;
     const LayeredObject spec = layers.member_layers("spec");
     const bool grip = !design.members.empty() &&
@@ -248,7 +250,7 @@ void check_joint_type(const LayeredObject& layers, const JointType& type, double
     if (has_size(type) && has_property_class(type) && torques && spec.all_valid({"strategy"}) &&
         layers.all_valid({"friction_thread", "friction_bearing", "prevailing_torque_Nm"}))
         check_load(layers, type);
-    check_prevailing(layers, type, least_share);
+    check_prevailing(layers, type, smallest_pass_fraction);
     check_limits(spec);
     if (torques) check_torques(spec, type.spec.torque, type.spec.snug_torque);
     if (spec.all_valid({"strategy", "target_angle_deg", "min_angle_deg", "max_angle_deg"}))

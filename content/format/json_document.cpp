@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <tuple>
 
 #include "content/format/json_syntax.hpp"
 #include "engine/base/nearest.hpp"
@@ -288,6 +289,12 @@ class JsonBuilder {
     // Values of repeated keys; a deque keeps their addresses stable while they are filled.
     std::deque<json> discarded_;
 };
+
+void sort_by_position(std::vector<Error>& errors) {
+    std::stable_sort(errors.begin(), errors.end(), [](const Error& a, const Error& b) {
+        return std::tie(a.line, a.column) < std::tie(b.line, b.column);
+    });
+}
 
 JsonDocument::JsonDocument(std::string_view text, std::string_view file)
     : content_(std::make_unique<Content>()) {

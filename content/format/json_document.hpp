@@ -32,6 +32,9 @@ std::string nearest_name(std::string_view name, std::span<const std::string> kno
 // Returns Error::expected for an unknown name: "did you mean "x"?" or "one of a, b, c".
 std::string suggest(std::string_view name, std::span<const std::string> known);
 
+// Sorts by line and column; errors at the same position keep their order.
+void sort_by_position(std::vector<Error>& errors);
+
 // Limits of a content file, far above what authors need; they bound the cost of a hostile file.
 inline constexpr std::size_t json_size_limit = 4U << 20U;  // bytes
 inline constexpr std::size_t json_depth_limit = 64;

@@ -22,7 +22,7 @@ Assembly read_assembly(JsonReader& reader, std::string_view variant, const Model
 
 std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& variant);
 // The smallest fraction of the target torque that a pass tightens to; 1 if unknown.
-double least_share(JsonReader& reader);
+double smallest_pass_fraction(JsonReader& reader);
 std::vector<Pass> read_passes(JsonReader& reader, const std::vector<AssemblyJoint>& joints);
 joint::PublishedParameters read_published(JsonReader& reader);
 // Empty if the file gives no targets.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -226,9 +227,10 @@ Materials read_materials(JsonReader& reader) {
     return materials;
 }
 
-JointType read_joint_type(const LayeredObject& layers, const Materials& materials, double least_share) {
+JointType read_joint_type(const LayeredObject& layers, const Materials& materials,
+                          double smallest_pass_fraction) {
     const JointType type{read_design(layers, materials), read_spec(layers.member_layers("spec"))};
-    check_joint_type(layers, type, least_share);
+    check_joint_type(layers, type, smallest_pass_fraction);
     return type;
 }
 
@@ -252,7 +254,7 @@ struct JointTypes {
     JsonNode every_patch;  // of the variant
     JsonNode patches;      // of the variant, by type
     Materials materials;
-    double least_share;  // smallest fraction of the target torque of all passes
+    double smallest_pass_fraction;  // smallest fraction of the target torque of all passes
     std::map<std::string, JointType> read;
 
     LayeredObject layers(const std::string& name) {
@@ -287,7 +289,7 @@ AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
             std::vector<JsonNode> objects = types.layers(joint.type).objects();
             objects.insert(objects.begin(), override);
             type = read_joint_type(LayeredObject(reader, std::move(objects)), types.materials,
-                                   types.least_share);
+                                   types.smallest_pass_fraction);
         }
         joint.design = std::move(type.design);
         joint.spec = type.spec;
@@ -354,12 +356,13 @@ std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& va
                      reader.member(patch, "every_joint_type"),
                      reader.member(patch, "joint_types"),
                      read_materials(reader),
-                     least_share(reader),
+                     smallest_pass_fraction(reader),
                      {}};
     const std::vector<std::string> type_names = names_of(reader, types.all);
     const bool has_types = static_cast<bool>(types.all);
     for (const std::string& name : type_names)
-        types.read.emplace(name, read_joint_type(types.layers(name), types.materials, types.least_share));
+        types.read.emplace(
+            name, read_joint_type(types.layers(name), types.materials, types.smallest_pass_fraction));
     for (const JsonNode& node : reader.items(types.patches))
         if (has_types && !types.read.contains(last_token(node.pointer)))
             report_unknown(reader, node.pointer, JsonPart::key, "joint type of this file",

@@ -31,13 +31,14 @@ struct JointType {
 };
 
 // Reads a joint type with its patches applied, and reports its errors, including inconsistent values. After
-// an error the result serves only for further checks. `least_share`: smallest fraction of the target torque
-// that a pass tightens to.
-JointType read_joint_type(const LayeredObject& layers, const Materials& materials, double least_share);
+// an error the result serves only for further checks. `smallest_pass_fraction`: smallest fraction of the
+// target torque that a pass tightens to.
+JointType read_joint_type(const LayeredObject& layers, const Materials& materials,
+                          double smallest_pass_fraction);
 
 // Checks the consistency of a joint type: lengths, torques, windows. Checks that need an invalid or missing
 // value are skipped.
-void check_joint_type(const LayeredObject& layers, const JointType& type, double least_share);
+void check_joint_type(const LayeredObject& layers, const JointType& type, double smallest_pass_fraction);
 
 // The torques in `spec`: a joint's specification, or the targets of the published law.
 ToleranceWindow read_torque(const LayeredObject& spec);

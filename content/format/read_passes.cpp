@@ -120,28 +120,28 @@ void check_percent(JsonReader& reader, const std::vector<ParsedPass>& parsed) {
     double highest = 0.0;
     bool decreases = false, known = true;
     const ParsedPass* last = nullptr;
-    for (const ParsedPass& pass_read : parsed) {
-        const JsonNode percent = reader.member(pass_read.node, "percent");
-        known = known && pass_read.kind && reader.is_valid(percent.pointer);
-        if (pass_read.kind && pass_read.kind != PassKind::tighten && percent)
+    for (const ParsedPass& parsed_pass : parsed) {
+        const JsonNode percent = reader.member(parsed_pass.node, "percent");
+        known = known && parsed_pass.kind && reader.is_valid(percent.pointer);
+        if (parsed_pass.kind && parsed_pass.kind != PassKind::tighten && percent)
             reader.report(percent.pointer, "only a pass of kind \"tighten\" has a share of the target",
                           "no \"percent\" here");
-        if (pass_read.kind != PassKind::tighten) continue;
-        last = &pass_read;
+        if (parsed_pass.kind != PassKind::tighten) continue;
+        last = &parsed_pass;
         if (!percent) {
             if (reader.is_valid(percent.pointer))
-                reader.report(pass_read.node.pointer, "a pass of kind \"tighten\" without \"percent\"",
+                reader.report(parsed_pass.node.pointer, "a pass of kind \"tighten\" without \"percent\"",
                               "a share of the target torque, 100 in the last pass");
             known = false;
             continue;
         }
-        if (pass_read.percent < highest) {
+        if (parsed_pass.percent < highest) {
             decreases = true;
             reader.report(percent.pointer,
-                          fmt::format("{:g} percent after {:g} percent", *pass_read.percent, highest),
+                          fmt::format("{:g} percent after {:g} percent", *parsed_pass.percent, highest),
                           "shares that do not fall, and 100 in the last pass");
         }
-        highest = std::max(highest, *pass_read.percent);
+        highest = std::max(highest, *parsed_pass.percent);
     }
     if (!known) return;
     if (last == nullptr)
@@ -155,8 +155,8 @@ void check_percent(JsonReader& reader, const std::vector<ParsedPass>& parsed) {
 // Checks that nuts are run down before a wrench tightens them, and rechecked after the last tightening.
 void check_sequence(JsonReader& reader, const std::vector<ParsedPass>& parsed) {
     const auto kind_at = [&](std::size_t i) { return reader.member(parsed[i].node, "kind").pointer; };
-    const auto uses_wrench = [](const ParsedPass& pass_read) {
-        return pass_read.kind && pass_read.kind != PassKind::run_down;
+    const auto uses_wrench = [](const ParsedPass& parsed_pass) {
+        return parsed_pass.kind && parsed_pass.kind != PassKind::run_down;
     };
     const auto first =
         static_cast<std::size_t>(std::find_if(parsed.begin(), parsed.end(), uses_wrench) - parsed.begin());
@@ -174,32 +174,32 @@ void check_sequence(JsonReader& reader, const std::vector<ParsedPass>& parsed) {
             reader.report(kind_at(i),
                           fmt::format("this pass rechecks before the last pass that tightens, in line {}",
                                       reader.line(parsed[last].node.pointer)),
-                          "it after that pass");
+                          "a recheck after that pass");
 }
 
-std::vector<ParsedPass> read_rounds(JsonReader& reader) {
+std::vector<ParsedPass> parse_passes(JsonReader& reader) {
     std::vector<ParsedPass> parsed;
     for (const JsonNode& node : reader.items(reader.member(reader.root(), "passes"))) {
-        ParsedPass pass_read;
-        pass_read.node = node;
+        ParsedPass parsed_pass;
+        parsed_pass.node = node;
         const auto kind = reader.text(reader.member(node, "kind"));
         if (kind)
-            pass_read.kind = kind == "run_down"  ? PassKind::run_down
-                             : kind == "recheck" ? PassKind::recheck
-                                                 : PassKind::tighten;
-        pass_read.percent = reader.number(reader.member(node, "percent"));
-        parsed.push_back(std::move(pass_read));
+            parsed_pass.kind = kind == "run_down"  ? PassKind::run_down
+                               : kind == "recheck" ? PassKind::recheck
+                                                   : PassKind::tighten;
+        parsed_pass.percent = reader.number(reader.member(node, "percent"));
+        parsed.push_back(std::move(parsed_pass));
     }
     return parsed;
 }
 
 }  // namespace
 
-double least_share(JsonReader& reader) {
+double smallest_pass_fraction(JsonReader& reader) {
     double least = 1.0;
-    for (const ParsedPass& pass_read : read_rounds(reader))
-        if (pass_read.kind == PassKind::tighten && pass_read.percent)
-            least = std::min(least, *pass_read.percent / 100.0);
+    for (const ParsedPass& parsed_pass : parse_passes(reader))
+        if (parsed_pass.kind == PassKind::tighten && parsed_pass.percent)
+            least = std::min(least, *parsed_pass.percent / 100.0);
     return least;
 }
 
@@ -209,13 +209,13 @@ std::vector<Pass> read_passes(JsonReader& reader, const std::vector<AssemblyJoin
     std::vector<std::size_t> common = listed_order(joints.size());
     if (common_node && !joints.empty()) common = read_order(reader, common_node, ids);
 
-    const std::vector<ParsedPass> parsed = read_rounds(reader);
+    const std::vector<ParsedPass> parsed = parse_passes(reader);
     std::vector<Pass> passes;
-    for (const ParsedPass& pass_read : parsed) {
+    for (const ParsedPass& parsed_pass : parsed) {
         Pass pass;
-        pass.kind = pass_read.kind.value_or(PassKind::tighten);
-        pass.fraction = pass_read.percent.value_or(100.0) / 100.0;
-        const JsonNode order = reader.member(pass_read.node, "order");
+        pass.kind = parsed_pass.kind.value_or(PassKind::tighten);
+        pass.fraction = parsed_pass.percent.value_or(100.0) / 100.0;
+        const JsonNode order = reader.member(parsed_pass.node, "order");
         pass.order = order && !joints.empty() ? read_order(reader, order, ids) : common;
         passes.push_back(std::move(pass));
     }

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string_view>
+#include <utility>
 #include <valijson/adapters/nlohmann_json_adapter.hpp>
 #include <valijson/schema.hpp>
 #include <valijson/schema_parser.hpp>
@@ -49,14 +50,38 @@ std::string purpose(const json& node) {
     return {};
 }
 
-std::string unit_of(const std::string& name) {
-    const std::size_t bar = name.rfind('_');
-    if (bar == std::string::npos) return {};
-    const std::string unit = name.substr(bar + 1);
-    for (const std::string_view known :
-         {"mm", "um", "Nm", "deg", "GPa", "MPa", "g", "s", "kN", "percent", "turns"})
-        if (unit == known) return unit == "Nm" ? " (N·m)" : unit == "um" ? " (µm)" : " (" + unit + ")";
+// Returns the written form of one unit in a property's name: "N·m" for "Nm", "mm²" for "mm2"; empty if it is
+// not a unit.
+std::string unit_in_words(std::string_view token) {
+    constexpr std::pair<std::string_view, std::string_view> units[] = {
+        {"mm", "mm"},           {"um", "µm"},   {"m", "m"},        {"Nm", "N·m"}, {"kN", "kN"},
+        {"MN", "MN"},           {"GPa", "GPa"}, {"MPa", "MPa"},    {"g", "g"},    {"s", "s"},
+        {"percent", "percent"}, {"deg", "deg"}, {"turns", "turns"}};
+    const bool squared = token.ends_with('2');
+    if (squared) token.remove_suffix(1);
+    for (const auto& [name, written] : units)
+        if (token == name) return std::string(written) + (squared ? "²" : "");
     return {};
+}
+
+// Returns the unit at the end of a property's name: " (mm)", " (MN/mm)" for "spring_rates_MN_per_mm"; empty
+// without a unit.
+std::string unit_of(std::string_view name) {
+    const auto take_unit = [&] {
+        const std::size_t bar = name.rfind('_');
+        if (bar == std::string_view::npos) return std::string{};
+        std::string unit = unit_in_words(name.substr(bar + 1));
+        name = name.substr(0, bar);
+        return unit;
+    };
+    std::string unit = take_unit();
+    if (unit.empty()) return {};
+    if (name.ends_with("_per")) {
+        name.remove_suffix(4);
+        const std::string numerator = take_unit();
+        unit = (numerator.empty() ? "1" : numerator) + "/" + unit;
+    }
+    return fmt::format(" ({})", unit);
 }
 
 std::string number_in_words(const json& node, const std::string& name) {

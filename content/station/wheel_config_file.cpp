@@ -21,27 +21,27 @@ Result<device::WheelConfig> parse_wheel_config(std::string_view text, const std:
     MemberReader members{*document, {}};
     const json& root = document->root();
     if (!root.is_object()) {
-        members.report("", JsonPart::value, "the rig file is not an object", "a JSON object");
+        members.report("", JsonPart::value, "the wheel configuration is not an object", "a JSON object");
         return fail(*members.first_error);
     }
     if (members.text(root, "format") != format_name)
-        members.report("/format", JsonPart::value, "the format of the rig file is unknown",
+        members.report("/format", JsonPart::value, "the format of the wheel configuration is unknown",
                        fmt::format("\"format\": \"{}\"", format_name));
     members.check_known(
         root, "", {"format", "full_torque_Nm", "most_torque_Nm", "counts_per_turn", "range_deg", "reversed"});
-    device::WheelConfig rig;
+    device::WheelConfig config;
     const auto number = [&](const char* key, double low, double high, double& to) {
         if (root.contains(key)) to = members.number(root, "", key, low, high);
     };
-    number("full_torque_Nm", 0.1, max_configurable_torque, rig.full_torque);
-    number("most_torque_Nm", 0.0, max_configurable_torque, rig.max_torque);
-    number("counts_per_turn", 0.0, max_counts_per_turn, rig.counts_per_turn);
-    double degrees = to_degrees(rig.range);
+    number("full_torque_Nm", 0.1, max_configurable_torque, config.full_torque);
+    number("most_torque_Nm", 0.0, max_configurable_torque, config.max_torque);
+    number("counts_per_turn", 0.0, max_counts_per_turn, config.counts_per_turn);
+    double degrees = to_degrees(config.range);
     number("range_deg", 10.0, 65535.0, degrees);
-    rig.range = to_radians(degrees);
-    if (root.contains("reversed")) rig.reversed = members.flag(root, "reversed");
+    config.range = to_radians(degrees);
+    if (root.contains("reversed")) config.reversed = members.flag(root, "reversed");
     if (members.first_error) return fail(*members.first_error);
-    return rig;
+    return config;
 }
 
 Result<device::WheelConfig> load_wheel_config(const std::filesystem::path& path) {

@@ -43,25 +43,25 @@ bool is_date(const std::string& text) {
     return month >= 1 && month <= 12 && day >= 1 && day <= 31;
 }
 
-void read_lines(MemberReader& members, const json& root, GloveCalibration& to) {
-    const json* lines = members.find(root, "", "lines");
-    if (lines == nullptr) return;
-    if (!lines->is_object() || lines->empty())
+void read_fits(MemberReader& members, const json& root, GloveCalibration& to) {
+    const json* fits = members.find(root, "", "lines");
+    if (fits == nullptr) return;
+    if (!fits->is_object() || fits->empty())
         return members.report("/lines", JsonPart::value, "no sensor is calibrated",
                               "an object with a line per sensor, as {\"thumb_mpj\": {\"offset\": 41.5, "
                               "\"gain\": 0.013}}");
-    members.check_known(*lines, "/lines", sensor_keys(to.sensors));
+    members.check_known(*fits, "/lines", sensor_keys(to.sensors));
     for (const hand::Sensor sensor : hand::sensors_of(to.sensors)) {
         const std::string key = key_of(sensor), at = "/lines/" + key;
-        const auto line = lines->find(key);
-        if (line == lines->end()) continue;
-        if (!line->is_object())
+        const auto fit = fits->find(key);
+        if (fit == fits->end()) continue;
+        if (!fit->is_object())
             return members.report(at, JsonPart::value, fmt::format("\"{}\" is not an object", key),
                                   "an object with \"offset\" and \"gain\"");
-        members.check_known(*line, at, {"offset", "gain"});
+        members.check_known(*fit, at, {"offset", "gain"});
         to.calibration.fits[hand::index(sensor)] =
-            hand::LinearFit{members.number(*line, at, "gain", -max_gain, max_gain),
-                            members.number(*line, at, "offset", -1e4, 1e4)};
+            hand::LinearFit{members.number(*fit, at, "gain", -max_gain, max_gain),
+                            members.number(*fit, at, "offset", -1e4, 1e4)};
     }
 }
 
@@ -101,16 +101,16 @@ Result<GloveCalibration> parse_glove_calibration(std::string_view text, const st
                        "a date as \"2026-11-22\"");
     read.quality = members.number(root, "", "quality", 0.0, 1.0);
     read.hand_length = 1e-3 * members.number(root, "", "hand_length_mm", 100.0, 300.0);
-    read_lines(members, root, read);
+    read_fits(members, root, read);
     if (members.first_error) return fail(*members.first_error);
     return read;
 }
 
 std::string glove_calibration_text(const GloveCalibration& calibration) {
-    nlohmann::ordered_json lines = nlohmann::ordered_json::object();
+    nlohmann::ordered_json fits = nlohmann::ordered_json::object();
     for (const hand::Sensor sensor : hand::sensors_of(calibration.sensors))
-        if (const auto& line = calibration.calibration.fits[hand::index(sensor)])
-            lines[key_of(sensor)] = {{"offset", line->offset}, {"gain", line->gain}};
+        if (const auto& fit = calibration.calibration.fits[hand::index(sensor)])
+            fits[key_of(sensor)] = {{"offset", fit->offset}, {"gain", fit->gain}};
     nlohmann::ordered_json root;
     root["format"] = format_name;
     root["trainee"] = calibration.trainee;
@@ -120,7 +120,7 @@ std::string glove_calibration_text(const GloveCalibration& calibration) {
     root["date"] = calibration.date;
     root["quality"] = calibration.quality;
     root["hand_length_mm"] = std::round(1e6 * calibration.hand_length) / 1e3;  // to a micrometre
-    root["lines"] = std::move(lines);
+    root["lines"] = std::move(fits);
     // Names are user input: bytes that are not UTF-8 are replaced, because they would make the file
     // unreadable.
     return root.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -74,7 +74,8 @@ void read_law(MemberReader& members, const json& root, TraineeSettings& to) {
 void read_seat(MemberReader& members, const json& root, TraineeSettings& to) {
     const json* seat = members.find(root, "", "seated_height_m");
     if (seat == nullptr || seat->is_null()) return;
-    to.seated_height = members.number(root, "", "seated_height_m", lowest_seat, highest_seat);
+    to.seated_eye_height =
+        members.number(root, "", "seated_height_m", min_seated_eye_height, max_seated_eye_height);
 }
 
 void read_key(MemberReader& members, const std::string& action, const json& value,
@@ -156,8 +157,8 @@ std::string settings_text(const TraineeSettings& settings) {
     root["palette"] = settings.palette == PaletteKind::distinct ? distinct : usual;
     root["left_handed"] = settings.left_handed;
     root["force_scale"] = settings.force_scale;
-    root["seated_height_m"] = settings.seated_height ? nlohmann::ordered_json(*settings.seated_height)
-                                                     : nlohmann::ordered_json(nullptr);
+    root["seated_height_m"] = settings.seated_eye_height ? nlohmann::ordered_json(*settings.seated_eye_height)
+                                                         : nlohmann::ordered_json(nullptr);
     if (!settings.law.empty()) root["law"] = settings.law;
     root["keys"] = settings.keys;
     // Names are user input: bytes that are not UTF-8 are replaced, because they would make the file

@@ -31,7 +31,8 @@ std::string file_name_of(std::string_view trainee);
 enum class PaletteKind : std::uint8_t { usual, distinct };
 
 inline constexpr double least_force_scale = 0.1;
-inline constexpr double lowest_seat = 0.9, highest_seat = 1.5;  // m, of the eyes above the floor
+inline constexpr double min_seated_eye_height = 0.9,
+                        max_seated_eye_height = 1.5;  // m, of the eyes above the floor
 
 struct TraineeSettings {
     std::string trainee;
@@ -41,7 +42,7 @@ struct TraineeSettings {
     PaletteKind palette = PaletteKind::usual;
     bool left_handed = false;
     double force_scale = 1.0;  // least_force_scale … 1, share of the force that device and assembly permit
-    std::optional<double> seated_height;      // m, of the eyes above the floor; none: the trainee stands
+    std::optional<double> seated_eye_height;  // m, of the eyes above the floor; none: the trainee stands
     std::string law;                          // "mechanistic", "published"; empty: the assembly's own
     std::map<std::string, std::string> keys;  // by action; other actions have their default keys
 };

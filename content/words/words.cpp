@@ -196,9 +196,7 @@ LoadedWords parse_words(std::string_view text, std::string_view file) {
         checker.report("/words", JsonPart::value, "\"words\" is not an object", "an object of texts by key");
     else
         checker.read_texts(*all, loaded);
-    std::stable_sort(loaded.errors.begin(), loaded.errors.end(), [](const Error& a, const Error& b) {
-        return std::tie(a.line, a.column) < std::tie(b.line, b.column);
-    });
+    content::sort_by_position(loaded.errors);
     return loaded;
 }
 

@@ -64,8 +64,8 @@ TorqueCurve make_torque_curve(std::span<const double> angle, std::span<const dou
 Result<std::vector<std::optional<TorqueCurve>>> torque_curves(const session::SessionReader& session,
                                                               std::size_t joints, joint::Direction direction);
 
-// Tightening curves are aligned where the torque first passes this share of the final torque that both reach:
-// half-way up the elastic line, where the angle is best defined.
+// Tightening curves are aligned where the torque first passes this share of the highest torque that both
+// reach: half-way up the elastic line, where the angle is best defined.
 inline constexpr double default_alignment_share = 0.5;
 
 // The position of a measured curve on ours, because a rig may count its angle from any origin.
@@ -76,8 +76,8 @@ struct Alignment {
     double torque = 0.0;  // N·m, of the common point on the measured curve
 };
 
-// Aligns curves from make_torque_curve(). Tightening: by the running maximum of the torque, so that a re-grip
-// or a ripple does not count as the passing; loosening: by the breakaway peak.
+// Aligns curves from make_torque_curve(). Tightening: where the running maximum of the torque passes the
+// level, so that a ripple or a re-grip does not move the point. Loosening: at the breakaway peak.
 Result<Alignment> align(const TorqueCurve& ours, const TorqueCurve& measured,
                         double share = default_alignment_share);
 

@@ -114,15 +114,15 @@ void HapticMetricsBuilder::update_touch(double time, const session::TickRecord& 
 
 void HapticMetricsBuilder::keep_force_jump(const ForceJump& jump) {
     std::vector<ForceJump>& kept = metrics_.force_jumps;
-    const auto same = std::find_if(kept.begin(), kept.end(), [&](const ForceJump& m) {
-        return std::abs(m.time - jump.time) < min_jump_gap;
+    const auto same = std::find_if(kept.begin(), kept.end(), [&](const ForceJump& other) {
+        return std::abs(other.time - jump.time) < min_jump_gap;
     });
     if (same != kept.end()) {
         if (same->change >= jump.change) return;
         kept.erase(same);
     }
-    const auto after =
-        std::find_if(kept.begin(), kept.end(), [&](const ForceJump& m) { return m.change < jump.change; });
+    const auto after = std::find_if(kept.begin(), kept.end(),
+                                    [&](const ForceJump& other) { return other.change < jump.change; });
     kept.insert(after, jump);
     if (kept.size() > max_force_jumps) kept.pop_back();
 }
@@ -192,50 +192,51 @@ std::string obstacle_text(collision::ObstacleId id, const std::vector<session::O
                                     : fmt::format("{} {}", id.is_nut() ? "nut" : "obstacle", id.index());
 }
 
-ToolActivity activity_of(const ForceJump& m) {
-    if (m.tick.fault != 0) return ToolActivity::output_off;
-    if (m.tick.joint < 0 && m.since_released <= recent) return ToolActivity::releasing;
-    if (m.tick.joint >= 0) return m.since_engaged <= recent ? ToolActivity::engaging : ToolActivity::on_nut;
-    return !m.tick.touched.is_none() || m.since_untouched <= recent ? ToolActivity::touching
-                                                                    : ToolActivity::free;
+ToolActivity activity_of(const ForceJump& jump) {
+    if (jump.tick.fault != 0) return ToolActivity::output_off;
+    if (jump.tick.joint < 0 && jump.since_released <= recent) return ToolActivity::releasing;
+    if (jump.tick.joint >= 0)
+        return jump.since_engaged <= recent ? ToolActivity::engaging : ToolActivity::on_nut;
+    return !jump.tick.touched.is_none() || jump.since_untouched <= recent ? ToolActivity::touching
+                                                                          : ToolActivity::free;
 }
 
-std::string describe(const ForceJump& m, const std::vector<lesson::JointResult>& joints,
+std::string describe(const ForceJump& jump, const std::vector<lesson::JointResult>& joints,
                      const std::vector<session::ObstacleName>& obstacles) {
     const auto joint = [&](int j) {
         return j >= 0 && static_cast<std::size_t>(j) < joints.size() ? joints[static_cast<std::size_t>(j)].id
                                                                      : fmt::format("joint {}", j);
     };
     const char* const tool =
-        static_cast<servo::Grip>(m.tick.grip) == servo::Grip::fingers ? "fingers" : "wrench";
-    const bool touches = !m.tick.touched.is_none();
+        static_cast<servo::Grip>(jump.tick.grip) == servo::Grip::fingers ? "fingers" : "wrench";
+    const bool touches = !jump.tick.touched.is_none();
     std::string text;
-    switch (activity_of(m)) {
+    switch (activity_of(jump)) {
         case ToolActivity::output_off:
-            return fmt::format("the output was held off: {}",
-                               force::name(static_cast<force::Fault>(m.tick.fault)));
+            return fmt::format("the output was switched off: {}",
+                               force::name(static_cast<force::Fault>(jump.tick.fault)));
         case ToolActivity::releasing:
-            text = fmt::format("the hand lets go of {}", joint(m.last_joint));
+            text = fmt::format("the hand lets go of {}", joint(jump.last_joint));
             break;
         case ToolActivity::engaging:
-            text = fmt::format("{} taking hold of {}", tool, joint(m.tick.joint));
+            text = fmt::format("{} taking hold of {}", tool, joint(jump.tick.joint));
             break;
         case ToolActivity::on_nut:
-            text = fmt::format("{} on {}, {}, {:.1f} N·m", tool, joint(m.tick.joint),
-                               joint::name(static_cast<joint::Stage>(m.tick.stage)),
-                               static_cast<double>(m.tick.wrench_torque));
+            text = fmt::format("{} on {}, {}, {:.1f} N·m", tool, joint(jump.tick.joint),
+                               joint::name(static_cast<joint::Stage>(jump.tick.stage)),
+                               static_cast<double>(jump.tick.wrench_torque));
             break;
         case ToolActivity::touching:
         case ToolActivity::free:
-            text = m.tick.guide >= 0 ? fmt::format("led to {}", joint(m.tick.guide)) : "in the air";
+            text = jump.tick.guide >= 0 ? fmt::format("led to {}", joint(jump.tick.guide)) : "in the air";
             break;
     }
-    if (m.since_touched <= recent && touches)
-        text += ", meeting " + obstacle_text(m.tick.touched, obstacles);
-    else if (m.since_untouched <= recent && !touches)
-        text += ", coming off " + obstacle_text(m.last_touched, obstacles);
+    if (jump.since_touched <= recent && touches)
+        text += ", meeting " + obstacle_text(jump.tick.touched, obstacles);
+    else if (jump.since_untouched <= recent && !touches)
+        text += ", coming off " + obstacle_text(jump.last_touched, obstacles);
     else if (touches)
-        text += ", against " + obstacle_text(m.tick.touched, obstacles);
+        text += ", against " + obstacle_text(jump.tick.touched, obstacles);
     return text;
 }
 

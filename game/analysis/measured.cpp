@@ -81,8 +81,7 @@ Result<std::vector<CsvField>> split_line(std::string_view line) {
 }
 
 constexpr std::size_t largest_file = std::size_t{64} << 20U;
-constexpr double largest_angle = 1e7,
-                 largest_torque = 1e6;  // degrees, N·m; larger values are not measurements
+constexpr double largest_angle = 1e7, largest_torque = 1e6;  // degrees, N·m; more is not a measurement
 constexpr int absent = -1;
 
 // Source of the published data sets, whose files have no source line.
@@ -137,7 +136,7 @@ Result<Columns> read_header(const std::vector<CsvField>& fields, const FilePosit
             if (fields[i].text != name) continue;
             if (*index != absent)
                 return position.error(fields[i].column, fmt::format("column '{}' appears twice", name),
-                                      "it once");
+                                      "each column once");
             *index = static_cast<int>(i);
         }
         if (*index != absent || name == "cycle") continue;

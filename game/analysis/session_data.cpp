@@ -145,8 +145,8 @@ Summary summarise(const SessionData& session) {
         squares += delta * (r.clamp - s.clamp_mean);
     }
     const auto n = static_cast<double>(s.judged);
-    const bool has_target =
-        session.direction() == joint::Direction::tighten;  // a loosening torque has no target
+    // A loosening torque has no target.
+    const bool has_target = session.direction() == joint::Direction::tighten;
     if (s.judged == 0) s.clamp_mean = s.clamp_low = s.clamp_high = nan;
     s.mean_torque_error = s.judged > 0 && has_target ? errors / n : nan;
     s.clamp_deviation = s.judged > 1 ? std::sqrt(squares / (n - 1.0)) : nan;
@@ -227,10 +227,10 @@ std::size_t PassOrder::planned_position(std::size_t joint) const {
 }
 
 std::size_t PassOrder::actual_position(std::size_t joint) const {
-    std::size_t place = 0;
+    std::size_t position = 0;
     for (const OrderEntry& turn : actual) {
-        if (!turn.repeated) ++place;
-        if (turn.joint == joint) return place;
+        if (!turn.repeated) ++position;
+        if (turn.joint == joint) return position;
     }
     return 0;
 }

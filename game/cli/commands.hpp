@@ -1,6 +1,7 @@
-// The subcommands of boltwright. Each function adds its subcommand to the command line; when the subcommand
-// runs, it sets `exit_code`.
+// The subcommands of boltwright, and what they share.
 #pragma once
+
+#include <string>
 
 namespace CLI {
 class App;
@@ -8,6 +9,7 @@ class App;
 
 namespace bolt::cli {
 
+// Each of these adds its subcommand to the command line; when the subcommand runs, it sets `exit_code`.
 void add_train(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
@@ -17,5 +19,16 @@ void add_render(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_glove(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
+
+// From now on SIGINT (Ctrl+C) and SIGTERM only set the flag that interrupted() returns, so that a recording
+// command can complete its session file.
+void catch_interruption();
+
+// True if the program was requested to end.
+[[nodiscard]] bool interrupted();
+
+// One line for boltwright doctor: the number of USB devices, of those that cannot be used, and of serial
+// ports.
+std::string devices_line();
 
 }  // namespace bolt::cli

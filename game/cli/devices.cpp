@@ -1,7 +1,6 @@
 // boltwright devices: lists the connected devices and gloves with their capabilities, faults and remedies. It
 // opens only a device that is named, because another program may use it, and a serial port may not have a
 // glove.
-#include "game/cli/devices.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,7 +24,7 @@ namespace {
 constexpr double open_timeout = 3.0;  // s
 
 struct DevicesOptions {
-    std::string device, glove, rig;
+    std::string device, glove, wheel_config_file;
     bool others = false;
     double seconds = 1.0;
 };
@@ -74,8 +73,8 @@ std::string port_list(const std::vector<std::filesystem::path>& found) {
 Result<std::string> examine_device(const DevicesOptions& options) {
     BOLT_TRY(station_setup::find_device(device::list_devices(true), options.device));
     device::WheelConfig wheel_config;
-    if (!options.rig.empty()) {
-        BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(options.rig));
+    if (!options.wheel_config_file.empty()) {
+        BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(options.wheel_config_file));
         wheel_config = read;
     }
     BOLT_TRY_ASSIGN(auto thread,
@@ -154,7 +153,9 @@ void add_devices(CLI::App& app, int& exit_code) {
     CLI::App* devices = app.add_subcommand(
         "devices", "List the connected devices with their capabilities, faults and remedies");
     devices->add_option("--device", options->device, "Id of a device to open; shows its capabilities");
-    devices->add_option("--rig", options->rig, "Configuration file of the wheel: its motor, its encoder")
+    devices
+        ->add_option("--rig", options->wheel_config_file,
+                     "Configuration file of the wheel: its motor, its encoder")
         ->needs("--device");
     devices->add_option("--glove", options->glove, "Serial port of a glove to query");
     devices->add_flag("--all", options->others, "List devices of other kinds too, such as keyboards");

@@ -19,8 +19,6 @@
 #include "engine/platform/pace.hpp"
 #include "engine/platform/window.hpp"
 #include "game/cli/commands.hpp"
-#include "game/cli/devices.hpp"
-#include "game/cli/interruption.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/station/trial.hpp"
@@ -36,7 +34,7 @@ namespace {
 struct TrialOptions {
     std::string assembly = "zq350";
     std::vector<std::string> devices;
-    std::string rig, glove, trainee, calibrations;
+    std::string wheel_config_file, glove, trainee, calibrations;
     double seconds = 5.0;
 
     [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty(); }
@@ -61,14 +59,6 @@ servo::Input working_input(const servo::Setup& setup, const servo::State& state)
     input.enabled = true;
     input.guide = 0;
     return input;
-}
-
-std::string describe(const servo::ThreadPrivileges& granted) {
-    std::string text;
-    if (granted.priority > 0) text += fmt::format("  real-time priority {} (SCHED_FIFO)\n", granted.priority);
-    if (granted.memory_locked) text += "  memory is locked\n";
-    for (const std::string& refused : granted.refused) text += "  " + refused + "\n";
-    return text;
 }
 
 // Times the servo of the assembly's lesson at 1 kHz and 4 kHz for `seconds` each. Returns the thread's
@@ -98,7 +88,7 @@ Result<std::string> examine_servo(double seconds, const std::string& assembly) {
                         }));
         std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
         thread.stop();
-        if (text.empty()) text = describe(thread.privileges());
+        if (text.empty()) text = station_setup::describe(thread.privileges());
         contact = std::move(state.tool_contact);
         const servo::HostAssessment assessment = servo::assess_host(thread.timing(), rate);
         text += fmt::format("  at {:.0f} ticks a second this machine is {}\n", rate,
@@ -114,7 +104,7 @@ std::string trial_header(const TrialOptions& options, const content::Assembly& a
     const std::string& joint = assembly.joints.front().design.id;
     std::string text = "Devices:\n" + station_setup::describe_station(station.layout(), planned.devices);
     text += fmt::format("The wrench sits on nut {} of {}, which is tight{}.\n", joint, assembly.name,
-                        planned.obstacles ? "" : "; it has no contact models");
+                        planned.obstacles ? "" : "; the assembly has no contact models");
     if (!options.glove.empty() && planned.calibration) text += "The gloved hand takes it by closing.\n";
     return text + fmt::format("For {:g} s from now on:\n", options.seconds);
 }
@@ -127,7 +117,7 @@ int try_station(const TrialOptions& options) {
     device::VirtualPuck still({}, device::steady_timer());  // used if no device moves the tool
     station_setup::StationRequest request;
     request.devices = options.devices;
-    request.rig = options.rig;
+    request.wheel_config_file = options.wheel_config_file;
     request.fallback_mover = still.open();
     request.glove = options.glove;
     request.trainee = options.trainee;
@@ -241,7 +231,9 @@ void add_doctor(CLI::App& app, int& exit_code) {
         ->expected(1)
         ->take_all();
     auto* device = doctor->get_option("--device");
-    doctor->add_option("--rig", station.rig, "Configuration file of the wheel: its motor, its encoder")
+    doctor
+        ->add_option("--rig", station.wheel_config_file,
+                     "Configuration file of the wheel: its motor, its encoder")
         ->needs(device);
     auto* glove = doctor->add_option("--glove", station.glove, "Serial port of a glove to try");
     auto* trainee = doctor->add_option("--trainee", station.trainee,

@@ -1,6 +1,5 @@
 // The main function of boltwright, and its handling of SIGINT and SIGTERM. The subcommands are in the other
 // files of game/cli.
-#include "game/cli/interruption.hpp"
 
 #include <csignal>
 #include <cstdlib>

@@ -267,7 +267,7 @@ void add_replay(CLI::App& app, int& exit_code) {
     replay->add_option("--view", options->view,
                        "Named view of the assembly; default: the camera follows the work");
     replay->add_option("--language", options->language,
-                       "Language of the texts in the picture: en, de or zh; default: the desktop's");
+                       "Language of the texts in the picture, such as en; default: the desktop's");
     replay->add_option("--size", options->size, "WIDTHxHEIGHT")->capture_default_str();
     replay->add_flag("--stereo", options->stereo, "Both eyes, side by side");
     replay->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");

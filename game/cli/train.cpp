@@ -1,6 +1,7 @@
 // boltwright train: runs a lesson in a window, or headless with a simulated trainee, and writes its session,
 // summary, report and pictures.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -13,7 +14,6 @@
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "game/cli/commands.hpp"
-#include "game/cli/interruption.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/report/report.hpp"
 #include "game/session/contact_models.hpp"
@@ -36,15 +36,15 @@ struct TrainArguments {
     std::string task = "tighten";
     std::string law;
     std::vector<std::string> devices;
-    std::string glove = "none", rig;
+    std::string glove = "none", wheel_config_file;
     bool hmd = false;
     bool headless = false;
     bool start = false, full_screen = false, validate = false, silent = false;
-    std::string name, language, settings;
+    std::string trainee, language, settings;
     std::string size = "1280x720", gpu;
     bool quiet = false, no_pictures = false, no_guide = false, view_help = false;
     bool obstacles = false, no_obstacles = false;
-    std::string trainee = "expert";
+    std::string operator_name = "expert";  // of a simulated trainee
     std::uint64_t seed = 1;
     std::string out = "out";
 };
@@ -111,7 +111,7 @@ Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
         equipment.keyboard = true;
     else if (first != "mouse")
         equipment.devices = options.devices;
-    equipment.rig = options.rig;
+    equipment.wheel_config_file = options.wheel_config_file;
     if (options.glove == "auto") {
         const auto ports = hand::serial_ports();
         if (!ports.empty()) equipment.glove = ports.front();
@@ -142,11 +142,11 @@ Result<trainees::TrainOptions> train_options(const TrainArguments& options,
                                                   : session::Obstacles::if_any;
     train.lesson.guide = !options.no_guide;
     if (options.view_help) train.view_help = view::view_help();
-    Result<trainees::TraineeProfile> trainee = trainees::find_profile(options.trainee);
+    Result<trainees::TraineeProfile> trainee = trainees::find_profile(options.operator_name);
     if (!trainee) return fail(trainee.error());
     train.trainee = *trainee;
     train.lesson.operator_name = train.trainee.name;
-    train.lesson.trainee = options.name;
+    train.lesson.trainee = options.trainee;
     return train;
 }
 
@@ -203,7 +203,7 @@ int run_headless(const TrainArguments& options, const content::Assembly& assembl
     if (!options.quiet)
         (void)std::fputs(
             fmt::format("{} ({}), law {}, {}, trainee {}, seed {}\n", assembly.name, assembly.variant,
-                        joint::name(train.lesson.law), options.mode, options.trainee, options.seed)
+                        joint::name(train.lesson.law), options.mode, options.operator_name, options.seed)
                 .c_str(),
             stderr);
     remove_stale_files(out);
@@ -217,7 +217,8 @@ int run_headless(const TrainArguments& options, const content::Assembly& assembl
     if (!options.quiet && !outcome->obstacles && !options.no_obstacles)
         if (const auto missing = session::missing_contact_model(assembly))
             (void)std::fputs(
-                fmt::format("The wrench goes through everything: {}\n", missing->message()).c_str(), stderr);
+                fmt::format("The wrench passes through everything: {}\n", missing->message()).c_str(),
+                stderr);
     if (Status written = write_results(assembly, train.lesson, *outcome, out, !options.no_pictures); !written)
         return print_error(written.error());
     return interrupted() || !outcome->result.finished ? static_cast<int>(ErrorCode::failed) : 0;
@@ -229,7 +230,7 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     if (Status made = make_folder(out); !made) return made;
     trainer::AppOptions app_options;
     app_options.choice = {options.assembly, options.variant,  train.lesson.mode, train.lesson.task,
-                          options.name,     options.language, options.tool,      equipment};
+                          options.trainee,  options.language, options.tool,      equipment};
     app_options.sound = !options.silent;
     app_options.menu = !options.start;
     app_options.lesson = train.lesson;
@@ -333,7 +334,8 @@ void add_train(CLI::App& app, int& exit_code) {
                       "auto (a connected device, else the mouse), mouse, simulated (keys move the tool of a "
                       "station without a device), or an id listed by boltwright devices; may be given twice, "
                       "for a device that moves the tool and for a wheel");
-    train->add_option("--rig", options->rig, "Configuration file of the wheel: its motor, its encoder");
+    train->add_option("--rig", options->wheel_config_file,
+                      "Configuration file of the wheel: its motor, its encoder");
     train
         ->add_option("--glove", options->glove,
                      "Port of a CyberGlove calibrated for --trainee, auto, or none")
@@ -344,30 +346,34 @@ void add_train(CLI::App& app, int& exit_code) {
     train->add_flag("--start", options->start, "Start the lesson immediately, without the menu");
     train->add_option("--size", options->size, "WIDTHxHEIGHT of the window")->capture_default_str();
     train->add_flag("--full-screen", options->full_screen, "Use the full screen");
-    train->add_option("--trainee", options->name,
+    train->add_option("--trainee", options->trainee,
                       "Name of the trainee; recorded in the session and selects the settings: keys, hand, "
                       "captions, colours");
     train->add_option("--settings", options->settings,
                       "Settings file to use instead of the trainee's; created if it does not exist");
-    train->add_option("--language", options->language,
-                      "en, de or zh; default: the trainee's or the desktop's");
+    train->add_option(
+        "--language", options->language,
+        "Code of a language in content/words, such as en; default: the trainee's or the desktop's");
     train->add_flag("--silent", options->silent, "No sound");
     train->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");
     train->add_flag("--validate", options->validate,
                     "Run under the Vulkan validation layers; any message is an error");
-    train->add_option("--operator", options->trainee, "Simulated trainee: expert, novice or clumsy")
+    train
+        ->add_option("--operator", options->operator_name,
+                     fmt::format("Simulated trainee: {}", fmt::join(trainees::profile_names(), ", ")))
         ->capture_default_str();
     train->add_option("--seed", options->seed, "Seed of the trainee and of the joints' scatter")
         ->check(whole_number)
         ->capture_default_str();
     train->add_option("--out", options->out, "Folder for session, summary and report")->capture_default_str();
-    auto* solid = train->add_flag("--obstacles", options->obstacles,
-                                  "Fail if the assembly has no contact model; if it has one, contacts with "
-                                  "casing, bolts and nuts are simulated by default");
+    auto* obstacles =
+        train->add_flag("--obstacles", options->obstacles,
+                        "Fail if the assembly has no contact model; if it has one, contacts with "
+                        "casing, bolts and nuts are simulated by default");
     train
         ->add_flag("--no-obstacles", options->no_obstacles,
-                   "Do not simulate contacts: the wrench goes through everything")
-        ->excludes(solid);
+                   "Do not simulate contacts: the wrench passes through everything")
+        ->excludes(obstacles);
     train->add_flag("--no-guide", options->no_guide, "No guiding force in a guided lesson");
     train->add_flag(
         "--view-help", options->view_help,

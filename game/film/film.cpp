@@ -77,9 +77,10 @@ void view_system(scene::SceneWorld& world, FilmFrame& frame) {
         scene::fade_occluders(world, film.scene, tick.setup, static_cast<std::size_t>(held));
     const auto joint = active_joint(world, tick.lesson);
     if (film.options.view.empty() && joint && film.followed_joint != joint) {
-        const view::ViewTarget of{tick.setup, tick.state.tool_contact ? &*tick.state.tool_contact : nullptr,
-                                  *joint, world::nut_centre(world, tick.setup, *joint), std::nullopt};
-        film.camera.glide_to(view::find_view(of, film.visibility, film.camera.goal));
+        const view::ViewTarget target{tick.setup,
+                                      tick.state.tool_contact ? &*tick.state.tool_contact : nullptr, *joint,
+                                      world::nut_centre(world, tick.setup, *joint), std::nullopt};
+        film.camera.glide_to(view::find_view(target, film.visibility, film.camera.goal));
         film.followed_joint = joint;
     }
     (void)film.camera.advance(frame.seconds);

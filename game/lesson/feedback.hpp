@@ -54,17 +54,17 @@ constexpr words::TextKey text_key(force::Fault fault) {
 
 // A mistake and its remedy as text keys.
 struct Mistake {
-    MistakeKind kind = MistakeKind::none;  // kinds are ordered by gravity, the gravest last
+    MistakeKind kind = MistakeKind::none;  // kinds are ordered by severity, the worst last
     int joint = -1;                        // the joint that it concerns
     words::TextKey text = "mistake.out_of_turn";
     words::TextKey remedy = "mistake.out_of_turn.do";
     std::vector<words::TextArgument> arguments;
 };
 
-// The mistake on screen. It is shown for some seconds; in assessment none is.
+// The mistake on screen, which stays there for mistake_duration. An assessment shows no mistakes.
 struct MistakeState {
     std::optional<Mistake> shown;
-    std::optional<Mistake> waiting;  // at least as grave as `shown`; replaces it after min_mistake_duration
+    std::optional<Mistake> waiting;  // at least as severe as `shown`; replaces it after min_mistake_duration
     double shown_for = 0.0;          // s
 };
 

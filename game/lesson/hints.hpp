@@ -95,11 +95,12 @@ inline constexpr double min_duration_when_fulfilled = 0.5;  // s, once its reque
 
 // The best values reached in a step; a new best is progress.
 struct StepProgress {
-    double torque = 0.0;    // N·m, highest in this step
-    double angle = 0.0;     // rad, furthest in the step's direction
-    double distance = 1e9;  // m to the nut, smallest since the hand last released a nut that it had moved
-    int reached = 0;        // over the same time: 1 the right tool is in the hand, 2 it is on the nut
-    bool moved = false;     // the hand has moved the nut since it took it
+    double torque = 0.0;  // N·m, highest in this step
+    double angle = 0.0;   // rad, furthest in the step's direction
+    // The next two start again when the hand releases a nut that it has moved.
+    double distance = 1e9;  // m to the nut, smallest
+    int reached = 0;        // 1: the hand has the right tool; 2: the tool is on the nut
+    bool moved = false;     // the hand has moved the nut that it holds
     double idle = 0.0;      // s since the last progress
 };
 

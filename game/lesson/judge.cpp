@@ -76,9 +76,9 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
         order_errors += joint.order_errors;
         wrong_ways += lesson.joints[i].wrong_way_count;
         slips += lesson.joints[i].slip_count;
-        const bool stays =
+        const bool still_too_high =
             joint.torque_verdict == Verdict::high || joint.condition != joint::Condition::sound;
-        overdone += std::max(0, lesson.joints[i].over_torque_count - (stays ? 1 : 0));
+        overdone += std::max(0, lesson.joints[i].over_torque_count - (still_too_high ? 1 : 0));
         result.joints.push_back(std::move(joint));
     }
     if (order_errors > 0)
@@ -91,7 +91,7 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
         take_points(result, {1.0 * wrong_ways, times(wrong_ways) + " a nut was turned the wrong way",
                              DeductionKind::wrong_way, -1, wrong_ways});
     if (overdone > 0)
-        take_points(result, {2.0 * overdone, times(overdone) + " too much torque that was made good",
+        take_points(result, {2.0 * overdone, times(overdone) + " too much torque, corrected later",
                              DeductionKind::over_torque, -1, overdone});
     if (slips > 0)
         take_points(result,

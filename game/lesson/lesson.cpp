@@ -188,11 +188,11 @@ void begin_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& wor
     lesson.joints[joint].worked = true;
     const LessonStep* due = lesson.due();
     if (due == nullptr || due->joint == joint) return;
-    const bool left =
+    const bool due_step_begun =
         lesson.mode == Mode::assessment && lesson.joints[due->joint].peak_torque > working_torque;
-    const bool next =
+    const bool is_next =
         lesson.current + 1 < lesson.steps.size() && lesson.steps[lesson.current + 1].joint == joint;
-    if (left && next) {
+    if (due_step_begun && is_next) {
         end_step(lesson, world);  // judged in its present state
         return;
     }

@@ -53,7 +53,7 @@ bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, dou
 //               needs the joint to yield, the torque to exceed its window, or the torque wrench to click
 //   re-check    the wrench turned the nut further, or reached the window without turning it
 //   loosen      the nut is free of clamp force
-// In assessment, starting on the next joint ends the step in whatever state it is; in other modes the step
+// In assessment, work on the next joint ends the due step, fulfilled or not. In other modes the step
 // stays due.
 
 // The record of one joint between ticks. A visit lasts while the hand holds the nut.

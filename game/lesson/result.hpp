@@ -33,8 +33,8 @@ struct JointResult {
     std::string id;
     double torque = 0.0;  // N·m, highest of the tightening step or of any later pull that turned the nut on
     double angle = 0.0;   // rad from snug
-    double clamp =
-        0.0;  // N, when the result was last updated (end of lesson: after embedding and cross-talk)
+    // N, when the result was last updated; at the end of the lesson after embedding and cross-talk
+    double clamp = 0.0;
     double clamp_at_release = 0;  // N, when the wrench last left the nut
     Verdict torque_verdict = Verdict::none;
     Verdict angle_verdict = Verdict::none;
@@ -76,7 +76,8 @@ struct LessonResult {
     std::vector<ScoreReason> reasons;
 };
 
-// The kind of a mistake, for texts in any language. A session file stores the English text only.
+// The kind of a mistake, in order of severity. lesson.cpp detects mistakes; feedback.cpp has their texts. A
+// session file stores the English text only.
 enum class MistakeKind : std::uint8_t {
     none,
     out_of_turn,

@@ -53,8 +53,8 @@ Situation tightening(const WorkState& s, const LessonStep& due, const world::Joi
     const bool to_yield = requires_yield(s.lesson, due);
     if (step_fulfilled(s.lesson, s.world)) {
         if (checks) return Situation::checked;
-        const double still = track.clicked ? let_go_clicked : let_go_share;
-        if (joint.torque < still * track.peak_torque) return Situation::take_off;
+        const double share = track.clicked ? let_go_clicked : let_go_share;
+        if (joint.torque < share * track.peak_torque) return Situation::take_off;
         if (track.peak_torque > window.high && track.turned_torque > window.high)
             return Situation::stop_too_much;
         if (track.clicked) return Situation::stop_at_click;

@@ -48,7 +48,7 @@ enum class Situation : std::uint8_t {
     wrench_needed,  // fingers hold a nut that needs the wrench
     leave_broken,
     leave_stripped,
-    next,  // this and the next four announce a step
+    next,  // this and the following four announce a step
     round_run_down,
     round_tighten,
     round_recheck,
@@ -64,7 +64,8 @@ struct WorkState {
     ecs::Access<const world::Joint, const world::HeldTool, const world::WorkingHand> world;
 };
 
-bool wrench_in_hand(const WorkState& work);  // on a nut or not
+// Also true while the wrench is on a nut.
+bool wrench_in_hand(const WorkState& work);
 
 enum class HeldItem : std::uint8_t { nothing, wrench, nut_by_fingers, nut_by_wrench };
 HeldItem held_item(const WorkState& work);

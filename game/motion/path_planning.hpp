@@ -73,7 +73,7 @@ GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* conta
 double hover_height(const servo::Setup& setup, const servo::ToolContact& contact, std::size_t joint,
                     double nut_angle, const GripAngle& grip, double max_height);
 
-// Limits how far the hand leads a blocked wrench, because a hand is not stronger than that.
+// Limits how far the hand leads a blocked wrench, because the force of a hand is limited.
 Pose yield_to_wrench(const Pose& commanded, const Pose& wrench);
 
 }  // namespace bolt::motion

@@ -140,9 +140,9 @@ std::optional<HeadMove> improve_view(VisibilityModel& model, const servo::Setup&
     return move;
 }
 
-double placement_noise(double sharp, double share, int tries) {
+double placement_noise(double full_view_noise, double share, int tries) {
     const double felt = touch_noise / (1.0 + tries);
-    return 1.0 / std::sqrt(share / square(sharp) + 1.0 / square(std::max(felt, sharp)));
+    return 1.0 / std::sqrt(share / square(full_view_noise) + 1.0 / square(std::max(felt, full_view_noise)));
 }
 
 }  // namespace bolt::motion

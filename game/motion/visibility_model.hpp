@@ -45,8 +45,8 @@ std::optional<HeadMove> improve_view(VisibilityModel& model, const servo::Setup&
 
 // Standard deviation, m, of the placement of a tool at a target with the visible fraction `share`. Vision and
 // touch are weighted by their precision (van Beers, Sittig and Denier van der Gon, J. Neurophysiol. 81 (1999)
-// 1355). `sharp`: standard deviation at full visibility, m; `tries`: earlier attempts by touch.
-double placement_noise(double sharp, double share, int tries);
+// 1355). `full_view_noise`: standard deviation at full visibility, m; `tries`: earlier attempts by touch.
+double placement_noise(double full_view_noise, double share, int tries);
 
 // A request for the program's help with the view for a simulated trainee.
 struct ViewRequest {

@@ -2,10 +2,20 @@
 // of a page.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace bolt::plot {
+
+// Appends formatted text.
+template <class... Values>
+void put(std::string& out, fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
+}
 
 // Escapes text and attribute values for HTML and SVG. Replaces invalid UTF-8 and the control characters that
 // XML forbids by U+FFFD.

@@ -12,8 +12,6 @@ namespace bolt::plot {
 
 namespace {
 
-constexpr double small_print = 12.0;  // font sizes on a narrow screen
-constexpr double large_print = 13.0;
 constexpr double label_height =
     20.0;  // of the axis labels' baseline and the second row of band labels above the area
 

@@ -73,11 +73,6 @@ AxisTicks covering_ticks(double low, double high, int count) {
     return ticks_between({first * step, last * step}, first, last, step);
 }
 
-AxisTicks inner_ticks(AxisRange range, int count) {
-    const AxisRange r = valid_range(range.low, range.high);
-    return inside(r, decimal_step(r.span(), count));
-}
-
 AxisTicks degree_ticks(AxisRange range, int count) {
     const AxisRange r = valid_range(range.low, range.high);
     return inside(r, degree_step(r.span(), count));

@@ -23,9 +23,8 @@ struct AxisTicks {
 // Returns about `count` ticks, 1, 2, 2.5 or 5 · 10ⁿ apart. The first and last one cover [low, high].
 AxisTicks covering_ticks(double low, double high, int count = 5);
 
-// Return about `count` ticks inside the range, which stays as it is. Degrees step by divisors and multiples
-// of a turn (…, 15, 30, 45, 90 …).
-AxisTicks inner_ticks(AxisRange range, int count = 6);
+// Returns about `count` ticks inside the range, which stays as it is, at divisors and multiples of a turn in
+// degrees (…, 15, 30, 45, 90 …).
 AxisTicks degree_ticks(AxisRange range, int count = 6);
 
 // Returns integers low … high, thinned to at most `most`; for attempts and counts.
@@ -104,6 +103,9 @@ struct LabelPosition {
 
 SvgBox text_box(const LabelPosition& position, std::string_view text, double size);
 std::string_view anchor_class(TextAnchor anchor);  // " mid", " end" or ""
+
+// Sizes of the style sheet's letters on a narrow screen: usual labels; bold numbers.
+inline constexpr double small_print = 12.0, large_print = 13.0;
 
 // Places labels so that they overlap neither each other nor occupied boxes, as far as possible.
 class LabelLayout {

@@ -10,7 +10,6 @@
 #include "game/analysis/session_data.hpp"
 #include "game/plot/html.hpp"
 #include "game/plot/svg.hpp"
-#include "game/report/learning_curves.hpp"
 #include "game/report/report.hpp"
 
 namespace bolt::report {
@@ -161,10 +160,7 @@ std::string attempts_section(std::span<const Attempt> attempts, bool alone) {
 
 namespace {
 
-template <class... Values>
-void put(std::string& out, fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
-}
+using plot::put;
 
 // A quantity that a study compares.
 struct StudyMeasure {
@@ -177,10 +173,10 @@ struct StudyMeasure {
 constexpr StudyMeasure measures[] = {
     {"Time to get onto the nut", "s, median over the steps", &Attempt::time_to_nut, 1.0, 2},
     {"Time near the nut until it is held", "s, median over the steps", &Attempt::time_near_nut, 1.0, 2},
-    {"Nut in sight meanwhile", "% of the time, with 60 % of it seen or more", &Attempt::visible_share, 100.0,
-     0},
+    {"Nut in sight meanwhile", "% of the time with 60 % of it visible or more", &Attempt::visible_share,
+     100.0, 0},
     {"Bumps", "in a lesson", &Attempt::bumps, 1.0, 1},
-    {"Time against something", "s in a lesson", &Attempt::bump_time, 1.0, 2},
+    {"Time in contact with obstacles", "s in a lesson", &Attempt::bump_time, 1.0, 2},
     {"Duration of the lesson", "min", &Attempt::duration, 1.0 / 60.0, 2},
     {"Score", "points", &Attempt::score, 1.0, 1},
     {"Largest change of force in 1 ms", "% of the device's greatest", &Attempt::greatest_change, 100.0, 2},
@@ -203,18 +199,15 @@ constexpr StudyFactor view{"view help",
                            "by hand",
                            &Attempt::view_help,
                            " A trainee that sees less of nut and jaw than it wants presses V: after a glance "
-                           "of 0.3 s and a transition of "
-                           "0.35 s the eye is in the view that the program found. If that shows too little "
-                           "as well, the trainee moves its head "
-                           "as without the help. Without the help the eye begins in the assembly's first "
-                           "view and moves about the nut at 60° a "
-                           "second: after a glance of 0.3 s up, down or to a side at random, on while more "
-                           "becomes visible, and back after 30° "
-                           "without gain to try another direction, until enough is visible or every "
-                           "direction is worse. The hand waits "
-                           "meanwhile. The less is visible, the less accurately the wrench is placed. "
-                           "Nothing else differs: that people forget "
-                           "the key, tire, or lose their way in a view is not modelled."};
+                           "of 0.3 s and a transition of 0.35 s the eye is in the view that the program "
+                           "found. If that shows too little as well, the trainee moves its head as without "
+                           "the help. Without the help the eye begins in the assembly's first view and "
+                           "moves about the nut at 60° a second. After a glance of 0.3 s it moves up, down "
+                           "or to a side at random, and continues while more becomes visible. After 30° "
+                           "without gain it moves back and tries another direction, until enough is "
+                           "visible or every direction is worse. The hand waits meanwhile. The less is "
+                           "visible, the less accurately the wrench is placed. Nothing else differs: that "
+                           "people forget the key, tire, or lose their way in a view is not modelled."};
 
 using AttemptList = std::vector<const Attempt*>;
 

@@ -41,8 +41,8 @@ Attempt attempt_of(const analysis::SessionData& session);
 // the groups are in the order of their first attempts.
 std::vector<std::vector<std::size_t>> attempt_groups(std::span<const Attempt> attempts);
 
-// HTML: the table, the studies, and the learning curves of every group with at least two attempts. If `alone`
-// is true the page has no sections of the sessions to link to; then a page with studies has no learning
+// HTML: the table, the studies, and the learning curves of every group with at least two attempts. `alone`:
+// the page has no sections of single sessions, so the table has no links, and studies replace learning
 // curves.
 std::string attempts_section(std::span<const Attempt> attempts, bool alone = false);
 
@@ -52,5 +52,15 @@ std::string guiding_study(std::span<const Attempt> attempts);
 
 // HTML: the same comparison for the view help.
 std::string view_study(std::span<const Attempt> attempts);
+
+// Splits `group` by trainee, in the order of each trainee's first attempt. Indices into `attempts`.
+std::vector<std::vector<std::size_t>> split_by_trainee(std::span<const Attempt> attempts,
+                                                       std::span<const std::size_t> group);
+
+// HTML: the learning curves of one group (attempt_groups), with a set of plots for each trainee that has at
+// least two attempts. All sets have the same axes. Several trainees are summarised in a table before the
+// plots. Empty if no trainee has two attempts. `linked`: the page has a section for each attempt.
+std::string learning_curves_section(std::span<const Attempt> attempts, std::span<const std::size_t> group,
+                                    bool linked);
 
 }  // namespace bolt::report

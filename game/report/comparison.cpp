@@ -8,6 +8,7 @@
 
 #include "engine/base/math.hpp"
 #include "game/plot/html.hpp"
+#include "game/plot/plot.hpp"
 
 namespace bolt::report {
 
@@ -157,6 +158,19 @@ std::string cycle_table(const analysis::Comparison& c, const analysis::JointComp
     return out + "</tbody></table></div></details>\n";
 }
 
+// The virtual curve and all measured cycles, aligned; 0° is the common point.
+plot::Plot overlay_plot(const analysis::Comparison& c, std::size_t index) {
+    const analysis::JointComparison& joint = c.joints[index];
+    plot::Plot plot = plot_with_extent(
+        curve_extent(c, joint), fmt::format("{}: virtual and measured torque", joint.joint), 480.0, 320.0);
+    add_stages(plot, joint);
+    const std::string_view style = joint.cycles.size() == 1 ? "ln me1" : "ln me";
+    for (std::size_t i = 0; i < joint.cycles.size(); ++i)
+        plot.lines.push_back({cycle_points(c, joint, i), style, false});
+    plot.lines.push_back({virtual_points(joint), "ln p2", false});
+    return plot;
+}
+
 std::string joint_section(const analysis::Comparison& c, std::size_t index) {
     const analysis::JointComparison& joint = c.joints[index];
     std::string out = fmt::format("<h2>{}</h2>\n<div class=\"grid\">\n", escape(joint.joint));
@@ -187,27 +201,6 @@ std::string source_line(const analysis::Comparison& c) {
 }
 
 }  // namespace
-
-plot::Plot overlay_plot(const analysis::Comparison& c, std::size_t index) {
-    const analysis::JointComparison& joint = c.joints[index];
-    plot::Plot plot = plot_with_extent(
-        curve_extent(c, joint), fmt::format("{}: virtual and measured torque", joint.joint), 480.0, 320.0);
-    add_stages(plot, joint);
-    const std::string_view style = joint.cycles.size() == 1 ? "ln me1" : "ln me";
-    for (std::size_t i = 0; i < joint.cycles.size(); ++i)
-        plot.lines.push_back({cycle_points(c, joint, i), style, false});
-    plot.lines.push_back({virtual_points(joint), "ln p2", false});
-    return plot;
-}
-
-std::string overlay_svg(const analysis::Comparison& c, std::size_t joint) {
-    plot::Plot plot = overlay_plot(c, joint);
-    const double extra = c.source.empty() ? 0.0 : 16.0;
-    plot::Svg svg(plot.width, plot.height + extra, plot.title);
-    plot::draw_into(svg, plot);
-    if (extra > 0.0) svg.text({8.0, plot.height + 8.0}, "sm", source_line(c));
-    return plot::standalone(svg.finish(), plot::style_sheet());
-}
 
 std::string comparison_page(const analysis::Comparison& c) {
     std::string body =
@@ -274,17 +267,16 @@ std::vector<std::string> remarks(const analysis::Comparison& c) {
 std::string method_text(const analysis::Comparison& c) {
     const std::string aligned =
         c.direction == joint::Direction::tighten
-            ? fmt::format("where the torque first passes {} % of the end torque both reach",
+            ? fmt::format("where the torque first passes {} % of the highest torque that both reach",
                           number(100.0 * c.options.share, 0))
             : std::string("by the breakaway peak");
     return fmt::format(
-        "Each curve counts an angle once, when the nut first gets there; measured curves are shifted onto "
-        "the virtual one {}. "
+        "Each curve has an angle only once, from when the nut first reached it; measured curves are shifted "
+        "to match the virtual one {}. "
         "Error: |virtual − measured| / |measured|; MRE is its maximum, MAPE its mean; stages are those of "
         "the virtual curve. "
-        "Samples below {} % of their run’s highest measured torque are left out, as are angles the virtual "
-        "curve does not "
-        "have. Virtual torque: at the wrench, true and unscaled, law “{}”.",
+        "Samples below {} % of their run’s highest measured torque are left out, and so are angles that the "
+        "virtual curve does not have. Virtual torque: at the wrench, true and unscaled, law “{}”.",
         aligned, number(100.0 * c.options.floor_share, 1), c.law);
 }
 

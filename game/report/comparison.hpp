@@ -1,21 +1,14 @@
-// Output of a comparison of virtual and measured torque: console text, HTML page, and an SVG drawing for each
-// joint.
+// Output of a comparison of virtual and measured torque: console text and HTML page.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "game/analysis/comparison.hpp"
-#include "game/plot/plot.hpp"
 
 namespace bolt::report {
 
 std::string console_text(const analysis::Comparison& comparison);
-
-// The virtual curve and all measured cycles, aligned; 0° is the common point.
-plot::Plot overlay_plot(const analysis::Comparison& comparison, std::size_t joint);
-
-// One joint as a standalone SVG file that names the source.
-std::string overlay_svg(const analysis::Comparison& comparison, std::size_t joint);
 
 // A complete HTML document without external resources.
 std::string comparison_page(const analysis::Comparison& comparison);

@@ -1,5 +1,3 @@
-#include "game/report/haptics_section.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,15 +7,13 @@
 
 #include "game/analysis/session_data.hpp"
 #include "game/plot/html.hpp"
+#include "game/report/report.hpp"
 
 namespace bolt::report {
 
 namespace {
 
-template <class... Values>
-void put(std::string& out, fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
-}
+using plot::put;
 
 std::string times_text(std::uint64_t n) { return n == 1 ? "once" : fmt::format("{} times", n); }
 
@@ -30,7 +26,7 @@ std::string evenness_mark(const analysis::HapticMetrics& f) {
     if (f.force.above > 0)
         return fmt::format("<span class=\"v vh\">▲ jerked {}</span> ", times_text(f.force.above));
     if (f.force.at_limit > 0)
-        return fmt::format("<span class=\"v vl\">▲ held back {}</span> ", times_text(f.force.at_limit));
+        return fmt::format("<span class=\"v vl\">▲ limited {}</span> ", times_text(f.force.at_limit));
     return "<span class=\"v vo\">✓ even</span> ";
 }
 
@@ -38,7 +34,7 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
     const analysis::HapticMetrics& f = s.metrics;
     const double greatest = f.device ? f.device->force : 0.0;
     if (f.force.ticks == 0) {
-        out += "<p>No force was put out.</p>\n";
+        out += "<p>The device rendered no force.</p>\n";
         return;
     }
     put(out,
@@ -55,7 +51,7 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
     if (f.force.at_limit > 0)
         put(out, " The output stage limited the change {}, to {}\u00a0N in a millisecond.",
             times_text(f.force.at_limit), plot::number(f.device->force_rate * 1e-3, 1));
-    constexpr const char* names[analysis::activity_count] = {"when the output was held off",
+    constexpr const char* names[analysis::activity_count] = {"while the output was switched off",
                                                              "letting go of a nut",
                                                              "taking hold of a nut",
                                                              "on a nut",
@@ -71,7 +67,7 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
 
     out +=
         "<div class=\"scroll\"><table><thead><tr><th class=\"n\">at</th><th class=\"n\">change in<br/>1 ms, "
-        "N</th><th class=\"n\">share</th><th>what was going on</th></tr></thead><tbody>\n";
+        "N</th><th class=\"n\">share</th><th>circumstances</th></tr></thead><tbody>\n";
     for (const analysis::ForceJump& m : f.force_jumps)
         put(out,
             "<tr><td class=\"n\">{} s</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
@@ -141,7 +137,7 @@ void put_arrivals(std::string& out, const analysis::SessionData& s) {
     out +=
         "<h3>Time to get onto the nut</h3>\n<div class=\"scroll\"><table><thead><tr><th>joint</th>"
         "<th class=\"n\">steps with<br/>the wrench</th><th class=\"n\">median, s</th><th "
-        "class=\"n\">slowest, s</th><th class=\"n\">of them near<br/>the nut, s</th>"
+        "class=\"n\">slowest, s</th><th class=\"n\">near the nut,<br/>median, s</th>"
         "<th class=\"n\">nut in<br/>sight</th><th class=\"n\">by hand,<br/>median, "
         "s</th></tr></thead><tbody>\n";
     const auto row = [&](const std::string& name, int joint) {
@@ -189,8 +185,8 @@ void put_servo(std::string& out, const analysis::SessionData& s) {
     if (!f.recorded) return;
     out += "<h3>Output stage and servo</h3>\n";
     put(out, "<p>{} {}</p>\n",
-        faults.empty() ? "The output was never held off."
-                       : "The output was held off: " + plot::escape(faults) + ".",
+        faults.empty() ? "The output was never switched off."
+                       : "The output was switched off: " + plot::escape(faults) + ".",
         f.timing ? "The servo ran on a thread: " + plot::escape(f.servo) + "."
                  : "There are no wake-up, compute and period times: the servo ran in " +
                        plot::escape(f.servo) + ".");

@@ -100,9 +100,6 @@ std::vector<std::size_t> actual_joints(const analysis::PassOrder& order) {
     return joints;
 }
 
-constexpr double small_print = 12.0;  // font sizes on a narrow screen
-constexpr double large_print = 13.0;
-
 // Positions for the label of an element with the given half width and half height: on the preferred side
 // (above or below), on the opposite side, then to the right and left.
 std::vector<plot::LabelPosition> label_positions_about(plot::SvgPoint at, double half_width,
@@ -144,7 +141,7 @@ std::string fault_text(const analysis::PassOrder& order, std::size_t joint) {
     const bool out_of_turn = is_out_of_turn(order, joint);
     std::string text;
     if (planned > 0 && (out_of_turn || order.actual_position(joint) == 0))
-        text = fmt::format("asked {}", planned);
+        text = fmt::format("planned {}", planned);
     if (visits > 1) text += fmt::format("{}{}×", text.empty() ? "" : ", ", visits);
     if (out_of_turn) return text.empty() ? "▲" : "▲ " + text;
     return text;
@@ -169,10 +166,10 @@ void draw_order_labels(plot::Svg& svg, const analysis::SessionData& session, con
                                      layout.positions[joint].y > 0.5 * layout.height);
     };
     for (std::size_t j = 0; j < layout.positions.size(); ++j)
-        put_label(svg, labels, positions(j), "sm", session.joints[j].id, small_print);
+        put_label(svg, labels, positions(j), "sm", session.joints[j].id, plot::small_print);
     for (std::size_t j = 0; j < layout.positions.size(); ++j)
         if (const std::string fault = fault_text(order, j); !fault.empty())
-            put_label(svg, labels, positions(j), "wn", fault, small_print);
+            put_label(svg, labels, positions(j), "wn", fault, plot::small_print);
 }
 
 // Returns a bar height at which the bars above and below each other do not touch, including their labels.
@@ -280,11 +277,11 @@ std::string clamp_map(const analysis::SessionData& session) {
     for (std::size_t j = 0; j < layout.positions.size(); ++j)
         put_label(svg, labels,
                   label_positions_about(layout.positions[j], 0.5 * bar_width, 0.5 * bar_height, false), "sm",
-                  session.joints[j].id, small_print);
+                  session.joints[j].id, plot::small_print);
     for (std::size_t j = 0; j < layout.positions.size(); ++j)
         put_label(svg, labels,
                   label_positions_about(layout.positions[j], 0.5 * bar_width, 0.5 * bar_height, true), "no",
-                  plot::number(session.joints[j].clamp * 1e-3, 1), large_print);
+                  plot::number(session.joints[j].clamp * 1e-3, 1), plot::large_print);
     return svg.finish();
 }
 
@@ -295,7 +292,7 @@ std::string clamp_rows(const analysis::SessionData& session) {
     const plot::AxisTicks ticks = clamp_ticks(session);
     const plot::AxisScale x{ticks.range, width - left - right, false};
     const double foot = top + row * static_cast<double>(session.joints.size());
-    plot::Svg svg(width, foot + bottom, "Clamp force of each joint when released and in the end");
+    plot::Svg svg(width, foot + bottom, "Clamp force of each joint when released and at the end");
     if (std::isfinite(summary.clamp_deviation)) {
         const double from = x(1e-3 * (summary.clamp_mean - summary.clamp_deviation));
         const double to = x(1e-3 * (summary.clamp_mean + summary.clamp_deviation));

@@ -1,5 +1,3 @@
-#include "game/report/learning_curves.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "game/analysis/session_data.hpp"
 #include "game/plot/html.hpp"
 #include "game/plot/plot.hpp"
+#include "game/report/attempts.hpp"
 
 namespace bolt::report {
 
@@ -149,7 +148,7 @@ std::string trainees_table(const TaskAttempts& task, bool linked) {
 }
 
 std::string reading_note(const TaskAttempts& task) {
-    std::string out = "<p class=\"note\">Attempts count in the order given, for each trainee alone.";
+    std::string out = "<p class=\"note\">The attempts of each trainee are numbered in the order given.";
     bool ring = false;
     for (const Indices& trainee : task.trainees)
         ring = ring || (trainee.size() > 1 && std::any_of(trainee.begin(), trainee.end(), [&](std::size_t i) {

@@ -11,7 +11,6 @@
 #include "engine/base/math.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
-#include "game/report/haptics_section.hpp"
 #include "game/report/joint_map.hpp"
 #include "game/report/joint_plot.hpp"
 
@@ -19,10 +18,7 @@ namespace bolt::report {
 
 namespace {
 
-template <class... Values>
-void put(std::string& out, fmt::format_string<Values...> format, Values&&... values) {
-    fmt::format_to(std::back_inserter(out), format, std::forward<Values>(values)...);
-}
+using plot::put;
 
 void put_heading(std::string& out, const analysis::SessionData& s, std::size_t index) {
     const analysis::Summary summary = analysis::summarise(s);
@@ -52,7 +48,7 @@ void put_heading(std::string& out, const analysis::SessionData& s, std::size_t i
     if (s.metrics.recorded) {
         out += plot::fact("guiding force", s.metrics.guided ? "on" : "off");
         if (s.header.view_help) out += plot::fact("view help", *s.header.view_help ? "on" : "off");
-        out += plot::fact("obstacles", s.metrics.obstacles ? "met" : "none");
+        out += plot::fact("obstacles", s.metrics.obstacles ? "on" : "off");
     }
     out += plot::fact("law", joint::name(s.header.law));
     out += plot::fact("variant", s.header.variant);
@@ -122,10 +118,9 @@ std::string judging_note(const analysis::SessionData& s) {
         angle ? "torque and angle" : "torque");
     if (recheck)
         out +=
-            " A re-check, like any other pull, counts only if it turned the nut further by more than 2°: one "
-            "in which "
-            "the nut only begins to move shows its breakaway torque, which is higher by the static "
-            "friction and is not judged.";
+            " A re-check, like any other pull, counts only if it turned the nut further by more than 2°. If "
+            "the nut only begins to move, the wrench shows the breakaway torque, which is higher by the "
+            "static friction and is not judged.";
     out += " Clamp: at the end of the session.";
     if (std::any_of(joints.begin(), joints.end(), [](const auto& j) { return j.spec.target_clamp <= 0.0; }))
         out +=
@@ -152,9 +147,9 @@ void put_joints(std::string& out, const analysis::SessionData& s) {
 }
 
 std::string order_verdict(const analysis::PassOrder& order) {
-    if (order.planned.empty()) return "<span class=\"v vn\">no order asked</span>";
-    if (!order.in_turn()) return "<span class=\"v vl\">▲ not as asked</span>";
-    if (order.skipped_joints() == 0) return "<span class=\"v vo\">✓ as asked</span>";
+    if (order.planned.empty()) return "<span class=\"v vn\">no planned order</span>";
+    if (!order.in_turn()) return "<span class=\"v vl\">▲ not as planned</span>";
+    if (order.skipped_joints() == 0) return "<span class=\"v vo\">✓ as planned</span>";
     return fmt::format("<span class=\"v vl\">▼ {} left out</span>", order.skipped_joints());
 }
 
@@ -178,7 +173,7 @@ void put_order(std::string& out, const analysis::SessionData& s) {
     if (any([](const analysis::OrderDrawing& d) {
             return !d.order.planned.empty() && !d.order.as_planned();
         }))
-        out += "; dotted line: the order asked";
+        out += "; dotted line: the planned order";
     if (any([](const analysis::OrderDrawing& d) { return d.order.skipped_joints() > 0; }))
         out += "; –: left out";
     if (any_turn(&analysis::OrderEntry::out_of_turn))
@@ -215,7 +210,7 @@ void put_clamp(std::string& out, const analysis::SessionData& s) {
     out += "<div class=\"grid\">\n";
     out += plot::figure("<h3>On the flange</h3>", clamp_map(s),
                         "Clamp force, kN; green line: target; colour: verdict of the joint.");
-    std::string rows = "Dot: in the end, after embedding and the neighbours";
+    std::string rows = "Dot: at the end, after embedding and the work on other joints";
     if (has_release_differences(s)) rows += "; open dot: when the wrench left";
     rows += ". Green line: target.";
     if (std::isfinite(m.clamp_deviation)) rows += " Dashed and shaded: mean ± standard deviation.";
@@ -298,7 +293,7 @@ void put_joint_figures(std::string& out, const analysis::SessionData& s) {
         std::string caption = run_down_text(s.curves[j].run_down);
         if (r.clamp_at_release > 0.0)
             caption +=
-                fmt::format(" Clamp {} kN when released, {} kN in the end.",
+                fmt::format(" Clamp {} kN when released, {} kN at the end.",
                             plot::number(1e-3 * r.clamp_at_release, 1), plot::number(1e-3 * r.clamp, 1));
         const std::string heading = fmt::format(
             "<h3 id=\"{}\">{} <span class=\"note\">{}</span></h3>{}", plot::escape(s.file + "-" + r.id),
@@ -312,8 +307,8 @@ void put_joint_figures(std::string& out, const analysis::SessionData& s) {
 void put_method(std::string& out, const analysis::SessionData& s) {
     put(out,
         "<footer>Torque is the true torque at the wrench, about the bolt’s axis and unscaled, not what the "
-        "device put "
-        "out. Clamp force comes from the joint model, law “{}”: it is computed, not measured. Curves keep "
+        "device rendered. Clamp force comes from the joint model, law “{}”: it is computed, not measured. "
+        "Curves keep "
         "every highest "
         "and lowest value. {}</footer>\n",
         joint::name(s.header.law),

@@ -35,8 +35,8 @@ using HandDeparture = std::array<double, 6>;
 
 struct HandClearance {
     HandDeparture goal{}, shown{};  // `shown` follows `goal` with a time constant
-    double depth =
-        0.0;  // m, penetration of the deepest skin point without the cuff at `shown`; negative: outside
+    // m, penetration of the deepest skin point at `shown`, without the cuff; negative: outside
+    double depth = 0.0;
     double cuff = 1.0;  // 0 … 1, displayed fraction of the cuff's length
 
     // State of the search. While the goal penetrates solids, other starting points are refined in turn.

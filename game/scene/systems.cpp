@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "game/view/shown_model.hpp"
 #include "game/world/world.hpp"
 
 namespace bolt::scene {
@@ -97,7 +98,7 @@ void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& 
         [&](ecs::Entity entity, SkinnedHand& fingers, Transform& transform) {
             if (world.find<GhostPart>(entity) != nullptr) return;
             Pose at = state.wrench ? state.tool : state.fingers;
-            // In the direction of the pull.
+            // The tremor is along the pull.
             at.position += at.orientation * Vec3(0.0, max_tremor * state.tremor, 0.0);
             transform.world = glm::mat4(matrix(at));
             fingers.effort = static_cast<float>(state.effort);
@@ -200,11 +201,7 @@ void fade_near_arms(SceneWorld& world, const Vec3& eye) {
 render::Scene make_lit_scene(const Workplace& workplace, const render::EnvironmentLight& light) {
     render::Scene scene;
     scene.environment = &light;
-    render::SceneLight key;
-    key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);
-    key.light.color = glm::vec4(1.6F, 1.55F, 1.5F, 0.0F);
-    key.casts_shadow = true;
-    scene.lights.push_back(key);
+    scene.lights.push_back(view::key_light());
     scene.background = {0.10F, 0.11F, 0.12F, 1.0F};
     scene.occlusion_radius = 0.04F * glm::distance(workplace.machine.low, workplace.machine.high);
     return scene;

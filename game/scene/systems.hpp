@@ -64,7 +64,7 @@ void fade_occluders(SceneWorld& world, render::Scene& scene, const servo::Setup&
 // Fades an arm that would fill the picture because it is near to the eye (m, assembly frame).
 void fade_near_arms(SceneWorld& world, const Vec3& eye);
 
-// A scene without objects: the environment light, and a key light over the viewer's left shoulder.
+// A scene without objects, with the environment light and view::key_light().
 render::Scene make_lit_scene(const Workplace& workplace, const render::EnvironmentLight& light);
 
 // Destroys the drawable entities, because a GPU loss destroys their models; the state of the simulation

@@ -71,14 +71,14 @@ struct ArrowMarker {
 using SceneWorld = world::WorldWith<Transform, Drawable, Appearance, Outline, Fadable, NutPart, JointPart,
                                     ToolPart, SkinnedHand, GhostPart, ArrowMarker>;
 
-// The person at the workplace.
+// The person at the workplace, as far as the scene depends on it.
 struct Worker {
     hand::Side side = hand::Side::right;  // the working hand
     std::optional<double> seated_eyes;    // m, height of the eyes above the floor; none: standing
 };
 
-inline constexpr double floor_below_plate =
-    0.85;  // m, depth of the floor below the clamping plate (content/environments)
+// m, depth of the floor below the clamping plate (content/environments)
+inline constexpr double floor_below_plate = 0.85;
 inline constexpr double shoulders_below_eyes = 0.2;  // m, sitting; about the value of DIN 33402-2
 
 // The rest pose of a wrench: in front of the machine, the handle along x towards the side of the working

@@ -38,7 +38,7 @@ struct ContactModels {
     std::string files;                // each with its size and checksum (FNV-1a, 64 bits)
 };
 
-// Returns the error for a contact model that the assembly file does not name, of the assembly or its tool;
+// Returns an error if the assembly file names no contact model for the assembly, or no model for its tool;
 // none if it names both.
 std::optional<Error> missing_contact_model(const content::Assembly& assembly);
 

@@ -17,8 +17,8 @@ namespace bolt::session {
 
 namespace {
 
-constexpr int max_value_bytes =
-    64 << 20;  // far above any text or chunk; limits the allocation for a damaged file
+// Far above any text or chunk; limits the allocation for a damaged file.
+constexpr int max_value_bytes = 64 << 20;
 constexpr int busy_timeout_ms = 2000;
 
 tl::unexpected<Error> database_error(sqlite3* database, const std::string& name) {

@@ -70,9 +70,9 @@ void set_device(const LessonOptions& options, SessionSetup& start);
 // A lesson that follows the ticks of this or another servo.
 struct LessonTracker {
     lesson::Lesson lesson;
-    // Number of steps begun; the nuts should have a checkpoint for each (servo::State::checkpoint_count).
-    // Another servo saves its checkpoint some ticks later; until then an undo goes back one step more than
-    // checkpoints.
+    // Number of steps begun. The nuts have a checkpoint for each (servo::State::checkpoint_count), except
+    // that a station's servo saves the last one some ticks later. Until then an undo of the same checkpoints
+    // goes one step further back.
     std::uint32_t steps_begun = 0;
 };
 
@@ -118,14 +118,14 @@ class LessonSession {
     Result<servo::Output> step(const world::WriteHaptics& world, const servo::Input& input,
                                std::vector<lesson::LessonEvent> extra_events = {});
 
-    // Repeats a tick that another servo computed from the same initial state. Also fails if the outputs
-    // differ, which means that one of the two missed an input.
+    // Computes a tick that another servo, that of a station, has already computed from the same initial
+    // state. Also fails if the outputs differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::Input& input, const servo::Output& output);
-    // For that servo: the number of checkpoints that it should have saved since the start, and the value of
-    // servo::Input::undo that undoes `steps` steps (0: not allowed).
+    // The number of checkpoints that the other servo should have saved since the start.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - current_.state.checkpoint_count;
     }
+    // The servo::Input::undo that undoes `steps` steps; 0: not allowed.
     [[nodiscard]] std::uint8_t undo_input(std::size_t steps) const;
 
     // Makes the next step() return the nuts and the lesson to the start of the due step (0) or of the step

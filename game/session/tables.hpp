@@ -71,7 +71,7 @@ inline constexpr const char* score = "score";
 inline constexpr const char* finished = "finished";
 }  // namespace key
 
-// The number that is the whole text; none if it is anything else.
+// Parses the whole text as a number; none if that fails.
 template <class Number>
 std::optional<Number> number(std::string_view text) {
     Number value{};
@@ -80,7 +80,7 @@ std::optional<Number> number(std::string_view text) {
     return value;
 }
 
-// The one of the first `count` values of an enumeration whose name() is `text`.
+// Returns the value whose name() is `text`, among the first `count` values of an enumeration.
 template <class Enum>
 std::optional<Enum> named(std::string_view text, int count) {
     for (int i = 0; i < count; ++i)
@@ -91,8 +91,8 @@ std::optional<Enum> named(std::string_view text, int count) {
 // The header as the texts of table meta, by key.
 using HeaderTexts = std::map<std::string, std::string, std::less<>>;
 HeaderTexts texts_of(const Header& header);
-// Ignores other keys. Fails, and names `file`, if a text is missing or is not one that texts_of() writes;
-// what older formats do not store may be missing.
+// Ignores other keys. Fails, and names `file`, if a text is missing or cannot be parsed. Texts that older
+// formats do not store may be missing.
 Result<Header> header_of(const HeaderTexts& texts, const std::string& file);
 
 // The limits of a haptic device as one line: "force_N=20 torque_Nm=2 …", each limit by name, as the shortest

@@ -273,7 +273,7 @@ Result<std::span<const TickRecord>> ChunkDecoder::decode(std::uint64_t first_tic
         return damaged(first_tick, fmt::format("version {} is not known", static_cast<int>(bytes[0])));
     const std::byte* in = bytes.data() + 1;
     if (get<std::uint32_t>(in) != count) return damaged(first_tick, "the count is wrong");
-    if (get<std::uint64_t>(in) != first_tick) return damaged(first_tick, "they belong elsewhere");
+    if (get<std::uint64_t>(in) != first_tick) return damaged(first_tick, "the first tick is wrong");
     if (count > max_chunk_ticks) return damaged(first_tick, "there are too many");
 
     // The count determines the allocation, never a size in the frame.

@@ -119,7 +119,7 @@ struct Synth {
     double run_phase = 0.0;  // 0 … 1, from pulse to pulse
 
     SmoothedValue creep_speed, load;
-    double stuck_angle = 0.0, release_angle = 0.0;  // rad since the nut sticks; rad at which it slips
+    double stuck_angle = 0.0, release_angle = 0.0;  // rad since the nut began to stick; rad at which it slips
 
     double crackle = 0.0;  // 0 … 1, level of the noise after a slip
     std::uint32_t sample_count = 0;

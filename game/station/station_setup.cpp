@@ -250,8 +250,8 @@ Status open_glove(const content::Assembly& assembly, const StationRequest& reque
 
 Status choose_devices(const StationRequest& request, PlannedStation& planned) {
     device::WheelConfig wheel_config;
-    if (!request.rig.empty()) {
-        BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(request.rig));
+    if (!request.wheel_config_file.empty()) {
+        BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(request.wheel_config_file));
         wheel_config = read;
     }
     const Result<DeviceSelection> selection = select_devices(device::list_devices(true), request.devices);

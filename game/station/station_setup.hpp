@@ -73,10 +73,10 @@ Result<station::HandSetup> make_hand_setup(const content::Assembly& assembly,
                                            const content::GloveCalibration& calibration);
 
 struct StationRequest {
-    std::vector<std::string> devices{};  // ids, at most one per role
-    std::filesystem::path rig{};  // wheel configuration file; empty: the defaults of device::WheelConfig
-    device::DeviceFactory
-        fallback_mover{};           // moves the tool if no device does, for example mouse and keyboard
+    std::vector<std::string> devices{};         // ids, at most one per role
+    std::filesystem::path wheel_config_file{};  // empty: the defaults of device::WheelConfig
+    // Moves the tool if no device does, for example mouse and keyboard.
+    device::DeviceFactory fallback_mover{};
     std::filesystem::path glove{};  // serial port; empty: no glove
     std::string trainee{};          // wearer of the glove; empty: its samples are read but form no hand
     std::filesystem::path calibrations{};  // empty: calibrations_folder()
@@ -85,7 +85,7 @@ struct StationRequest {
 
     bool obstacles = true;   // if the assembly has contact models
     bool tightened = false;  // all joints begin tightened
-    std::size_t joint = 0;   // the joint with the wrench's initial nut
+    std::size_t joint = 0;   // on whose nut the wrench starts
     std::uint64_t seed = 1;  // of the scatter of the joints' parameters
 };
 
@@ -98,8 +98,8 @@ struct PlannedStation {
     bool obstacles = false;                                // the assembly has contact models
 };
 
-// Reports all errors of the request before a device is opened; only the glove is queried. The result holds a
-// copy of `assembly`.
+// Fails for an invalid request before it opens a device; opens only the glove, to query its identity. The
+// result holds a copy of `assembly`.
 Result<PlannedStation> plan_station(const content::Assembly& assembly, const StationRequest& request);
 
 // The station of a lesson: obstacles, task and seed come from `lesson` and override `request`. `home` is the

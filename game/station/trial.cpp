@@ -72,15 +72,6 @@ std::string report(const GloveTrial& tried, double seconds) {
                          "take it\n");
 }
 
-std::string report(const servo::ThreadPrivileges& privileges) {
-    std::string text;
-    if (privileges.priority > 0)
-        text += fmt::format("  real-time priority {} (SCHED_FIFO)\n", privileges.priority);
-    if (privileges.memory_locked) text += "  memory is locked\n";
-    for (const std::string& refused : privileges.refused) text += "  " + refused + "\n";
-    return text;
-}
-
 std::optional<DeviceTrial> tried(const std::optional<device::Description>& description,
                                  const station::LinkStats& stats, const device::DeviceReport* report) {
     if (!description || report == nullptr) return std::nullopt;
@@ -88,6 +79,15 @@ std::optional<DeviceTrial> tried(const std::optional<device::Description>& descr
 }
 
 }  // namespace
+
+std::string describe(const servo::ThreadPrivileges& privileges) {
+    std::string text;
+    if (privileges.priority > 0)
+        text += fmt::format("  real-time priority {} (SCHED_FIFO)\n", privileges.priority);
+    if (privileges.memory_locked) text += "  memory is locked\n";
+    for (const std::string& refused : privileges.refused) text += "  " + refused + "\n";
+    return text;
+}
 
 void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
                      MessageHandler on_message) {
@@ -104,7 +104,7 @@ void update_episodes(std::vector<Episode>& episodes, std::span<const std::string
     for (Episode& e : episodes) {
         if (e.until || persists(e)) continue;
         e.until = time;
-        on_message(time, "over: " + e.message);
+        on_message(time, "resolved: " + e.message);
     }
     for (const std::string& message : troubles) {
         if (!is_new(message)) continue;
@@ -196,7 +196,7 @@ std::string trial_report(const StationTrial& trial) {
                     ? fmt::format("  the button was held for {:.1f} s\n", trial.enabled)
                     : "  the button was never held, so the servo's load was lower than in use\n";
     if (trial.glove) text += report(*trial.glove, trial.seconds);
-    text += fmt::format("Servo at {:.0f} ticks a second:\n", trial.rate) + report(trial.privileges);
+    text += fmt::format("Servo at {:.0f} ticks a second:\n", trial.rate) + describe(trial.privileges);
     return text + servo::describe(trial.timing);
 }
 

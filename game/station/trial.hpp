@@ -17,8 +17,8 @@ struct Episode {
 // Receives a message and its time, s.
 using MessageHandler = FunctionRef<void(double time, const std::string& message)>;
 
-// Updates the episodes from Station::troubles() at `time` and reports each problem that begins or ends. Drops
-// a problem that another message replaces within 0.3 s, because it was the onset of that one.
+// Updates the episodes from Station::troubles() at `time` and reports each problem that begins or ends. If
+// another message replaces one within 0.3 s, both have the same cause, so the first one is dropped.
 void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
                      MessageHandler on_message);
 
@@ -52,6 +52,9 @@ struct StationTrial {
 // grasps and releases of a gloved hand. Without a glove the wrench counts as held.
 StationTrial run_trial(station::Station& station, const PlannedStation& planned, double seconds,
                        const std::function<bool()>& stop, MessageHandler on_message);
+
+// The privileges that the servo's thread has got, and those that the system refused; a line each.
+std::string describe(const servo::ThreadPrivileges& privileges);
 
 // Texts for the terminal: the devices with their roles and the button that enables their forces; the results.
 std::string describe_station(station::Layout layout, const DeviceSelection& devices);

@@ -67,11 +67,12 @@ constexpr double flip_rise = 0.03;       // m that a wrench is lifted to be flip
 constexpr double max_arc_height = 0.05;  // m, of a reach between joints
 // A wrench that lags behind the intended pose by caught_distance (m) for caught_delay (s) is caught.
 constexpr double caught_distance = 0.02, caught_delay = 0.5;
-constexpr double retreat = 0.06;                                // m
-constexpr int max_misses = 3, max_fruitless = 3, max_lift = 4;  // before it tries something else; lift steps
-constexpr double lift_step = 1e-3;                              // m
+constexpr double retreat = 0.06;                  // m
+constexpr int max_misses = 3, max_fruitless = 3;  // misses and strokes before it tries another side
+constexpr int max_lift = 4;                       // in steps of lift_step
+constexpr double lift_step = 1e-3;                // m
 
-// Both are chosen.
+// These two values are chosen, not measured.
 constexpr double glance = 0.3;                   // s
 constexpr double head_speed = to_radians(60.0);  // rad/s
 // The camera reaches a new view within five time constants of 70 ms (game/view/camera.hpp).

@@ -116,7 +116,7 @@ struct TraineeProfile {
     Impedance impedance{};
 };
 
-// Returns "expert", "novice" or "clumsy". The error names the nearest valid name.
+// Returns the profile of this name: "expert", "novice" or "clumsy". The error suggests the nearest name.
 Result<TraineeProfile> find_profile(std::string_view name);
 std::vector<std::string> profile_names();
 

@@ -4,8 +4,100 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec2.hpp>
+
+#include "game/trainer/hint_visuals.hpp"
 
 namespace bolt::trainer {
+
+namespace {
+
+constexpr double full_spin_drag = 120.0;  // px of drag that give the fastest twist
+constexpr double wrench_reach = 22.0;     // px from the wrench within which it is picked
+
+std::vector<Vec3> nut_centres(const scene::SceneWorld& world, const servo::Setup& setup) {
+    std::vector<Vec3> centres;
+    for (std::size_t i = 0; i < setup.nuts.size(); ++i) centres.push_back(world::nut_centre(world, setup, i));
+    return centres;
+}
+
+bool loosening(const session::LessonSession& session) {
+    return session.lesson().task == lesson::Task::loosen;
+}
+
+// Decides whether a press moves the hand or the view.
+void press(ActiveLesson& active, MouseCommand& command) {
+    active.pointer.drags_hand = active.pointer.nut.has_value() || active.pointer.on_wrench;
+    if (active.pointer.nut) {
+        command.nut = active.pointer.nut;
+        command.loosens = loosening(*active.session);
+    } else if (active.pointer.on_wrench) {
+        command.take_wrench = true;
+    }
+}
+
+double handle_turn(const ActiveLesson& active, const Screen& screen, const glm::dvec2& drag) {
+    if (!hand_of(active).nut || hand_of(active).action != HandAction::holding || !hand_of(active).wrench)
+        return 0.0;
+    const servo::Setup& setup = active.session->setup();
+    const glm::dvec2 lever = lever_on_screen(
+        screen, tool_of(active).pose, setup.nuts[*hand_of(active).nut].axis, setup.wrench.handle_length);
+    return drag_angle(lever, drag);
+}
+
+void move_camera(ActiveLesson& active, const FrameInput& input, double height, double aspect) {
+    const glm::dvec2 turned =
+        input.right_drag +
+        (input.left_down && !active.pointer.drags_hand ? input.left_drag : glm::dvec2(0.0));
+    view::turn(active.view.camera.goal, glm::dvec2(turned.x, -turned.y) / height);
+    view::pan(active.view.camera.goal, glm::dvec2(input.middle_drag.x, -input.middle_drag.y) / height);
+    const glm::dvec2 at(input.pointer.x / height - 0.5 * aspect, 0.5 - input.pointer.y / height);
+    if (input.wheel != 0.0) view::zoom(active.view.camera.goal, input.wheel, at, active.workplace.machine);
+}
+
+}  // namespace
+
+void handle_input(const scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    const FrameInput& input = frame.input;
+    const Screen screen = screen_of(active, frame.size);
+    // In a slow frame the pointer may have left the place of the press already.
+    const glm::dvec2 pointer = input.pressed_at.value_or(input.pointer);
+    if (input.pressed_at || !active.pointer.drags_hand || !input.left_down) {
+        active.pointer.nut =
+            nut_at(screen, pointer, active.session->setup(), nut_centres(world, active.session->setup()));
+        const Vec3 end = hand_of(active).rest * Vec3(active.session->setup().wrench.handle_length, 0.0, 0.0);
+        const auto off = pixels_to_segment(screen, pointer, hand_of(active).rest.position, end);
+        active.pointer.on_wrench =
+            !hand_of(active).wrench && !active.pointer.nut && off && *off < wrench_reach;
+    }
+    if (input.triggered(Action::restart_step)) request_undo(active.undo, active.session->lesson(), 0);
+    if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
+    if (active.station) {
+        active.pointer.nut.reset();
+        active.pointer.on_wrench = active.station->near_wrench;
+        active.pointer.drags_hand = false;
+        move_camera(active, input, frame.size.y, frame.size.x / frame.size.y);
+        return;
+    }
+    MouseCommand command;
+    command.held = input.left_down && active.pointer.drags_hand;
+    if (input.pressed_at) {
+        active.pointer.press_position = *input.pressed_at;
+        press(active, command);
+        command.held = input.left_down && active.pointer.drags_hand;
+    }
+    if (input.triggered(Action::tool))
+        (hand_of(active).wrench ? command.lay_down : command.take_wrench) = true;
+    if (command.held) {
+        command.turn = handle_turn(active, screen, input.left_drag);
+        command.spin = (input.pointer.x - active.pointer.press_position.x) / full_spin_drag;
+    }
+    if (active.undo.target && hand_of(active).nut) command.retreat = true;
+    if (active.clock.finished || active.clock.paused) command = {};
+    trainer::apply_command(active.mouse, command, active.session->setup(), active.session->state());
+    move_camera(active, input, frame.size.y, frame.size.x / frame.size.y);
+}
 
 namespace {
 
@@ -128,6 +220,46 @@ void placement_system(scene::SceneWorld& world, Frame& frame) {
         world,
         {active.session->setup(), active.postures, active.shoulder, active.handle_grip, active.effort.share,
          active.effort.tremor, frame.seconds, state.tool_contact ? &state.tool_contact->world : nullptr});
+}
+
+namespace {
+
+constexpr glm::vec4 pointer_color{0.9F, 0.95F, 1.0F, 0.8F}, no_color{0.0F};
+
+}  // namespace
+
+void lesson_system(scene::SceneWorld& world, Frame& frame) {
+    ActiveLesson& active = frame.active;
+    const lesson::Lesson& lesson = active.session->lesson();
+    update(active.undo, frame.seconds);
+    if (frame.input.triggered(Action::mute)) active.sound.muted = !active.sound.muted;
+    if (active.sound.live)
+        active.sound.live->set_volume(active.sound.muted || active.clock.paused ? 0.0 : active.sound.volume);
+    if (active.sound.captions && !active.clock.paused) update(*active.sound.captions, frame.seconds);
+    if (!active.clock.paused) {
+        // The pending undo will leave the lesson's current step: give no hint for that step.
+        if (due(active.undo, lesson) == lesson.due())
+            lesson::update(active.coaching.hints, {lesson, active.session->setup(), world}, frame.seconds,
+                           frame.input.triggered(Action::hint));
+        else
+            active.coaching.hints.shown.reset();
+        lesson::update(active.coaching.mistakes, active.undo.by_mistake ? 0.0 : frame.seconds);
+    }
+    const lesson::Hint* hint =
+        active.coaching.hints.shown && !active.clock.finished ? &*active.coaching.hints.shown : nullptr;
+    const int outlined = hint != nullptr ? hint->outlined() : -1;
+    for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
+        glm::vec4 color = no_color;
+        if (outlined == static_cast<int>(i)) color = active.palette.due;
+        if (active.pointer.nut == i && !active.clock.finished) color = pointer_color;
+        if (active.clock.finished) color = view::color_of(active.palette, active.verdicts[i]);
+        scene::outline_joint(world, i, color);
+    }
+    const bool take_wrench_hint = hint != nullptr && hint->arrow() == lesson::HandMotion::take;
+    scene::outline_tool(world, active.pointer.on_wrench ? pointer_color
+                               : take_wrench_hint       ? active.palette.due
+                                                        : no_color);
+    show_hint_visuals(world, active, hint);
 }
 
 }  // namespace bolt::trainer

@@ -33,8 +33,8 @@ struct PointerState {
     bool drags_hand = false;         // a left drag moves the hand, not the view
     glm::dvec2 press_position{0.0};  // px, where the left button was pressed
     std::optional<std::size_t> nut;  // under the pointer
-    bool on_wrench =
-        false;  // the wrench at rest is under the pointer, at a station: within reach of the hand
+    // Mouse: the wrench at rest is under the pointer. Station: it is within reach of the hand.
+    bool on_wrench = false;
 };
 
 // Lesson time compared with real time.
@@ -120,7 +120,7 @@ struct Frame {
 // previous frame.
 void handle_input(const scene::SceneWorld& world, Frame& frame);
 
-// In the order in which they run.
+// The systems of a frame, in the order in which they run.
 // Steps the ticks that are due; after each of them runs session::tick_systems.
 void tick_system(scene::SceneWorld& world, Frame& frame);
 // Sets the poses of nuts, wrench and hand from the components.

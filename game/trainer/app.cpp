@@ -95,7 +95,7 @@ App::App(AppOptions options) : options_(std::move(options)) {
     preferences_.file = options_.settings_file;
     preferences_.known = settings_vocabulary(words::languages(words::words_folder()));
     load_preferences(preferences_, options_.choice.trainee);
-    if (preferences_.trouble != Preferences::Trouble::none) log(preferences_.why);
+    if (preferences_.trouble != Preferences::Trouble::none) log(preferences_.trouble_message);
     if (options_.choice.language.empty()) options_.choice.language = preferences_.settings.language;
 }
 
@@ -164,7 +164,7 @@ Status App::begin_lesson(float aspect) {
     context_ = std::move(started.context);
     active_.emplace(std::move(started.active));
     ActiveLesson& active = *active_;
-    for (const std::string& missing : context_->models.missing) log("left out: " + missing);
+    for (const std::string& missing : context_->models.missing) log("not drawn: " + missing);
     world::add_haptics(active.workplace.world, active.session->state());
     BOLT_TRY(upload_lesson());
     place_trainee(active, *context_, aspect);
@@ -199,12 +199,12 @@ Status App::end_lesson() {
     for (std::size_t i = 0; i < active.verdicts.size(); ++i)
         active.verdicts[i] = view::verdict_of(outcome_->result.joints[i]);
     screen_ = ShownScreen::result;
-    log(fmt::format("lesson ended: {}, score {:.0f}", outcome_->result.finished ? "finished" : "broken off",
+    log(fmt::format("lesson ended: {}, score {:.0f}", outcome_->result.finished ? "finished" : "not finished",
                     outcome_->result.score));
     log(describe_times(system_times_));
     system_times_.clear();
     if (active.clock.lag > 1.0)
-        log(fmt::format("the pictures were too slow: the lesson lagged {:.0f} s behind the clock",
+        log(fmt::format("drawing was too slow: the lesson lagged {:.0f} s behind real time",
                         active.clock.lag));
     if (options_.on_end) return options_.on_end(active.session->assembly(), context_->options, *outcome_);
     return {};
@@ -231,14 +231,14 @@ void App::select_trainee() {
     if (options_.choice.trainee == preferences_.trainee) return;
     save_preferences();
     load_preferences(preferences_, options_.choice.trainee);
-    if (preferences_.trouble != Preferences::Trouble::none) log(preferences_.why);
+    if (preferences_.trouble != Preferences::Trouble::none) log(preferences_.trouble_message);
     const std::string& language = preferences_.settings.language;
     if (!language.empty() && language != words_.language) selected_language_ = language;
     apply_preferences();
 }
 
 void App::save_preferences() {
-    if (!trainer::save_preferences(preferences_)) log(preferences_.why);
+    if (!trainer::save_preferences(preferences_)) log(preferences_.trouble_message);
 }
 
 void App::apply_preferences() {

@@ -8,9 +8,9 @@ namespace {
 
 constexpr std::uint32_t view_group = 2;  // of the renderer's pictures; group 1 is the close-up
 constexpr glm::vec4 background{0.035F, 0.04F, 0.045F, 1.0F};
-constexpr float distance_factor =
-    0.7F;                          // closer than the view that shows everything: the menu covers the middle
-constexpr float exposure = 0.55F;  // dim, so that the menu stays legible
+// Closer than the view that shows everything, because the menu covers the middle.
+constexpr float distance_factor = 0.7F;
+constexpr float exposure = 0.55F;         // dim, so that the menu stays legible
 constexpr std::uint32_t light_size = 32;  // texels; small, because the user waits for the filtering
 
 // Prefers the coarse model.

@@ -23,18 +23,18 @@ enum class Action : std::uint8_t {
     find_view,  // shows the due joint
     whole_view,
     hint,
-    flange_map,
+    clamp_map,  // shows and hides the clamp force of every joint
     pause,
     full_screen,
-    quiet,  // mutes and unmutes the sound
-    undo,   // returns to the previous step
+    mute,  // mutes and unmutes the sound
+    undo,  // returns to the previous step
     restart_step,
     recentre,  // at a station: moves the tool to its initial pose
     close_up,  // shows and hides the close-up
 };
 inline constexpr std::size_t action_count = 12;
 
-// As in settings files.
+// As in settings files, whose names for clamp_map and mute are older.
 constexpr std::string_view name(Action action) {
     constexpr std::array<std::string_view, action_count> names{
         "tool",        "find_view", "whole_view", "hint",         "flange_map", "pause",

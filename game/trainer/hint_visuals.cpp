@@ -3,7 +3,6 @@
 #include "game/motion/path_planning.hpp"
 #include "game/scene/annotations.hpp"
 #include "game/trainer/active_lesson.hpp"
-#include "game/view/labels.hpp"
 
 namespace bolt::trainer {
 
@@ -142,46 +141,6 @@ void show_hint_visuals(scene::SceneWorld& world, ActiveLesson& active, const les
     const std::size_t joint = held >= 0 ? static_cast<std::size_t>(held) : due->joint;
     scene::show_arrow(world, arrow_of(hint->arrow(), geometry_of(active, *due, joint)));
     show_ghosts(world, active, *hint, *due);
-}
-
-namespace {
-
-constexpr glm::vec4 pointer_color{0.9F, 0.95F, 1.0F, 0.8F}, no_color{0.0F};
-
-}  // namespace
-
-void lesson_system(scene::SceneWorld& world, Frame& frame) {
-    ActiveLesson& active = frame.active;
-    const lesson::Lesson& lesson = active.session->lesson();
-    update(active.undo, frame.seconds);
-    if (frame.input.triggered(Action::quiet)) active.sound.muted = !active.sound.muted;
-    if (active.sound.live)
-        active.sound.live->set_volume(active.sound.muted || active.clock.paused ? 0.0 : active.sound.volume);
-    if (active.sound.captions && !active.clock.paused) update(*active.sound.captions, frame.seconds);
-    if (!active.clock.paused) {
-        // The pending undo will leave the lesson's current step: give no hint for that step.
-        if (due(active.undo, lesson) == lesson.due())
-            lesson::update(active.coaching.hints, {lesson, active.session->setup(), world}, frame.seconds,
-                           frame.input.triggered(Action::hint));
-        else
-            active.coaching.hints.shown.reset();
-        lesson::update(active.coaching.mistakes, active.undo.by_mistake ? 0.0 : frame.seconds);
-    }
-    const lesson::Hint* hint =
-        active.coaching.hints.shown && !active.clock.finished ? &*active.coaching.hints.shown : nullptr;
-    const int outlined = hint != nullptr ? hint->outlined() : -1;
-    for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
-        glm::vec4 color = no_color;
-        if (outlined == static_cast<int>(i)) color = active.palette.due;
-        if (active.pointer.nut == i && !active.clock.finished) color = pointer_color;
-        if (active.clock.finished) color = view::color_of(active.palette, active.verdicts[i]);
-        scene::outline_joint(world, i, color);
-    }
-    const bool take_wrench_hint = hint != nullptr && hint->arrow() == lesson::HandMotion::take;
-    scene::outline_tool(world, active.pointer.on_wrench ? pointer_color
-                               : take_wrench_hint       ? active.palette.due
-                                                        : no_color);
-    show_hint_visuals(world, active, hint);
 }
 
 }  // namespace bolt::trainer

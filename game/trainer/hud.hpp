@@ -16,7 +16,7 @@ namespace bolt::trainer {
 struct ActiveLesson;
 
 // Captions describe the sounds in words, from the same cues that the synthesizer uses. Each stays long enough
-// to be read, and a lasting sound has one caption. The most important first.
+// to be read, and a lasting sound has one caption. In order of importance, the most important first.
 enum class Caption : std::uint8_t {
     slip,
     mistake,

@@ -80,7 +80,7 @@ Result<StartedLesson> start_lesson(const LessonStart& start) {
 
     BOLT_TRY_ASSIGN(auto setup, session::prepare(context.assembly, options));
     BOLT_TRY(start_station_of(start, lesson, setup));
-    context.worker = {working_side(lesson.active, start.settings), start.settings.seated_height};
+    context.worker = {working_side(lesson.active, start.settings), start.settings.seated_eye_height};
     options.hand = context.worker.side;
     BOLT_TRY_ASSIGN(auto models, scene::load_lesson_models(context.assembly, context.worker.side));
     context.models = std::move(models);

@@ -57,16 +57,16 @@ void choose_eye(ActiveLesson& active, std::size_t joint) {
     const servo::Setup& setup = active.session->setup();
     const std::optional<servo::ToolContact>& obstacles = active.session->state().tool_contact;
     const Vec3 nut = world::nut_centre(active.workplace.world, setup, joint);
-    view::ViewTarget of{setup, obstacles ? &*obstacles : nullptr, joint, nut, std::nullopt};
+    view::ViewTarget target{setup, obstacles ? &*obstacles : nullptr, joint, nut, std::nullopt};
     // The tool may still hover: use its pose on the nut.
     Pose tool = active.view.close_up.tool;
     tool.position = nut;
-    if (hand_of(active).wrench) of.wrench = tool;
+    if (hand_of(active).wrench) target.wrench = tool;
     const double sense = active.session->lesson().task == lesson::Task::loosen ? 1.0 : -1.0;
 
     const double swing =
         hand_of(active).wrench ? sense * std::min(hand_of(active).room, considered_swing) : 0.0;
-    const view::CloseUpEye eye = view::close_up_eye(of, tool, swing, active.view.visibility);
+    const view::CloseUpEye eye = view::close_up_eye(target, tool, swing, active.view.visibility);
     active.view.close_up.eye = eye.position;
     active.view.close_up.visibility = eye.visibility;
 }
@@ -155,7 +155,7 @@ namespace {
 constexpr double min_visibility = 0.15, max_time_out_of_view = 3.0;  // fraction of nut and jaw; s
 
 // The joint that the hand works at, else the due one. An assessment does not reveal the due joint.
-std::optional<std::size_t> due_joint(const ActiveLesson& active) {
+std::optional<std::size_t> joint_to_show(const ActiveLesson& active) {
     if (active.session->lesson().mode == lesson::Mode::assessment) return hand_of(active).nut;
     if (hand_of(active).nut && hand_of(active).action != HandAction::resting) return hand_of(active).nut;
     const lesson::LessonStep* due = trainer::due(active.undo, active.session->lesson());
@@ -165,10 +165,10 @@ std::optional<std::size_t> due_joint(const ActiveLesson& active) {
 view::ViewTarget view_of(const ActiveLesson& active, std::size_t joint) {
     const servo::Setup& setup = active.session->setup();
     const std::optional<servo::ToolContact>& obstacles = active.session->state().tool_contact;
-    view::ViewTarget of{setup, obstacles ? &*obstacles : nullptr, joint,
-                        world::nut_centre(active.workplace.world, setup, joint), std::nullopt};
-    if (hand_of(active).wrench && hand_of(active).nut == joint) of.wrench = tool_of(active).pose;
-    return of;
+    view::ViewTarget target{setup, obstacles ? &*obstacles : nullptr, joint,
+                            world::nut_centre(active.workplace.world, setup, joint), std::nullopt};
+    if (hand_of(active).wrench && hand_of(active).nut == joint) target.wrench = tool_of(active).pose;
+    return target;
 }
 
 // The wrist's position, m, at the nut, now or when the hand will be there.
@@ -190,29 +190,29 @@ Vec3 wrist_at(const ActiveLesson& active, std::size_t joint) {
 }
 
 void show_due_joint(ActiveLesson& active, const glm::dvec2& picture) {
-    const auto joint = due_joint(active);
+    const auto joint = joint_to_show(active);
     if (!joint) return;
-    view::ViewTarget of = view_of(active, *joint);
-    of.wrist = wrist_at(active, *joint);
-    of.aspect = picture.x / picture.y;
-    active.view.camera.glide_to(view::find_view(of, active.view.visibility, active.view.camera.goal));
+    view::ViewTarget target = view_of(active, *joint);
+    target.wrist = wrist_at(active, *joint);
+    target.aspect = picture.x / picture.y;
+    active.view.camera.glide_to(view::find_view(target, active.view.visibility, active.view.camera.goal));
     active.view.out_of_view = 0.0;
 }
 
-// Returns true if the due joint has been out of the picture or hidden for too long. Always false in an
+// Returns true if joint_to_show() has been out of the picture or hidden for too long. Always false in an
 // assessment, which gives no help.
-bool due_joint_lost(ActiveLesson& active, const Frame& frame) {
-    const auto joint = due_joint(active);
+bool joint_out_of_view(ActiveLesson& active, const Frame& frame) {
+    const auto joint = joint_to_show(active);
     if (!joint || active.session->lesson().mode == lesson::Mode::assessment || active.clock.finished ||
         active.clock.paused)
         return false;
-    const view::ViewTarget of = view_of(active, *joint);
+    const view::ViewTarget target = view_of(active, *joint);
     const Screen screen = screen_of(active, frame.size);
-    const auto at = project(screen, of.nut);
+    const auto at = project(screen, target.nut);
     const glm::dvec2 edge = 0.04 * frame.size;
     const bool inside = at && at->x > edge.x && at->y > edge.y && at->x < frame.size.x - edge.x &&
                         at->y < frame.size.y - edge.y;
-    const bool visible = inside && view::visibility_from(of, active.view.visibility,
+    const bool visible = inside && view::visibility_from(target, active.view.visibility,
                                                          Vec3(screen.eye.position)) > min_visibility;
     active.view.out_of_view = visible ? 0.0 : active.view.out_of_view + frame.seconds;
     return active.view.out_of_view > max_time_out_of_view;
@@ -231,7 +231,7 @@ void view_system(scene::SceneWorld& world, Frame& frame) {
     if (frame.input.triggered(Action::whole_view))
         active.view.camera.glide_to(view::frame_all(active.view.camera.goal, active.workplace.machine,
                                                     static_cast<float>(frame.size.x / frame.size.y)));
-    if (frame.input.triggered(Action::find_view) || due_joint_lost(active, frame))
+    if (frame.input.triggered(Action::find_view) || joint_out_of_view(active, frame))
         show_due_joint(active, frame.size);
     (void)active.view.camera.advance(frame.seconds);
     scene::fade_near_arms(world, Vec3(view::viewpoint_of(active.view.camera.shown).eye));
@@ -243,15 +243,15 @@ void view_system(scene::SceneWorld& world, Frame& frame) {
     if (!assists) return;
     const bool working = hand_of(active).nut && hand_of(active).action != HandAction::resting;
     // A hand that waits above the previous nut would hide the next one: fade only the hand.
-    if (const auto joint = working ? hand_of(active).nut : due_joint(active))
+    if (const auto joint = working ? hand_of(active).nut : joint_to_show(active))
         scene::fade_occluders(world, active.scene, active.session->setup(), *joint,
                               working ? scene::Occluders::all : scene::Occluders::hand);
 }
 
 namespace {
 
-// The label of a joint's clamp force; after the lesson with the sign of its verdict, which the outline shows
-// as a colour.
+// The label of a joint's clamp force; after the lesson with the symbol of its verdict, which the outline
+// shows as a colour.
 render::Label clamp_label(const ActiveLesson& active, const words::Words& words, std::size_t joint) {
     const session::LessonSession& session = *active.session;
     render::Label label =
@@ -287,7 +287,7 @@ void label_system(scene::SceneWorld& world, Frame& frame) {
     active.scene.labels.clear();
     // An assessment shows nothing that a trainee could not see on a real machine.
     const bool assists = session.lesson().mode != lesson::Mode::assessment;
-    if (frame.input.triggered(Action::flange_map)) active.view.clamp_map = !active.view.clamp_map && assists;
+    if (frame.input.triggered(Action::clamp_map)) active.view.clamp_map = !active.view.clamp_map && assists;
     if (!active.clock.finished)
         if (auto figure = scene::work_label(frame.words, session.lesson(), setup, world, active.palette))
             active.scene.labels.push_back(*figure);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "game/trainer/active_lesson.hpp"
-
 namespace bolt::trainer {
 
 namespace {
@@ -68,95 +66,6 @@ glm::dvec2 lever_on_screen(const Screen& screen, const Pose& tool, const Vec3& a
 
 double drag_angle(const glm::dvec2& lever, const glm::dvec2& drag) {
     return glm::dot(drag, lever) / glm::dot(lever, lever);
-}
-
-namespace {
-
-constexpr double full_spin_drag = 120.0;  // px of drag that give the fastest twist
-constexpr double wrench_reach = 22.0;     // px from the wrench within which it is picked
-
-std::vector<Vec3> nut_centres(const scene::SceneWorld& world, const servo::Setup& setup) {
-    std::vector<Vec3> centres;
-    for (std::size_t i = 0; i < setup.nuts.size(); ++i) centres.push_back(world::nut_centre(world, setup, i));
-    return centres;
-}
-
-bool loosening(const session::LessonSession& session) {
-    return session.lesson().task == lesson::Task::loosen;
-}
-
-// Decides whether a press moves the hand or the view.
-void press(ActiveLesson& active, MouseCommand& command) {
-    active.pointer.drags_hand = active.pointer.nut.has_value() || active.pointer.on_wrench;
-    if (active.pointer.nut) {
-        command.nut = active.pointer.nut;
-        command.loosens = loosening(*active.session);
-    } else if (active.pointer.on_wrench) {
-        command.take_wrench = true;
-    }
-}
-
-double handle_turn(const ActiveLesson& active, const Screen& screen, const glm::dvec2& drag) {
-    if (!hand_of(active).nut || hand_of(active).action != HandAction::holding || !hand_of(active).wrench)
-        return 0.0;
-    const servo::Setup& setup = active.session->setup();
-    const glm::dvec2 lever = lever_on_screen(
-        screen, tool_of(active).pose, setup.nuts[*hand_of(active).nut].axis, setup.wrench.handle_length);
-    return drag_angle(lever, drag);
-}
-
-void move_camera(ActiveLesson& active, const FrameInput& input, double height, double aspect) {
-    const glm::dvec2 turned =
-        input.right_drag +
-        (input.left_down && !active.pointer.drags_hand ? input.left_drag : glm::dvec2(0.0));
-    view::turn(active.view.camera.goal, glm::dvec2(turned.x, -turned.y) / height);
-    view::pan(active.view.camera.goal, glm::dvec2(input.middle_drag.x, -input.middle_drag.y) / height);
-    const glm::dvec2 at(input.pointer.x / height - 0.5 * aspect, 0.5 - input.pointer.y / height);
-    if (input.wheel != 0.0) view::zoom(active.view.camera.goal, input.wheel, at, active.workplace.machine);
-}
-
-}  // namespace
-
-void handle_input(const scene::SceneWorld& world, Frame& frame) {
-    ActiveLesson& active = frame.active;
-    const FrameInput& input = frame.input;
-    const Screen screen = screen_of(active, frame.size);
-    // In a slow frame the pointer may have left the place of the press already.
-    const glm::dvec2 pointer = input.pressed_at.value_or(input.pointer);
-    if (input.pressed_at || !active.pointer.drags_hand || !input.left_down) {
-        active.pointer.nut =
-            nut_at(screen, pointer, active.session->setup(), nut_centres(world, active.session->setup()));
-        const Vec3 end = hand_of(active).rest * Vec3(active.session->setup().wrench.handle_length, 0.0, 0.0);
-        const auto off = pixels_to_segment(screen, pointer, hand_of(active).rest.position, end);
-        active.pointer.on_wrench =
-            !hand_of(active).wrench && !active.pointer.nut && off && *off < wrench_reach;
-    }
-    if (input.triggered(Action::restart_step)) request_undo(active.undo, active.session->lesson(), 0);
-    if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
-    if (active.station) {
-        active.pointer.nut.reset();
-        active.pointer.on_wrench = active.station->near_wrench;
-        active.pointer.drags_hand = false;
-        move_camera(active, input, frame.size.y, frame.size.x / frame.size.y);
-        return;
-    }
-    MouseCommand command;
-    command.held = input.left_down && active.pointer.drags_hand;
-    if (input.pressed_at) {
-        active.pointer.press_position = *input.pressed_at;
-        press(active, command);
-        command.held = input.left_down && active.pointer.drags_hand;
-    }
-    if (input.triggered(Action::tool))
-        (hand_of(active).wrench ? command.lay_down : command.take_wrench) = true;
-    if (command.held) {
-        command.turn = handle_turn(active, screen, input.left_drag);
-        command.spin = (input.pointer.x - active.pointer.press_position.x) / full_spin_drag;
-    }
-    if (active.undo.target && hand_of(active).nut) command.retreat = true;
-    if (active.clock.finished || active.clock.paused) command = {};
-    trainer::apply_command(active.mouse, command, active.session->setup(), active.session->state());
-    move_camera(active, input, frame.size.y, frame.size.x / frame.size.y);
 }
 
 }  // namespace bolt::trainer

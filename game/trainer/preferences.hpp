@@ -18,8 +18,8 @@ struct Preferences {
     KeyMap keys;            // parsed from settings.keys
     std::string trainee;    // empty: no name was entered
     std::string file_text;  // the file's content; without a file, that of the default settings
-    enum class Trouble : std::uint8_t { none, unread, unwritten } trouble = Trouble::none;
-    std::string why;  // message of `trouble` with file, line and column
+    enum class Trouble : std::uint8_t { none, read_failed, write_failed } trouble = Trouble::none;
+    std::string trouble_message;  // with file, line and column
 };
 
 // The file of the current settings; empty if they are not saved.

@@ -46,7 +46,7 @@ void draw_devices(const ScreenContext& context, std::span<const DeviceOption> de
     for (const DeviceOption& option : devices) {
         const std::string name = option.name.empty() ? context.words["menu.mouse"] : option.name;
         Equipment next = option.equipment;
-        next.rig = equipment.rig;
+        next.wheel_config_file = equipment.wheel_config_file;
         next.glove = equipment.glove;
         if (ImGui::RadioButton(name.c_str(), equipment.devices == next.devices && !equipment.keyboard))
             equipment = next;
@@ -192,12 +192,14 @@ void draw_languages(const ScreenContext& context, content::TraineeSettings& sett
 
 void draw_settings_file(const ScreenContext& context, const Preferences& preferences) {
     switch (preferences.trouble) {
-        case Preferences::Trouble::unread:
+        case Preferences::Trouble::read_failed:
             return draw_wrapped(
-                words::format_text(context.words, "settings.unread", {{"why", preferences.why}}), warning);
-        case Preferences::Trouble::unwritten:
-            return draw_wrapped(
-                words::format_text(context.words, "settings.unwritten", {{"why", preferences.why}}), warning);
+                words::format_text(context.words, "settings.unread", {{"why", preferences.trouble_message}}),
+                warning);
+        case Preferences::Trouble::write_failed:
+            return draw_wrapped(words::format_text(context.words, "settings.unwritten",
+                                                   {{"why", preferences.trouble_message}}),
+                                warning);
         case Preferences::Trouble::none:
             break;
     }

@@ -12,7 +12,7 @@ namespace {
 constexpr double default_seat = 1.2;  // m, height of the eyes
 constexpr glm::vec4 highlight{1.0F, 0.85F, 0.4F, 1.0F};
 
-words::TextKey term(Action action) {
+words::TextKey text_key(Action action) {
     constexpr words::TextKey keys[] = {"action.tool",         "action.find_view",  "action.whole_view",
                                        "action.hint",         "action.flange_map", "action.pause",
                                        "action.full_screen",  "action.quiet",      "action.undo",
@@ -50,9 +50,10 @@ void SettingsScreen::bind_key(platform::Key key, const words::Words& words, KeyM
     waiting_.reset();
     message_.clear();
     if (bound.outcome == BindOutcome::swapped)
-        message_ = words::format_text(
-            words, "settings.key_swapped",
-            {{"key", pressed}, {"action", words[term(bound.other)]}, {"other", key_name(keys, bound.other)}});
+        message_ = words::format_text(words, "settings.key_swapped",
+                                      {{"key", pressed},
+                                       {"action", words[text_key(bound.other)]},
+                                       {"other", key_name(keys, bound.other)}});
 }
 
 std::vector<platform::InputEvent> SettingsScreen::take_keys(std::span<const platform::InputEvent> events,
@@ -95,13 +96,13 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     ImGui::Separator();
     ImGui::Checkbox(words["menu.left_handed"].c_str(), &settings.left_handed);
     record_place(context, "menu.left_handed");
-    bool seated = settings.seated_height.has_value();
+    bool seated = settings.seated_eye_height.has_value();
     if (ImGui::Checkbox(words["menu.seated"].c_str(), &seated))
-        settings.seated_height = seated ? std::optional(default_seat) : std::nullopt;
+        settings.seated_eye_height = seated ? std::optional(default_seat) : std::nullopt;
     record_place(context, "menu.seated");
-    if (settings.seated_height) {
-        draw_slider(words["settings.seated_height"].c_str(), *settings.seated_height,
-                    {content::lowest_seat, content::highest_seat, "%.2f m", 1.0});
+    if (settings.seated_eye_height) {
+        draw_slider(words["settings.seated_height"].c_str(), *settings.seated_eye_height,
+                    {content::min_seated_eye_height, content::max_seated_eye_height, "%.2f m", 1.0});
         record_place(context, "settings.seated_height");
     }
     draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::least_force_scale, 1.0});
@@ -120,16 +121,17 @@ void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
             waiting_ = waits ? std::nullopt : std::optional(action);
             message_.clear();
         }
-        record_place(context, term(action));
+        record_place(context, text_key(action));
         ImGui::PopID();
         ImGui::SameLine();
-        draw_text(words[term(action)]);
+        draw_text(words[text_key(action)]);
         if (i + 1 == action_count / 2) ImGui::NextColumn();
     }
     ImGui::Columns(1);
     if (waiting_)
-        draw_wrapped(words::format_text(words, "settings.press_key", {{"action", words[term(*waiting_)]}}),
-                     highlight);
+        draw_wrapped(
+            words::format_text(words, "settings.press_key", {{"action", words[text_key(*waiting_)]}}),
+            highlight);
     if (!message_.empty()) draw_wrapped(message_, highlight);
     draw_wrapped(words["settings.escape"], muted_text);
     if (draw_button(context, "settings.usual_keys")) {

@@ -91,7 +91,7 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
     device::VirtualPuck puck({}, device::steady_timer());
     station_setup::StationRequest request;
     request.devices = equipment.devices;
-    request.rig = equipment.rig;
+    request.wheel_config_file = equipment.wheel_config_file;
     request.fallback_mover = puck.open();
     request.glove = equipment.glove;
     request.trainee = trainee;

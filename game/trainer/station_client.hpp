@@ -1,5 +1,5 @@
 // Client of a haptic station in a lesson: the choice of devices, the keyboard as a device, and the exchange
-// of // ticks, controls and commands.
+// of ticks, controls and commands.
 #pragma once
 
 #include <bitset>
@@ -35,11 +35,11 @@ class KeyboardPuck {
 
 // The input of a lesson: mouse and keyboard, or a station with devices.
 struct Equipment {
-    std::vector<std::string> devices;  // ids, as boltwright devices lists them
-    std::filesystem::path rig;         // wheel configuration file; empty: defaults
-    std::filesystem::path glove;       // serial port; empty: no glove
-    double force_scale = 1.0;          // 0 … 1 of the devices' maximum force
-    bool keyboard = false;             // a station without a device; keys move the tool
+    std::vector<std::string> devices;         // ids, as boltwright devices lists them
+    std::filesystem::path wheel_config_file;  // empty: the defaults of device::WheelConfig
+    std::filesystem::path glove;              // serial port; empty: no glove
+    double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force
+    bool keyboard = false;                    // a station without a device; keys move the tool
 
     // No station.
     [[nodiscard]] bool uses_mouse() const { return devices.empty() && glove.empty() && !keyboard; }

@@ -143,8 +143,8 @@ constexpr double pitch_weight = 0.7;  // of pitch against yaw: raising the head 
 
 // Adds the wrist to a view of the nut: keeps the direction, and increases the distance and shifts the target
 // by no more than needed. Returns the widest attempt if the wrist does not fit.
-view::Orbit with_wrist(const view::Orbit& nut_only, const ViewTarget& target) {
-    view::Orbit orbit = nut_only;
+Orbit with_wrist(const Orbit& nut_only, const ViewTarget& target) {
+    Orbit orbit = nut_only;
     if (!target.wrist) return orbit;
     for (const glm::dvec2& area : {open_middle, picture_area})
         for (const double scale : {1.0, 1.15, 1.3, 1.5, 1.75})
@@ -158,7 +158,7 @@ view::Orbit with_wrist(const view::Orbit& nut_only, const ViewTarget& target) {
     return orbit;
 }
 
-Vec3 eye_of(const view::Orbit& orbit) { return Vec3(view::viewpoint_of(orbit).eye); }
+Vec3 eye_of(const Orbit& orbit) { return Vec3(viewpoint_of(orbit).eye); }
 
 }  // namespace
 
@@ -169,8 +169,8 @@ double visibility_from(const ViewTarget& target, motion::VisibilityModel& model,
                          : motion::nut_visibility(model, *target.contact, target.joint, eye);
 }
 
-bool is_in_picture(const view::Orbit& orbit, const Vec3& point, double aspect, const glm::dvec2& area) {
-    const view::Viewpoint view = view::viewpoint_of(orbit);
+bool is_in_picture(const Orbit& orbit, const Vec3& point, double aspect, const glm::dvec2& area) {
+    const Viewpoint view = viewpoint_of(orbit);
     render::Perspective lens;
     lens.fov = static_cast<float>(orbit.fov);
     lens.aspect = static_cast<float>(aspect);
@@ -179,22 +179,22 @@ bool is_in_picture(const view::Orbit& orbit, const Vec3& point, double aspect, c
     return clip.w > 0.0 && std::abs(clip.x) < area.x * clip.w && std::abs(clip.y) < area.y * clip.w;
 }
 
-view::Orbit find_view(const ViewTarget& target, motion::VisibilityModel& model, const view::Orbit& from) {
-    view::Orbit near = from;
+Orbit find_view(const ViewTarget& target, motion::VisibilityModel& model, const Orbit& from) {
+    Orbit near = from;
     near.target = target.nut;
     near.distance = std::min(from.distance, max_distance * target.setup.wrench.handle_length);
     near.pitch = std::clamp(from.pitch, to_radians(20.0), to_radians(80.0));
-    view::Orbit best = with_wrist(near, target);
+    Orbit best = with_wrist(near, target);
     double most = visibility_from(target, model, eye_of(best)), least_turn = 0.0;
     if (most >= sufficient_visibility) return best;
     for (int side = 0; side < sides; ++side)
         for (const double pitch : pitches) {
-            view::Orbit orbit = near;
+            Orbit orbit = near;
             orbit.yaw = from.yaw + wrap(2.0 * pi * side / sides, 2.0 * pi);
             orbit.pitch = to_radians(pitch);
             const double turn =
                 std::abs(orbit.yaw - from.yaw) + pitch_weight * std::abs(orbit.pitch - near.pitch);
-            const view::Orbit candidate = with_wrist(orbit, target);
+            const Orbit candidate = with_wrist(orbit, target);
             const bool enough = most >= sufficient_visibility;
             if (enough && turn >= least_turn) continue;
             const double visibility =
@@ -254,12 +254,12 @@ CloseUpEye close_up_eye(const ViewTarget& target, const Pose& tool, double swing
 
 motion::ViewHelper view_help() {
     return [model = std::make_shared<motion::VisibilityModel>()](const motion::ViewRequest& request) {
-        view::Viewpoint now;
+        Viewpoint now;
         now.eye = glm::vec3(request.eye);
         now.target = glm::vec3(request.nut);
         const ViewTarget target{request.setup, &request.contact, request.joint, request.nut, request.wrench};
-        const view::Orbit orbit = find_view(target, *model, view::orbit_of(now));
-        return Vec3(view::viewpoint_of(orbit).eye);
+        const Orbit orbit = find_view(target, *model, orbit_of(now));
+        return Vec3(viewpoint_of(orbit).eye);
     };
 }
 

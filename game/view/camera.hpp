@@ -57,7 +57,7 @@ struct CameraGlide {
     bool advance(double seconds);
 };
 
-// The objects that a view should show. The obstacles are those that also stop the wrench.
+// What a view should show. The obstacles are those that also stop the wrench.
 struct ViewTarget {
     const servo::Setup& setup;
     const servo::ToolContact* contact = nullptr;  // null: there are no obstacles
@@ -79,13 +79,13 @@ inline constexpr double sufficient_visibility = 0.6;
 // and the part that no text at the borders covers.
 inline constexpr glm::dvec2 picture_area(0.88, 0.88), open_middle(0.36, 0.6);
 
-// Returns whether the point lies in the area of the picture.
-bool is_in_picture(const view::Orbit& orbit, const Vec3& point, double aspect,
+// True if the point lies in the area of the picture.
+bool is_in_picture(const Orbit& orbit, const Vec3& point, double aspect,
                    const glm::dvec2& area = picture_area);
 
 // The view nearest to `from` with sufficient visibility, or else the one with the greatest visibility, at
 // working distance. Places the nut in the open middle, or anywhere in the picture if the wrist requires it.
-view::Orbit find_view(const ViewTarget& target, motion::VisibilityModel& model, const view::Orbit& from);
+Orbit find_view(const ViewTarget& target, motion::VisibilityModel& model, const Orbit& from);
 
 // An eye near the jaw for the close-up, fixed to the head of the wrench or, without a wrench, to the fingers.
 struct CloseUpEye {

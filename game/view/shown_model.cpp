@@ -10,9 +10,6 @@
 
 namespace bolt::view {
 
-namespace {
-
-// A key light over the viewer's left shoulder.
 render::SceneLight key_light() {
     render::SceneLight key;
     key.light.direction = glm::vec4(glm::normalize(glm::vec3(0.45F, -1.0F, -0.55F)), 0.0F);
@@ -20,8 +17,6 @@ render::SceneLight key_light() {
     key.casts_shadow = true;
     return key;
 }
-
-}  // namespace
 
 Result<std::unique_ptr<ShownModel>> show_model(gpu::Device& device, const LoadedModel& model,
                                                const render::EnvironmentLight& light,
@@ -38,7 +33,7 @@ Result<std::unique_ptr<ShownModel>> show_model(gpu::Device& device, const Loaded
         return fail(ErrorCode::bad_content, fmt::format("{}: has nothing to draw", model.name),
                     "a mesh in the default scene");
     render::add_lights(scene, model.model);
-    if (scene.lights.empty() && options.key) scene.lights.push_back(key_light());
+    if (scene.lights.empty() && options.key_light) scene.lights.push_back(key_light());
     scene.environment = &light;
     scene.background = {0.32F, 0.34F, 0.36F, 1.0F};
     shown->box = render::bounds(scene);

@@ -16,9 +16,12 @@ struct ShownModel {
     render::BoundingBox box;
 };
 
+// A light over the viewer's left shoulder, which casts a shadow.
+render::SceneLight key_light();
+
 struct ShownModelOptions {
-    bool key = true;      // adds a key light to a model without lights
-    bool levels = false;  // levels of detail; RendererOptions::level_error_px selects among them
+    bool key_light = true;  // adds key_light() to a model without lights
+    bool levels = false;    // levels of detail; RendererOptions::level_error_px selects among them
 };
 
 // Uploads the model. `light` must outlive the result. Fails if the model has no mesh to draw.

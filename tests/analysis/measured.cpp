@@ -82,7 +82,7 @@ TEST_CASE("Measured file: errors give line, column and expectation") {
           "m.csv:1:1: there is no column 'angle_deg'; expected columns separated by commas, with a decimal "
           "point");
     CHECK(error_of("angle_deg,torque_Nm,angle_deg\n") ==
-          "m.csv:1:21: column 'angle_deg' appears twice; expected it once");
+          "m.csv:1:21: column 'angle_deg' appears twice; expected each column once");
     CHECK(error_of(head + "0,0.1\n1\n") == "m.csv:3:2: this row has 1 fields; expected 2, as in the header");
     CHECK(error_of(head + "0,0.1,7\n") == "m.csv:2:7: this row has 3 fields; expected 2, as in the header");
     CHECK(error_of(head + "0,zero\n") ==

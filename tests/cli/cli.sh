@@ -264,7 +264,7 @@ expect 4 'not a serial port' "$bin/boltwright" glove calibrate --trainee Ada --p
 expect 2 'trainee is required' "$bin/boltwright" glove calibrate --port /dev/null
 # A simulated wearer of an emulated glove follows the prompts and is then measured.
 mkfifo asked
-"$bin/bolt-emulate" glove --asked --link "$work/worn" < asked > /dev/null &
+"$bin/bolt-emulate" glove --postures --link "$work/worn" < asked > /dev/null &
 emulated=$!
 exec 4> asked
 for _ in $(seq 600); do [[ -L worn ]] && break; sleep 0.1; done
@@ -289,12 +289,12 @@ kill $emulated && wait $emulated
 exec 4>&-
 check "... an unplugged glove is reported with a remedy" says 'worn.*is the glove.s adapter plugged in'
 sleep 0.5  # a problem that another message replaces within 0.3 s is dropped
-"$bin/bolt-emulate" glove --asked --link "$work/worn" < asked > /dev/null &
+"$bin/bolt-emulate" glove --postures --link "$work/worn" < asked > /dev/null &
 emulated=$!
 exec 4> asked
 echo grip >&4
-check "... and its return" says 'over: .*adapter plugged in'
-check "... and the return of the hand" says 'over: The glove is lost'
+check "... and its return" says 'resolved: .*adapter plugged in'
+check "... and the return of the hand" says 'resolved: The glove is lost'
 kill -INT $doctor && wait $doctor
 check "... and the station is not good enough" test $? -eq 1
 check "the report describes the glove" grep -qE 'Glove on worn: CyberGlove, right hand, 18 sensors' tried

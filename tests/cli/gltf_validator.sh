@@ -80,6 +80,12 @@ BOLTWRIGHT_GLTF_VALIDATOR=$work/broken "$bin/bolt-author" validate cover > "$wor
 [[ $? -eq 1 ]] && grep -q 'the Khronos glTF validator: it failed' "$work/err" || bad "a failure of the validator is not reported"
 cp "$work/good.glb" "$work/content/tools/wrench.glb"
 "$bin/bolt-author" validate cover > "$work/out" 2> "$work/err" || { bad "a valid file is rejected"; cat "$work/err"; }
+cp "$work/error.glb" "$work/content/tools/spare.glb"
+sed -i 's|"joint_types":|"more_tools": { "spare": { "kind": "open_end_wrench", "jaw_mm": 13.2, "handle_length_mm": 140, "model": "spare.glb" } },\n  &|' \
+    "$work/content/assemblies/cover/assembly.json"
+"$bin/bolt-author" validate cover > "$work/out" 2> "$work/err"
+[[ $? -eq 3 ]] && grep -q 'tools/spare.glb: /scene: .*UNRESOLVED_REFERENCE, an error of the Khronos glTF validator' "$work/err" ||
+    { bad "the model of a further tool is not validated"; cat "$work/err"; }
 
 [[ $failed -eq 0 ]] && echo "${#shipped[@]} shipped files, no errors, no warnings"
 exit $failed

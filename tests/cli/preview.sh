@@ -18,7 +18,7 @@ shoot() {  # shoot FILE: a screenshot of the window
     "$bin/test_screenshot" "$1" "$X" "$Y" "$WIDTH" "$HEIGHT" 2>/dev/null
 }
 # Samples at edges may differ, because render computes its camera in different steps.
-like() { "$bin/bolt-imagediff" "$1" "$2" --most-flip 0.004 >/dev/null 2>&1; }
+like() { "$bin/bolt-imagediff" "$1" "$2" --max-flip 0.004 >/dev/null 2>&1; }
 shows() { shoot now.png && like "$1" now.png; }
 shows_not() { shoot now.png && ! like "$1" now.png; }
 # Waits until two successive screenshots are equal.
@@ -52,7 +52,7 @@ expect 0 'pictures/cover.png' env -u DISPLAY "$bin/bolt-author" preview cover-m8
 render cover-m8 --view top --size 320x200 --png top.png
 check "preview draws what render draws" like top.png pictures/cover.png
 render cover-m8 --view front --size 320x200 --png front.png
-check "... and the comparison can fail" bash -c '! "$1" front.png pictures/cover.png --most-flip 0.004 >/dev/null 2>&1' - \
+check "... and the comparison can fail" bash -c '! "$1" front.png pictures/cover.png --max-flip 0.004 >/dev/null 2>&1' - \
     "$bin/bolt-imagediff"
 expect 2 '"top"' "$bin/bolt-author" preview cover-m8 --view topp
 expect 2 'not a size' "$bin/bolt-author" preview cover-m8 --size 320
@@ -107,7 +107,7 @@ check "F11 switches to full screen" eventually shows whole.png
 xdotool key F11
 check "... and back" eventually shows wide.png
 xdotool key l
-check "L is the far level" eventually grep -q 'read cover-m8 again' log
+check "L is the far level" eventually grep -q 'reloaded cover-m8' log
 check "... which looks nearly the same" eventually shows_not wide.png
 xdotool key l
 check "... and back" eventually shows wide.png
@@ -118,7 +118,7 @@ cp -r "$sources/content/assemblies/cover-m8" mine
 start mine --view top --size 320x200
 check "the folder of an assembly" eventually shows top.png
 sed -i 's/"name": "top", "eye_mm": \[0, 500, 1\]/"name": "top", "eye_mm": [200, 300, 1]/' mine/assembly.json
-check "a changed assembly.json is reloaded" eventually grep -q 'read mine again' log
+check "a changed assembly.json is reloaded" eventually grep -q 'reloaded mine' log
 xdotool key 2
 render mine --view top --size 320x200 --png moved_view.png
 check "... with the changed view" eventually shows moved_view.png
@@ -127,7 +127,7 @@ cp "$sources/content/tools/wrench-13.glb" new.glb && mv new.glb mine/cover-m8.gl
 render mine --view top --size 320x200 --png wrench.png
 check "a model that replaces the old file is shown" eventually shows wrench.png
 head -c 1000 good.glb > mine/cover-m8.glb
-says_broken() { [[ $(title) == *"broken: "*cover-m8.glb* ]]; }
+says_broken() { [[ $(title) == *"error: "*cover-m8.glb* ]]; }
 check "a truncated model is reported in the title" eventually says_broken
 check "... and on the terminal" grep -q 'mine/cover-m8.glb: ' log
 check "... and the last valid picture remains" shows wrench.png
@@ -136,7 +136,7 @@ check "the repaired model is shown" eventually shows moved_view.png
 says_well() { [[ $(title) == 'mine - bolt-author preview' ]]; }
 check "... with the previous title" eventually says_well
 sed -i 's/"model": /"modle": /' mine/assembly.json
-says_where() { [[ $(title) == *"broken: mine/assembly.json:"*:*modle* ]]; }
+says_where() { [[ $(title) == *"error: mine/assembly.json:"*:*modle* ]]; }
 check "a mistake in assembly.json is reported with its position" eventually says_where
 check "... and the last valid picture remains" shows moved_view.png
 sed -i 's/"modle": /"model": /' mine/assembly.json
@@ -150,20 +150,20 @@ start cover-m8 --view top --size 320x200 --light light.hdr --shaders shaders
 render cover-m8 --view top --size 320x200 --light "$sources/content/environments/workshop.hdr" --png lit.png
 check "light and shaders from files are used" eventually shows lit.png
 echo rubbish > light.hdr
-says_light() { [[ $(title) == *"broken: light.hdr"* ]]; }
+says_light() { [[ $(title) == *"error: light.hdr"* ]]; }
 check "a broken light is reported" eventually says_light
 check "... and the old one remains" shows lit.png
 cp "$sources/content/environments/workshop.hdr" light.hdr
 says_well() { [[ $(title) == 'cover-m8 - bolt-author preview' ]]; }
 check "the repaired file is shown" eventually says_well
 sed -i 's/^void main() {/void main() { nonsense;/' shaders/light.frag
-says_shader() { [[ $(title) == *"broken: "*light.frag* ]]; }
+says_shader() { [[ $(title) == *"error: "*light.frag* ]]; }
 check "a shader that does not compile is reported" eventually says_shader
 check "... with the compiler's message" grep -q "'nonsense' : undeclared identifier" log
 check "... and the old one remains" shows lit.png
 sed -i 's/^void main() { nonsense;/void main() { color_out = vec4(1, 0, 0, 1); return;/' shaders/light.frag
 is_red() {
-    shoot now.png && "$bin/bolt-imagediff" red.png now.png --most-flip 0.004 >/dev/null 2>&1
+    shoot now.png && "$bin/bolt-imagediff" red.png now.png --max-flip 0.004 >/dev/null 2>&1
 }
 "$bin/bolt-author" preview cover-m8 --view top --size 320x200 --shaders shaders --png red.png >/dev/null
 check "a changed shader is used at once" eventually is_red

@@ -61,18 +61,18 @@ TEST_CASE("Contact validation: contacts near the ZQ350's obstacles are exact, an
     CHECK(sum.missed == 0);
     CHECK(sum.point_error < 1 * um);
     CHECK(sum.distance_error < 1 * um);
-    CHECK(sum.gap_over_points < 1 * um);
-    CHECK(sum.depth_under_points < 1 * um);
+    CHECK(sum.max_gap_overestimate_points < 1 * um);
+    CHECK(sum.max_depth_underestimate_points < 1 * um);
     // Rows of short edges are taken as straight, and round faces are exact only at their sample points
     // (haptics/collision/samples.hpp).
     CHECK(sum.edge_error < 30 * um);
-    CHECK(sum.gap_under < 30 * um);
-    CHECK(sum.gap_over < 150 * um);
+    CHECK(sum.max_gap_underestimate < 30 * um);
+    CHECK(sum.max_gap_overestimate < 150 * um);
     // The checks detect contacts that are reported 0.5 mm too far away.
     std::vector<NearPose> wrong = poses;
     for (NearPose& pose : wrong) pose.reported += 500 * um;
     const NearSummary shifted = summarize(wrong, options.band);
-    CHECK(shifted.gap_over_points > 400 * um);
+    CHECK(shifted.max_gap_overestimate_points > 400 * um);
     CHECK(shifted.missed > 0);
 }
 

@@ -189,7 +189,7 @@ const Mistake mistakes[] = {
     {R"({ "kind": "run_down" },)", R"({ "kind": "recheck" }, { "kind": "run_down" },)",
      {R"(53:15: /passes/0/kind: this pass rechecks before the nuts are run down; expected a pass of kind "run_down" first)"}},
     {R"({ "kind": "tighten", "percent": 50 },)", R"({ "kind": "tighten", "percent": 50 }, { "kind": "recheck" },)",
-     {R"(54:53: /passes/2/kind: this pass rechecks before the last pass that tightens, in line 55; expected it after that pass)"}},
+     {R"(54:53: /passes/2/kind: this pass rechecks before the last pass that tightens, in line 55; expected a recheck after that pass)"}},
     {R"({ "kind": "tighten", "percent": 50 },
     { "kind": "tighten", "percent": 100 },)", R"()",
      {R"(52:13: /passes: no pass tightens; expected a pass of kind "tighten" with 100 percent)"}},

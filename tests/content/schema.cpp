@@ -197,4 +197,25 @@ TEST_CASE("Schema: each value of a wrong type gives exactly one error at its pos
     });
 }
 
+TEST_CASE("Schema: an error names the whole unit of a number") {
+    const auto expected = [](const std::string& name) {
+        const auto found = explain_value(schema_json(), {{"type", "number"}, {"minimum", 0}}, -1, name);
+        REQUIRE(found.size() == 1);
+        return found[0].expected;
+    };
+    CHECK(expected("pitch_mm") == "a number >= 0 (mm)");
+    CHECK(expected("misfit_um") == "a number >= 0 (µm)");
+    CHECK(expected("spring_rates_MN_per_mm") == "a number >= 0 (MN/mm)");
+    CHECK(expected("interface_stiffness_GPa_per_m") == "a number >= 0 (GPa/m)");
+    CHECK(expected("contact_end_mm2") == "a number >= 0 (mm²)");
+    CHECK(expected("kappa1_Nm_per_deg2") == "a number >= 0 (N·m/deg²)");
+    CHECK(expected("nu2") == "a number >= 0");
+    CHECK(expected("friction_thread") == "a number >= 0");
+    json document = json::parse(everything());
+    document["flange"]["interface_stiffness_GPa_per_m"] = -1;
+    const auto errors = errors_of(document);
+    REQUIRE(errors.size() == 1);
+    CHECK(errors[0].expected == "a number > 0 and <= 100000 (GPa/m)");
+}
+
 }  // namespace content_schema_test

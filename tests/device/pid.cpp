@@ -59,7 +59,7 @@ TEST_CASE("Pid: messages for an OpenFFBoard match its firmware byte for byte") {
 }
 
 TEST_CASE("Pid: a wheel with missing reports and other numbering works") {
-    auto layout = pid_layout(parsed(emulate::other_wheel_descriptor()));
+    auto layout = pid_layout(parsed(emulate::generic_wheel_descriptor()));
     REQUIRE(layout);
     CHECK(layout->reset.bytes == Bytes{0x1c, 1});
     CHECK(layout->stop_all.bytes == Bytes{0x1c, 2});
@@ -123,7 +123,7 @@ TEST_CASE("BoardRequest: OpenFFBoard queries and replies encode and decode") {
 
 TEST_CASE("HidDevices: kind_of recognises pucks, boards and wheels among all HID devices") {
     CHECK(kind_of({0x1209, 0xffb0, "", ""}, parsed(emulate::board_descriptor())) == HidKind::board);
-    CHECK(kind_of({0x1234, 0x5678, "", ""}, parsed(emulate::other_wheel_descriptor())) == HidKind::wheel);
+    CHECK(kind_of({0x1234, 0x5678, "", ""}, parsed(emulate::generic_wheel_descriptor())) == HidKind::wheel);
     CHECK(kind_of({0x256f, 0xc62e, "", ""}, parsed(puck_in_one())) == HidKind::puck);
     CHECK(kind_of({0x046d, 0xc077, "", ""}, parsed(mouse())) == HidKind::other);
     CHECK(id_of({0x46d, 0xc626, "SpaceNavigator", ""}) == "046d:c626");

@@ -15,9 +15,9 @@ using namespace bolt::device;
 namespace {
 
 struct Bench {
-    explicit Bench(const emulate::EmulatedPuckOptions& design = {}) : puck(design) {
+    explicit Bench(const emulate::EmulatedPuckOptions& options = {}) : puck(options) {
         plug.device = &puck;
-        const auto descriptor = parse_report_descriptor(puck.design().descriptor);
+        const auto descriptor = parse_report_descriptor(puck.description().descriptor);
         REQUIRE(descriptor);
         auto made = make_space_mouse(std::make_unique<emulate::EmulatedTransport>(plug), *descriptor, "Puck",
                                      "1:2", feel, [this] { return plug.time; });
@@ -56,9 +56,9 @@ TEST_CASE("SpaceMouse: deflection becomes velocity in the device frame, for ever
         const Vec3 ours[] = {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
         for (std::size_t axis = 0; axis < 3; ++axis)
             for (const double way : {1.0, -1.0}) {
-                b.puck.share = {};
-                b.puck.share[axis] = way;
-                b.puck.share[3 + axis] = -way;
+                b.puck.deflection = {};
+                b.puck.deflection[axis] = way;
+                b.puck.deflection[3 + axis] = -way;
                 const Sample s = b.after(0.05);
                 CHECK(glm::length(s.velocity - way * b.feel.speed * ours[axis]) < 1e-12);
                 CHECK(glm::length(s.angular_velocity + way * b.feel.turn_speed * ours[axis]) < 1e-12);
@@ -88,12 +88,12 @@ TEST_CASE(
     "SpaceMouse: motion stops at once on release and after the timeout if the device falls silent; "
     "unplugging is a loss") {
     Bench b;
-    b.puck.share[0] = 1.0;
+    b.puck.deflection[0] = 1.0;
     CHECK(b.after(0.05).velocity.x == b.feel.speed);
-    b.puck.share[0] = 0.0;
+    b.puck.deflection[0] = 0.0;
     CHECK(b.after(0.009).velocity.x == 0.0);
 
-    b.puck.share[0] = 0.5;
+    b.puck.deflection[0] = 0.5;
     CHECK(b.after(0.05).velocity.x > 0.0);
     b.puck.stalled = true;
     const double stalled = b.plug.time;
@@ -104,7 +104,7 @@ TEST_CASE(
 
     // A device at rest returns a sample for each read.
     b.puck.stalled = false;
-    b.puck.share[0] = 0.0;
+    b.puck.deflection[0] = 0.0;
     CHECK(b.after(0.05).velocity.x == 0.0);
     for (int i = 0; i < 100; ++i) CHECK(b.read(0.01));
 
@@ -137,7 +137,7 @@ TEST_CASE("SpaceMouse: truncated, foreign or corrupt reports never exceed the to
     Random random(5);
     int moved = 0;
     for (int i = 0; i < 4000; ++i) {
-        for (double& share : b.puck.share) share = random.uniform(-1.0, 1.0);
+        for (double& deflection : b.puck.deflection) deflection = random.uniform(-1.0, 1.0);
         const auto sample = b.read(0.008);
         if (!sample) continue;
         for (int axis = 0; axis < 3; ++axis) {

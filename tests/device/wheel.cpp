@@ -26,9 +26,9 @@ struct Bench {
         if (opened) device = std::move(*opened);
     }
     Result<std::unique_ptr<DeviceDriver>> open() {
-        const auto descriptor = parse_report_descriptor(wheel.design().descriptor);
+        const auto descriptor = parse_report_descriptor(wheel.description().descriptor);
         REQUIRE_MESSAGE(descriptor, (descriptor ? "" : descriptor.error().message()));
-        const auto make = wheel.design().vendor == 0x1209 ? make_open_ffboard : make_wheel;
+        const auto make = wheel.description().vendor == 0x1209 ? make_open_ffboard : make_wheel;
         return make(std::make_unique<emulate::EmulatedTransport>(plug), *descriptor, "Wheel", "1:2", rig,
                     [this] { return plug.time; });
     }
@@ -210,7 +210,7 @@ TEST_CASE("Wheel: the device's own centring spring is stopped") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
         emulate::EmulatedWheelOptions design = design_of(board);
-        design.own_spring = 3.0;
+        design.centring_spring = 3.0;
         emulate::EmulatedWheel alone(design);
         alone.hand = 1.0;
         alone.hand_stiffness = 10.0;
@@ -245,7 +245,7 @@ TEST_CASE("Wheel: a missing or silent device gives a clear error, and an unplugg
         emulate::EmulatedWheel dead;
         dead.stalled = true;
         emulate::EmulatedLink plug{.device = &dead};
-        const auto descriptor = parse_report_descriptor(dead.design().descriptor);
+        const auto descriptor = parse_report_descriptor(dead.description().descriptor);
         REQUIRE(descriptor);
         const auto made = make_open_ffboard(std::make_unique<emulate::EmulatedTransport>(plug), *descriptor,
                                             "Board", "1:2", {}, [&] { return plug.time; });

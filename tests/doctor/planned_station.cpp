@@ -122,7 +122,7 @@ TEST_CASE("Planned station: errors are reported before a device is opened") {
     const Folder folder;
     const auto rig = folder / "rig.json";
     REQUIRE(write_file(rig, "{\"format\": \"boltwright rig 1\", \"most_torque_Nm\": 400}"));
-    CHECK(error_of(what, {.rig = rig}).find("rig.json:1:") != std::string::npos);
+    CHECK(error_of(what, {.wheel_config_file = rig}).find("rig.json:1:") != std::string::npos);
     CHECK(error_of(what, {.glove = "/dev/null"}).find("not a serial port") != std::string::npos);
     CHECK(error_of(what, {.glove = folder / "none"}).find("adapter plugged in?") != std::string::npos);
     content::Assembly bare = assembly("cover-m8");

@@ -41,7 +41,7 @@ TEST_CASE("Trial: each problem is one episode from its beginning to its end") {
     now(1.2, {"b", "a"});
     now(2.0, {"b"});
     now(3.0, {"a", "b"});
-    CHECK(messages == "a; b; over: a; a; ");
+    CHECK(messages == "a; b; resolved: a; a; ");
     REQUIRE(episodes.size() == 3);
     CHECK(episodes[0].from == 1.0);
     CHECK(episodes[0].until == 2.0);
@@ -52,7 +52,8 @@ TEST_CASE("Trial: each problem is one episode from its beginning to its end") {
     now(4.05, {"it is gone", "b"});  // the first message was its onset
     now(4.10, {"it is gone", "a glance"});
     now(4.12, {"it is gone"});
-    CHECK(messages == "over: a; it says nothing; it is gone; over: b; a glance; over: a glance; ");
+    CHECK(messages ==
+          "resolved: a; it says nothing; it is gone; resolved: b; a glance; resolved: a glance; ");
     REQUIRE(episodes.size() == 5);
     CHECK(episodes[3].message == "it is gone");
 }

@@ -53,7 +53,7 @@ class DeviceThread : public HidTransport {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size < 2) return 0;
     static const ReportDescriptor board = *parse_report_descriptor(emulate::board_descriptor());
-    static const ReportDescriptor other = *parse_report_descriptor(emulate::other_wheel_descriptor());
+    static const ReportDescriptor other = *parse_report_descriptor(emulate::generic_wheel_descriptor());
     std::span<const std::uint8_t> left(data + 1, size - 1);
     std::optional<ReportDescriptor> own;
     if (data[0] % 4 >= 2) {  // the input begins with a descriptor

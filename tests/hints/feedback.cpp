@@ -93,14 +93,14 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and an advice") {
          [](Outcome& r) { r.state.joints[0].stage = joint::Stage::navigation; }},
         {"Once a joint was worked on out of turn.", "advice.out_of_turn",
          [](Outcome& r) { r.lesson.joints[2].result.order_errors = 1; }},
-        {"3 times a joint was pulled again that was done.", "advice.done_already",
+        {"Finished joints were pulled again 3 times.", "advice.done_already",
          [](Outcome& r) {
              r.lesson.joints[2].result.rehits = 2;
              r.lesson.joints[1].result.rehits = 1;
          }},
         {"2 times a nut was turned the wrong way.", "advice.wrong_way",
          [](Outcome& r) { r.lesson.joints[1].wrong_way_count = 2; }},
-        {"Once there was too much torque on a nut; that was made good.", "advice.torque_high",
+        {"Once there was too much torque on a nut; this was corrected.", "advice.torque_high",
          [](Outcome& r) { r.lesson.joints[1].over_torque_count = 1; }},
         {"B1 has had 81.2 N·m; 80 N·m are the most.", "advice.torque_high",
          [](Outcome& r) {

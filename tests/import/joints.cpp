@@ -12,6 +12,7 @@
 
 #include "content/format/assembly.hpp"
 #include "support.hpp"
+#include "tools/author/import/joints.hpp"
 
 using namespace import_test;
 using nlohmann::json;
@@ -51,6 +52,51 @@ json draft(const std::filesystem::path& file) {
     const auto loaded = content::load_assembly(file);
     for (const Error& error : loaded.errors) FAIL_CHECK(error.message());
     return json::parse(bytes(file));
+}
+
+// A box from y = 0 upwards, m.
+step_import::PartMesh box_mesh(double side, double height) {
+    step_import::PartMesh mesh;
+    step_import::FaceMesh face;
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        mesh.points.push_back({(i & 1U) != 0 ? 0.5 * side : -0.5 * side, (i & 2U) != 0 ? height : 0.0,
+                               (i & 4U) != 0 ? 0.5 * side : -0.5 * side});
+        face.points.push_back(i);
+    }
+    face.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    mesh.faces.push_back(std::move(face));
+    return mesh;
+}
+
+// Searches for an M16x1.5 joint whose parts are modelled `size` times as large and instanced at the scale
+// 1 / `size`. `flats`: across flats of the nut, mm.
+step_import::JointSearchResult search_scaled(double size, double flats) {
+    using namespace step_import;
+    const double m = mm * size;
+    const Vec3 up{0.0, 1.0, 0.0};
+    std::vector<PartGeometry> parts(4);
+    parts[0].fastener = {FastenerKind::bolt, Vec3{0.0}, up, 24.0 * m, 0.0, 80.0 * m, 16.0 * m, {}, {}};
+    parts[1].fastener = {FastenerKind::nut, Vec3{0.0}, up, flats * m, 0.0, 14.8 * m, 14.376 * m, {}, {}};
+    parts[2].fastener = {FastenerKind::washer, Vec3{0.0}, up, 0.0, 0.0, 3.0 * m, 17.0 * m, {}, {}};
+    parts[3].mesh = box_mesh(80.0 * m, 48.0 * m);
+    parts[3].holes = {{Vec3{0.0}, up, 8.75 * m}};
+    Tree tree;
+    const auto add = [&](const char* name, int part, double height) {
+        tree.roots.push_back(static_cast<int>(tree.nodes.size()));
+        TreeNode node;
+        node.name = name;
+        node.shape = part;
+        node.local = {Quat{1.0, 0.0, 0.0, 0.0}, Vec3{0.0, height * mm, 0.0}, 1.0 / size};
+        tree.nodes.push_back(node);
+    };
+    for (int part = 0; part < 4; ++part) tree.shapes.push_back({part, {}, 1});
+    add("bolt", 0, -3.0);
+    add("nut", 1, 51.0);
+    add("washer_head", 2, -3.0);
+    add("washer_nut", 2, 48.0);
+    add("plates", 3, 0.0);
+    return find_joints(tree, parts);
 }
 
 Vec3 vec(const json& list) { return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()}; }
@@ -306,4 +352,23 @@ TEST_CASE("Import: raised faces and the gasket of a flange count as clamped memb
     };
     CHECK(glm::length(place(order[0]) - place(order[1])) == doctest::Approx(150.0));
     CHECK(glm::length(place(order[2]) - place(order[3])) == doctest::Approx(150.0));
+}
+
+TEST_CASE("Import: fasteners and members of a scaled instance have their sizes in the assembly") {
+    for (const double size : {1.0, 0.5, 2.0, 25.4}) {
+        CAPTURE(size);
+        const step_import::JointSearchResult found = search_scaled(size, 24.0);
+        CHECK(found.remarks.empty());
+        REQUIRE(found.joints.size() == 1);
+        const step_import::JointCandidate& joint = found.joints.front();
+        CHECK(joint.size == "M16x1.5");
+        CHECK(joint.bolt_length == doctest::Approx(0.080));
+        CHECK(joint.grip == doctest::Approx(0.048));
+        CHECK(joint.head_washers.size() == 1);
+        CHECK(joint.nut_washers.size() == 1);
+        REQUIRE(joint.members.size() == 1);
+        CHECK(joint.members[0].node == 4);
+        CHECK(joint.members[0].thickness == doctest::Approx(0.048));
+        CHECK(search_scaled(size, 27.0).remarks == search_scaled(1.0, 27.0).remarks);
+    }
 }

@@ -43,7 +43,7 @@ TEST_CASE("Kernel, DeviceThread: a replugged puck is reported within 1 s and usa
           }) < 1.0);
     for (int round = 0; round < 3; ++round) {
         auto puck = std::make_unique<emulate::EmulatedPuck>();
-        puck->share[0] = 1.0;
+        puck->deflection[0] = 1.0;
         auto plug = std::make_unique<emulate::Uhid>(attach(std::move(puck)));
         const auto is_read = [&] {
             return thread.snapshot().usable && thread.snapshot().sample.velocity.x > 0.0;

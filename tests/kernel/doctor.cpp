@@ -128,7 +128,7 @@ TEST_CASE(
     board.reset();
     CHECK(doctor.prints("there is no device 1209:ffb0; expected a connected device"));
     board = std::make_unique<emulate::Uhid>(plug_board());
-    CHECK(doctor.prints("over: there is no device 1209:ffb0"));
+    CHECK(doctor.prints("resolved: there is no device 1209:ffb0"));
     puck.reset();
     CHECK(doctor.prints("there is no device 256f:c62e; expected a connected device"));
     CHECK(doctor.interrupt() == 1);

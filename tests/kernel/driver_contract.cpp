@@ -23,7 +23,9 @@ void check_contract(const std::string& id, std::unique_ptr<emulate::HidDevice> d
 }  // namespace
 
 TEST_CASE("Kernel: all drivers keep the driver contract") {
-    const auto push = [](emulate::HidDevice& d) { dynamic_cast<emulate::EmulatedPuck&>(d).share[0] = 0.5; };
+    const auto push = [](emulate::HidDevice& d) {
+        dynamic_cast<emulate::EmulatedPuck&>(d).deflection[0] = 0.5;
+    };
     const auto turn = [](emulate::HidDevice& d) {
         auto& wheel = dynamic_cast<emulate::EmulatedWheel&>(d);
         wheel.hand_stiffness = 10.0;

@@ -26,9 +26,9 @@ struct Times {
 class Metronome : public emulate::HidDevice {
   public:
     explicit Metronome(Times& times) : times_(times) {
-        design_ = {0x1209, 0xffb0, "Metronome", "", emulate::board_descriptor()};
+        description_ = {0x1209, 0xffb0, "Metronome", "", emulate::board_descriptor()};
     }
-    [[nodiscard]] const emulate::HidDescription& design() const override { return design_; }
+    [[nodiscard]] const emulate::HidDescription& description() const override { return description_; }
     std::vector<emulate::Bytes> advance(double now) override {
         if (now < next_ || number_ == reports) return {};
         next_ = now + 0.0009;
@@ -48,7 +48,7 @@ class Metronome : public emulate::HidDevice {
 
   private:
     Times& times_;
-    emulate::HidDescription design_;
+    emulate::HidDescription description_;
     std::size_t number_ = 0;
     double next_ = 0.0;
 };

@@ -16,16 +16,16 @@ class InertDevice : public emulate::HidDevice {
   public:
     explicit InertDevice(emulate::Bytes descriptor, std::uint16_t vendor = 0x1234,
                          std::uint16_t product = 1) {
-        design_ = {vendor, product, "Some device", "", std::move(descriptor)};
+        description_ = {vendor, product, "Some device", "", std::move(descriptor)};
     }
-    [[nodiscard]] const emulate::HidDescription& design() const override { return design_; }
+    [[nodiscard]] const emulate::HidDescription& description() const override { return description_; }
     std::vector<emulate::Bytes> advance(double) override { return {}; }
     void output(std::span<const std::uint8_t>) override {}
     void set_feature(std::span<const std::uint8_t>) override {}
     emulate::Bytes get_feature(std::uint8_t) override { return {}; }
 
   private:
-    emulate::HidDescription design_;
+    emulate::HidDescription description_;
 };
 
 }  // namespace

@@ -39,13 +39,13 @@ TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
     auto device = factory_for(l.id)();
     REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
     CHECK((*device)->describe().sensing == Sensing::rate);
-    with<emulate::EmulatedPuck>(plug,
-                                [](emulate::EmulatedPuck& p) { p.share = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}; });
+    with<emulate::EmulatedPuck>(
+        plug, [](emulate::EmulatedPuck& p) { p.deflection = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}; });
     const Sample pushed = last_sample(**device, 0.1);
     CHECK(pushed.velocity.x == doctest::Approx(PuckResponse{}.speed));
     CHECK(pushed.angular_velocity.y == doctest::Approx(PuckResponse{}.turn_speed));
     with<emulate::EmulatedPuck>(plug, [](emulate::EmulatedPuck& p) {
-        p.share = {};
+        p.deflection = {};
         p.buttons = 1;
     });
     const Sample rests = last_sample(**device, 0.1);
@@ -60,7 +60,7 @@ TEST_CASE("Kernel: unplugging while reading is a loss at once; after a replug it
     for (int round = 0; round < 5; ++round) {
         auto device = open();
         REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
-        with<emulate::EmulatedPuck>(*plug, [](emulate::EmulatedPuck& p) { p.share[0] = 0.5; });
+        with<emulate::EmulatedPuck>(*plug, [](emulate::EmulatedPuck& p) { p.deflection[0] = 0.5; });
         CHECK(last_sample(**device, 0.05).velocity.x > 0.0);
 
         plug.reset();
@@ -96,7 +96,7 @@ TEST_CASE("Kernel: two identical pucks have different ids") {
     auto first = factory_for("256f:c62e")(), second = factory_for("256f:c62e#2")();
     REQUIRE(first);
     REQUIRE(second);
-    with<emulate::EmulatedPuck>(one, [](emulate::EmulatedPuck& p) { p.share[0] = 1.0; });
+    with<emulate::EmulatedPuck>(one, [](emulate::EmulatedPuck& p) { p.deflection[0] = 1.0; });
     CHECK(last_sample(**first, 0.05).velocity.x > 0.0);
     CHECK(last_sample(**second, 0.05).velocity.x == 0.0);
 }
@@ -106,6 +106,6 @@ TEST_CASE("Kernel: corrupt reports do not stop a puck") {
         .faults = {.truncated = 0.3, .unknown_id = 0.2, .changed = 0.0, .seed = 2}}));
     auto device = factory_for(wait_for_device("256f:c62e").id)();
     REQUIRE(device);
-    with<emulate::EmulatedPuck>(plug, [](emulate::EmulatedPuck& p) { p.share[0] = 1.0; });
+    with<emulate::EmulatedPuck>(plug, [](emulate::EmulatedPuck& p) { p.deflection[0] = 1.0; });
     CHECK(last_sample(**device, 0.5).velocity.x == doctest::Approx(PuckResponse{}.speed));
 }

@@ -9,15 +9,15 @@ using namespace bolt::pathtrace;
 
 TEST_CASE("Path tracer: names match patterns with * and ?") {
     CHECK(matches("joint_B1", "joint_B1"));
-    CHECK(matches("joint_B1", "joint_*"));
-    CHECK(matches("joint_B1", "*B?"));
-    CHECK(matches("joint_B1", "*"));
-    CHECK(matches("aXbXc", "a*b*c"));
-    CHECK(matches("", "*"));
-    CHECK_FALSE(matches("joint_B1", "joint_B"));
-    CHECK_FALSE(matches("joint_B1", "B1"));
-    CHECK_FALSE(matches("joint_B1", "?oint"));
-    CHECK_FALSE(matches("abc", "a*d"));
+    CHECK(matches("joint_*", "joint_B1"));
+    CHECK(matches("*B?", "joint_B1"));
+    CHECK(matches("*", "joint_B1"));
+    CHECK(matches("a*b*c", "aXbXc"));
+    CHECK(matches("*", ""));
+    CHECK_FALSE(matches("joint_B", "joint_B1"));
+    CHECK_FALSE(matches("B1", "joint_B1"));
+    CHECK_FALSE(matches("?oint", "joint_B1"));
+    CHECK_FALSE(matches("a*d", "abc"));
 }
 
 TEST_CASE("Path tracer: nodes are shown and hidden with their descendants") {
@@ -29,7 +29,6 @@ TEST_CASE("Path tracer: nodes are shown and hidden with their descendants") {
     const FlatMesh lid = flatten(model, {.show = {"li*"}, .hide = {}});
     REQUIRE(lid.triangles.size() == 2);
     CHECK(lid.vertices[0].position == glm::vec3(0.0F, -1.0F, 5.0F));
-    CHECK(lid.triangles[0].node == 1);
     CHECK(flatten(model, {.show = {}, .hide = {"lid"}}).triangles.size() == 2);
     CHECK(flatten(model, {.show = {"lid"}, .hide = {"node"}}).triangles.empty());
 }

@@ -8,7 +8,7 @@
 #include "game/analysis/session_data.hpp"
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
-#include "game/report/haptics_section.hpp"
+#include "game/report/report.hpp"
 #include "game/session/session_file.hpp"
 #include "haptics/servo/tool_contact.hpp"
 #include "tests/report/synthetic.hpp"
@@ -181,7 +181,7 @@ TEST_CASE("Haptics section: shows all metrics, and which ones an old session lac
     session.metrics.timing.emplace();
     servo::add(session.metrics.timing->wake_up, 12'000);
     session.metrics.force.at_limit = 2;
-    CHECK(haptics_section(session).find("▲ held back 2 times") != std::string::npos);
+    CHECK(haptics_section(session).find("▲ limited 2 times") != std::string::npos);
     session.metrics.force.above = 3;
     html = haptics_section(session);
     CHECK(markup_fault(page("t", html)) == "");

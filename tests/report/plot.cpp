@@ -17,7 +17,7 @@ namespace {
 Plot example() {
     Plot plot;
     plot.title = "torque <&> \"angle\"";
-    plot.x = {inner_ticks({0.0, 100.0}), "angle, °"};
+    plot.x = {covering_ticks(0.0, 100.0, 6), "angle, °"};
     plot.x.ticks.range = {0.0, 100.0};
     plot.y = {covering_ticks(0.0, 200.0), "torque"};
     plot.y2 = PlotAxis{covering_ticks(0.0, 90.0), "clamp"};

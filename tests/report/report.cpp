@@ -9,7 +9,6 @@
 #include "game/plot/html.hpp"
 #include "game/report/attempts.hpp"
 #include "game/report/joint_plot.hpp"
-#include "game/report/learning_curves.hpp"
 #include "tests/report/synthetic.hpp"
 #include "tests/report/well_formed.hpp"
 

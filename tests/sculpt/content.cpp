@@ -1,5 +1,5 @@
 // Tests that the committed content files are those that bolt-sculpt generates.
-#include "tools/assets/sculpt/content_files.hpp"
+#include "tools/assets/sculpt/generated_content.hpp"
 
 #include <doctest/doctest.h>
 

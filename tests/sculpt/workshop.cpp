@@ -1,5 +1,5 @@
 // Tests of the workshop model.
-#include "tools/assets/sculpt/workshop.hpp"
+#include "tools/assets/sculpt/generated_content.hpp"
 
 #include <doctest/doctest.h>
 

@@ -32,7 +32,8 @@ TraineeSettings example(std::uint64_t seed) {
     s.palette = random.chance(0.5) ? PaletteKind::distinct : PaletteKind::usual;
     s.left_handed = random.chance(0.5);
     s.force_scale = random.uniform(least_force_scale, 1.0);
-    if (random.chance(0.5)) s.seated_height = random.uniform(lowest_seat, highest_seat);
+    if (random.chance(0.5))
+        s.seated_eye_height = random.uniform(min_seated_eye_height, max_seated_eye_height);
     if (random.chance(0.7)) s.law = random.chance(0.5) ? "published" : "mechanistic";
     if (random.chance(0.7)) s.keys["tool"] = random.chance(0.5) ? "T" : "F1";
     if (random.chance(0.7)) s.keys["hint"] = "H";
@@ -54,7 +55,7 @@ TEST_CASE("Settings: writing and reading round-trips to the last bit") {
         CHECK(read->palette == s.palette);
         CHECK(read->left_handed == s.left_handed);
         CHECK(read->force_scale == s.force_scale);
-        CHECK(read->seated_height == s.seated_height);
+        CHECK(read->seated_eye_height == s.seated_eye_height);
         CHECK(read->law == s.law);
         CHECK(read->keys == s.keys);
         CHECK(settings_text(*read) == text);
@@ -65,7 +66,7 @@ TEST_CASE("Settings: errors name file, line, column and what was expected") {
     TraineeSettings s = example(1);
     s.volume = 0.5;
     s.captions = true;
-    s.seated_height = 1.2;
+    s.seated_eye_height = 1.2;
     s.force_scale = 0.5;
     s.palette = PaletteKind::usual;
     s.law.clear();

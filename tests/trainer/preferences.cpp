@@ -150,8 +150,8 @@ TEST_CASE("Preferences: an unreadable file is reported and not overwritten until
     const std::string broken = "{\n  \"format\": \"boltwright settings 1\",\n  \"volum\": 1\n}\n";
     REQUIRE(write_file(path, broken));
     load_preferences(p, "Ada");
-    CHECK(p.trouble == Preferences::Trouble::unread);
-    CHECK(p.why.find(path.string() + ":3:3: ") == 0);
+    CHECK(p.trouble == Preferences::Trouble::read_failed);
+    CHECK(p.trouble_message.find(path.string() + ":3:3: ") == 0);
     CHECK(save_preferences(p));
     CHECK(read_file(path, 1000, ErrorCode::failed).value() == broken);
     p.settings.captions = true;
@@ -170,8 +170,8 @@ TEST_CASE(
     load_preferences(p, "Ada");
     p.settings.force_scale = 0.25;
     CHECK_FALSE(save_preferences(p));
-    CHECK(p.trouble == Preferences::Trouble::unwritten);
-    CHECK(p.why.find("taken") != std::string::npos);
+    CHECK(p.trouble == Preferences::Trouble::write_failed);
+    CHECK(p.trouble_message.find("taken") != std::string::npos);
     CHECK(p.settings.force_scale == 0.25);
     fs::remove(folder / "taken");
     CHECK(save_preferences(p));

@@ -72,7 +72,7 @@ TEST_CASE(
     CHECK(s.trainee == "Ada");
     CHECK(s.captions);
     CHECK(s.left_handed);
-    CHECK(s.seated_height == 1.2);
+    CHECK(s.seated_eye_height == 1.2);
     CHECK(s.palette == content::PaletteKind::distinct);
     CHECK(s.volume < 0.4);
     CHECK(s.force_scale < 0.4);
@@ -173,7 +173,7 @@ TEST_CASE("Settings: left hand, driver height, captions and force scale apply to
         s.left_handed = left;
         s.force_scale = scale;
         s.captions = left;
-        if (left) s.seated_height = 0.9;
+        if (left) s.seated_eye_height = 0.9;
         REQUIRE(content::save_settings(content::settings_path(settings_folder, "Ada"), s,
                                        settings_vocabulary({"en"})));
         AppOptions o = options(false);
@@ -202,7 +202,7 @@ TEST_CASE("Settings: an unreadable file is reported with its position, and lesso
     const fs::path path = content::settings_path(settings_folder, "Ada");
     REQUIRE(write_file(path, "{\n  \"format\": 7\n}\n"));
     SettingsTrainer driver(options(true));
-    CHECK(driver.app().preferences().trouble == Preferences::Trouble::unread);
+    CHECK(driver.app().preferences().trouble == Preferences::Trouble::read_failed);
     REQUIRE(driver.log().size() == 1);
     CHECK(driver.log().front().find(path.string() + ":2:13: ") == 0);
     driver.press_button("menu.start");

@@ -232,12 +232,17 @@ Result<std::vector<Error>> run_gltf_validator(const fs::path& script, const std:
     return errors;
 }
 
+// Returns each model file of the assembly and of its tools once.
 std::vector<std::string> models_of(const content::Assembly& assembly) {
     std::vector<std::string> files;
-    for (const std::string& file :
-         {assembly.models.model, assembly.models.far_level, assembly.models.contact, assembly.wrench.model})
+    const auto add = [&](const std::string& file) {
         if (!file.empty() && std::find(files.begin(), files.end(), file) == files.end())
             files.push_back(file);
+    };
+    add(assembly.models.model);
+    add(assembly.models.far_level);
+    add(assembly.models.contact);
+    for (const content::Tool& tool : assembly.tools) add(tool.wrench.model);
     return files;
 }
 

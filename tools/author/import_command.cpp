@@ -194,7 +194,7 @@ void add_import_step(CLI::App& app, int& exit_code) {
     import->allow_extras();
     import->callback([ignored, &exit_code] {
         Error error;
-    error.code = ErrorCode::no_device;
+    error.code = ErrorCode::failed;
     error.what = "this bolt-author was built without OpenCASCADE, which reads STEP files";
     error.expected = "a build with libocct-data-exchange-dev installed";
     exit_code = print_error(error);

@@ -156,7 +156,7 @@ void add_curve(CLI::App& app, int& exit_code) {
     curve->add_option("--variant", options->variant, "Material variant; the assembly's default if not given");
     curve->add_option("--law", options->law, "Torque law; the assembly's own if not given")
         ->check(CLI::IsMember({"published", "mechanistic"}));
-    curve->add_option("--direction", options->direction)
+    curve->add_option("--direction", options->direction, "Direction in which the nut is turned")
         ->check(CLI::IsMember({"tighten", "loosen"}))
         ->capture_default_str();
     curve->add_option("--csv", options->csv, "CSV file to write, - for stdout");

@@ -13,10 +13,12 @@
 #include <optional>
 #include <vector>
 
+#include "content/format/assembly.hpp"
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/model.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/random.hpp"
+#include "engine/base/random_pose.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/collision/narrow_phase.hpp"
 #include "haptics/collision/world.hpp"
@@ -28,10 +30,6 @@ namespace bolt::bench {
 namespace {
 
 using collision::ContactMesh;
-
-Quat random_turn(Random& random) {
-    return glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
-}
 
 Vec3 random_point(Random& random, const ContactMesh& mesh, const std::vector<double>& sums, Vec3& normal) {
     const auto above = std::upper_bound(sums.begin(), sums.end(), random.uniform() * sums.back());
@@ -241,11 +239,6 @@ using namespace bolt;
 using bench::run_or_skip;
 using bench::unwrap;
 
-std::string content() {
-    const char* set = std::getenv("BOLTWRIGHT_CONTENT");
-    return set != nullptr ? set : "content";
-}
-
 constexpr double band = 0.6e-3;
 constexpr double edge_for_a_million_triangles = 8.5e-3;  // m: the longest edge for about a million triangles
 
@@ -273,12 +266,12 @@ struct ContactScenario {
 
   private:
     ContactScenario() {
-        casings[0] = unwrap(
-            bench::load_contact(content() + "/assemblies/zq350/zq350.contact.glb", {"casing_", "wheel_"}));
+        casings[0] = unwrap(bench::load_contact(
+            content::content_folder() / "assemblies/zq350/zq350.contact.glb", {"casing_", "wheel_"}));
         for (const collision::ContactMesh& part : casings[0])
             casings[1].push_back(bench::refined(part, edge_for_a_million_triangles));
         for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i] = world(i, collision::WorldOptions{}.cell);
-        wrench = unwrap(bench::load_contact(content() + "/tools/wrench-24.contact.glb"));
+        wrench = unwrap(bench::load_contact(content::content_folder() / "tools/wrench-24.contact.glb"));
         tool = unwrap(collision::make_tool(wrench));
         sweep = bench::make_sweep(worlds[0], worlds[0].shapes[0].solid, tool, 0.1e-3, seconds);
     }

@@ -1,6 +1,6 @@
 // Benchmark of the cost of a device to the servo tick: publishing a command and reading the newest sample at
 // 1 kHz while each write of the device takes 15 ms. The counters are microseconds: wall_* is elapsed time
-// with interruptions, own_* the thread's CPU time. The baseline writes to the device directly.
+// with interruptions, cpu_* the thread's CPU time. The baseline writes to the device directly.
 #include <benchmark/benchmark.h>
 
 #include <thread>
@@ -55,20 +55,20 @@ std::string histogram(const std::vector<double>& microseconds) {
 template <class Work>
 void measure(benchmark::State& state, int count, const Work& work) {
     for (auto _ : state) {
-        std::vector<double> wall, own;
+        std::vector<double> wall, cpu;
         auto next = bench::WallClock::now();
         for (int i = 0; i < count; ++i) {
             std::this_thread::sleep_until(next += std::chrono::milliseconds(1));
             const auto start = bench::WallClock::now();
             const double begun = bench::thread_microseconds();
             work(i);
-            own.push_back(bench::thread_microseconds() - begun);
+            cpu.push_back(bench::thread_microseconds() - begun);
             wall.push_back(1e3 * bench::milliseconds_since(start));
         }
         for (const auto& [name, share] :
              {std::pair("p50", 0.5), std::pair("p99.9", 0.999), std::pair("max", 1.0)}) {
             state.counters["wall_" + std::string(name)] = bench::quantile(wall, share);
-            state.counters["own_" + std::string(name)] = bench::quantile(own, share);
+            state.counters["cpu_" + std::string(name)] = bench::quantile(cpu, share);
         }
         state.SetLabel(histogram(wall));
     }

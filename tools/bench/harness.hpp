@@ -3,12 +3,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <stdexcept>
-#include <vector>
 
+#include "engine/base/quantile.hpp"
 #include "engine/base/result.hpp"
 
 namespace bolt::bench {
@@ -53,13 +52,6 @@ inline double thread_microseconds() {
     return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
 }
 
-// Returns the value below which the fraction `share` of the values lies; 0 without values.
-inline double quantile(std::vector<double> values, double share) {
-    if (values.empty()) return 0.0;
-    const auto last = values.size() - 1;
-    const auto at = std::min(last, static_cast<std::size_t>(share * static_cast<double>(values.size())));
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-    return values[at];
-}
+using bolt::quantile;
 
 }  // namespace bolt::bench

@@ -1,4 +1,6 @@
-// Benchmarks of lessons: a headless lesson against real time, and the cost of a lesson per rendered frame.
+// Benchmarks of lessons: a headless lesson against real time, and the cost of a lesson per rendered frame
+// (the servo ticks, the lesson that observes them and the session that records them, with a simulated expert
+// among obstacles). The counters of lesson_frames are milliseconds of CPU time in a frame of 1/60 s.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -13,6 +15,8 @@
 namespace {
 
 using namespace bolt;
+using bench::run_or_skip;
+using bench::unwrap;
 
 // A whole headless lesson with its session file. "x_real_time" is virtual seconds per second on one core.
 void headless_lesson(benchmark::State& state) {
@@ -68,18 +72,6 @@ void headless_lesson_unrecorded(benchmark::State& state) {
     state.counters["x_real_time"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
 }
 BENCHMARK(headless_lesson_unrecorded)->Unit(benchmark::kMillisecond);
-
-}  // namespace
-
-// The cost of a lesson per rendered frame: the servo ticks, the lesson that observes them and the session
-// that records them, with a simulated expert among obstacles. The counters are milliseconds of CPU time in a
-// frame of 1/60 s.
-
-namespace {
-
-using namespace bolt;
-using bench::run_or_skip;
-using bench::unwrap;
 
 constexpr double frame = 1.0 / 60.0, time_limit = 3600.0;  // s
 

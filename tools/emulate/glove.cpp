@@ -30,8 +30,8 @@ void append_value(std::vector<std::uint8_t>& out, char letter, std::size_t value
     out.insert(out.end(), {'?', static_cast<std::uint8_t>(letter), static_cast<std::uint8_t>(value), 0});
 }
 
-std::uint8_t raw_value(double angle, const hand::LinearFit& line) {
-    return static_cast<std::uint8_t>(std::clamp(std::lround(angle / line.gain + line.offset), 1L, 255L));
+std::uint8_t raw_value(double angle, const hand::LinearFit& fit) {
+    return static_cast<std::uint8_t>(std::clamp(std::lround(angle / fit.gain + fit.offset), 1L, 255L));
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ hand::PerSensor<std::uint8_t> raw_values(hand::Posture posture) {
 }
 
 hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand,
-                                         const hand::PerSensor<hand::LinearFit>& lines) {
+                                         const hand::PerSensor<hand::LinearFit>& fits) {
     using hand::Sensor;
     hand::PerSensor<double> angle{};
     const auto set = [&](Sensor sensor, double value) { angle[hand::index(sensor)] = value; };
@@ -63,23 +63,23 @@ hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand,
     }
     set(Sensor::palm_arch, hand.arch);
     hand::PerSensor<std::uint8_t> raw{};
-    for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = raw_value(angle[i], lines[i]);
+    for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = raw_value(angle[i], fits[i]);
     return raw;
 }
 
 hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::LinearFit& all) {
-    hand::PerSensor<hand::LinearFit> lines;
-    lines.fill(all);
-    return raw_values(hand, lines);
+    hand::PerSensor<hand::LinearFit> fits;
+    fits.fill(all);
+    return raw_values(hand, fits);
 }
 
-EmulatedGlove::EmulatedGlove(const EmulatedGloveOptions& design)
-    : design_(design),
-      random_(design.seed, 0x610e),
-      streaming_(design.streaming),
-      status_(design.status),
-      time_(design.time),
-      samples_(design.sensors) {
+EmulatedGlove::EmulatedGlove(const EmulatedGloveOptions& options)
+    : options_(options),
+      random_(options.seed, 0x610e),
+      streaming_(options.streaming),
+      status_(options.status),
+      time_(options.time),
+      samples_(options.sensors) {
     raw.fill(120);
 }
 
@@ -115,7 +115,7 @@ bool EmulatedGlove::answer_command(Bytes& out) {
         append(out, std::string_view("e?\r\n\0", 5));
         return true;
     };
-    const bool modern = !design_.old_firmware;
+    const bool modern = !options_.old_firmware;
     const std::uint8_t first = received_.front();
     const std::size_t n = received_.size();
     switch (first) {
@@ -154,21 +154,21 @@ bool EmulatedGlove::answer_command(Bytes& out) {
             if (n < 2) return false;
             switch (received_[1]) {
                 case 'S':
-                    append_value(out, 'S', design_.sensors);
+                    append_value(out, 'S', options_.sensors);
                     return true;
                 case 'N':
                     append_value(out, 'N', samples_);
                     return true;
                 case 'R':
-                    append_value(out, 'R', design_.hand == hand::Side::right ? 1 : 0);
+                    append_value(out, 'R', options_.hand == hand::Side::right ? 1 : 0);
                     return true;
                 case 'G':
                     if (!modern) return reject();
-                    append_value(out, 'G', design_.plugged ? 3 : 0);
+                    append_value(out, 'G', options_.plugged ? 3 : 0);
                     return true;
                 case 'V':
                     if (!modern) return reject();
-                    append(out, "?V" + design_.version);
+                    append(out, "?V" + options_.version);
                     out.push_back(0);
                     return true;
                 default:
@@ -181,19 +181,19 @@ bool EmulatedGlove::answer_command(Bytes& out) {
 
 void EmulatedGlove::append_frame(std::uint8_t letter, Bytes& out) const {
     out.push_back(letter);
-    const auto sensors = hand::sensors_of(design_.sensors);
+    const auto sensors = hand::sensors_of(options_.sensors);
     for (std::size_t i = 0; i < std::min(samples_, sensors.size()); ++i) {
         const std::uint8_t value = raw[hand::index(sensors[i])];
         out.push_back(std::max<std::uint8_t>(value, 1));
     }
     if (time_) out.insert(out.end(), {12, 0, 34, 0, 5});
     if (status_) out.push_back(0x02);
-    if (!design_.plugged) append(out, "eg");
+    if (!options_.plugged) append(out, "eg");
     out.push_back(0);
 }
 
 std::vector<std::uint8_t> EmulatedGlove::with_faults(const Bytes& bytes) {
-    const ByteFaults& f = design_.faults;
+    const ByteFaults& f = options_.faults;
     if (f.dropped + f.changed + f.added <= 0.0) return bytes;
     Bytes out;
     for (const std::uint8_t byte : bytes) {
@@ -206,7 +206,7 @@ std::vector<std::uint8_t> EmulatedGlove::with_faults(const Bytes& bytes) {
 }
 
 struct SerialGlove::Shared {
-    explicit Shared(const EmulatedGloveOptions& design) : glove(design) {}
+    explicit Shared(const EmulatedGloveOptions& options) : glove(options) {}
     ~Shared() {
         thread = {};  // stop and join before closing the file descriptors
         if (port_file >= 0) close(port_file);
@@ -248,8 +248,8 @@ struct SerialGlove::Shared {
     }
 };
 
-Result<SerialGlove> SerialGlove::start(const EmulatedGloveOptions& design, double period) {
-    auto shared = std::make_unique<Shared>(design);
+Result<SerialGlove> SerialGlove::start(const EmulatedGloveOptions& options, double period) {
+    auto shared = std::make_unique<Shared>(options);
     const auto failed = [](const char* what) {
         return fail(ErrorCode::failed, fmt::format("pseudo-terminal: {}: {}", what, std::strerror(errno)));
     };

@@ -37,13 +37,13 @@ constexpr hand::LinearFit sensor_fit{0.013, 50.0};
 
 // Returns the sensor values, 1 … 255, at these joint angles.
 hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand,
-                                         const hand::PerSensor<hand::LinearFit>& lines);
+                                         const hand::PerSensor<hand::LinearFit>& fits);
 hand::PerSensor<std::uint8_t> raw_values(const hand::Angles& hand, const hand::LinearFit& all = sensor_fit);
 
 // The protocol of a CyberGlove without I/O: bytes and time in, bytes out.
 class EmulatedGlove {
   public:
-    explicit EmulatedGlove(const EmulatedGloveOptions& design);
+    explicit EmulatedGlove(const EmulatedGloveOptions& options);
 
     hand::PerSensor<std::uint8_t> raw{};  // sensor values, 1 … 255
     bool stalled = false;                 // neither sends nor receives
@@ -62,7 +62,7 @@ class EmulatedGlove {
     void append_frame(std::uint8_t letter, Bytes& out) const;
     [[nodiscard]] Bytes with_faults(const Bytes& bytes);
 
-    EmulatedGloveOptions design_;
+    EmulatedGloveOptions options_;
     Random random_;
     Bytes received_;
     bool streaming_, status_, time_;
@@ -75,7 +75,7 @@ class EmulatedGlove {
 class SerialGlove {
   public:
     // Starts a thread that runs the glove. The hand opens and closes with `period` (s); 0: no motion.
-    static Result<SerialGlove> start(const EmulatedGloveOptions& design, double period = 0.0);
+    static Result<SerialGlove> start(const EmulatedGloveOptions& options, double period = 0.0);
 
     SerialGlove(SerialGlove&&) noexcept;
     SerialGlove& operator=(SerialGlove&&) noexcept;

@@ -176,20 +176,20 @@ Result<Uhid> Uhid::plug_in(std::unique_ptr<HidDevice> device) {
     if (shared->file < 0)
         return fail(ErrorCode::no_device, fmt::format("/dev/uhid: cannot open: {}", std::strerror(errno)),
                     "root rights and the kernel's module uhid");
-    const HidDescription& design = shared->device->design();
+    const HidDescription& description = shared->device->description();
     uhid_event create{};
     create.type = UHID_CREATE2;
     auto& c = create.u.create2;
-    copy_text(c.name, design.name);
-    copy_text(c.uniq, design.serial);
-    if (design.descriptor.size() > HID_MAX_DESCRIPTOR_SIZE)
+    copy_text(c.name, description.name);
+    copy_text(c.uniq, description.serial);
+    if (description.descriptor.size() > HID_MAX_DESCRIPTOR_SIZE)
         return fail(ErrorCode::failed, "the report descriptor is too long",
                     fmt::format("at most {} bytes", HID_MAX_DESCRIPTOR_SIZE));
-    c.rd_size = static_cast<std::uint16_t>(design.descriptor.size());
-    std::copy(design.descriptor.begin(), design.descriptor.end(), c.rd_data);
+    c.rd_size = static_cast<std::uint16_t>(description.descriptor.size());
+    std::copy(description.descriptor.begin(), description.descriptor.end(), c.rd_data);
     c.bus = BUS_USB;
-    c.vendor = design.vendor;
-    c.product = design.product;
+    c.vendor = description.vendor;
+    c.product = description.product;
     if (!shared->send(create))
         return fail(ErrorCode::failed,
                     fmt::format("/dev/uhid: cannot create the device: {}", std::strerror(errno)));

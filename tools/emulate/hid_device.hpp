@@ -70,7 +70,7 @@ class HidDevice {
     HidDevice& operator=(const HidDevice&) = delete;
     virtual ~HidDevice() = default;
 
-    [[nodiscard]] virtual const HidDescription& design() const = 0;
+    [[nodiscard]] virtual const HidDescription& description() const = 0;
     // Returns the input reports since the last call, each with its id first. `now` is the time in s; it must
     // not decrease.
     virtual std::vector<Bytes> advance(double now) = 0;

@@ -41,9 +41,10 @@ volatile std::sig_atomic_t ended = 0;
 // Plugs the device into the kernel and calls move(device, phase) every 10 ms until a signal ends the program.
 template <class Device>
 Status play(std::unique_ptr<Device> device, const std::function<Status(Device&, double)>& move) {
-    const HidDescription design = device->design();
+    const HidDescription description = device->description();
     BOLT_TRY_ASSIGN(auto plug, Uhid::plug_in(std::move(device)));
-    Status status = print(fmt::format("{:04x}:{:04x}  {}\n", design.vendor, design.product, design.name));
+    Status status =
+        print(fmt::format("{:04x}:{:04x}  {}\n", description.vendor, description.product, description.name));
     while (status && ended == 0) {
         plug.with([&](HidDevice& d) {
             status = move(dynamic_cast<Device&>(d), 2.0 * pi / motion_period * steady_seconds());
@@ -57,7 +58,7 @@ Status play(std::unique_ptr<Device> device, const std::function<Status(Device&, 
 Status play_puck() {
     return play<EmulatedPuck>(
         std::make_unique<EmulatedPuck>(), [](EmulatedPuck& puck, double phase) -> Status {
-            puck.share = {
+            puck.deflection = {
                 puck_amplitude * std::cos(phase), puck_amplitude * std::sin(phase), 0.0, 0.0, 0.0, 0.0};
             return {};
         });
@@ -65,10 +66,10 @@ Status play_puck() {
 
 // Turns the wheel to and fro, and prints the motor's torque when it changes.
 Status play_wheel(bool board) {
-    EmulatedWheelOptions design;
-    design.board = board;
+    EmulatedWheelOptions options;
+    options.board = board;
     double printed_torque = 0.0;
-    return play<EmulatedWheel>(std::make_unique<EmulatedWheel>(design),
+    return play<EmulatedWheel>(std::make_unique<EmulatedWheel>(options),
                                [&](EmulatedWheel& wheel, double phase) -> Status {
                                    wheel.hand_stiffness = grip_stiffness;
                                    wheel.hand = wheel_amplitude * std::sin(phase);
@@ -118,9 +119,9 @@ struct PostureInput {
     }
 };
 
-int play_glove(const emulate::EmulatedGloveOptions& design, double period, bool by_name,
+int play_glove(const emulate::EmulatedGloveOptions& options, double period, bool by_name,
                const std::string& link) {
-    Result<emulate::SerialGlove> glove = emulate::SerialGlove::start(design, period);
+    Result<emulate::SerialGlove> glove = emulate::SerialGlove::start(options, period);
     if (!glove) return print_error(glove.error());
     std::error_code failed;
     if (!link.empty()) {
@@ -146,13 +147,13 @@ int play_glove(const emulate::EmulatedGloveOptions& design, double period, bool 
 int main(int argc, char** argv) {
     CLI::App app("Emulates input devices until it is interrupted.", "bolt-emulate");
     app.require_subcommand(1);
-    emulate::EmulatedGloveOptions design;
+    emulate::EmulatedGloveOptions options;
     bool left = false, by_name = false;
     double period = 4.0;
     std::string link;
     CLI::App* glove_command =
         app.add_subcommand("glove", "A CyberGlove on a pseudo-terminal; prints its path");
-    glove_command->add_option("--sensors", design.sensors, "18 or 22")
+    glove_command->add_option("--sensors", options.sensors, "18 or 22")
         ->check(CLI::IsMember({18, 22}))
         ->capture_default_str();
     glove_command->add_flag("--left", left, "a left hand");
@@ -161,9 +162,9 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
     glove_command->add_flag(
-        "--asked", by_name,
+        "--postures", by_name,
         "read postures from the standard input, one per line: flat, fist, spread, across or grip");
-    glove_command->add_option("--lost", design.faults.dropped, "fraction of the bytes that are lost")
+    glove_command->add_option("--drop", options.faults.dropped, "fraction of the bytes that are dropped")
         ->check(CLI::Range(0.0, 1.0));
     glove_command->add_option("--link", link, "create this symbolic link to the port");
     int exit_code = 0;
@@ -183,8 +184,8 @@ int main(int argc, char** argv) {
                    "A generic force-feedback wheel, plugged into the kernel (needs root and the module uhid)",
                    [] { return play_wheel(false); });
     glove_command->callback([&] {
-        design.hand = left ? hand::Side::left : hand::Side::right;
-        exit_code = play_glove(design, by_name ? 0.0 : period, by_name, link);
+        options.hand = left ? hand::Side::left : hand::Side::right;
+        exit_code = play_glove(options, by_name ? 0.0 : period, by_name, link);
     });
     return run_command_line(app, argc, argv, exit_code);
 }

@@ -28,12 +28,12 @@ Bytes descriptor(bool single_report) {
 
 }  // namespace
 
-EmulatedPuck::EmulatedPuck(const EmulatedPuckOptions& design)
-    : single_report_(design.single_report), faults_(design.faults), random_(design.faults.seed) {
-    design_ =
+EmulatedPuck::EmulatedPuck(const EmulatedPuckOptions& options)
+    : single_report_(options.single_report), faults_(options.faults), random_(options.faults.seed) {
+    description_ =
         single_report_
-            ? HidDescription{0x256f, 0xc62e, "Emulated SpaceMouse", design.serial, descriptor(true)}
-            : HidDescription{0x046d, 0xc626, "Emulated SpaceNavigator", design.serial, descriptor(false)};
+            ? HidDescription{0x256f, 0xc62e, "Emulated SpaceMouse", options.serial, descriptor(true)}
+            : HidDescription{0x046d, 0xc626, "Emulated SpaceNavigator", options.serial, descriptor(false)};
 }
 
 std::vector<Bytes> EmulatedPuck::advance(double now) {
@@ -41,12 +41,13 @@ std::vector<Bytes> EmulatedPuck::advance(double now) {
     for (; next_ <= now; next_ += period) {
         if (next_ < now - 1.0) next_ = now - 1.0;  // drop reports older than 1 s
         if (stalled) continue;
-        const bool deflected = std::any_of(share.begin(), share.end(), [](double s) { return s != 0.0; });
+        const bool deflected =
+            std::any_of(deflection.begin(), deflection.end(), [](double s) { return s != 0.0; });
         if (deflected || was_deflected_) {
             Bytes report{1};
-            for (std::size_t i = 0; i < share.size(); ++i) {
+            for (std::size_t i = 0; i < deflection.size(); ++i) {
                 const auto v =
-                    static_cast<std::int16_t>(std::lround(std::clamp(share[i], -1.0, 1.0) * counts));
+                    static_cast<std::int16_t>(std::lround(std::clamp(deflection[i], -1.0, 1.0) * counts));
                 if (i == 3 && !single_report_) {
                     out.push_back(report);
                     report = {2};

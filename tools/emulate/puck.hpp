@@ -17,21 +17,21 @@ struct EmulatedPuckOptions {
 
 class EmulatedPuck : public HidDevice {
   public:
-    explicit EmulatedPuck(const EmulatedPuckOptions& design = {});
+    explicit EmulatedPuck(const EmulatedPuckOptions& options = {});
 
     // Deflection of each axis, −1 … 1, in 3Dconnexion's frame (x right, y towards the user, z down).
-    std::array<double, 6> share{};
+    std::array<double, 6> deflection{};
     std::uint32_t buttons = 0;
     bool stalled = false;  // sends nothing
 
-    [[nodiscard]] const HidDescription& design() const override { return design_; }
+    [[nodiscard]] const HidDescription& description() const override { return description_; }
     std::vector<Bytes> advance(double now) override;
     void output(std::span<const std::uint8_t>) override {}
     void set_feature(std::span<const std::uint8_t>) override {}
     Bytes get_feature(std::uint8_t) override { return {}; }
 
   private:
-    HidDescription design_;
+    HidDescription description_;
     bool single_report_;
     HidFaults faults_;
     Random random_;

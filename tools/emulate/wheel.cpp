@@ -97,7 +97,7 @@ Bytes board_descriptor() {
     return d.end().out;
 }
 
-Bytes other_wheel_descriptor() {
+Bytes generic_wheel_descriptor() {
     DescriptorBuilder d;
     d.page(desktop).usage(4).begin(1).id(1);
     d.page(simulation).usage(0xc8).range(0, 65535).fields(1, 16).input(variable);
@@ -154,37 +154,37 @@ unsigned read_u16(std::span<const std::uint8_t> report, std::size_t at) {
 
 }  // namespace
 
-EmulatedWheel::EmulatedWheel(const EmulatedWheelOptions& design)
-    : design_(design), random_(design.faults.seed) {
+EmulatedWheel::EmulatedWheel(const EmulatedWheelOptions& options)
+    : options_(options), random_(options.faults.seed) {
     description_ =
-        design.board
-            ? HidDescription{0x1209, 0xffb0, "Emulated OpenFFBoard", design.serial, board_descriptor()}
-            : HidDescription{0x1234, 0x5678, "Emulated wheel", design.serial, other_wheel_descriptor()};
-    if (!design.board) design_.power = 1.0;
+        options.board
+            ? HidDescription{0x1209, 0xffb0, "Emulated OpenFFBoard", options.serial, board_descriptor()}
+            : HidDescription{0x1234, 0x5678, "Emulated wheel", options.serial, generic_wheel_descriptor()};
+    if (!options.board) options_.power = 1.0;
 }
 
 double EmulatedWheel::torque() const {
-    if (springs_ && design_.own_spring > 0.0) return -design_.own_spring * angle_;
+    if (springs_ && options_.centring_spring > 0.0) return -options_.centring_spring * angle_;
     if (!enabled_ || !loaded_ || !set_ || !playing_ ||
-        time_ - started_ > std::min(design_.effect_life, duration_))
+        time_ - started_ > std::min(options_.effect_life, duration_))
         return 0.0;
     // The direction of an effect is the one from which its force comes: a force from the right turns the
     // wheel to the left.
-    return -magnitude_ * effect_gain_ * gain_ * design_.power * design_.full_torque;
+    return -magnitude_ * effect_gain_ * gain_ * options_.power * options_.full_torque;
 }
 
 std::vector<Bytes> EmulatedWheel::advance(double now) {
     std::vector<Bytes> out;
     if (now - time_ > 1.0) time_ = next_ = now - 1.0;
     for (; time_ + step <= now; time_ += step) {
-        const double pull = torque() + hand_stiffness * (hand - angle_) - design_.damping * speed_;
-        speed_ += pull / design_.inertia * step;
+        const double pull = torque() + hand_stiffness * (hand - angle_) - options_.damping * speed_;
+        speed_ += pull / options_.inertia * step;
         angle_ += speed_ * step;
         if (time_ < next_) continue;
         next_ += period;
         if (stalled) continue;
         Bytes report = axis_report();
-        if (report != last_report_ || (design_.board && time_ - last_report_time_ >= repeat_period)) {
+        if (report != last_report_ || (options_.board && time_ - last_report_time_ >= repeat_period)) {
             last_report_ = report;
             last_report_time_ = time_;
             out.push_back(std::move(report));
@@ -195,12 +195,12 @@ std::vector<Bytes> EmulatedWheel::advance(double now) {
             answers_.erase(answers_.begin());
         }
     }
-    return with_faults(std::move(out), design_.faults, random_);
+    return with_faults(std::move(out), options_.faults, random_);
 }
 
 Bytes EmulatedWheel::axis_report() const {
-    const double share = std::clamp(angle_ / (0.5 * to_radians(design_.degrees)), -1.0, 1.0);
-    if (design_.board) {
+    const double share = std::clamp(angle_ / (0.5 * to_radians(options_.degrees)), -1.0, 1.0);
+    if (options_.board) {
         Bytes report(1 + 8 + 16);
         report[0] = 1;
         for (std::size_t i = 0; i < 4; ++i) report[1 + i] = static_cast<std::uint8_t>(buttons >> (8 * i));
@@ -233,11 +233,11 @@ void EmulatedWheel::answer_request(std::span<const std::uint8_t> request) {
     if (read_u16(request, 2) != 0xa01 || request[4] != 0 || request[6] != 0)
         reply[1] = 13;  // not found
     else if (request[5] == 0)
-        value = std::lround(design_.power * 32767.0);
+        value = std::lround(options_.power * 32767.0);
     else if (request[5] == 1)
-        value = std::lround(design_.degrees);
+        value = std::lround(options_.degrees);
     else if (request[5] == 9)
-        value = std::lround(angle_ / (2.0 * pi) * design_.counts_per_turn);
+        value = std::lround(angle_ / (2.0 * pi) * options_.counts_per_turn);
     else
         reply[1] = 13;
     for (std::size_t i = 0; i < 8; ++i)
@@ -253,7 +253,7 @@ void EmulatedWheel::output(std::span<const std::uint8_t> report) {
         playing_ = start;
         if (start) started_ = time_;
     };
-    if (design_.board) {
+    if (options_.board) {
         const bool ours = byte(1) == block && loaded_;
         switch (report[0]) {
             case 0x01:
@@ -312,13 +312,13 @@ void EmulatedWheel::output(std::span<const std::uint8_t> report) {
 }
 
 void EmulatedWheel::set_feature(std::span<const std::uint8_t> report) {
-    if (stalled || !design_.board || report.size() < 2) return;
+    if (stalled || !options_.board || report.size() < 2) return;
     ++reports_received_;
     if (report[0] == 17 && report[1] == 1) loaded_ = true;
 }
 
 Bytes EmulatedWheel::get_feature(std::uint8_t report) {
-    if (stalled || !design_.board || report != 18) return {};
+    if (stalled || !options_.board || report != 18) return {};
     return {18, loaded_ ? block : std::uint8_t{0}, loaded_ ? std::uint8_t{1} : std::uint8_t{2}, 39, 0};
 }
 

@@ -12,7 +12,7 @@ Bytes board_descriptor();
 
 // Returns the report descriptor of the generic wheel: other report ids, an unsigned axis, device control as
 // an array, one effect block at a fixed index, no start delay.
-Bytes other_wheel_descriptor();
+Bytes generic_wheel_descriptor();
 
 struct EmulatedWheelOptions {
     bool board = true;  // an OpenFFBoard, else the generic wheel
@@ -26,13 +26,13 @@ struct EmulatedWheelOptions {
     double effect_life = 60.0;  // s, after which an effect stops unless it is started again
     // N·m/rad, the device's own centring spring. It acts until all effects are stopped, and again after a
     // reset.
-    double own_spring = 0.0;
+    double centring_spring = 0.0;
     HidFaults faults{};
 };
 
 class EmulatedWheel : public HidDevice {
   public:
-    explicit EmulatedWheel(const EmulatedWheelOptions& design = {});
+    explicit EmulatedWheel(const EmulatedWheelOptions& options = {});
 
     // The hand is a spring to the angle `hand` (rad, positive to the right) with a stiffness in N·m/rad.
     double hand = 0.0, hand_stiffness = 0.0;
@@ -44,7 +44,7 @@ class EmulatedWheel : public HidDevice {
     [[nodiscard]] bool has_effect() const { return loaded_; }
     [[nodiscard]] std::uint64_t reports_received() const { return reports_received_; }
 
-    [[nodiscard]] const HidDescription& design() const override { return description_; }
+    [[nodiscard]] const HidDescription& description() const override { return description_; }
     std::vector<Bytes> advance(double now) override;
     void output(std::span<const std::uint8_t> report) override;
     void set_feature(std::span<const std::uint8_t> report) override;
@@ -55,7 +55,7 @@ class EmulatedWheel : public HidDevice {
     void answer_request(std::span<const std::uint8_t> request);
     [[nodiscard]] Bytes axis_report() const;
 
-    EmulatedWheelOptions design_;
+    EmulatedWheelOptions options_;
     HidDescription description_;
     Random random_;
     double angle_ = 0.0, speed_ = 0.0, time_ = 0.0, next_ = 0.0, last_report_time_ = -1.0, started_ = 0.0;

@@ -15,9 +15,9 @@ async function validate(file) {
         const messages = report.issues.messages
             .filter((issue) => issue.severity <= 1)
             .map(({ severity, code, message, pointer }) => ({ severity, code, message, pointer: pointer ?? '' }));
-        const untold = report.issues.numErrors + report.issues.numWarnings - messages.length;
-        if (untold > 0)
-            messages.push({ severity: 0, code: 'TRUNCATED', message: `${untold} more are not shown.`, pointer: '' });
+        const omitted = report.issues.numErrors + report.issues.numWarnings - messages.length;
+        if (omitted > 0)
+            messages.push({ severity: 0, code: 'TRUNCATED', message: `${omitted} more are not shown.`, pointer: '' });
         return { file, messages };
     } catch (problem) {
         return { file, messages: [{ severity: 0, code: 'NOT_GLTF', message: String(problem), pointer: '' }] };

@@ -125,7 +125,6 @@ struct CadDocument::State {
     std::vector<std::string> group_names;
     InstanceNames instances;
     std::vector<TDF_Label> parts;
-    std::vector<TopoDS_Shape> part_shapes;
     std::set<std::string, std::less<>> part_names, node_names;
     std::string duplicate_name;  // the first name that was used twice
 
@@ -176,7 +175,6 @@ CadPart CadDocument::add_part(std::string_view name, const TopoDS_Shape& shape, 
         if (!sub.IsNull()) state_->colours->SetColor(sub, colour(face.finish), XCAFDoc_ColorSurf);
     }
     state_->parts.push_back(label);
-    state_->part_shapes.push_back(shape);
     return {static_cast<int>(state_->parts.size()) - 1};
 }
 
@@ -189,10 +187,6 @@ CadGroup CadDocument::add_group(CadGroup parent, std::string_view name, const gp
 void CadDocument::add_instance(CadGroup parent, std::string_view name, CadPart part,
                                const gp_Trsf& placement) {
     state_->add_component(parent, state_->parts[static_cast<std::size_t>(part.id)], name, placement);
-}
-
-const TopoDS_Shape& CadDocument::shape(CadPart part) const {
-    return state_->part_shapes[static_cast<std::size_t>(part.id)];
 }
 
 Status CadDocument::write_step(const std::string& path) {

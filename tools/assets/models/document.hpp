@@ -71,8 +71,6 @@ class CadDocument {
     CadGroup add_group(CadGroup parent, std::string_view name, const gp_Trsf& placement = {});
     void add_instance(CadGroup parent, std::string_view name, CadPart part, const gp_Trsf& placement = {});
 
-    [[nodiscard]] const TopoDS_Shape& shape(CadPart part) const;
-
     // Writes STEP AP214 with a fixed header. Fails if a name is used twice or the file cannot be written.
     Status write_step(const std::string& path);
 

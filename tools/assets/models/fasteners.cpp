@@ -204,7 +204,7 @@ Result<TopoDS_Shape> washer(const WasherSpec& spec) {
         "washer");
 }
 
-Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec, ThreadDetail detail) {
+Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec) {
     const double k = spec.head_height, ro = 0.5 * spec.head_diameter, round = 0.1 * spec.d;
     const double full_from = std::max(spec.length - spec.thread_length, 1.0);
     const double shank_end = std::max(full_from - 2.0 * spec.pitch, 0.5 * full_from);
@@ -226,11 +226,6 @@ Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec, ThreadDetail deta
                                                       0.5 * spec.socket, 0.0, tip)
                                      .Shape());
     const std::string name = fmt::format("socket screw M{:g}x{:g}", spec.d, spec.length);
-    if (detail == ThreadDetail::helical) {
-        BOLT_TRY_ASSIGN(const auto rod,
-                        threaded_rod(outer_thread(spec.d, spec.pitch, shank_end, full_from, spec.length)));
-        return checked(glued(head, rod), name);
-    }
     const double c = 0.6 * spec.pitch;
     const TopoDS_Shape rod = revolved({{0.0, shank_end},
                                        {0.5 * spec.d, shank_end},

@@ -65,7 +65,7 @@ Result<SocketScrewSpec> iso_4762(std::string_view size, double length_mm);  // M
 Result<TopoDS_Shape> hex_bolt(const BoltSpec& spec, ThreadDetail detail = ThreadDetail::helical);
 Result<TopoDS_Shape> hex_nut(const NutSpec& spec, ThreadDetail detail = ThreadDetail::helical);
 Result<TopoDS_Shape> washer(const WasherSpec& spec);
-Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec, ThreadDetail detail = ThreadDetail::cosmetic);
+Result<TopoDS_Shape> socket_screw(const SocketScrewSpec& spec);  // with a cosmetic thread
 
 // Bolt, nut and washer as parts of a document. All joints of one type share them.
 struct FastenerParts {

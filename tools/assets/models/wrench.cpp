@@ -172,7 +172,6 @@ WrenchSpec wrench_spec(double size, double grip) {
     WrenchSpec spec;
     spec.size = size;
     spec.jaw = size + 0.2;
-    spec.grip = grip;
     spec.head_angle = pi / 12.0;
     spec.head_width = 2.12 * size + 3.0;
     spec.head_thickness = 0.4 * size + 2.4;

@@ -15,7 +15,6 @@ namespace bolt::models {
 struct WrenchSpec {
     double size = 0.0;        // across flats of the nut
     double jaw = 0.0;         // opening of the jaw
-    double grip = 0.0;        // from the middle of the jaw to the middle of the grip
     double head_angle = 0.0;  // rad
     double head_width = 0.0;
     double head_thickness = 0.0;
@@ -24,6 +23,7 @@ struct WrenchSpec {
     double end = 0.0;           // x of the far end
 };
 
+// `grip`: from the middle of the jaw to the middle of the grip.
 WrenchSpec wrench_spec(double size, double grip);
 
 // One closed, valid solid.

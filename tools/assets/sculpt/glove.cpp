@@ -7,25 +7,25 @@
 namespace bolt::sculpt {
 namespace {
 
-constexpr int no_digit = 5;
-constexpr int around = 6;
+constexpr int palm_digit = 5;
+constexpr int cuff_digit = 6;
 
-// Returns the digit of a point beyond the web; no_digit for the palm.
+// Returns the digit of a point beyond the web; palm_digit for the palm.
 int digit_at(const HandShape& shape, const Vec3& p) {
-    int best = no_digit;
+    int best = palm_digit;
     double depth = 1.0;
     for (std::size_t d = 0; d < 5; ++d) {
         const DigitPosition at = shape.locate(d, p);
         if (at.depth >= depth) continue;
         depth = at.depth;
         const double root = shape.travel(d, 1) + (d == 0 ? 2 * mm : 14 * mm);
-        best = at.travel > root ? static_cast<int>(d) : no_digit;
+        best = at.travel > root ? static_cast<int>(d) : palm_digit;
     }
     return best;
 }
 
 glm::dmat3 axes_of(const HandShape& shape, int digit) {
-    if (digit == no_digit) return glm::dmat3(1.0);
+    if (digit == palm_digit) return glm::dmat3(1.0);
     const Digit& d = digits[static_cast<std::size_t>(digit)];
     return glm::mat3_cast(shape.skeleton().rotation[d.first + d.count - 3]);
 }
@@ -64,7 +64,7 @@ GlovePart glove_part(const HandShape& shape, const Vec3& p) {
 }
 
 TexturePatch patch_of(const HandShape& shape, const Vec3& p, const Vec3& normal, GlovePart part) {
-    if (part == cuff || part == hem) return {around, 0};
+    if (part == cuff || part == hem) return {cuff_digit, 0};
     const int digit = digit_at(shape, p);
     const Vec3 local = glm::transpose(axes_of(shape, digit)) * normal;
     int axis = 0;
@@ -74,7 +74,7 @@ TexturePatch patch_of(const HandShape& shape, const Vec3& p, const Vec3& normal,
 }
 
 PatchPoint map_to_patch(const HandShape& shape, const TexturePatch& patch, const Vec3& p) {
-    if (patch.digit == around) {
+    if (patch.digit == cuff_digit) {
         const double angle = std::atan2(p.y, p.x);
         return {{angle / (2 * pi) * cuff_round, p.z},
                 Vec3(-std::sin(angle), std::cos(angle), 0.0),

@@ -105,19 +105,20 @@ SkinWeights skin_weights(const HandShape& shape, const Vec3& p) {
     const double distance = glm::dot(p - hand.position[knuckle], forward(hand, knuckle));
     const double parted = smooth_step(2 * mm, 19 * mm, distance);
     const double width = 14 * mm + parted * (0.3 * mm - 14 * mm);
-    std::array<double, 5> key = depth;
+    std::array<double, 5> finger_distance = depth;
     if (parted > 0.0) {
-        for (std::size_t d = 1; d < 5; ++d) key[d] += parted * (shape.digit_distance(d, p) - key[d]);
+        for (std::size_t d = 1; d < 5; ++d)
+            finger_distance[d] += parted * (shape.digit_distance(d, p) - finger_distance[d]);
     }
-    const double first = *std::min_element(key.begin() + 1, key.end());
-    std::array<double, 5> member{};
+    const double first = *std::min_element(finger_distance.begin() + 1, finger_distance.end());
+    std::array<double, 5> finger_weight{};
     double total = 0.0;
     for (std::size_t d = 1; d < 5; ++d) {
-        member[d] = square(std::max(0.0, 1.0 - (key[d] - first) / width));
-        total += member[d];
+        finger_weight[d] = square(std::max(0.0, 1.0 - (finger_distance[d] - first) / width));
+        total += finger_weight[d];
     }
     for (std::size_t d = 1; d < 5; ++d) {
-        add_digit(shape, d, p, (1.0 - thumb - arm) * member[d] / total, weights);
+        add_digit(shape, d, p, (1.0 - thumb - arm) * finger_weight[d] / total, weights);
     }
     return quantise_weights(weights);
 }
@@ -237,9 +238,9 @@ assets::Mesh right_mesh(const HandShape& shape) {
             }
             if (part == cuff || part == hem) unwrap(corners);
             for (const TriangleCorner& corner : corners) {
-                const int name = patch[i].digit * 6 + patch[i].face;
+                const int patch_id = patch[i].digit * 6 + patch[i].face;
                 const auto [entry, is_new] = known.try_emplace(
-                    {corner.vertex, corner.mapped.uv.x, corner.mapped.uv.y, name}, std::uint32_t{0});
+                    {corner.vertex, corner.mapped.uv.x, corner.mapped.uv.y, patch_id}, std::uint32_t{0});
                 if (is_new) entry->second = builder.add(primitive, corner);
                 primitive.indices.push_back(entry->second);
             }

@@ -14,7 +14,7 @@
 #include "engine/base/result.hpp"
 #include "haptics/hand/kinematics.hpp"
 #include "haptics/hand/measured_hand.hpp"
-#include "tools/assets/sculpt/content_files.hpp"
+#include "tools/assets/sculpt/generated_content.hpp"
 #include "tools/assets/sculpt/pose.hpp"
 
 namespace {

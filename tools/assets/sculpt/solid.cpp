@@ -168,10 +168,4 @@ void SolidBuilder::add_to(assets::Model& model, const std::string& name) {
     model.nodes.push_back(std::move(node));
 }
 
-std::size_t SolidBuilder::triangles() const {
-    std::size_t count = 0;
-    for (const auto& [material, part] : parts_) count += part.indices.size() / 3;
-    return count;
-}
-
 }  // namespace bolt::sculpt

@@ -36,7 +36,6 @@ class SolidBuilder {
 
     // Appends the solids so far to the model as one mesh, with a node at the origin, and clears them.
     void add_to(assets::Model& model, const std::string& name);
-    [[nodiscard]] std::size_t triangles() const;
 
   private:
     std::uint32_t vertex(int material, const Vec3& p, const Vec3& n, int face);

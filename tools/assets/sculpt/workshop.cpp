@@ -1,4 +1,4 @@
-#include "tools/assets/sculpt/workshop.hpp"
+#include "tools/assets/sculpt/generated_content.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <optional>
-#include <tuple>
 
 #include "content/format/json_document.hpp"
 #include "engine/assets/gltf.hpp"
-#include "tools/author/geometry/check_joint.hpp"
 #include "tools/author/geometry/check_model.hpp"
 
 namespace bolt::geometry {
@@ -71,15 +69,10 @@ void check_model(const content::Assembly& assembly, const FlattenedModel& scene,
         if (nodes[i] < 0) continue;
         const content::AssemblyJoint& joint = assembly.joints[i];
         const JointParts parts = find_joint_parts(scene, nodes[i], joint.design.id);
-        if (!check_stack(joint, i, parts, scene, everything, assembly.wrench.jaw, messages)) continue;
+        if (!check_fasteners_and_members(joint, i, parts, scene, everything, assembly.tools, messages))
+            continue;
         for (const WrenchShape& wrench : wrenches) check_wrench(joint, i, parts, scene, wrench, messages);
     }
-}
-
-void sort_by_position(std::vector<Error>& errors) {
-    std::stable_sort(errors.begin(), errors.end(), [](const Error& a, const Error& b) {
-        return std::tie(a.line, a.column) < std::tie(b.line, b.column);
-    });
 }
 
 }  // namespace
@@ -96,8 +89,8 @@ Findings check_geometry(const content::Assembly& assembly) {
     if (far) check_triangles(*far, far_budget, "/model_far", messages);
     if (model && far) check_names(*model, *far, messages);
     if (model && contact) check_contact(*contact, *model, messages);
-    sort_by_position(findings.errors);
-    sort_by_position(findings.notes);
+    content::sort_by_position(findings.errors);
+    content::sort_by_position(findings.notes);
     return findings;
 }
 

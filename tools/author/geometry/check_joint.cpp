@@ -1,10 +1,12 @@
-#include "tools/author/geometry/check_joint.hpp"
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
 #include "tools/author/geometry/bvh.hpp"
+#include "tools/author/geometry/check_model.hpp"
 #include "tools/author/geometry/scene.hpp"
 #include "tools/author/geometry/wrench.hpp"
 
@@ -55,7 +57,7 @@ void check_presence(const JointCheck& s, const Fastener& fastener, bool wanted) 
         s.error(fmt::format("there is no node {} with a mesh under {}", content::in_quotes(fastener.name),
                             content::in_quotes(s.joint.node)),
                 near.empty() || near == fastener.name
-                    ? "one"
+                    ? "a node with this name"
                     : fmt::format("did you mean {}?", content::in_quotes(near)));
     else
         s.error(fmt::format("the model has {}, but the joint type has no such washer",
@@ -63,7 +65,24 @@ void check_presence(const JointCheck& s, const Fastener& fastener, bool wanted) 
                 "washer_under_head and washer_under_nut as in the model");
 }
 
-bool check_nut(const JointCheck& s, double jaw) {
+// Reports a jaw that is too small or too wide for the nut. `flats`: measured width across flats, m.
+void check_jaw(const JointCheck& s, const content::Tool& tool, bool is_default, double flats) {
+    const std::string owner =
+        is_default ? std::string{} : fmt::format(" (the tool {})", content::in_quotes(tool.name));
+    const std::string name = content::in_quotes(s.parts.nut.name);
+    const double jaw = tool.wrench.jaw;
+    const auto report = [&](const char* how) {
+        s.error(fmt::format("a jaw of {:g} mm{} is too {} for {}, {:.2f} mm across flats", jaw / mm, owner,
+                            how, name, flats / mm),
+                fmt::format("jaw_mm from {:.2f} to {:.2f}", flats / mm, (flats + jaw_play) / mm));
+    };
+    if (jaw < flats - 1e-6)
+        report("small");
+    else if (jaw > flats + jaw_play + 1e-6)
+        report("wide");
+}
+
+bool check_nut(const JointCheck& s, std::span<const content::Tool> tools) {
     const auto hexagon = measure_hexagon(s.parts.nut.triangles);
     if (!hexagon || hexagon->unevenness > 0.1 * mm) {
         s.error(
@@ -78,14 +97,7 @@ bool check_nut(const JointCheck& s, double jaw) {
     if (flats > s.size().across_flats + contact_tolerance || flats < s.size().across_flats - nut_play)
         s.error(fmt::format("{} measures {:.2f} mm across flats", name, flats / mm),
                 fmt::format("{:g} mm for {}", s.size().across_flats / mm, s.size().name));
-    if (jaw < flats - 1e-6)
-        s.error(fmt::format("a jaw of {:g} mm is too small for {}, {:.2f} mm across flats", jaw / mm, name,
-                            flats / mm),
-                fmt::format("jaw_mm from {:.2f} to {:.2f}", flats / mm, (flats + jaw_play) / mm));
-    else if (jaw > flats + jaw_play + 1e-6)
-        s.error(fmt::format("a jaw of {:g} mm is too wide for {}, {:.2f} mm across flats", jaw / mm, name,
-                            flats / mm),
-                fmt::format("jaw_mm from {:.2f} to {:.2f}", flats / mm, (flats + jaw_play) / mm));
+    for (const content::Tool& tool : tools) check_jaw(s, tool, &tool == tools.data(), flats);
     return true;
 }
 
@@ -285,8 +297,9 @@ void check_overlaps(const JointCheck& s, const Fastener& fastener, const std::se
 
 }  // namespace
 
-bool check_stack(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
-                 const FlattenedModel& scene, const Bvh& everything, double jaw, const Messages& messages) {
+bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_t index,
+                                 const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
+                                 std::span<const content::Tool> tools, const Messages& messages) {
     const JointCheck s{joint, index, parts, scene, everything, messages};
     check_presence(s, parts.bolt, true);
     check_presence(s, parts.washer_head, joint.design.washer_under_head);
@@ -295,7 +308,7 @@ bool check_stack(const content::AssemblyJoint& joint, std::size_t index, const J
     check_members(s);
     const std::set<std::uint32_t> tight = check_hole(s);
     if (parts.bolt.exists()) check_bolt(s);
-    const bool gripped = parts.nut.exists() && check_nut(s, jaw);
+    const bool gripped = parts.nut.exists() && check_nut(s, tools);
     if (parts.washer_nut.exists()) {
         check_seat(s, parts.washer_nut.name, parts.washer_nut.box.low.y, "the member under the nut", 0.0);
         if (parts.nut.exists())
@@ -313,7 +326,7 @@ namespace {
 
 constexpr double hexagon_turn = to_radians(60.0);  // between two grips on the nut
 constexpr double min_swing = to_radians(30.0);     // for a 15° head that is turned over after every stroke
-constexpr double min_gap = to_radians(5.0);        // narrower free arcs are ignored
+constexpr double min_arc = to_radians(5.0);        // narrower free arcs are ignored
 constexpr double clearance = 0.2 * mm;             // between the wrench and the face under the nut
 
 // The swing of a wrench as it is and turned over.
@@ -334,7 +347,7 @@ struct SwingPair {
 // Appends the jaw angles of every free arc. Ignores arcs that are too narrow to bring a wrench into.
 void add_jaw_angles(const Swing& swing, double head_angle, std::vector<std::pair<double, double>>& angles) {
     for (const Arc& arc : swing.arcs)
-        if (arc.width() > min_gap) angles.emplace_back(arc.from + head_angle, arc.to + head_angle);
+        if (arc.width() > min_arc) angles.emplace_back(arc.from + head_angle, arc.to + head_angle);
 }
 
 // Returns true if the wrench can grip the nut in every orientation of the nut, and can therefore turn it

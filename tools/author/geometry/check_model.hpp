@@ -1,5 +1,6 @@
-// Checks of the model files as a whole: the nodes that joints name, systematic errors of units, axes or
-// origin, closed surfaces, node names at every level, triangle and byte budgets.
+// Checks of the model files as a whole (the nodes that joints name, systematic errors of units, axes or
+// origin, closed surfaces, node names at every level, triangle and byte budgets) and of each joint against
+// its model (sizes, contact and overlap of the fasteners and members, room for the wrench).
 #pragma once
 
 #include <optional>
@@ -12,6 +13,7 @@
 #include "tools/author/geometry/bvh.hpp"
 #include "tools/author/geometry/messages.hpp"
 #include "tools/author/geometry/scene.hpp"
+#include "tools/author/geometry/wrench.hpp"
 
 namespace bolt::geometry {
 
@@ -57,5 +59,18 @@ void check_triangles(const FlattenedModel& scene, std::size_t budget, std::strin
                      const Messages& messages);
 void check_names(const FlattenedModel& near, const FlattenedModel& far, const Messages& messages);
 void check_contact(const FlattenedModel& contact, const FlattenedModel& near, const Messages& messages);
+
+// The checks of one joint are implemented in check_joint.cpp.
+//
+// Returns false if the joint has no nut that a wrench can grip. `index`: of the joint in the file.
+// `everything`: all parts, in the assembly's frame. `tools`: all tools of the assembly, the default one
+// first; the jaw of each must fit the nut.
+bool check_fasteners_and_members(const content::AssemblyJoint& joint, std::size_t index,
+                                 const JointParts& parts, const FlattenedModel& scene, const Bvh& everything,
+                                 std::span<const content::Tool> tools, const Messages& messages);
+
+// Checks that the wrench can be brought onto the nut and swings far enough on it.
+void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const JointParts& parts,
+                  const FlattenedModel& scene, const WrenchShape& wrench, const Messages& messages);
 
 }  // namespace bolt::geometry

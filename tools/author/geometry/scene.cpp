@@ -227,12 +227,8 @@ std::vector<HexagonFlat> find_hexagon_flats(std::span<const Triangle> triangles,
 std::optional<MeasuredHexagon> measure_hexagon(std::span<const Triangle> triangles) {
     MeasuredHexagon hexagon;
     double corner = 0.0;
-    Aabb box;
     for (const Triangle& t : triangles)
-        for (const Vec3& p : {t.a, t.b, t.c}) {
-            corner = std::max(corner, std::hypot(p.x, p.z));
-            box.add(p);
-        }
+        for (const Vec3& p : {t.a, t.b, t.c}) corner = std::max(corner, std::hypot(p.x, p.z));
     const std::vector<HexagonFlat> flats = find_hexagon_flats(triangles, corner);
     // Six directions 60° apart coincide when their angles are multiplied by six.
     std::complex<double> sum;
@@ -255,8 +251,6 @@ std::optional<MeasuredHexagon> measure_hexagon(std::span<const Triangle> triangl
         const double angle = phase + static_cast<double>(k) * pi / 3.0;
         hexagon.centre += support[k] / 3.0 * Vec3{std::cos(angle), 0.0, std::sin(angle)};
     }
-    hexagon.low = box.low.y;
-    hexagon.high = box.high.y;
     return hexagon;
 }
 

@@ -74,10 +74,9 @@ std::vector<Triangle> nearby_triangles(const FlattenedModel& scene, const glm::d
 
 // A hexagon about +Y, measured on its mesh.
 struct MeasuredHexagon {
-    double across_flats = 0.0;     // m, mean of the three widths
-    double unevenness = 0.0;       // m, widest minus narrowest
-    Vec3 centre{0.0};              // m, offset from the axis; y is 0
-    double low = 0.0, high = 0.0;  // m, along the axis
+    double across_flats = 0.0;  // m, mean of the three widths
+    double unevenness = 0.0;    // m, widest minus narrowest
+    Vec3 centre{0.0};           // m, offset from the axis; y is 0
 };
 
 // Returns nullopt if the triangles have no six flats about the axis.

@@ -16,22 +16,28 @@ namespace bolt::step_import {
 
 namespace {
 
-constexpr double touching = 0.06 * mm;  // largest gap of faces that count as in contact
-
-// An instance of a fastener, scene frame.
+// An instance of a fastener, scene frame. Its sizes include the scale of the instance.
 struct PlacedFastener {
     int node = -1;
-    const FastenerShape* shape = nullptr;
     Vec3 origin, axis;
-    double scale = 1.0;
+    double across_flats = 0.0, low = 0.0, high = 0.0, diameter = 0.0;  // m, as in FastenerShape
 };
+
+PlacedFastener place(int node, const FastenerShape& shape, const ScaledPose& pose) {
+    const double scale = std::abs(pose.scale);
+    return {node,
+            pose.point(shape.origin),
+            pose.direction(shape.axis),
+            shape.across_flats * scale,
+            shape.low * scale,
+            shape.high * scale,
+            shape.diameter * scale};
+}
 
 // Lower and upper face of a nut or washer as heights along the line from `origin`, m.
 std::pair<double, double> along(const PlacedFastener& placed, const Vec3& origin, const Vec3& axis) {
-    const auto height = [&](double h) {
-        return glm::dot(placed.origin + h * placed.scale * placed.axis - origin, axis);
-    };
-    const double a = height(placed.shape->low), b = height(placed.shape->high);
+    const auto height = [&](double h) { return glm::dot(placed.origin + h * placed.axis - origin, axis); };
+    const double a = height(placed.low), b = height(placed.high);
     return {std::min(a, b), std::max(a, b)};
 }
 
@@ -58,7 +64,7 @@ double din_across_flats(const joint::FastenerSize& size) {
 
 // Returns the metric size that has this bolt's diameter over the crests and its width across flats; null if
 // there is none.
-const joint::FastenerSize* size_of(const FastenerShape& bolt) {
+const joint::FastenerSize* size_of(const PlacedFastener& bolt) {
     const joint::FastenerSize& size = nearest_size(bolt.diameter);
     if (std::abs(size.d - bolt.diameter) > diameter_slack(size)) return nullptr;
     const auto fits = [&](double flats) { return std::abs(bolt.across_flats - flats) < flats_slack; };
@@ -74,7 +80,7 @@ constexpr std::array inch_diameters = {
     std::pair{1.375, "1 3/8"}, std::pair{1.5, "1 1/2"}};
 
 // Explains why size_of() returns null.
-std::string explain_size(const FastenerShape& bolt) {
+std::string explain_size(const PlacedFastener& bolt) {
     const joint::FastenerSize& size = nearest_size(bolt.diameter);
     const double din = din_across_flats(size);
     const std::string widths = din == size.across_flats
@@ -117,17 +123,14 @@ class JointFinder {
             poses_.push_back(world(tree, node));
             const PartGeometry* part = part_of(node);
             if (part == nullptr || part->fastener.kind == FastenerKind::none) continue;
-            const ScaledPose& pose = poses_.back();
-            PlacedFastener placed{node, &part->fastener, pose.point(part->fastener.origin),
-                                  pose.direction(part->fastener.axis), std::abs(pose.scale)};
-            of_kind_[part->fastener.kind].push_back(placed);
+            of_kind_[part->fastener.kind].push_back(place(node, part->fastener, poses_.back()));
         }
     }
 
     JointSearchResult run() {
         for (const PlacedFastener& bolt : of_kind_[FastenerKind::bolt]) {
             const auto nut = nut_on(bolt);
-            const joint::FastenerSize* size = nut ? size_of(*bolt.shape) : nullptr;
+            const joint::FastenerSize* size = nut ? size_of(bolt) : nullptr;
             if (size == nullptr) {
                 unused_bolts_.push_back({bolt, nut});
                 continue;
@@ -162,13 +165,12 @@ class JointFinder {
     std::optional<PlacedFastener> nut_on(const PlacedFastener& bolt) const {
         std::optional<PlacedFastener> best;
         double nearest = 0.0;
-        const double low = bolt.shape->low * bolt.scale, high = bolt.shape->high * bolt.scale;
         for (const PlacedFastener& nut : placed_of(FastenerKind::nut)) {
             if (bolt_of_nut_.contains(nut.node) || !coaxial(bolt.origin, bolt.axis, nut.origin, nut.axis))
                 continue;
-            if (std::abs(nut.shape->across_flats - bolt.shape->across_flats) > flats_slack) continue;
+            if (std::abs(nut.across_flats - bolt.across_flats) > flats_slack) continue;
             const auto [seat, top] = along(nut, bolt.origin, bolt.axis);
-            if (seat < low || seat > high) continue;
+            if (seat < bolt.low || seat > bolt.high) continue;
             if (!best || seat < nearest) {  // of two locked nuts, the one at the members
                 best = nut;
                 nearest = seat;
@@ -190,20 +192,18 @@ class JointFinder {
         const std::size_t before = search_.remarks.size();
         std::set<int> explained;  // nuts
         for (const UnusedBolt& unused : unused_bolts_) {
-            const FastenerShape& shape = *unused.bolt.shape;
+            const PlacedFastener& bolt = unused.bolt;
             search_.remarks.push_back(fmt::format(
                 "{}: looks like a bolt (cylinder {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
-                name_of(unused.bolt.node), shape.diameter * unused.bolt.scale / mm,
-                shape.across_flats * unused.bolt.scale / mm,
-                unused.nut ? explain_size(shape) : explain_missing_nut(unused.bolt)));
+                name_of(bolt.node), bolt.diameter / mm, bolt.across_flats / mm,
+                unused.nut ? explain_size(bolt) : explain_missing_nut(bolt)));
             if (unused.nut) explained.insert(unused.nut->node);
         }
         for (const PlacedFastener& nut : placed_of(FastenerKind::nut))
             if (!bolt_of_nut_.contains(nut.node) && !explained.contains(nut.node))
                 search_.remarks.push_back(fmt::format(
                     "{}: looks like a nut (hole {:.2f} mm, hexagon {:.2f} mm across flats), but {}",
-                    name_of(nut.node), nut.shape->diameter * nut.scale / mm,
-                    nut.shape->across_flats * nut.scale / mm, explain_missing_bolt(nut)));
+                    name_of(nut.node), nut.diameter / mm, nut.across_flats / mm, explain_missing_bolt(nut)));
         for (std::size_t n = 0; n < tree_.nodes.size(); ++n) explain_rejected(static_cast<int>(n));
         if (search_.joints.empty() && search_.remarks.size() == before)
             search_.remarks.push_back(
@@ -241,19 +241,17 @@ class JointFinder {
             return fmt::format(
                 "the nut on its axis, {}, is already that of the bolt {}; expected a nut of its own", name,
                 name_of(used->second));
-        const double flats = nearest->shape->across_flats, own_flats = bolt.shape->across_flats;
-        if (std::abs(flats - own_flats) > flats_slack)
+        if (std::abs(nearest->across_flats - bolt.across_flats) > flats_slack)
             return fmt::format(
                 "the nut on its axis, {}, is {:.2f} mm across flats; expected the bolt's width within {:g} "
                 "mm",
-                name, flats / mm, flats_slack / mm);
+                name, nearest->across_flats / mm, flats_slack / mm);
         const double seat = along(*nearest, bolt.origin, bolt.axis).first;
         return fmt::format(
             "the nut on its axis, {}, begins {:.2f} mm from the bearing face of the head, and the shank is "
             "{:.2f} mm "
             "long; expected the nut on the shank",
-            name, (seat - bolt.shape->low * bolt.scale) / mm,
-            (bolt.shape->high - bolt.shape->low) * bolt.scale / mm);
+            name, (seat - bolt.low) / mm, (bolt.high - bolt.low) / mm);
     }
 
     std::string explain_missing_bolt(const PlacedFastener& nut) const {
@@ -301,8 +299,7 @@ class JointFinder {
             for (const PlacedFastener& washer : of_kind_[FastenerKind::washer]) {
                 if (std::find(found.begin(), found.end(), washer.node) != found.end()) continue;
                 if (!coaxial(bolt.origin, bolt.axis, washer.origin, washer.axis)) continue;
-                const double hole = washer.shape->diameter * washer.scale, d = bolt.shape->diameter;
-                if (hole < 0.98 * d || hole > 1.3 * d) continue;
+                if (washer.diameter < 0.98 * bolt.diameter || washer.diameter > 1.3 * bolt.diameter) continue;
                 const auto [low, high] = along(washer, bolt.origin, bolt.axis);
                 const double near = direction > 0.0 ? low : high;
                 if (std::abs(near - face) > touching) continue;
@@ -321,10 +318,10 @@ class JointFinder {
         joint.bolt = bolt.node;
         joint.nut = nut.node;
         joint.axis = bolt.axis;
-        joint.size = thread_name(size, nut.shape->diameter);
-        double head = bolt.shape->low * bolt.scale;
+        joint.size = thread_name(size, nut.diameter);
+        double head = bolt.low;
         double seat = along(nut, bolt.origin, bolt.axis).first;
-        joint.bolt_length = bolt.shape->high * bolt.scale - head;
+        joint.bolt_length = bolt.high - head;
         joint.head_washers = washers_from(bolt, head, 1.0);
         joint.nut_washers = washers_from(bolt, seat, -1.0);
         joint.grip = seat - head;
@@ -351,7 +348,7 @@ class JointFinder {
         for (std::size_t n = 0; n < tree_.nodes.size(); ++n) parts.push_back(part_of(static_cast<int>(n)));
         for (const auto& list : {joint.head_washers, joint.nut_washers, std::vector{joint.bolt, joint.nut}})
             for (const int node : list) parts[static_cast<std::size_t>(node)] = nullptr;
-        return find_members(parts, poses_, {bolt.origin, bolt.axis, bolt.shape->diameter, head, seat});
+        return find_members(parts, poses_, {bolt.origin, bolt.axis, bolt.diameter, head, seat});
     }
 
     void add_remark(const JointCandidate& joint, const std::string& what) {

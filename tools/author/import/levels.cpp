@@ -184,7 +184,6 @@ JoinedMesh join_primitives(const assets::Mesh& mesh) {
 // the vertices of a triangle determine its material.
 void split_primitives(const JoinedMesh& joined, const std::vector<std::uint32_t>& kept, assets::Mesh& mesh) {
     constexpr double crease = 0.7;  // rad; larger than the angle between neighbouring chords of the far level
-    constexpr float same = 0.99965732F;  // cos 1.5°
     const std::vector<glm::vec3> normals = crease_normals(joined.positions, kept, crease);
     for (assets::Primitive& primitive : mesh.primitives) {
         primitive.positions.clear();
@@ -197,7 +196,7 @@ void split_primitives(const JoinedMesh& joined, const std::vector<std::uint32_t>
         assets::Primitive& primitive = mesh.primitives[joined.owner[kept[i - i % 3]]];
         std::vector<std::uint32_t>& vertices = made[kept[i]];
         auto found = std::find_if(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
-            return glm::dot(primitive.normals[v], normals[i]) > same;
+            return glm::dot(primitive.normals[v], normals[i]) > static_cast<float>(same_normal);
         });
         if (found == vertices.end()) {
             found = vertices.insert(found, static_cast<std::uint32_t>(primitive.positions.size()));

@@ -12,7 +12,6 @@
 #include "content/format/assembly.hpp"
 #include "content/format/json_document.hpp"
 #include "engine/base/file.hpp"
-#include "tools/author/import/embedded_materials.hpp"
 #include "tools/author/import/names.hpp"
 
 namespace bolt::step_import {

@@ -51,6 +51,9 @@ struct MaterialTable {
 void read_materials(std::string_view text, std::string_view file, MaterialTable& table,
                     std::vector<Error>& errors, std::set<std::string>* keys = nullptr);
 
+// The text of content/materials.json at build time.
+std::string_view materials_text();
+
 // Loads materials.json from the content folder, or the built-in copy if there is none, then materials.json
 // from `folder` if it exists.
 MaterialTable load_materials(const std::filesystem::path& folder, std::vector<Error>& errors);

@@ -10,8 +10,6 @@ namespace bolt::step_import {
 
 namespace {
 
-constexpr double touching = 0.06 * mm;  // largest gap of faces that count as in contact
-
 struct MemberSpan {
     int node = -1;
     double from = 0.0, to = 0.0;  // m, heights along the bolt

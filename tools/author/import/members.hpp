@@ -29,6 +29,7 @@ struct InstalledBolt {
 };
 
 inline constexpr double coaxial_distance = 0.1 * mm;
+inline constexpr double touching = 0.06 * mm;  // largest gap of faces that count as in contact
 
 // Returns true if the lines through p along a and through q along b agree within 0.1 mm, measured at q, and
 // 0.5°.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "engine/base/wildcard.hpp"
+
 namespace bolt::step_import {
 
 namespace {
@@ -76,24 +78,7 @@ std::string UniqueNames::claim(std::string_view name) {
 }
 
 bool matches(std::string_view pattern, std::string_view name) {
-    // Greedy with backtracking to the last star only: linear for typical patterns.
-    std::size_t p = 0, n = 0, star = std::string_view::npos, from = 0;
-    while (n < name.size()) {
-        if (p < pattern.size() && pattern[p] == '*') {
-            star = p++;
-            from = n;
-        } else if (p < pattern.size() && lower(pattern[p]) == lower(name[n])) {
-            ++p;
-            ++n;
-        } else if (star != std::string_view::npos) {
-            p = star + 1;
-            n = ++from;
-        } else {
-            return false;
-        }
-    }
-    while (p < pattern.size() && pattern[p] == '*') ++p;
-    return p == pattern.size();
+    return matches_wildcard(pattern, name, [](char p, char n) { return lower(p) == lower(n); });
 }
 
 }  // namespace bolt::step_import

@@ -11,8 +11,8 @@ namespace bolt::step_import {
 namespace {
 
 std::string size_text(std::uintmax_t bytes) {
-    const double kib = static_cast<double>(bytes) / 1024.0;
-    return kib < 1024.0 ? fmt::format("{:.0f} KiB", kib) : fmt::format("{:.2f} MiB", kib / 1024.0);
+    const double kb = static_cast<double>(bytes) * 1e-3;
+    return kb < 1000.0 ? fmt::format("{:.0f} kB", kb) : fmt::format("{:.2f} MB", kb * 1e-3);
 }
 
 // Pads or cuts a name to `width` characters (not bytes).

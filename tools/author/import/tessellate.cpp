@@ -30,6 +30,7 @@ class DisjointSets {
         std::iota(parent_.begin() + static_cast<std::ptrdiff_t>(first), parent_.end(), first);
         return first;
     }
+    [[nodiscard]] std::size_t size() const { return parent_.size(); }
     std::size_t find(std::size_t i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
@@ -172,8 +173,8 @@ PartMesh tessellate(const TopoDS_Shape& shape, const Deflection& deflection) {
         stitcher.add(one);
     }
 
-    // The point of each set of corners. add(0) returns the number of corners.
-    std::vector<std::uint32_t> point_of(sets.add(0), 0xFFFFFFFFU);
+    // The point of each set of corners.
+    std::vector<std::uint32_t> point_of(sets.size(), 0xFFFFFFFFU);
     for (std::size_t f = 0; f < meshed.size(); ++f) {
         const MeshedFace& one = meshed[f];
         if (one.triangulation.IsNull()) continue;

@@ -74,10 +74,10 @@ PreviewCommands PreviewControls::apply(std::span<const InputEvent> events, doubl
 }
 
 std::string help_line(const std::vector<view::Viewpoint>& views) {
-    std::string text = "Left drag: turn. Right or middle drag: move. Wheel: nearer. F: all.";
+    std::string text = "Left drag: turn. Right or middle drag: move. Wheel: zoom. F: all.";
     for (std::size_t i = 0; i < std::min(views.size(), view_keys); ++i)
         text += fmt::format(" {}: {}.", i + 1, views[i].name);
-    return text + " L: far level. R: read again. F11: full screen. Esc: close.\n";
+    return text + " L: far level. R: reload. F11: full screen. Esc: close.\n";
 }
 
 }  // namespace bolt::author

@@ -143,7 +143,7 @@ void PreviewSession::report_errors(Source source, std::vector<Error> errors) {
     const std::string& name = sources_.model().name;
     std::string title = fmt::format("{} - bolt-author preview", name);
     for (const std::vector<Error>& list : errors_)
-        if (!list.empty()) title = fmt::format("{} - broken: {}", name, list.front().message());
+        if (!list.empty()) title = fmt::format("{} - error: {}", name, list.front().message());
     window_.set_title(title.substr(0, title.find('\n')));
 }
 
@@ -184,7 +184,7 @@ Status PreviewSession::reload_model(view::DetailLevel level) {
     needs_redraw_ = true;
     sources_.set_shown(std::move(loaded.model), level);
     report_errors(model_source, {});
-    return print(fmt::format("read {} again\n", sources_.model().name));
+    return print(fmt::format("reloaded {}\n", sources_.model().name));
 }
 
 Status PreviewSession::reload_light() {

@@ -26,7 +26,7 @@ class PreviewSources {
   public:
     explicit PreviewSources(const PreviewOptions& options) : what_(options.what), light_(options.light) {}
 
-    // Read the files again. set_shown() makes the result current.
+    // Reload the files. set_shown() makes the result current.
     [[nodiscard]] view::ModelLoadResult read_model(view::DetailLevel level) const {
         return view::load_model(what_, level);
     }

@@ -35,10 +35,10 @@ Status check_near_poses(const ContactValidationOptions& options, const servo::To
                     print("inside, reported as outside: " + contact_validation::to_text(pose.tool) + "\n");
                 !printed)
                 return printed;
-    return near.missed == 0 ? Status{}
-                            : fail(ErrorCode::failed,
-                                   "contact: a crossing deeper than 0.1 mm is not reported; expected a "
-                                   "contact within 0.1 mm");
+    return near.missed == 0
+               ? Status{}
+               : fail(ErrorCode::failed, "contact: a crossing deeper than 0.1 mm is not reported",
+                      "a contact within 0.1 mm");
 }
 
 Status check_motions(const ContactValidationOptions& options, const servo::Setup& setup, servo::State& state,
@@ -68,8 +68,8 @@ Status check_motions(const ContactValidationOptions& options, const servo::Setup
         !reported)
         return reported;
     if (deepest > 0.1e-3)
-        return fail(ErrorCode::failed,
-                    "god-object: the wrench is deeper than 0.1 mm in an obstacle; expected at most 0.1 mm");
+        return fail(ErrorCode::failed, "god-object: the wrench is deeper than 0.1 mm in an obstacle",
+                    "at most 0.1 mm");
     return {};
 }
 
@@ -80,8 +80,8 @@ Status run(const ContactValidationOptions& options) {
     Result<std::optional<servo::ToolContact>> contact = session::load_tool_contact(loaded.assembly, setup);
     if (!contact) return fail(contact.error());
     if (!contact->has_value())
-        return fail(ErrorCode::bad_content,
-                    options.assembly + ": has no contact model; expected \"contact_model\" in assembly.json");
+        return fail(ErrorCode::bad_content, options.assembly + ": has no contact model",
+                    "\"contact_model\" in assembly.json");
     servo::State state = servo::initial_state(setup);
     state.tool_contact = std::move(*contact);
     const contact_validation::ContactScene scene =
@@ -100,10 +100,11 @@ int main(int argc, char** argv) {
     int exit_code = 0;
     app.add_option("assembly", options.assembly, "Folder, file or name of an assembly");
     app.add_option("--poses", options.near.poses, "Number of poses near obstacles")->capture_default_str();
-    app.add_option("--ways", options.motions, "Motions of a hand through the obstacles and onto nuts")
+    app.add_option("--motions", options.motions, "Motions of a hand through the obstacles and onto nuts")
         ->capture_default_str();
-    app.add_option("--seed", options.near.seed)->capture_default_str();
-    app.add_option("--threads", options.near.threads)->capture_default_str();
+    app.add_option("--seed", options.near.seed, "Seed of the random poses and motions")
+        ->capture_default_str();
+    app.add_option("--threads", options.near.threads, "Threads that check the poses")->capture_default_str();
     app.callback([&] {
         const Status done = run(options);
         exit_code = done ? 0 : print_error(done.error());

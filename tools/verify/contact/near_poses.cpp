@@ -7,7 +7,9 @@
 #include <optional>
 #include <thread>
 
+#include "engine/base/quantile.hpp"
 #include "engine/base/random.hpp"
+#include "engine/base/random_pose.hpp"
 
 namespace bolt::contact_validation {
 
@@ -19,11 +21,6 @@ constexpr double mm = 1e-3, um = 1e-6;
 constexpr std::size_t poses_per_approach = 20;
 constexpr double deep = 0.1 * mm, margin = 0.1 * mm;
 constexpr std::uint32_t obstacle_bit = 0x80000000U;  // the top bit of Contact::feature
-
-Quat random_turn(Random& random) {
-    return glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
-}
-Vec3 random_direction(Random& random) { return random_turn(random) * Vec3(1, 0, 0); }
 
 Vec3 random_point(const ClosedSurface& surface, Random& random) {
     const std::vector<geometry::Triangle>& triangles = surface.tree.triangles();
@@ -138,12 +135,6 @@ void evaluate(const ContactScene& scene, const collision::CollisionWorld& world,
     if (pose.found) compare_contacts(scene, world, tool, std::span(contacts).first(found.count), pose);
 }
 
-double quantile(std::vector<double>& sorted, double share) {
-    if (sorted.empty()) return 0.0;
-    return sorted[std::min(sorted.size() - 1,
-                           static_cast<std::size_t>(share * static_cast<double>(sorted.size())))];
-}
-
 }  // namespace
 
 std::vector<NearPose> near_poses(const ContactScene& scene, const collision::CollisionWorld& world,
@@ -180,7 +171,7 @@ bool missed(const NearPose& pose) {
 
 NearSummary summarize(const std::vector<NearPose>& poses, double band) {
     NearSummary sum;
-    std::vector<double> gap_over;
+    std::vector<double> gap_overestimates;
     for (const NearPose& pose : poses) {
         ++sum.poses;
         sum.point_error = std::max(sum.point_error, pose.point_error);
@@ -194,23 +185,28 @@ NearSummary summarize(const std::vector<NearPose>& poses, double band) {
             if (!pose.found || pose.reported >= 0.0)
                 sum.deepest_unreported = std::max(sum.deepest_unreported, pose.truth.depth);
             if (pose.points.depth > 0.0)
-                sum.depth_under_points = std::max(sum.depth_under_points, pose.points.depth + pose.reported);
+                sum.max_depth_underestimate_points =
+                    std::max(sum.max_depth_underestimate_points, pose.points.depth + pose.reported);
             continue;
         }
         ++sum.free;
-        sum.gap_under = std::max(sum.gap_under, std::min(band, pose.truth.gap) - pose.reported);
+        sum.max_gap_underestimate =
+            std::max(sum.max_gap_underestimate, std::min(band, pose.truth.gap) - pose.reported);
         if (pose.truth.gap >= band) continue;
         ++sum.near;
-        gap_over.push_back(pose.reported - pose.truth.gap);
-        sum.gap_over_points = std::max(sum.gap_over_points, pose.reported - std::min(band, pose.points.gap));
+        gap_overestimates.push_back(pose.reported - pose.truth.gap);
+        sum.max_gap_overestimate_points =
+            std::max(sum.max_gap_overestimate_points, pose.reported - std::min(band, pose.points.gap));
     }
-    std::sort(gap_over.begin(), gap_over.end());
-    sum.gap_over = quantile(gap_over, 1.0);
-    sum.gap_over_p50 = quantile(gap_over, 0.5);
-    sum.gap_over_p99 = quantile(gap_over, 0.99);
-    const auto exact = std::upper_bound(gap_over.begin(), gap_over.end(), 1 * um) - gap_over.begin();
-    sum.within_micrometre =
-        gap_over.empty() ? 0.0 : static_cast<double>(exact) / static_cast<double>(gap_over.size());
+    std::sort(gap_overestimates.begin(), gap_overestimates.end());
+    sum.max_gap_overestimate = quantile(gap_overestimates, 1.0);
+    sum.gap_overestimate_p50 = quantile(gap_overestimates, 0.5);
+    sum.gap_overestimate_p99 = quantile(gap_overestimates, 0.99);
+    const auto exact = std::upper_bound(gap_overestimates.begin(), gap_overestimates.end(), 1 * um) -
+                       gap_overestimates.begin();
+    sum.within_micrometre = gap_overestimates.empty()
+                                ? 0.0
+                                : static_cast<double>(exact) / static_cast<double>(gap_overestimates.size());
     return sum;
 }
 
@@ -229,9 +225,9 @@ std::string to_text(const NearSummary& s) {
         "    reported as outside {:.1f} um; depth underestimated by at most {:.4f} um against the sample "
         "points\n",
         s.poses, s.free, s.near, s.crossing, 1e6 * s.point_error, 1e6 * s.edge_error, 1e6 * s.distance_error,
-        1e6 * s.gap_under, 1e6 * s.gap_over_points, 1e6 * s.gap_over, 1e6 * s.gap_over_p50,
-        1e6 * s.gap_over_p99, 100.0 * s.within_micrometre, s.deep, s.reported_outside, s.missed,
-        1e6 * s.deepest_unreported, 1e6 * s.depth_under_points);
+        1e6 * s.max_gap_underestimate, 1e6 * s.max_gap_overestimate_points, 1e6 * s.max_gap_overestimate,
+        1e6 * s.gap_overestimate_p50, 1e6 * s.gap_overestimate_p99, 100.0 * s.within_micrometre, s.deep,
+        s.reported_outside, s.missed, 1e6 * s.deepest_unreported, 1e6 * s.max_depth_underestimate_points);
 }
 
 std::string to_text(const Pose& pose) {

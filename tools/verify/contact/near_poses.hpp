@@ -49,13 +49,16 @@ struct NearSummary {
     double deepest_unreported = 0.0;  // m, greatest depth of a pose reported as outside
     // The greatest errors of all poses.
     double point_error = 0.0, edge_error = 0.0, distance_error = 0.0;
-    // Errors of the gap, m. gap_under: the greatest of true minus reported. gap_over, gap_over_p50 and
-    // gap_over_p99: the greatest, the median and the 99th percentile of reported minus true. gap_over_points:
-    // the greatest of reported minus the gap of the sample points.
-    double gap_under = 0.0, gap_over = 0.0, gap_over_points = 0.0, gap_over_p50 = 0.0, gap_over_p99 = 0.0;
+    // Errors of the gap, m. max_gap_underestimate: the greatest of true minus reported. max_gap_overestimate,
+    // gap_overestimate_p50 and gap_overestimate_p99: the greatest, the median and the 99th percentile of
+    // reported minus true. max_gap_overestimate_points: the greatest of reported minus the gap of the sample
+    // points.
+    double max_gap_underestimate = 0.0, max_gap_overestimate = 0.0, max_gap_overestimate_points = 0.0;
+    double gap_overestimate_p50 = 0.0, gap_overestimate_p99 = 0.0;
     // Fraction of the near poses whose reported gap exceeds the true one by at most 1 um.
     double within_micrometre = 0.0;
-    double depth_under_points = 0.0;  // m, greatest of the depth of the sample points minus the reported one
+    double max_depth_underestimate_points =
+        0.0;  // m, greatest of the depth of the sample points minus the reported one
 };
 
 NearSummary summarize(const std::vector<NearPose>& poses, double band);

@@ -8,6 +8,7 @@
 
 #include "engine/base/math.hpp"
 #include "engine/base/random.hpp"
+#include "engine/base/random_pose.hpp"
 #include "haptics/joint/nut.hpp"
 #include "haptics/servo/engagement.hpp"
 #include "tools/verify/contact/near_poses.hpp"
@@ -19,11 +20,6 @@ namespace {
 constexpr double mm = 1e-3;
 constexpr double min_depth = 50e-6;        // m, smaller depths are not resolved
 constexpr double check_within = 0.2 * mm;  // the oracle checks ticks with a contact nearer than this
-
-Quat random_turn(Random& random) {
-    return glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
-}
-Vec3 random_direction(Random& random) { return random_turn(random) * Vec3(1, 0, 0); }
 
 void record(PenetrationRun& run, const ExactContact& exact, collision::ObstacleId obstacle,
             const Pose& tool) {

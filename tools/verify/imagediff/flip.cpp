@@ -250,8 +250,9 @@ Result<RgbImage> read_png(const std::filesystem::path& path) {
 Result<Difference> compare(const RgbImage& reference, const RgbImage& test) {
     if (reference.width != test.width || reference.height != test.height)
         return fail(ErrorCode::failed,
-                    fmt::format("the images have different sizes, {}x{} and {}x{}; expected equal sizes",
-                                reference.width, reference.height, test.width, test.height));
+                    fmt::format("the images have different sizes, {}x{} and {}x{}", reference.width,
+                                reference.height, test.width, test.height),
+                    "equal sizes");
     Difference difference;
     std::size_t changed = 0;
     for (std::size_t i = 0; i < reference.rgb.size(); i += 3) {

@@ -43,8 +43,8 @@ int main(int argc, char** argv) {
     int exit_code = 0;
     app.add_option("reference", options.reference, "PNG")->required();
     app.add_option("test", options.test, "PNG of the same size")->required();
-    app.add_option("--most-flip", options.max_flip, "Fail above this mean FLIP (0 … 1)");
-    app.add_option("--most-channel", options.max_channel,
+    app.add_option("--max-flip", options.max_flip, "Fail above this mean FLIP (0 … 1)");
+    app.add_option("--max-channel", options.max_channel,
                    "Fail above this difference in any channel (0 … 255)");
     app.add_option("--flips", options.flips, "Write the FLIP value of every pixel to this PNG");
     app.callback([&] {

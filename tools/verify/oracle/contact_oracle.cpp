@@ -56,20 +56,20 @@ double perpendicular_distance(const Vec3& a, const Vec3& b, const Vec3& c, const
     return std::abs(glm::dot(between, n)) / std::sqrt(nn);
 }
 
-// A pose as a matrix, which is faster than a quaternion for many points. `size` has the absolute values of
-// `turn`: it maps the half size of a box to that of the box around the rotated box.
+// A pose as a matrix, which is faster than a quaternion for many points. `abs_turn` has the absolute values
+// of `turn`: it maps the half size of a box to that of the box around the rotated box.
 struct RigidTransform {
-    glm::dmat3 turn, size;
+    glm::dmat3 turn, abs_turn;
     Vec3 shift;
     explicit RigidTransform(const Pose& pose) : turn(glm::mat3_cast(pose.orientation)), shift(pose.position) {
-        for (int i = 0; i < 3; ++i) size[i] = glm::abs(turn[i]);
+        for (int i = 0; i < 3; ++i) abs_turn[i] = glm::abs(turn[i]);
     }
     Vec3 operator()(const Vec3& p) const { return turn * p + shift; }
     Triangle operator()(const Triangle& t) const {
         return {(*this)(t.a), (*this)(t.b), (*this)(t.c), t.part};
     }
     Bvh::Node operator()(const Bvh::Node& n) const {
-        return {(*this)(n.middle), size * n.half, n.first, n.count};
+        return {(*this)(n.middle), abs_turn * n.half, n.first, n.count};
     }
 };
 
@@ -206,7 +206,7 @@ constexpr double rounding = 1e-9;  // m
 
 // Returns the number of times that a ray leaves the surface minus the number of times that it enters; nothing
 // if the ray passes too close to an edge to decide.
-std::optional<int> crossings(const Bvh& tree, const Vec3& from, const Vec3& along) {
+std::optional<int> signed_crossings(const Bvh& tree, const Vec3& from, const Vec3& along) {
     constexpr double min_area = 1e-13;  // m²: for an edge of 0.1 mm, a distance of 1 nm from the ray
     const Vec3 inverse = 1.0 / along;
     int count = 0;
@@ -360,7 +360,7 @@ int winding(const ClosedSurface& surface, const Vec3& point) {
     for (int i = 0; i < 8; ++i) {
         const Vec3 along =
             glm::normalize(Vec3(std::cos(1.0 + 2.4 * i), std::sin(1.0 + 2.4 * i), 0.31 * i - 1.07));
-        if (const std::optional<int> count = crossings(surface.tree, point, along)) return *count;
+        if (const std::optional<int> count = signed_crossings(surface.tree, point, along)) return *count;
     }
     return winding_by_solid_angle(surface.tree, point);
 }

@@ -5,6 +5,7 @@
 #include <glm/matrix.hpp>
 
 #include "engine/assets/model.hpp"
+#include "engine/base/wildcard.hpp"
 
 namespace bolt::pathtrace {
 
@@ -16,7 +17,7 @@ using assets::Primitive;
 
 bool any_matches(const std::string& name, const std::vector<std::string>& patterns) {
     for (const std::string& pattern : patterns)
-        if (matches(name, pattern)) return true;
+        if (matches(pattern, name)) return true;
     return false;
 }
 
@@ -27,8 +28,9 @@ struct Flattener {
     FlatMesh flat;
 
     void descend(int index, bool shown);
-    void add(const Node& node, int index);
-    void add(const Primitive& primitive, const Node& node, int index, const std::vector<float>& weights);
+    void add(const Node& node, const glm::mat4& to_world);
+    void add(const Primitive& primitive, const Node& node, glm::mat4 to_world,
+             const std::vector<float>& weights);
     glm::mat4 skinned(const assets::Skin& skin, const Primitive& primitive, std::size_t vertex) const;
 };
 
@@ -36,19 +38,18 @@ void Flattener::descend(int index, bool shown) {
     const Node& node = model.nodes[static_cast<std::size_t>(index)];
     if (any_matches(node.name, visibility.hide)) return;
     shown = shown || any_matches(node.name, visibility.show);
-    if (shown) add(node, index);
+    if (shown) add(node, world[static_cast<std::size_t>(index)]);
     for (const int child : node.children) descend(child, shown);
 }
 
-void Flattener::add(const Node& node, int index) {
-    const glm::mat4& to_world = world[static_cast<std::size_t>(index)];
+void Flattener::add(const Node& node, const glm::mat4& to_world) {
     if (node.light >= 0)
         flat.lights.push_back({model.lights[static_cast<std::size_t>(node.light)], glm::vec3(to_world[3]),
                                -glm::normalize(glm::vec3(to_world[2]))});
     if (node.mesh < 0) return;
     const assets::Mesh& mesh = model.meshes[static_cast<std::size_t>(node.mesh)];
     const std::vector<float>& weights = node.weights.empty() ? mesh.weights : node.weights;
-    for (const Primitive& primitive : mesh.primitives) add(primitive, node, index, weights);
+    for (const Primitive& primitive : mesh.primitives) add(primitive, node, to_world, weights);
 }
 
 glm::mat4 Flattener::skinned(const assets::Skin& skin, const Primitive& p, std::size_t vertex) const {
@@ -63,13 +64,13 @@ glm::mat4 Flattener::skinned(const assets::Skin& skin, const Primitive& p, std::
     return sum;
 }
 
-void Flattener::add(const Primitive& p, const Node& node, int index, const std::vector<float>& weights) {
+void Flattener::add(const Primitive& p, const Node& node, glm::mat4 to_world,
+                    const std::vector<float>& weights) {
     const std::vector<std::uint32_t> corners = assets::triangle_indices(p);
     if (corners.empty()) return;
     const auto first = static_cast<std::uint32_t>(flat.vertices.size());
     const assets::Skin* skin =
         node.skin >= 0 && !p.joints.empty() ? &model.skins[static_cast<std::size_t>(node.skin)] : nullptr;
-    glm::mat4 to_world = world[static_cast<std::size_t>(index)];
     glm::mat3 normal_to_world = glm::transpose(glm::inverse(glm::mat3(to_world)));
     for (std::size_t i = 0; i < p.positions.size(); ++i) {
         glm::vec3 position = p.positions[i];
@@ -98,8 +99,8 @@ void Flattener::add(const Primitive& p, const Node& node, int index, const std::
                                                                     : static_cast<std::size_t>(p.material));
     const bool mirrored = glm::determinant(glm::mat3(to_world)) < 0.0F;
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
-        TracedTriangle triangle{
-            {first + corners[i], first + corners[i + 1], first + corners[i + 2]}, material, index};
+        TracedTriangle triangle{{first + corners[i], first + corners[i + 1], first + corners[i + 2]},
+                                material};
         if (mirrored) std::swap(triangle.corners[1], triangle.corners[2]);
         flat.triangles.push_back(triangle);
     }
@@ -107,28 +108,8 @@ void Flattener::add(const Primitive& p, const Node& node, int index, const std::
 
 }  // namespace
 
-bool matches(const std::string& name, const std::string& pattern) {
-    // After a mismatch, backtrack to the last star and let it match one more character.
-    std::size_t n = 0;
-    std::size_t p = 0;
-    std::size_t star = std::string::npos;
-    std::size_t resume = 0;
-    while (n < name.size()) {
-        if (p < pattern.size() && pattern[p] == '*') {
-            star = p++;
-            resume = n;
-        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == name[n])) {
-            ++n;
-            ++p;
-        } else if (star != std::string::npos) {
-            p = star + 1;
-            n = ++resume;
-        } else {
-            return false;
-        }
-    }
-    while (p < pattern.size() && pattern[p] == '*') ++p;
-    return p == pattern.size();
+bool matches(std::string_view pattern, std::string_view name) {
+    return matches_wildcard(pattern, name, [](char p, char n) { return p == '?' || p == n; });
 }
 
 FlatMesh flatten(const Model& model, const NodeFilter& visibility) {

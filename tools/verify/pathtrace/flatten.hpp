@@ -1,6 +1,7 @@
 // Resolves nodes, skins and morph targets of a model at rest into triangles and lights in the world frame.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "tools/verify/pathtrace/scene.hpp"
@@ -17,6 +18,6 @@ struct FlatMesh {
 FlatMesh flatten(const assets::Model& model, const NodeFilter& visibility);
 
 // Returns whether a name matches a pattern in which * stands for any text and ? for any character.
-bool matches(const std::string& name, const std::string& pattern);
+bool matches(std::string_view pattern, std::string_view name);
 
 }  // namespace bolt::pathtrace

@@ -48,11 +48,14 @@ void declare(CLI::App& app, PathTraceOptions& o) {
     app.add_option("--samples", o.settings.samples, "paths per pixel")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));
-    app.add_option("--bounces", o.settings.bounces)->capture_default_str()->check(CLI::Range(0, 64));
+    app.add_option("--bounces", o.settings.bounces, "most bounces of a path")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 64));
     app.add_option("--clamp", o.settings.clamp, "maximum radiance of a path after a bounce; 0: unbiased")
         ->capture_default_str();
-    app.add_option("--seed", o.settings.seed)->capture_default_str();
-    app.add_option("--threads", o.settings.threads, "0: one per processor")->capture_default_str();
+    app.add_option("--seed", o.settings.seed, "seed of the random samples")->capture_default_str();
+    app.add_option("--threads", o.settings.threads, "threads that render; 0: one per processor")
+        ->capture_default_str();
     app.add_option("--env", o.light, "studio, none, or an equirectangular .hdr file")->capture_default_str();
     app.add_option("--background", o.background, "R,G,B radiance behind the model, or env");
     app.add_option("--exposure", o.exposure, "in stops")->capture_default_str();

@@ -100,8 +100,8 @@ void add_floor(FlatMesh& flat, std::size_t material, const glm::vec3& low, const
         flat.vertices.push_back(vertex);
     }
     const auto index = static_cast<std::uint32_t>(material);
-    flat.triangles.push_back({{first, first + 1, first + 2}, index, -1});
-    flat.triangles.push_back({{first, first + 2, first + 3}, index, -1});
+    flat.triangles.push_back({{first, first + 1, first + 2}, index});
+    flat.triangles.push_back({{first, first + 2, first + 3}, index});
 }
 
 assets::Material floor_material() {

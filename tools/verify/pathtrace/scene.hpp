@@ -47,7 +47,6 @@ struct Vertex {
 struct TracedTriangle {
     std::array<std::uint32_t, 3> corners{};
     std::uint32_t material = 0;
-    std::int32_t node = -1;  // −1: the floor
 };
 
 struct PunctualLight {
@@ -89,7 +88,6 @@ class TracedScene {
     [[nodiscard]] glm::vec3 normal(const SurfaceHit& hit) const;
     // Returns an origin for rays from the hit towards `side` that do not hit the same surface again.
     [[nodiscard]] glm::vec3 ray_origin(const SurfaceHit& hit, const glm::vec3& side) const;
-    [[nodiscard]] int node(const SurfaceHit& hit) const { return triangles_[hit.triangle].node; }
     [[nodiscard]] bool transparent() const { return transparent_; }
 
     [[nodiscard]] const std::vector<PunctualLight>& lights() const { return lights_; }

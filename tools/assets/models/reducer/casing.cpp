@@ -39,7 +39,7 @@ constexpr std::array<LiftingEye, 2> eyes{{{-44.0, 128.0, -30.0, 84.0}, {512.0, 1
 
 // A rib from the underside of a bearing boss down to the foot. Without a foot it ends in the wall.
 TopoDS_Shape lower_rib(const ShaftLayout& shaft, bool to_foot) {
-    const double r = shaft.boss_radius + misfit;
+    const double r = shaft.boss_radius + casting_overhang;
     if (to_foot)
         return rib(shaft.x, 13.0,
                    {{80.0, r - 12.0},
@@ -106,9 +106,9 @@ Result<Casting> casing_upper() {
 Result<Casting> casing_lower() {
     return catch_build_errors("lower casing", [] {
         const TopoDS_Shape outside = housing(contour_lower, 0.0, half_width, 10.0);
-        TopoDS_Shape half = side_bosses(
-            blended("lower flange", common(outside, half_space_y()), flange_half(misfit), 6.0, on_rim),
-            misfit);
+        TopoDS_Shape half = side_bosses(blended("lower flange", common(outside, half_space_y()),
+                                                flange_half(casting_overhang), 6.0, on_rim),
+                                        casting_overhang);
         for (const double x : feet) half = blended("foot", half, foot(x), 4.0);
         for (const ShaftLayout& shaft : shafts) {
             bool to_foot = false;

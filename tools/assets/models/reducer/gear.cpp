@@ -239,7 +239,7 @@ ScrewMotion screw(const GearSpec& gear, double turn) {
     return m;
 }
 
-gp_Pnt station(const ScrewMotion& m, const gp_Pnt& p, std::size_t j) {
+gp_Pnt screwed_pole(const ScrewMotion& m, const gp_Pnt& p, std::size_t j) {
     return {m.c[j] * p.X() - m.s[j] * p.Y(), m.s[j] * p.X() + m.c[j] * p.Y(), m.z[j]};
 }
 
@@ -248,7 +248,7 @@ Handle(Geom_BSplineSurface) swept(const SplineCurve& section, const ScrewMotion&
     TColgp_Array2OfPnt poles(1, n, 1, 4);
     for (int i = 1; i <= n; ++i)
         for (std::size_t j = 0; j < 4; ++j)
-            poles(i, static_cast<int>(j) + 1) = station(m, section->Pole(i), j);
+            poles(i, static_cast<int>(j) + 1) = screwed_pole(m, section->Pole(i), j);
     TColStd_Array1OfReal v_knots(1, 2);
     TColStd_Array1OfInteger v_multiplicities(1, 2);
     v_knots(1) = 0.0, v_knots(2) = 1.0;
@@ -259,7 +259,7 @@ Handle(Geom_BSplineSurface) swept(const SplineCurve& section, const ScrewMotion&
 
 TopoDS_Edge end_edge(const SplineCurve& section, const ScrewMotion& m, std::size_t j) {
     SplineCurve curve = Handle(Geom_BSplineCurve)::DownCast(section->Copy());
-    for (int i = 1; i <= curve->NbPoles(); ++i) curve->SetPole(i, station(m, section->Pole(i), j));
+    for (int i = 1; i <= curve->NbPoles(); ++i) curve->SetPole(i, screwed_pole(m, section->Pole(i), j));
     return BRepBuilderAPI_MakeEdge(curve).Edge();
 }
 

@@ -52,7 +52,8 @@ inline constexpr double bearing_inner = 100.0;                  // |y| of the be
 inline constexpr double flange_thickness = 24.0, flange_half_width = 138.0;
 inline constexpr double flange_left = -172.0, flange_right = 587.0, flange_corner = 45.0;
 inline constexpr double boss_height = 75.0, boss_radius = 21.5;  // of the bolt bosses beside the bearings
-inline constexpr double misfit = 0.8;  // overhang of the lower casting at the parting plane, all round
+inline constexpr double casting_overhang =
+    0.8;  // overhang of the lower casting at the parting plane, all round
 inline constexpr double sole_z = -225.0, floor_z = -213.0;
 inline constexpr double oil_z = -118.0;
 inline constexpr double bolt_hole = 17.5, spot_face = 34.0;

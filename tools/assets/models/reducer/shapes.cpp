@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <BRepAdaptor_Curve.hxx>
-#include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
@@ -173,8 +172,9 @@ TopoDS_Shape fused(const Shapes& parts) {
     run(operation, "fuse");
     const TopoDS_Shape joined = unwrapped(operation.Shape());
     // OpenCASCADE may drop a part without an error.
+    const double whole = volume(joined);
     for (const TopoDS_Shape& part : parts)
-        if (volume(joined) < volume(part) - 1.0) throw BuildError{"a fuse lost one of its parts"};
+        if (whole < volume(part) - 1.0) throw BuildError{"a fuse lost one of its parts"};
     return joined;
 }
 
@@ -219,12 +219,6 @@ TopoDS_Shape mirrored_z(const TopoDS_Shape& shape) {
 gp_Pnt middle(const TopoDS_Edge& edge) {
     const BRepAdaptor_Curve curve(edge);
     return curve.Value(0.5 * (curve.FirstParameter() + curve.LastParameter()));
-}
-
-gp_Pnt middle(const TopoDS_Face& face) {
-    const BRepAdaptor_Surface surface(face);
-    return surface.Value(0.5 * (surface.FirstUParameter() + surface.LastUParameter()),
-                         0.5 * (surface.FirstVParameter() + surface.LastVParameter()));
 }
 
 bool in_plane_z(const TopoDS_Edge& edge, double z) {

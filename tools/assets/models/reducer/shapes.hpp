@@ -55,7 +55,6 @@ TopoDS_Shape mirrored_z(const TopoDS_Shape& shape);
 
 using EdgePredicate = std::function<bool(const TopoDS_Edge&)>;
 gp_Pnt middle(const TopoDS_Edge& edge);
-gp_Pnt middle(const TopoDS_Face& face);
 bool in_plane_z(const TopoDS_Edge& edge, double z);
 
 // Rounds, or chamfers, every picked edge. Picking none is an error.

@@ -1,11 +1,10 @@
-#include "tools/assets/sculpt/content_files.hpp"
+#include "tools/assets/sculpt/generated_content.hpp"
 
 #include "engine/assets/gltf.hpp"
 #include "engine/assets/image.hpp"
 #include "engine/base/file.hpp"
 #include "tools/assets/sculpt/environment.hpp"
 #include "tools/assets/sculpt/hand.hpp"
-#include "tools/assets/sculpt/workshop.hpp"
 
 namespace bolt::sculpt {
 namespace {
