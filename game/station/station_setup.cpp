@@ -309,7 +309,7 @@ Result<PlannedStation> plan_station(const content::Assembly& assembly, const Sta
 Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
                                            const session::LessonOptions& lesson,
                                            const StationRequest& request, const Pose& home) {
-    struct LessonStart {
+    struct PreparedLesson {
         session::LessonOptions options;
         session::SessionSetup setup;
     };
@@ -317,7 +317,7 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
     BOLT_TRY(choose_devices(request, planned));
     BOLT_TRY(open_glove(assembly, request, planned));
     BOLT_TRY_ASSIGN(auto prepared, session::prepare(assembly, lesson));
-    const auto start = std::make_shared<LessonStart>(LessonStart{lesson, std::move(prepared)});
+    const auto start = std::make_shared<PreparedLesson>(PreparedLesson{lesson, std::move(prepared)});
     planned.obstacles = start->setup.state.tool_contact.has_value();
     planned.options.home = home;
     planned.options.servo.rate = 1.0 / lesson.dt;

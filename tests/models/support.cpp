@@ -3,7 +3,6 @@
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
-#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepTools.hxx>
@@ -82,11 +81,14 @@ std::vector<gp_Pnt> surface_points(const TopoDS_Shape& shape, double deflection,
     return points;
 }
 
-double depth_inside(const TopoDS_Shape& solid, const gp_Pnt& point) {
-    BRepClass3d_SolidClassifier classifier(solid, point, 1e-6);
-    if (classifier.State() != TopAbs_IN) return 0.0;
-    TopExp_Explorer shell(solid, TopAbs_SHELL);  // the distance to the solid itself would be 0
-    return BRepExtrema_DistShapeShape(BRepBuilderAPI_MakeVertex(point), shell.Current()).Value();
+// The distance to the solid itself would be 0, so it is measured to its shell.
+DepthInside::DepthInside(const TopoDS_Shape& solid)
+    : classifier_(solid), shell_(TopExp_Explorer(solid, TopAbs_SHELL).Current()) {}
+
+double DepthInside::operator()(const gp_Pnt& point) {
+    classifier_.Perform(point, 1e-6);
+    if (classifier_.State() != TopAbs_IN) return 0.0;
+    return BRepExtrema_DistShapeShape(BRepBuilderAPI_MakeVertex(point), shell_).Value();
 }
 
 int triangles(const TopoDS_Shape& shape, double deflection, double angle) {

@@ -1,6 +1,7 @@
 // Measurements on solids. Millimetres.
 #pragma once
 
+#include <BRepClass3d_SolidClassifier.hxx>
 #include <TopoDS_Shape.hxx>
 #include <gp_Lin.hxx>
 #include <vector>
@@ -19,8 +20,17 @@ std::vector<double> crossings(const TopoDS_Shape& shape, const gp_Lin& line);
 // Every `every`-th vertex of a mesh of the shape.
 std::vector<gp_Pnt> surface_points(const TopoDS_Shape& shape, double deflection, std::size_t every);
 
-// Distance from a point inside the solid to its faces; 0 outside.
-double depth_inside(const TopoDS_Shape& solid, const gp_Pnt& point);
+// Measures how deep points are inside a solid. To prepare a solid takes longer than to measure a point.
+class DepthInside {
+  public:
+    explicit DepthInside(const TopoDS_Shape& solid);
+    // Distance from a point inside the solid to its faces; 0 outside.
+    double operator()(const gp_Pnt& point);
+
+  private:
+    BRepClass3d_SolidClassifier classifier_;
+    TopoDS_Shape shell_;
+};
 
 // Triangles of a mesh with these tolerances.
 int triangles(const TopoDS_Shape& shape, double deflection, double angle);

@@ -26,7 +26,7 @@ TopoDS_Shape cached_wrench(const WrenchSpec& spec) {
 }
 
 bool inside(const TopoDS_Shape& solid, double x, double y, double z) {
-    return depth_inside(solid, gp_Pnt(x, y, z)) > 0.0;
+    return DepthInside(solid)(gp_Pnt(x, y, z)) > 0.0;
 }
 
 }  // namespace
@@ -56,14 +56,14 @@ TEST_CASE("Wrenches: the jaw fits the nut of its size at the head's angle") {
         for (const double at : crossings(wrench, gp_Lin(gp_Pnt(0, 0, 0), mouth))) CHECK(at < 0.0);
 
         // The nut's hexagon fits with two flats along the jaw, and overlaps when turned by 10°.
+        DepthInside depth_inside(wrench);
         const auto worst = [&](double turned) {
             double depth = 0.0;
             for (int i = 0; i < 48; ++i) {
                 const double angle = i * pi / 24.0, flat = std::remainder(angle, pi / 3.0);
                 const double r = 0.5 * size / std::cos(flat),
                              at = angle + spec.head_angle + 0.5 * pi + turned;
-                depth =
-                    std::max(depth, depth_inside(wrench, gp_Pnt(r * std::cos(at), r * std::sin(at), 0.5)));
+                depth = std::max(depth, depth_inside(gp_Pnt(r * std::cos(at), r * std::sin(at), 0.5)));
             }
             return depth;
         };
