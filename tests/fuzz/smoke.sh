@@ -5,14 +5,16 @@ bin=$1
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-passed=0
-smoke() {  # smoke NAME RUNS options...
+names=()
+pids=()
+smoke() {  # smoke NAME RUNS options...: in the background, two at a time
     local name=$1 runs=$2
     shift 2
+    while (($(jobs -rp | wc -l) >= 2)); do sleep 0.1; done
     mkdir -p "$work/$name"
-    "$bin/fuzz_$name" -runs="$runs" -seed=1 -verbosity=0 -artifact_prefix="$work/" "$@" "$work/$name" \
-        > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-    passed=$((passed + 1))
+    "$bin/fuzz_$name" -runs="$runs" -seed=1 -verbosity=0 -artifact_prefix="$work/" "$@" "$work/$name" > "$work/$name.log" 2>&1 &
+    names+=("$name")
+    pids+=($!)
 }
 smoke assembly 20000 -dict="$here/assembly.dict" "$bin/../corpus/assembly"
 smoke chunk 50000
@@ -25,4 +27,9 @@ smoke settings 50000 -dict="$here/settings.dict" -max_len=4096 "$bin/../corpus/s
 smoke report 200000 -max_len=512
 smoke force_device 200000 -max_len=1024 "$bin/../corpus/force_device"
 smoke words 10000 -max_len=32768 "$bin/../corpus/words"
-echo "$passed passed, 0 failed"
+failed=0
+for i in "${!pids[@]}"; do
+    wait "${pids[i]}" || { echo "FAILED: ${names[i]}"; cat "$work/${names[i]}.log"; failed=$((failed + 1)); }
+done
+echo "$((${#pids[@]} - failed)) passed, $failed failed"
+exit $((failed > 0))
