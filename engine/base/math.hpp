@@ -1,5 +1,5 @@
-// Vectors, quaternions, angles, rigid poses, and the minimum-jerk profile. SI units: metres, radians,
-// newtons. Right-handed frames, Y up in world space.
+// Vectors, quaternions, angles, rigid poses, the minimum-jerk profile, and quantiles. SI units: metres,
+// radians, newtons. Right-handed frames, Y up in world space.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
+#include <vector>
 
 namespace bolt {
 
@@ -67,6 +68,15 @@ inline Vec3 turn_between(const Quat& from, const Quat& to) {
 inline double minimum_jerk(double tau) {
     const double t = std::clamp(tau, 0.0, 1.0);
     return t * t * t * (10.0 + t * (-15.0 + 6.0 * t));
+}
+
+// Returns the value below which the fraction `share` of the values lies; 0 without values.
+inline double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0.0;
+    const auto last = values.size() - 1;
+    const auto at = std::min(last, static_cast<std::size_t>(share * static_cast<double>(values.size())));
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+    return values[at];
 }
 
 }  // namespace bolt

@@ -1,8 +1,11 @@
-// A small seeded random number generator. Its sequence is the same on every platform and with every standard
-// library (that of std::normal_distribution is not). PCG32: M. E. O'Neill, HMC-CS-2014-0905.
+// A small seeded random number generator, and random rotations. Its sequence is the same on every platform
+// and with every standard library (that of std::normal_distribution is not). PCG32: M. E. O'Neill,
+// HMC-CS-2014-0905.
 #pragma once
 
 #include <cstdint>
+
+#include "engine/base/math.hpp"
 
 namespace bolt {
 
@@ -20,5 +23,11 @@ class Random {
     std::uint64_t state_;
     std::uint64_t increment_;
 };
+
+// A uniformly distributed rotation, and direction.
+inline Quat random_turn(Random& random) {
+    return glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
+}
+inline Vec3 random_direction(Random& random) { return random_turn(random) * Vec3(1, 0, 0); }
 
 }  // namespace bolt

@@ -99,7 +99,8 @@ void present_system(scene::SceneWorld& world, FilmFrame& frame) {
     view::collect_objects(world, frame.film.scene);
 }
 
-// In the order in which they run: those of a lesson (trainer::frame_systems) that a film needs.
+// The systems of a picture, in the order in which they run: a film needs only these of the systems of a
+// lesson (trainer::frame_systems).
 constexpr ecs::System<scene::SceneWorld, FilmFrame> film_systems[] = {{"placement", placement_system},
                                                                       {"view", view_system},
                                                                       {"labels", label_system},

@@ -29,7 +29,7 @@ void place_nuts(SceneWorld& world, const servo::Setup& setup);
 void place_tool(SceneWorld& world, const ToolAndHand& state);
 void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& state);
 
-// What placement_system() uses beside the world.
+// The input of placement_system() besides the world.
 struct PlacementContext {
     const servo::Setup& setup;
     const Postures& postures;
@@ -40,7 +40,7 @@ struct PlacementContext {
     const collision::CollisionWorld* solids = nullptr;  // ToolAndHand::solids
 };
 
-// Moves nuts, wrench and hand to where the components of the simulation have them. In a lesson and in a film.
+// Moves nuts, wrench and hand to their poses in the components of the simulation, in a lesson and in a film.
 void placement_system(SceneWorld& world, const PlacementContext& context);
 
 // Width across flats of the widest nut, m.

@@ -52,10 +52,11 @@ bool has_content(const std::filesystem::path& path, const char* suffix) {
 
 }  // namespace
 
-tl::unexpected<Error> file_error(const std::string& file, std::string what) {
+tl::unexpected<Error> file_error(const std::string& file, std::string what, std::string expected) {
     Error error;
     error.file = file;
     error.what = std::move(what);
+    error.expected = std::move(expected);
     return fail(std::move(error));
 }
 
@@ -230,22 +231,24 @@ Result<FileLock> FileLock::acquire(const std::filesystem::path& path, const std:
             if (::lstat(place.c_str(), &there) == 0)
                 return file_error(
                     file, fmt::format("its lock {} cannot be opened: {}", place.string(), reason_of(reason)));
-            return file_error(file, "its folder is not writable: " + reason_of(reason));
+            return file_error(file, "its folder is not writable: " + reason_of(reason),
+                              "a folder with write permission");
         }
         if (::flock(lock.handle_, LOCK_EX | LOCK_NB) != 0) {
-            if (errno == EWOULDBLOCK) return file_error(file, taken);
+            if (errno == EWOULDBLOCK)
+                return file_error(file, taken, "another file, or the end of that recording");
             if (errno == EINTR) continue;
             return file_error(file, "cannot be locked: " + reason_of(errno));
         }
         // The previous holder may have removed the file since it was opened; a removed file locks nothing.
         if (!is_at(lock.handle_, place)) continue;
         if (!is_empty_file(lock.handle_))
-            return file_error(
-                file, fmt::format("{} is not a lock file; expected an empty file or none", place.string()));
+            return file_error(file, fmt::format("{} is not a lock file", place.string()),
+                              "an empty file or none");
         lock.held_ = place;
         return lock;
     }
-    return file_error(file, taken);
+    return file_error(file, taken, "another file, or the end of that recording");
 }
 
 FileLock::FileLock(FileLock&& other) noexcept

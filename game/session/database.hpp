@@ -19,7 +19,7 @@ struct sqlite3_stmt;
 namespace bolt::session {
 
 // An error about `file`.
-tl::unexpected<Error> file_error(const std::string& file, std::string what);
+tl::unexpected<Error> file_error(const std::string& file, std::string what, std::string expected = {});
 
 class Statement {
   public:

@@ -89,29 +89,29 @@ class HeaderParser {
         if (const std::string* text = find(key))
             value = *text;
         else
-            report(fmt::format("is damaged: its {} is missing", key));
+            report(fmt::format("is damaged: its {} is missing", key), "the texts of a recorded lesson");
     }
     void optional(const char* key, std::string& value) const {
         if (const std::string* text = find(key)) value = *text;
     }
-    // `parse` returns none for a wrong text.
+    // `parse` returns none for a wrong text; `expected` describes the right ones.
     template <class Value, class Parse>
-    void required(const char* key, Value& value, Parse parse) {
+    void required(const char* key, Value& value, const char* expected, Parse parse) {
         std::string text;
         required(key, text);
         if (error_) return;
         if (const auto parsed = parse(text))
             value = *parsed;
         else
-            report(fmt::format("is damaged: its {} is \"{}\"", key, text));
+            report(fmt::format("is damaged: its {} is \"{}\"", key, text), expected);
     }
     // An empty text has no value.
     template <class Value, class Parse>
-    void optional(const char* key, std::optional<Value>& value, Parse parse) {
+    void optional(const char* key, std::optional<Value>& value, const char* expected, Parse parse) {
         const std::string* text = find(key);
         if (text == nullptr || text->empty()) return;
         value = parse(*text);
-        if (!value) report(fmt::format("is damaged: its {} is \"{}\"", key, *text));
+        if (!value) report(fmt::format("is damaged: its {} is \"{}\"", key, *text), expected);
     }
     [[nodiscard]] Status status() const { return error_ ? Status(fail(*error_)) : Status(); }
 
@@ -120,12 +120,8 @@ class HeaderParser {
         const auto found = texts_.find(key);
         return found != texts_.end() ? &found->second : nullptr;
     }
-    void report(std::string what) {
-        if (error_) return;
-        error_ = Error{};
-        error_->code = ErrorCode::failed;
-        error_->file = file_;
-        error_->what = std::move(what);
+    void report(std::string what, const char* expected) {
+        if (!error_) error_ = file_error(file_, std::move(what), expected).value();
     }
     const HeaderTexts& texts_;
     const std::string& file_;
@@ -168,27 +164,28 @@ Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
     parser.required(key::assembly_file, header.assembly_file);
     parser.required(key::assembly_text, header.assembly_text);
     parser.required(key::variant, header.variant);
-    parser.required(key::law, header.law, [](std::string_view text) { return named<joint::Law>(text, 2); });
-    parser.required(key::mode, header.mode,
+    parser.required(key::law, header.law, "published or mechanistic",
+                    [](std::string_view text) { return named<joint::Law>(text, 2); });
+    parser.required(key::mode, header.mode, "guided, practice or assessment",
                     [](std::string_view text) { return named<lesson::Mode>(text, 3); });
-    parser.required(key::task, header.task,
+    parser.required(key::task, header.task, "tighten or loosen",
                     [](std::string_view text) { return named<lesson::Task>(text, 2); });
     parser.required(key::operator_name, header.operator_name);
-    parser.required(key::seed, header.seed, number<std::uint64_t>);
-    parser.required(key::dt, header.dt, [](std::string_view text) {
+    parser.required(key::seed, header.seed, "a whole number", number<std::uint64_t>);
+    parser.required(key::dt, header.dt, "a tick in s, at least one in a second", [](std::string_view text) {
         const auto dt = number<double>(text);
         return dt && ticks_per_commit(*dt) ? dt : std::nullopt;
     });
     parser.required(key::program, header.program);
-    parser.optional(key::guide, header.guide, parse_switch);
-    parser.optional(key::obstacles, header.contact_models, [](const std::string& text) {
-        return std::optional(text == "none" ? std::string() : text);
-    });
-    parser.optional(key::device, header.device, parse_limits);
-    parser.optional(key::servo, header.servo_rate, parse_servo);
-    parser.optional(key::view_help, header.view_help, parse_switch);
+    parser.optional(key::guide, header.guide, "on or off", parse_switch);
+    parser.optional(
+        key::obstacles, header.contact_models, "none, or the contact models",
+        [](const std::string& text) { return std::optional(text == "none" ? std::string() : text); });
+    parser.optional(key::device, header.device, "the limits of a device", parse_limits);
+    parser.optional(key::servo, header.servo_rate, "virtual time, or a rate in Hz", parse_servo);
+    parser.optional(key::view_help, header.view_help, "on or off", parse_switch);
     parser.optional(key::tool, header.tool);
-    parser.optional(key::hand, header.hand, parse_side);
+    parser.optional(key::hand, header.hand, "left or right", parse_side);
     if (const auto found = texts.find(key::trainee); found != texts.end()) header.trainee = found->second;
     BOLT_TRY(parser.status());
     return header;

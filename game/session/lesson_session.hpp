@@ -76,7 +76,7 @@ struct LessonTracker {
     std::uint32_t steps_begun = 0;
 };
 
-// What the systems of a tick use beside the world.
+// The input of the systems of a tick besides the world.
 struct TickContext {
     world::Snapshot servo;
     LessonTracker& tracker;

@@ -15,6 +15,7 @@ namespace bolt::session {
 
 namespace {
 
+constexpr const char* a_session = "a session that boltwright train has recorded";
 constexpr std::uint64_t max_rows = 4'000'000;  // in any table; a day has 86,400 seconds
 
 Result<std::int64_t> pragma(Database& database, const char* which) {
@@ -26,7 +27,9 @@ Result<std::int64_t> pragma(Database& database, const char* which) {
 Result<TableChecksum> read_checksum(Database& database, const std::string& file, std::string_view table) {
     BOLT_TRY_ASSIGN(auto statement, database.prepare("SELECT rows, sum FROM seal WHERE name = ?"));
     BOLT_TRY_ASSIGN(auto row, statement.bind(1, table).step());
-    if (!row) return file_error(file, fmt::format("is damaged: table {} has no checksum", table));
+    if (!row)
+        return file_error(file, fmt::format("is damaged: table {} has no checksum", table),
+                          "a file that is as it was recorded");
     return TableChecksum{static_cast<std::uint64_t>(statement.integer(0)),
                          static_cast<std::uint64_t>(statement.integer(1))};
 }
@@ -37,7 +40,8 @@ template <class Visit>
 Status for_each_row(Database& database, const std::string& file, std::string_view table, std::string_view sql,
                     Visit visit) {
     const auto damaged = [&](std::string_view why) {
-        return file_error(file, fmt::format("is damaged: table {} {}", table, why));
+        return file_error(file, fmt::format("is damaged: table {} {}", table, why),
+                          "a file that is as it was recorded");
     };
     BOLT_TRY_ASSIGN(const auto expected, read_checksum(database, file, table));
     BOLT_TRY_ASSIGN(auto statement, database.prepare(sql));
@@ -123,24 +127,27 @@ Result<OpenedFile> open_session(const std::filesystem::path& path, const std::st
     std::error_code status;
     const std::filesystem::path real = std::filesystem::canonical(path, status);
     if (status) return file_error(file, "cannot be opened: " + status.message());
-    if (!std::filesystem::is_regular_file(real, status)) return file_error(file, "is not a session file");
+    if (!std::filesystem::is_regular_file(real, status))
+        return file_error(file, "is not a session file", a_session);
     if (std::filesystem::file_size(real, status) == 0 && !status)
-        return file_error(file, "is empty, not a session file");
+        return file_error(file, "is empty, not a session file", a_session);
 
     auto database = Database::open_read_only(real, file);
-    if (!database) return file_error(file, "cannot be read as a session: " + database.error().what);
+    if (!database)
+        return file_error(file, "cannot be read as a session: " + database.error().what, a_session);
     // One snapshot of the file for the reader's lifetime, also while a lesson is still being recorded.
     BOLT_TRY(database->execute("BEGIN"));
     BOLT_TRY_ASSIGN(const auto application, pragma(*database, "application_id"));
     if (application != application_id)
-        return file_error(file, "is a database of another program, not a session file");
+        return file_error(file, "is a database of another program, not a session file", a_session);
     const auto version = pragma(*database, "user_version");
     if (!version) return fail(version.error());
     if (*version > format_version)
-        return file_error(
-            file, fmt::format("was written by a newer version (its format is {}, this program reads {})",
-                              *version, format_version));
-    if (*version < oldest_format) return file_error(file, fmt::format("has the unknown format {}", *version));
+        return file_error(file, fmt::format("was written by a newer version: its format is {}", *version),
+                          fmt::format("a format from {} to {}", oldest_format, format_version));
+    if (*version < oldest_format)
+        return file_error(file, fmt::format("has the unknown format {}", *version),
+                          fmt::format("a format from {} to {}", oldest_format, format_version));
     return OpenedFile{std::move(*database), *version};
 }
 
@@ -174,7 +181,8 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
     const auto score = number<double>(meta[key::score]);
     const bool finished = meta[key::finished] == "1";
     if (complete && (!duration || !score))
-        return file_error(file, "is damaged: it is marked complete but has no result");
+        return file_error(file, "is damaged: it is marked complete but has no result",
+                          "a file that is as it was recorded");
     BOLT_TRY_ASSIGN(auto header, header_of(meta, file));
     if (session.format >= 2) {
         BOLT_TRY(read_obstacles(database, file, header.obstacle_names));
@@ -264,10 +272,11 @@ Status SessionReader::for_each_chunk(
         BOLT_TRY_ASSIGN(auto row, statement.step());
         const auto first = row ? static_cast<std::uint64_t>(statement.integer(0)) : 0;
         if (!row || first != next)
-            return file_error(state_->file, fmt::format("is damaged: there are no ticks from {} on", next));
+            return file_error(state_->file, fmt::format("is damaged: there are no ticks from {} on", next),
+                              "a file that is as it was recorded");
         auto ticks =
             decoder.decode(first, static_cast<std::size_t>(statement.integer(1)), statement.bytes(2));
-        if (!ticks) return file_error(state_->file, ticks.error().what);
+        if (!ticks) return file_error(state_->file, ticks.error().what, ticks.error().expected);
         visit(first, *ticks);
         next += ticks->size();
     }

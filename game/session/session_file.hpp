@@ -43,7 +43,7 @@ struct ObstacleName {
 // The kind of trainee. `unrecorded`: the session is from an older program, which did not record it.
 enum class OperatorKind : std::uint8_t { unrecorded, person, simulated };
 
-// What is recorded of a lesson as a whole. The file has it as text (header.cpp).
+// The properties of a recorded lesson. The file stores them as text (header.cpp).
 struct Header {
     std::string assembly;       // name
     std::string assembly_file;  // path as given by the user, for messages

@@ -98,10 +98,12 @@ Status keep_old_file(const std::filesystem::path& path, const std::string& file)
 Result<FileLock> acquire_lock(const std::filesystem::path& path, const std::string& file) {
     std::error_code status;
     std::filesystem::create_directories(path.parent_path(), status);
-    if (status) return file_error(file, "its folder cannot be created: " + status.message());
+    if (status)
+        return file_error(file, "its folder cannot be created: " + status.message(),
+                          "a path whose folder can be created");
     const auto existing = std::filesystem::status(path, status);
     if (std::filesystem::exists(existing) && !std::filesystem::is_regular_file(existing))
-        return file_error(file, "is not a regular file");
+        return file_error(file, "is not a regular file", "a new file, or a session to replace");
     return FileLock::acquire(path, file);
 }
 
@@ -115,7 +117,8 @@ Status create_file(const std::filesystem::path& path, const std::string& file, c
     const bool exists = std::filesystem::exists(path, status);
     if (status) return file_error(file, "cannot be replaced: " + status.message());
     if (exists && !merge_log(path, file))
-        return file_error(file, "cannot be replaced while it is open elsewhere");
+        return file_error(file, "cannot be replaced while it is open elsewhere",
+                          "a file that nobody has open");
 
     const std::filesystem::path part = path.string() + ".part";
     remove_with_logs(part);
@@ -233,7 +236,9 @@ SessionWriter::~SessionWriter() = default;
 Result<SessionWriter> SessionWriter::create(const std::filesystem::path& path, const Header& header) {
     const std::string file = path.string();
     const auto chunk_ticks = ticks_per_commit(header.dt);
-    if (!chunk_ticks) return file_error(file, fmt::format("a tick of {} s cannot be recorded", header.dt));
+    if (!chunk_ticks)
+        return file_error(file, fmt::format("a tick of {} s cannot be recorded", header.dt),
+                          fmt::format("at most {} ticks in a second", max_chunk_ticks));
     // SQLite puts its -wal file beside the target of a symbolic link; the other files go there too.
     std::error_code status;
     const std::filesystem::path real =
@@ -262,7 +267,8 @@ Result<SessionWriter> SessionWriter::create(const std::filesystem::path& path, c
 Status SessionWriter::append(const TickRecord& tick) {
     State& state = *state_;
     if (state.stop_error) return fail(*state.stop_error);
-    if (!is_valid(tick)) return file_error(state.file, "was given a tick with a value out of range");
+    if (!is_valid(tick))
+        return file_error(state.file, "was given a tick with a value out of range", "finite values");
     state.ticks.push_back(tick);
     if (state.ticks.size() < state.chunk_ticks) return {};
     return state.commit(nullptr);

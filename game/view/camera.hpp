@@ -57,7 +57,7 @@ struct CameraGlide {
     bool advance(double seconds);
 };
 
-// What a view should show. The obstacles are those that also stop the wrench.
+// The nut that a view should show, and the wrench. The obstacles are those that also stop the wrench.
 struct ViewTarget {
     const servo::Setup& setup;
     const servo::ToolContact* contact = nullptr;  // null: there are no obstacles

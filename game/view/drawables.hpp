@@ -1,4 +1,4 @@
-// What is drawn, as components of entities: a model on show and the workplace of a lesson have them alike.
+// The components of an entity that is drawn, in a model on show and in the workplace of a lesson.
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ struct Drawable {
     std::shared_ptr<const render::Deformation> deformation = nullptr;  // null: rigid
 };
 
-// How a drawable departs from the look of its model.
+// Differences of a drawable from the look of its model.
 struct Appearance {
     glm::vec4 tint{0.0F};  // w: the fraction of the material's colour that it replaces
     float opacity = 1.0F;
@@ -42,9 +42,8 @@ struct Fadable {
     bool fades = true;
 };
 
-// A world with these components and `More`.
-template <class... More>
-using WorldOfDrawables = ecs::Registry<Transform, Drawable, Appearance, Outline, Fadable, More...>;
+// The world of a model on show. The world of a lesson has these components and others (scene::SceneWorld).
+using ModelWorld = ecs::Registry<Transform, Drawable, Appearance, Outline, Fadable>;
 
 using ReadDrawables =
     ecs::Access<const Transform, const Drawable, const Appearance, const Outline, const Fadable>;

@@ -11,7 +11,7 @@ namespace bolt::view {
 
 struct ShownModel {
     render::GpuModel model;
-    WorldOfDrawables<> world;
+    ModelWorld world;
     render::Scene scene;  // its objects are those that collect_objects() last found in the world
     render::BoundingBox box;
 };

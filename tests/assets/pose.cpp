@@ -15,7 +15,7 @@ using namespace bolt::assets;
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
+constexpr float float_pi = std::numbers::pi_v<float>;
 
 // A rotation about the y axis.
 std::vector<float> turn(float angle) { return {0.0F, std::sin(angle / 2), 0.0F, std::cos(angle / 2)}; }
@@ -124,7 +124,7 @@ TEST_CASE("Animation: only the targets of the channels change; other values keep
     model.meshes[0].primitives.resize(1);
     model.meshes[0].primitives[0].targets.resize(2);
     Animation wave;
-    wave.channels = {rotation(turn(0.0F), turn(pi / 2.0F)),
+    wave.channels = {rotation(turn(0.0F), turn(float_pi / 2.0F)),
                      {.node = 1, .path = TargetPath::weights, .times = {0.0F, 4.0F}, .values = {0, 1, 1, 0}}};
     CHECK(duration(wave) == 4.0F);
 

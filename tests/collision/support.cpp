@@ -142,11 +142,6 @@ std::vector<ContactMesh> load_parts(const std::filesystem::path& path, const std
     return parts;
 }
 
-Quat random_turn(Random& random) {
-    return glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
-}
-Vec3 random_direction(Random& random) { return random_turn(random) * Vec3(1.0, 0.0, 0.0); }
-
 ClosedSurface surface_of(const ContactMesh& mesh) { return surface_of(std::vector{mesh}); }
 
 ClosedSurface surface_of(const std::vector<ContactMesh>& meshes) {

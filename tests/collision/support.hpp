@@ -37,8 +37,6 @@ Triangles casing();
 std::vector<ContactMesh> load_parts(const std::filesystem::path& path, const std::string& prefix = {});
 
 // Uniformly distributed over all rotations.
-bolt::Quat random_turn(bolt::Random& random);
-Vec3 random_direction(bolt::Random& random);
 
 using bolt::contact_oracle::ClosedSurface;
 

@@ -95,7 +95,7 @@ TEST_CASE("Contact oracle: the bounding-volume tree gives the same results as lo
         inside += winding(a, p) == 1 ? 1 : 0;
     }
     for (int i = 0; i < 40; ++i) {
-        const Pose pose{contact_test::near_surface(a, 20.0 * mm, random), contact_test::random_turn(random)};
+        const Pose pose{contact_test::near_surface(a, 20.0 * mm, random), random_turn(random)};
         bool crosses = false;
         double least = 1.0;
         for (const geometry::Triangle& s : wrench)

@@ -12,7 +12,7 @@ using namespace bolt::ecs;
 
 namespace {
 
-struct Pose {
+struct Position {
     double x = 0.0;
 };
 struct Velocity {
@@ -21,7 +21,7 @@ struct Velocity {
 struct Name {
     std::string text;
 };
-using World = Registry<Pose, Velocity, Name>;
+using World = Registry<Position, Velocity, Name>;
 
 struct Expected {
     Entity entity;
@@ -50,7 +50,7 @@ TEST_CASE("Registry: random operations agree with a reference model") {
                 REQUIRE(world.destroy(model[pick].entity));
                 model.erase(model.begin() + static_cast<std::ptrdiff_t>(pick));
             } else if (what < 0.60) {
-                world.add<Pose>(model[pick].entity, static_cast<double>(step));
+                world.add<Position>(model[pick].entity, static_cast<double>(step));
                 model[pick].pose = step;
             } else if (what < 0.75) {
                 world.add<Velocity>(model[pick].entity, step + 0.5);
@@ -59,7 +59,7 @@ TEST_CASE("Registry: random operations agree with a reference model") {
                 world.add<Name>(model[pick].entity, std::to_string(step));
                 model[pick].name = std::to_string(step);
             } else if (what < 0.95) {
-                REQUIRE(world.remove<Pose>(model[pick].entity) == model[pick].pose.has_value());
+                REQUIRE(world.remove<Position>(model[pick].entity) == model[pick].pose.has_value());
                 model[pick].pose.reset();
             } else {
                 REQUIRE(world.remove<Name>(model[pick].entity) == model[pick].name.has_value());
@@ -70,7 +70,7 @@ TEST_CASE("Registry: random operations agree with a reference model") {
         std::map<std::pair<std::uint32_t, std::uint32_t>, double> both;
         for (const Expected& expected : model) {
             REQUIRE(world.alive(expected.entity));
-            const Pose* pose = world.find<Pose>(expected.entity);
+            const Position* pose = world.find<Position>(expected.entity);
             REQUIRE((pose != nullptr) == expected.pose.has_value());
             if (pose != nullptr) REQUIRE(pose->x == *expected.pose);
             const Name* name = world.find<Name>(expected.entity);
@@ -80,16 +80,17 @@ TEST_CASE("Registry: random operations agree with a reference model") {
                 both[{expected.entity.index, expected.entity.generation}] =
                     *expected.pose + *expected.velocity;
         }
-        world.view<const Pose, Velocity>().each([&](Entity entity, const Pose& pose, Velocity& velocity) {
-            const auto found = both.find({entity.index, entity.generation});
-            REQUIRE(found != both.end());
-            REQUIRE(found->second == pose.x + velocity.x);
-            both.erase(found);  // each entity is visited once
-        });
+        world.view<const Position, Velocity>().each(
+            [&](Entity entity, const Position& pose, Velocity& velocity) {
+                const auto found = both.find({entity.index, entity.generation});
+                REQUIRE(found != both.end());
+                REQUIRE(found->second == pose.x + velocity.x);
+                both.erase(found);  // each entity is visited once
+            });
         REQUIRE(both.empty());
         for (const Entity entity : dead) {
             REQUIRE_FALSE(world.alive(entity));
-            REQUIRE(world.find<Pose>(entity) == nullptr);
+            REQUIRE(world.find<Position>(entity) == nullptr);
             REQUIRE_FALSE(world.destroy(entity));
         }
     }

@@ -61,7 +61,7 @@ hand::Angles random_bend(Random& random) {
 Pose random_wrist(Random& random) {
     const Pose tool{
         Vec3(random.uniform(-30.0, 30.0), random.uniform(-60.0, -20.0), random.uniform(-150.0, -60.0)) * mm,
-        contact_test::random_turn(random)};
+        random_turn(random)};
     return inverse(tool);
 }
 

@@ -70,7 +70,7 @@ TEST_CASE("God-object on meshes: a wrench flicked at 2 m/s does not tunnel throu
     Random random(21);
     int deep = 0;
     for (int trial = 0; trial < 40; ++trial) {
-        const Quat turn = contact_test::random_turn(random);
+        const Quat turn = random_turn(random);
         const Vec3 start(-0.03 - random.uniform(0.0, 2e-3), 0.0, 0.0);
         const Vec3 velocity =
             2.0 * glm::normalize(Vec3(1.0, random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
@@ -92,7 +92,7 @@ TEST_CASE("God-object on meshes: a wrench never penetrates a casing with a rib, 
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         Random random(seed);
         const Vec3 start(0.02, 0.06, 0.015);
-        GodObjectState state = start_god_object({start, contact_test::random_turn(random)});
+        GodObjectState state = start_god_object({start, random_turn(random)});
         const Quat turn = state.tool.orientation;
         Vec3 from = start, to = start;
         int left = 0, total = 1;

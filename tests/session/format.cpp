@@ -160,3 +160,31 @@ TEST_CASE("Session format: a timing row that is not a histogram is refused") {
     }
     CHECK_FALSE(read_row(timing, wrong));
 }
+
+TEST_CASE(
+    "Session header: its texts read back, and a text that no program writes is an error with the right "
+    "ones") {
+    const Header header = sample_header(0.001);
+    const auto same_header = header_of(texts_of(header), "a.session");
+    REQUIRE(same_header);
+    CHECK(texts_of(*same_header) == texts_of(header));
+    struct Case {
+        const char *key, *text, *message;
+    };
+    for (const Case& c :
+         {Case{key::law, "elastic", "its law is \"elastic\"; expected published or mechanistic"},
+          Case{key::mode, "", "its mode is \"\"; expected guided, practice or assessment"},
+          Case{key::servo, "fast", "its servo is \"fast\"; expected virtual time, or a rate in Hz"},
+          Case{key::hand, "both", "its hand is \"both\"; expected left or right"},
+          Case{key::dt, "0", "its dt_s is \"0\"; expected a tick in s"}}) {
+        CAPTURE(c.key);
+        HeaderTexts texts = texts_of(header);
+        texts[c.key] = c.text;
+        const auto refused = header_of(texts, "a.session");
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().message().find(c.message) != std::string::npos);
+    }
+    HeaderTexts texts = texts_of(header);
+    texts.erase(key::task);
+    CHECK(header_of(texts, "a.session").error().what == "is damaged: its task is missing");
+}

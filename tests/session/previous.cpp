@@ -162,7 +162,9 @@ TEST_CASE("Previous session: a session that cannot be kept is not replaced") {
         script_session(path, 25);
         auto writer = create_script(previous);
         REQUIRE(writer);
-        CHECK(refusal() == previous.string() + ": another program is recording into this file");
+        CHECK(refusal() == previous.string() +
+                               ": another program is recording into this file; expected another file, or "
+                               "the end of that recording");
         REQUIRE(play_script(*writer, 35));
         REQUIRE(writer->finish({}));
         check_session(path, true, 25);
@@ -172,7 +174,10 @@ TEST_CASE("Previous session: a session that cannot be kept is not replaced") {
         leave_cut_short(path, true);
         const auto reader = SessionReader::open(path);
         REQUIRE(reader);
-        CHECK(refusal() == path.string() + ": cannot be replaced while it is open elsewhere");
+        CHECK(refusal() ==
+              path.string() +
+                  ": cannot be replaced while it is open elsewhere; expected a file that nobody has "
+                  "open");
         CHECK(script_mismatch(*reader).empty());
         check_session(path, false, 20);
         CHECK_FALSE(std::filesystem::exists(previous));

@@ -12,7 +12,7 @@ inline world::World make_world(const servo::State& state) {
     return world;
 }
 
-// What follows a tick: the systems of session::tick_systems, without undo.
+// Runs the systems that follow a tick (session::tick_systems), without undo.
 inline void observe_tick(lesson::Lesson& lesson, world::World& world, const servo::State& state,
                          const servo::Output& output) {
     world::haptic_system(world, {state, {}, output});

@@ -18,7 +18,6 @@
 #include "engine/assets/model.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/random.hpp"
-#include "engine/base/random_pose.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/collision/narrow_phase.hpp"
 #include "haptics/collision/world.hpp"

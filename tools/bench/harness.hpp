@@ -7,7 +7,7 @@
 #include <ctime>
 #include <stdexcept>
 
-#include "engine/base/quantile.hpp"
+#include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
 
 namespace bolt::bench {

@@ -47,7 +47,7 @@ struct MotionTarget {
     std::int16_t guide = -1;
 };
 
-Vec3 random_direction(Random& random) {
+Vec3 any_direction(Random& random) {
     return glm::normalize(Vec3(random.normal(), random.normal(), random.normal()) + Vec3(1e-9, 0, 0));
 }
 
@@ -110,14 +110,14 @@ class MotionPlanner {
         }
         if (!fitting) return;
         const Quat misfit = glm::angleAxis(to_radians(random_.uniform(-4.0, 4.0)), nut.axis);
-        const Vec3 aside = random_.uniform(0.0, 0.8 * mm) * random_direction(random_);
+        const Vec3 aside = random_.uniform(0.0, 0.8 * mm) * any_direction(random_);
         motions.push_back({{home + 40 * mm * nut.axis, *fitting}, 0.4, joint});
         motions.push_back({{home - 2 * mm * nut.axis + aside, misfit * *fitting}, 0.6, joint});
         motions.push_back({{home, *fitting}, 0.3, joint});
         for (int i = 0; i < 3; ++i) {
             const Quat about = glm::angleAxis(-to_radians(random_.uniform(-10.0, 40.0)), nut.axis);
-            const Quat tilt = rotation(to_radians(random_.uniform(0.0, 3.0)) * random_direction(random_));
-            const Vec3 pull = random_.uniform(0.0, 4 * mm) * random_direction(random_);
+            const Quat tilt = rotation(to_radians(random_.uniform(0.0, 3.0)) * any_direction(random_));
+            const Vec3 pull = random_.uniform(0.0, 4 * mm) * any_direction(random_);
             motions.push_back(
                 {{home + pull, glm::normalize(tilt * about * *fitting)}, random_.uniform(0.4, 1.2), joint});
         }
@@ -134,11 +134,11 @@ class MotionPlanner {
             const Vec3 at = (a + b + c) / 3.0, out = glm::normalize(Vec3(casing.mesh.face_normals[t]));
             const Vec3 on_tool =
                 contact_.wrench.samples.samples[random_.bits() % contact_.wrench.samples.samples.size()].at;
-            const Quat turn = glm::normalize(rotation(3.0 * random_.uniform() * random_direction(random_)));
+            const Quat turn = glm::normalize(rotation(3.0 * random_.uniform() * any_direction(random_)));
             const auto pose_at = [&](const Vec3& p) { return Pose{p - turn * on_tool, turn}; };
             if (!free(pose_at(at + 20 * mm * out))) continue;
             const Vec3 along =
-                random_.uniform(20.0, 80.0) * mm * glm::normalize(glm::cross(out, random_direction(random_)));
+                random_.uniform(20.0, 80.0) * mm * glm::normalize(glm::cross(out, any_direction(random_)));
             motions.push_back({pose_at(at + 20 * mm * out), 0.3});
             const double speed = random_.uniform(0.05, 0.5);
             motions.push_back({pose_at(at - random_.uniform(5.0, 25.0) * mm * out), 40 * mm / speed});
@@ -155,7 +155,7 @@ class MotionPlanner {
         const Vec3 across = random_.chance(0.5) ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
         const double distance = 0.12, height = random_.uniform(-10.0, 25.0) * mm;
         const Quat orientation = glm::normalize(
-            rotation(0.3 * random_direction(random_)) *
+            rotation(0.3 * any_direction(random_)) *
             tool_orientation(glm::normalize(nut.e1 * random_.normal() + nut.e2 * random_.normal()),
                              nut.axis));
         const Vec3 at = nut.seat + height * nut.axis;

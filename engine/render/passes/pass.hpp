@@ -1,4 +1,4 @@
-// What all passes use: render targets, formats, the context of a frame, and commands that draw parts.
+// All passes share these: render targets, formats, the context of a frame, and commands that draw parts.
 #pragma once
 
 #include <cstring>
@@ -168,7 +168,7 @@ void draw_screen(VkCommandBuffer commands);
 // Returns the vertex stage of a pipeline that draws parts with scene.vert.
 gpu::GraphicsInfo part_pipeline(const Shaders& shaders, const PipelineKind& kind, std::uint32_t views);
 
-// How a pass draws parts.
+// The state with which a pass draws parts.
 struct PartDrawing {
     std::function<bool(const PipelineKind&)> wanted;  // false: the part is skipped
     std::function<Result<const gpu::Pipeline*>(const PipelineKind&)> pipeline;

@@ -7,9 +7,8 @@
 #include <optional>
 #include <thread>
 
-#include "engine/base/quantile.hpp"
+#include "engine/base/math.hpp"
 #include "engine/base/random.hpp"
-#include "engine/base/random_pose.hpp"
 
 namespace bolt::contact_validation {
 

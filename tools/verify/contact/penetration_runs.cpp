@@ -8,7 +8,6 @@
 
 #include "engine/base/math.hpp"
 #include "engine/base/random.hpp"
-#include "engine/base/random_pose.hpp"
 #include "haptics/joint/nut.hpp"
 #include "haptics/servo/engagement.hpp"
 #include "tools/verify/contact/near_poses.hpp"
