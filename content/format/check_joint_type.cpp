@@ -12,7 +12,6 @@ namespace bolt::content {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double length_tolerance = 1e-9;  // m; tolerates the rounding of decimal millimetres
 
 bool has_size(const JointType& type) { return type.design.thread.size.d > 0.0; }

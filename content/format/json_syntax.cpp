@@ -15,7 +15,6 @@ namespace {
 constexpr std::string_view number_rules =
     "as in 1.5, -2 or 3e-6: digits on both sides of the point, no leading zero or plus, no unit";
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool is_hex(char c) { return std::isxdigit(static_cast<unsigned char>(c)) != 0; }
 

@@ -9,6 +9,8 @@
 
 namespace bolt::content {
 
+inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 struct SyntaxError {
     std::size_t offset = 0;  // byte offset
     std::string what;

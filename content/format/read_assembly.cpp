@@ -13,7 +13,6 @@ namespace bolt::content {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double max_jaw_play = 0.6e-3;  // m, of a jaw on a nut
 constexpr double default_head_angle = to_radians(15.0);
 constexpr std::string_view click_tool_kind = "click_torque_wrench", default_tool_name = "wrench";

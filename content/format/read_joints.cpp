@@ -11,13 +11,12 @@
 #include <vector>
 
 #include "content/format/json_document.hpp"
+#include "content/format/json_syntax.hpp"
 #include "content/format/read_assembly.hpp"
 
 namespace bolt::content {
 
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // Converts a spelling such as "m 12 × 1,75" to the form of parse_thread, "M12x1.75".
 std::string normalised(std::string_view text) {
@@ -86,8 +85,6 @@ Result<joint::ThreadSize> read_thread(std::string_view text) {
 
 namespace {
 
-constexpr double mm = 1e-3;
-constexpr double um = 1e-6;
 constexpr double default_tolerance = 0.10;  // of the target torque
 constexpr double default_snug = 0.25;       // of the target torque
 constexpr double started_turns = 1.5;       // turns of a hand-started nut on the thread

@@ -17,10 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* format_name = "boltwright glove calibration 1";
-constexpr std::size_t max_file_size = 1U << 16U;
-constexpr std::size_t max_name_size = 64;  // bytes; the name becomes a file name
-constexpr double max_gain = 0.2;           // rad per count; 255 counts would be eight turns
+constexpr const char* calibration_format = "boltwright glove calibration 1";
+constexpr double max_gain = 0.2;  // rad per count; 255 counts would be eight turns
 
 // The name of a sensor in the file: "thumb_roll".
 std::string key_of(hand::Sensor sensor) {
@@ -78,13 +76,13 @@ Result<GloveCalibration> parse_glove_calibration(std::string_view text, const st
         members.report("", JsonPart::value, "the glove calibration is not an object", "a JSON object");
         return fail(*members.first_error);
     }
-    if (members.text(root, "format") != format_name)
+    if (members.text(root, "format") != calibration_format)
         members.report("/format", JsonPart::value, "the format of the glove calibration is unknown",
-                       fmt::format("\"format\": \"{}\"", format_name));
+                       fmt::format("\"format\": \"{}\"", calibration_format));
     members.check_known(
         root, "",
         {"format", "trainee", "glove", "hand", "sensors", "date", "quality", "hand_length_mm", "lines"});
-    read.trainee = members.text(root, "trainee", max_name_size);
+    read.trainee = members.text(root, "trainee", max_trainee_name_size);
     read.glove = members.text(root, "glove");
     const std::string hand = members.text(root, "hand");
     if (hand != "left" && hand != "right")
@@ -112,7 +110,7 @@ std::string glove_calibration_text(const GloveCalibration& calibration) {
         if (const auto& fit = calibration.calibration.fits[hand::index(sensor)])
             fits[key_of(sensor)] = {{"offset", fit->offset}, {"gain", fit->gain}};
     nlohmann::ordered_json root;
-    root["format"] = format_name;
+    root["format"] = calibration_format;
     root["trainee"] = calibration.trainee;
     root["glove"] = calibration.glove;
     root["hand"] = calibration.hand == hand::Side::left ? "left" : "right";
@@ -127,7 +125,7 @@ std::string glove_calibration_text(const GloveCalibration& calibration) {
 }
 
 Result<GloveCalibration> load_glove_calibration(const std::filesystem::path& path) {
-    BOLT_TRY_ASSIGN(const auto text, read_file(path, max_file_size, ErrorCode::bad_content));
+    BOLT_TRY_ASSIGN(const auto text, read_file(path, max_trainee_file_size, ErrorCode::bad_content));
     return parse_glove_calibration(text, path.string());
 }
 

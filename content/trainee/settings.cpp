@@ -36,9 +36,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* format_name = "boltwright settings 1";
-constexpr std::size_t max_file_size = 1U << 16U;
-constexpr std::size_t max_name_size = 64;  // bytes, as in glove_calibration.cpp
+constexpr const char* settings_format = "boltwright settings 1";
 constexpr const char *usual = "usual", *distinct = "distinct";
 constexpr const char *mechanistic = "mechanistic", *published = "published";
 
@@ -127,13 +125,13 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
         members.report("", JsonPart::value, "the settings file is not an object", "a JSON object");
         return fail(*members.first_error);
     }
-    if (members.text(root, "format") != format_name)
+    if (members.text(root, "format") != settings_format)
         members.report("/format", JsonPart::value, "the format of the settings file is unknown",
-                       fmt::format("\"format\": \"{}\"", format_name));
+                       fmt::format("\"format\": \"{}\"", settings_format));
     members.check_known(root, "",
                         {"format", "trainee", "language", "volume", "captions", "palette", "left_handed",
                          "force_scale", "seated_height_m", "law", "keys"});
-    read.trainee = members.text(root, "trainee", max_name_size);
+    read.trainee = members.text(root, "trainee", max_trainee_name_size);
     read_language(members, root, read, known);
     read.volume = members.number(root, "", "volume", 0.0, 1.0);
     read.captions = members.flag(root, "captions");
@@ -149,7 +147,7 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
 
 std::string settings_text(const TraineeSettings& settings) {
     nlohmann::ordered_json root;
-    root["format"] = format_name;
+    root["format"] = settings_format;
     root["trainee"] = settings.trainee;
     root["language"] = settings.language;
     root["volume"] = settings.volume;
@@ -167,7 +165,7 @@ std::string settings_text(const TraineeSettings& settings) {
 }
 
 Result<TraineeSettings> load_settings(const std::filesystem::path& path, const SettingsVocabulary& known) {
-    BOLT_TRY_ASSIGN(const auto text, read_file(path, max_file_size, ErrorCode::bad_content));
+    BOLT_TRY_ASSIGN(const auto text, read_file(path, max_trainee_file_size, ErrorCode::bad_content));
     return parse_settings(text, path.string(), known);
 }
 

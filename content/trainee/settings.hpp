@@ -19,6 +19,10 @@ Result<std::filesystem::path> data_folder();
 // A file name for a trainee's name: unique for each name, with characters that every file system accepts.
 std::string file_name_of(std::string_view trainee);
 
+// Limits of the files of a trainee.
+inline constexpr std::size_t max_trainee_file_size = 1U << 16U;  // bytes
+inline constexpr std::size_t max_trainee_name_size = 64;         // bytes; the name becomes a file name
+
 // The settings file:
 //
 //   {"format": "boltwright settings 1", "trainee": "Ada", "language": "de", "volume": 0.8, "captions": true,

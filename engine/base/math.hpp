@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -15,6 +16,8 @@ using Vec3 = glm::dvec3;
 using Quat = glm::dquat;
 
 inline constexpr double pi = std::numbers::pi;
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double mm = 1e-3, um = 1e-6;  // m
 
 constexpr double to_radians(double degrees) { return degrees * (pi / 180.0); }
 constexpr double to_degrees(double radians) { return radians * (180.0 / pi); }

@@ -1,4 +1,5 @@
-// Access: the components that a function uses. System: a function that runs in every frame.
+// Access: the components that a function uses. System: a function that a schedule runs, each tick or each
+// frame.
 #pragma once
 
 #include <cassert>

@@ -7,18 +7,18 @@ namespace bolt::shading {
 namespace {
 
 // The table has uniform steps in roughness and in √cosine, because the albedo varies most at grazing angles.
-constexpr int size = 48;
+constexpr int table_size = 48;
 constexpr unsigned directions = 256;
 
-using Table = std::array<glm::vec2, size * size>;
+using Table = std::array<glm::vec2, table_size * table_size>;
 
 Table make_table() {
     Table table;
-    for (int r = 0; r < size; ++r) {
-        for (int c = 0; c < size; ++c) {
-            const float roughness = static_cast<float>(r) / (size - 1);
-            const float root = std::max(static_cast<float>(c) / (size - 1), 1e-3F);
-            table[static_cast<std::size_t>(r * size + c)] =
+    for (int r = 0; r < table_size; ++r) {
+        for (int c = 0; c < table_size; ++c) {
+            const float roughness = static_cast<float>(r) / (table_size - 1);
+            const float root = std::max(static_cast<float>(c) / (table_size - 1), 1e-3F);
+            table[static_cast<std::size_t>(r * table_size + c)] =
                 integrate_albedo(roughness * roughness, root * root, directions);
         }
     }
@@ -47,15 +47,15 @@ glm::vec2 integrate_albedo(float alpha, float cosine, unsigned count) {
 
 glm::vec2 directional_albedo(float alpha, float cosine) {
     static const Table table = make_table();
-    const float x = std::sqrt(std::clamp(cosine, 0.0F, 1.0F)) * (size - 1);
-    const float y = std::sqrt(std::clamp(alpha, 0.0F, 1.0F)) * (size - 1);
-    const int column = std::min(static_cast<int>(x), size - 2);
-    const int row = std::min(static_cast<int>(y), size - 2);
+    const float x = std::sqrt(std::clamp(cosine, 0.0F, 1.0F)) * (table_size - 1);
+    const float y = std::sqrt(std::clamp(alpha, 0.0F, 1.0F)) * (table_size - 1);
+    const int column = std::min(static_cast<int>(x), table_size - 2);
+    const int row = std::min(static_cast<int>(y), table_size - 2);
     const float fx = x - static_cast<float>(column);
     const float fy = y - static_cast<float>(row);
-    const auto* entry = table.data() + row * size + column;
+    const auto* entry = table.data() + row * table_size + column;
     return (entry[0] * (1.0F - fx) + entry[1] * fx) * (1.0F - fy) +
-           (entry[size] * (1.0F - fx) + entry[size + 1] * fx) * fy;
+           (entry[table_size] * (1.0F - fx) + entry[table_size + 1] * fx) * fy;
 }
 
 }  // namespace bolt::shading

@@ -168,7 +168,6 @@ Result<Alignment> align(const TorqueCurve& ours, const TorqueCurve& measured, do
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 // rad, rounding error of a shifted angle.
 constexpr double angle_tolerance = 1e-9;
 

@@ -78,7 +78,7 @@ void HapticMetricsBuilder::update_grip(double time, const session::TickRecord& t
     if (due < seats_.size() && glm::length(vector_of(tick.device.position) - seats_[due]) < near_nut) {
         near_nut_ += dt_;
         if (visibility_.joint != due_)
-            nut_visible_ = ForceJump::nan;
+            nut_visible_ = nan;
         else if (visibility_.share >= visible_fraction)
             nut_visible_ += dt_;
     }

@@ -34,7 +34,6 @@ struct ForceJump {
     double since_engaged = nan, since_released = nan, since_touched = nan, since_untouched = nan;
     std::int16_t last_joint = -1;  // engaged joint, or the one engaged last
     collision::ObstacleId last_touched;
-    static constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct ChangeStatistics {
@@ -116,8 +115,8 @@ class HapticMetricsBuilder {
     std::optional<session::TickRecord> previous_;
     ForceJump state_;  // last joint and last obstacle so far
     // s, session time of the last events
-    double engaged_at_ = ForceJump::nan, released_at_ = ForceJump::nan;
-    double touched_at_ = ForceJump::nan, untouched_at_ = ForceJump::nan;
+    double engaged_at_ = nan, released_at_ = nan;
+    double touched_at_ = nan, untouched_at_ = nan;
     bool touched_with_nut_ = false;  // the contact began with a nut in the jaw
     bool in_bump_ = false;
     std::vector<float> force_changes_, torque_changes_;

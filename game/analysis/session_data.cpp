@@ -27,8 +27,6 @@ Quartiles quartiles(std::vector<double> values) {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
 CurveRequest request_for(const SessionData& data, const std::vector<lesson::LessonEvent>& events) {
     CurveRequest request;
     request.dt = data.header.dt;

@@ -13,7 +13,7 @@ struct MistakeRow {
     MistakeKind kind;
     TextKey text, remedy;
 };
-constexpr MistakeRow rows[] = {
+constexpr MistakeRow mistake_rows[] = {
     {MistakeKind::out_of_turn, "mistake.out_of_turn", "mistake.out_of_turn.do"},
     {MistakeKind::done_already, "mistake.done_already", "mistake.done_already.do"},
     {MistakeKind::loosened, "mistake.loosened", "mistake.loosened.do"},
@@ -25,7 +25,7 @@ constexpr MistakeRow rows[] = {
 };
 
 std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event) {
-    for (const MistakeRow& row : rows) {
+    for (const MistakeRow& row : mistake_rows) {
         if (row.kind != event.mistake) continue;
         const auto& joints = lesson.assembly->joints;
         const content::AssemblyJoint& joint = joints[static_cast<std::size_t>(event.joint)];

@@ -16,7 +16,7 @@ struct HintRow {
 };
 
 // In the order of the situations.
-constexpr HintRow rows[] = {
+constexpr HintRow hint_rows[] = {
     {Situation::take_wrench, "hint.take_wrench", HandMotion::take},
     {Situation::put_wrench_away, "hint.put_wrench_away", HandMotion::put_away},
     {Situation::find_by_wrench, "hint.find_by_wrench", HandMotion::approach},
@@ -58,10 +58,10 @@ constexpr HintRow rows[] = {
     {Situation::round_loosen, "hint.round_loosen", HandMotion::approach},
     {Situation::all_done, "hint.all_done", HandMotion::none},
 };
-static_assert(std::size(rows) == situation_count);
+static_assert(std::size(hint_rows) == situation_count);
 static_assert([] {
     for (std::size_t i = 0; i < situation_count; ++i)
-        if (rows[i].situation != static_cast<Situation>(i)) return false;
+        if (hint_rows[i].situation != static_cast<Situation>(i)) return false;
     return true;
 }());
 
@@ -73,7 +73,7 @@ constexpr TextKey motion_keys[] = {
 };
 static_assert(std::size(motion_keys) == motion_count);
 
-const HintRow& row(Situation situation) { return rows[static_cast<std::size_t>(situation)]; }
+const HintRow& row(Situation situation) { return hint_rows[static_cast<std::size_t>(situation)]; }
 
 // The hand motion that replaces `motion` if the fingers hold the nut.
 HandMotion adapt_to_grip(HandMotion motion, const WorkState& work) {

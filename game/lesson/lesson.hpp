@@ -112,7 +112,7 @@ double wrench_setting(const Lesson& lesson);
 // True if releasing the nut now completes the due step.
 bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world);
 
-// Call after each tick, once world::haptic_system() has written it.
+// Call after each tick, once world::write_haptics() has written it.
 void observe(Lesson& lesson, const world::ReadHaptics& world);
 
 // Undoes `steps` steps; 0 restarts the due step. Restores the joint tracks at that step's start; the caller

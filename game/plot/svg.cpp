@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "engine/base/math.hpp"
 #include "game/plot/html.hpp"
 
 namespace bolt::plot {
@@ -209,7 +210,6 @@ std::vector<SvgPoint> decimate(std::span<const SvgPoint> points, double column) 
 }
 
 std::vector<SvgPoint> points_within(std::span<const SvgPoint> points, AxisRange x) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     std::vector<SvgPoint> out;
     bool drawing = false;
     for (std::size_t i = 0; i < points.size(); ++i) {

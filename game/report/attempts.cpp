@@ -113,7 +113,7 @@ Attempt attempt_of(const analysis::SessionData& session) {
     a.summary = analysis::summarise(session);
 
     const analysis::HapticMetrics& metrics = session.metrics;
-    constexpr double unknown = analysis::ForceJump::nan;
+    constexpr double unknown = nan;
     a.guided = metrics.guided;
     a.view_help = session.header.view_help.value_or(false);
     a.obstacles = metrics.obstacles;

@@ -152,16 +152,14 @@ void put_arrivals(std::string& out, const analysis::SessionData& s) {
             near_time += a.near_nut;
         }
         if (wrench.empty() && hand.empty()) return;
-        const double slowest =
-            wrench.empty() ? analysis::ForceJump::nan : *std::max_element(wrench.begin(), wrench.end());
+        const double slowest = wrench.empty() ? nan : *std::max_element(wrench.begin(), wrench.end());
         put(out,
             "<tr{}><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
             "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
             joint < 0 ? " class=\"sum\"" : "", plot::escape(name), wrench.size(),
             plot::number(analysis::quartiles(wrench).median, 2), plot::number(slowest, 2),
             plot::number(analysis::quartiles(near).median, 2),
-            near_time > 0.0 ? plot::number(100.0 * visible_time / near_time, 0) + " %"
-                            : plot::number(analysis::ForceJump::nan, 0),
+            near_time > 0.0 ? plot::number(100.0 * visible_time / near_time, 0) + " %" : plot::number(nan, 0),
             plot::number(analysis::quartiles(hand).median, 2));
     };
     for (std::size_t j = 0; j < s.joints.size(); ++j) row(s.joints[j].id, static_cast<int>(j));

@@ -16,7 +16,6 @@ namespace bolt::report {
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double lead_in = 12.0;        // least degrees drawn before the first contact
 constexpr double longest = 540.0;       // most degrees drawn before the end
 constexpr double longest_free = 180.0;  // most degrees drawn of a loose nut

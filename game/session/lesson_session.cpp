@@ -119,7 +119,7 @@ bool same_tick(const servo::Input& input, const servo::Output& a, const servo::O
 }  // namespace
 
 void haptic_system(const world::WriteHaptics& world, TickContext& tick) {
-    world::haptic_system(world, tick.servo);
+    world::write_haptics(world, tick.servo);
 }
 
 void lesson_system(const world::WriteHaptics& world, TickContext& tick) {
@@ -156,7 +156,7 @@ Result<SessionSetup> prepare(const content::Assembly& given, const LessonOptions
     return start;
 }
 
-void set_device(const LessonOptions& options, SessionSetup& start) {
+void set_device_limits(const LessonOptions& options, SessionSetup& start) {
     start.setup = make_setup(start.assembly, options.law, options.device, options.seed, options.dt);
     if (start.state.tool_contact) servo::set_coupling(start.setup, *start.state.tool_contact);
 }

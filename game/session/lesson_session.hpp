@@ -1,6 +1,6 @@
-// A lesson in progress: its initial state, the servo that steps it, the systems that run after each tick, and
-// the session file that records it. The world of components belongs to the caller, which may add components
-// of its own (world::WorldWith).
+// A recorded lesson, without pictures: its initial state, the servo that steps it, the systems that run after
+// each tick, and the session file that records it. The world of components belongs to the caller, which may
+// add components of its own (world::WorldWith).
 #pragma once
 
 #include <cstdint>
@@ -65,14 +65,14 @@ struct SessionSetup {
 Result<SessionSetup> prepare(const content::Assembly& given, const LessonOptions& options);
 
 // Changes the device to `options.device`. All other options must equal those of prepare().
-void set_device(const LessonOptions& options, SessionSetup& start);
+void set_device_limits(const LessonOptions& options, SessionSetup& start);
 
 // A lesson that follows the ticks of this or another servo.
 struct LessonTracker {
     lesson::Lesson lesson;
-    // Number of steps begun. The nuts have a checkpoint for each (servo::State::checkpoint_count), except
-    // that a station's servo saves the last one some ticks later. Until then an undo of the same checkpoints
-    // goes one step further back.
+    // Number of steps begun. The servo saves one checkpoint of the nuts for each
+    // (servo::State::checkpoint_count); a station's servo does so some ticks later. Until it has, undoing n
+    // checkpoints undoes n + 1 steps.
     std::uint32_t steps_begun = 0;
 };
 
@@ -82,7 +82,7 @@ struct TickContext {
     LessonTracker& tracker;
 };
 
-// world::haptic_system().
+// world::write_haptics().
 void haptic_system(const world::WriteHaptics& world, TickContext& tick);
 // Updates the lesson from the components, and undoes its steps if the servo undid the nuts.
 void lesson_system(const world::WriteHaptics& world, TickContext& tick);

@@ -76,10 +76,12 @@ struct Header {
 // "virtual time", or the rate as text.
 std::string servo_text(double rate);
 
-// Determines the kind of trainee without using the trainee's name. A session without the key `trainee` is
-// `simulated` if its view help is recorded, since only simulated trainees record it; `person` if its operator
-// is "person", or if it has the tool of format 4, since every simulated trainee recorded the view help by
-// then; otherwise `unrecorded`.
+// Determines the kind of trainee without using the trainee's name. The first row that applies to a session
+// without the key `trainee`:
+//   the view help is recorded (only simulated trainees record it)                                 simulated
+//   the operator is "person"                                                                      person
+//   it has the tool of format 4 (by then every simulated trainee recorded the view help)          person
+//   otherwise                                                                                     unrecorded
 OperatorKind operator_kind(const Header& header);
 
 // The trainee's name; empty if none is recorded. A simulated trainee has one only if --trainee gave it.

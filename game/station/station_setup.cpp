@@ -323,7 +323,7 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
     planned.options.servo.rate = 1.0 / lesson.dt;
     planned.options.setup = [start, scale = request.force_scale](const force::OutputLimits& limits, double) {
         start->options.device = force::scaled(limits, scale);
-        session::set_device(start->options, start->setup);
+        session::set_device_limits(start->options, start->setup);
         return start->setup.setup;
     };
     planned.options.state = [start](const servo::Setup&) -> Result<servo::State> {

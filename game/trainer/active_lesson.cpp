@@ -228,7 +228,7 @@ constexpr glm::vec4 pointer_color{0.9F, 0.95F, 1.0F, 0.8F}, no_color{0.0F};
 
 }  // namespace
 
-void lesson_system(scene::SceneWorld& world, Frame& frame) {
+void coaching_system(scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     const lesson::Lesson& lesson = active.session->lesson();
     update(active.undo, frame.seconds);

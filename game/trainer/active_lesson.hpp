@@ -1,4 +1,4 @@
-// A lesson in progress: its session, its world, and the state that the systems of a frame keep from frame to
+// A lesson in a window: its session, its world, and the state that the systems of a frame keep from frame to
 // frame.
 #pragma once
 
@@ -93,7 +93,7 @@ struct ActiveLesson {
     std::vector<lesson::LessonEvent> events;  // not logged yet
 };
 
-// Components that world::haptic_system has written.
+// Components that world::write_haptics has written.
 inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::WorkingHand>();
 }
@@ -126,7 +126,7 @@ void tick_system(scene::SceneWorld& world, Frame& frame);
 // Sets the poses of nuts, wrench and hand from the components.
 void placement_system(scene::SceneWorld& world, Frame& frame);
 // Updates hints, mistakes, captions and outlines.
-void lesson_system(scene::SceneWorld& world, Frame& frame);
+void coaching_system(scene::SceneWorld& world, Frame& frame);
 // Updates the camera, the close-up and the cut-away in front of the nut.
 void view_system(scene::SceneWorld& world, Frame& frame);
 // Updates the labels at the wrench and at the joints.
@@ -135,7 +135,7 @@ void label_system(scene::SceneWorld& world, Frame& frame);
 void present_system(scene::SceneWorld& world, Frame& frame);
 
 inline constexpr ecs::System<scene::SceneWorld, Frame> frame_systems[] = {
-    {"ticks", tick_system}, {"placement", placement_system}, {"lesson", lesson_system},
+    {"ticks", tick_system}, {"placement", placement_system}, {"coaching", coaching_system},
     {"view", view_system},  {"labels", label_system},        {"present", present_system}};
 
 // The picture from the camera's present viewpoint.

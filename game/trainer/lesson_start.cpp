@@ -20,7 +20,7 @@ Status start_station_of(const LessonStart& start, StartedLesson& lesson, session
     lesson.active.station->link = std::move(station);
     options.device = lesson.active.station->link->setup().limits;
     options.servo_rate = 1.0 / options.dt;
-    session::set_device(options, setup);
+    session::set_device_limits(options, setup);
     return {};
 }
 

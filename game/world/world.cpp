@@ -42,7 +42,7 @@ void write_initial_state(const WriteHaptics& world, const servo::State& state) {
     write_joints(world, state);
 }
 
-void haptic_system(const WriteHaptics& world, const Snapshot& servo) {
+void write_haptics(const WriteHaptics& world, const Snapshot& servo) {
     const servo::Output& output = servo.output;
     world.only<ServoClock>().tick = servo.state.tick;
     write_joints(world, servo.state);

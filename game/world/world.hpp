@@ -1,4 +1,4 @@
-// The state of the work as ECS components: plain data that haptic_system() copies from the servo after each
+// The state of the work as ECS components: plain data that write_haptics() copies from the servo after each
 // tick. Lesson, hints, HUD, sound and drawing read it here. A world without drawing has only these
 // components; the scene adds its own (WorldWith). Lengths in m, angles in rad, forces in N, torques in N·m,
 // poses in the assembly's frame.
@@ -120,7 +120,7 @@ struct Snapshot {
 // (session::tick_systems). Takes the hand's pose from the input and its nut from the engaged joint, and
 // leaves WorkingHand::rest unchanged. A program with more data about the hand (its goal, a glove) writes that
 // afterwards.
-void haptic_system(const WriteHaptics& world, const Snapshot& servo);
+void write_haptics(const WriteHaptics& world, const Snapshot& servo);
 
 // Writes the state at the start of a lesson, when there is no input or output yet.
 void write_initial_state(const WriteHaptics& world, const servo::State& state);

@@ -6,7 +6,7 @@
 namespace bolt::collision {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffffU;
+constexpr std::uint32_t unmerged = 0xffffffffU;
 
 double squared(double x) { return x * x; }
 
@@ -57,7 +57,7 @@ class Reducer {
         std::sort(all.order.begin(), all.order.begin() + static_cast<std::ptrdiff_t>(all.count),
                   [&](const RankedContact& a, const RankedContact& b) { return precedes(a, b); });
         for (std::uint32_t i = 0; i < all.deferred.size(); ++i)
-            all.deferred_order[i] = {all.deferred[i].lower, i, none};
+            all.deferred_order[i] = {all.deferred[i].lower, i, unmerged};
         const auto deferred = all.deferred_order.first(all.deferred.size());
         std::sort(deferred.begin(), deferred.end(), [](const RankedContact& a, const RankedContact& b) {
             return a.distance != b.distance ? a.distance < b.distance : a.index < b.index;
@@ -103,7 +103,7 @@ class Reducer {
   private:
     RankedContact ranked(std::uint32_t i) {
         all_.kept_in[i] = 0;
-        return {all_.near[i].distance, i, none};
+        return {all_.near[i].distance, i, unmerged};
     }
     [[nodiscard]] bool precedes(const RankedContact& a, const RankedContact& b) const {
         return a.distance != b.distance ? a.distance < b.distance
@@ -112,7 +112,7 @@ class Reducer {
 
     // If the contact that this one merged with at a smaller merge distance is kept again, it merges again.
     [[nodiscard]] bool is_merged_again(const RankedContact& one) const {
-        return one.merged_with != none && all_.kept_in[one.merged_with] == round_;
+        return one.merged_with != unmerged && all_.kept_in[one.merged_with] == round_;
     }
 
     // True also if the contact has been resolved already.

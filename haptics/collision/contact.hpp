@@ -69,7 +69,7 @@ inline constexpr std::uint32_t of_obstacle = 0x80000000U;  // in `Contact::featu
 
 struct ContactQueryResult {
     std::size_t count = 0;   // contacts written
-    double clearance = 0.0;  // m; lower bound of the distance of everything that was not written
+    double clearance = 0.0;  // m; every nearer contact was written, or merged with one that was
     bool truncated = false;  // the output was too small; the nearest contacts were kept
     std::uint32_t work = 0;  // cost of the query in comparisons of a sample with a surface, approximate
 };

@@ -17,7 +17,7 @@ constexpr double min_parallel_cosine = 0.985;
 // m by which a later candidate must be better, so that among equals a face precedes edges.
 constexpr double face_preference = 1e-12;
 constexpr double parallel_tolerance = 1e-12;  // of the squared sine of the angle between edges
-constexpr std::uint32_t none = ~0U;
+constexpr std::uint32_t no_direction = ~0U;
 constexpr std::size_t max_corners = 32;  // of a clipped face
 
 // Intersects three planes. Returns false if they have no unique common point.
@@ -170,7 +170,7 @@ void test_edges(const PosedConvex& tool, const Convex& obstacle, Separation& bes
         along_normal[t] = edges_along(obstacle, tool.normals[t]);
     // Edges whose left or right face normal has a positive component along the tool's edge.
     EdgeSet left{}, right{};
-    std::uint32_t known = none;
+    std::uint32_t known = no_direction;
     for (std::uint32_t i = 0; i < tool.solid->edges.size(); ++i) {
         const ConvexEdge& e = tool.solid->edges[i];
         const EdgeSet &a = along_normal[e.left], &b = along_normal[e.right];

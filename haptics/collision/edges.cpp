@@ -12,7 +12,6 @@ namespace {
 constexpr double edge_lookahead = 3e-3;
 // m and rad; cached candidates are searched again when less than this remains of their bounds.
 constexpr double min_cached_distance = 0.1e-3, min_cached_turn = 2e-3;
-constexpr double rounding_in_float = 1e-6;  // m; exceeds the error of positions and distances in float
 
 bool nearer_crossing(const Crossing& a, const Crossing& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.edge < b.edge;

@@ -24,6 +24,8 @@ inline constexpr double max_crossing_depth = 2e-3;
 // m; a deeper crossing is reported only if one of its points is inside the other solid. Otherwise the edges
 // lie on both sides of a thin rib and do not touch.
 inline constexpr double ambiguous_depth = 0.1e-3;
+// m; exceeds the rounding error of positions and distances in float.
+inline constexpr double rounding_in_float = 1e-6;
 
 struct Crossings {
     std::size_t count = 0;

@@ -14,8 +14,9 @@
 
 namespace bolt::collision {
 
-// An edge whose faces meet at more than `sampled_edge_angle` or rise by more than `edge_rise` above a smooth
-// surface in their place, or an edge without exactly two faces.
+// An edge is sharp in three cases: the angle between the normals of its faces exceeds `sampled_edge_angle`;
+// it stands more than `edge_rise` above the smooth surface through its faces; it does not have exactly two
+// faces.
 struct SharpEdge {
     std::array<std::uint32_t, 2> vertices;
     std::uint32_t triangle;            // one of its faces

@@ -19,8 +19,6 @@ constexpr std::uint32_t edge_search_work = 10;
 // m; exceeds the rounding error of poses and distances.
 constexpr double rounding = 1e-9;
 constexpr double no_bound = -1e9;
-// m; exceeds the rounding error of positions and distances in float.
-constexpr double rounding_in_float = 1e-6;
 
 // rad; a leaf whose normals spread further gives no usable bound of the normal.
 constexpr float max_normal_spread = 1.2F;

@@ -225,15 +225,15 @@ void add_spaced(std::vector<CandidateSample> candidates, std::vector<SurfaceSamp
     std::stable_sort(
         candidates.begin(), candidates.end(),
         [](const CandidateSample& a, const CandidateSample& b) { return a.spacing < b.spacing; });
-    constexpr int levels = 8;
+    constexpr int grids = 8;
     std::vector<PointGrid> cells;
-    for (int i = 0; i < levels; ++i) cells.emplace_back(std::ldexp(8e-3, -i));
+    for (int i = 0; i < grids; ++i) cells.emplace_back(std::ldexp(8e-3, -i));
     for (const auto& [sample, spacing] : candidates) {
         const int level =
-            spacing > 0.0 ? std::max(0, static_cast<int>(std::ceil(std::log2(8e-3 / spacing)))) : levels;
-        if (level < levels && cells[static_cast<std::size_t>(level)].has_near(sample.at)) continue;
+            spacing > 0.0 ? std::max(0, static_cast<int>(std::ceil(std::log2(8e-3 / spacing)))) : grids;
+        if (level < grids && cells[static_cast<std::size_t>(level)].has_near(sample.at)) continue;
         // Grids of smaller spacing are not queried again.
-        for (int i = 0; i <= std::min(level, levels - 1); ++i) {
+        for (int i = 0; i <= std::min(level, grids - 1); ++i) {
             PointGrid& c = cells[static_cast<std::size_t>(i)];
             if (!c.has_near(sample.at)) c.add(sample.at);
         }

@@ -134,7 +134,7 @@ struct Candidate {
     Vec3 point;
 };
 
-bool nearer(const Candidate& a, const Candidate& b) {
+bool nearer_candidate(const Candidate& a, const Candidate& b) {
     return a.squared != b.squared ? a.squared < b.squared : a.triangle < b.triangle;
 }
 
@@ -172,12 +172,12 @@ struct PointGathering {
     [[nodiscard]] double limit2() const { return count < capacity ? band2 : kept[furthest].squared; }
 
     void consider_inside(const Candidate& c) {
-        if (nearer(c, inside) && is_behind_surface(*mesh, p, c)) inside = c;
+        if (nearer_candidate(c, inside) && is_behind_surface(*mesh, p, c)) inside = c;
     }
     void find_furthest() {
         furthest = 0;
         for (std::size_t i = 1; i < count; ++i)
-            if (nearer(kept[furthest], kept[i])) furthest = i;
+            if (nearer_candidate(kept[furthest], kept[i])) furthest = i;
     }
     void add(const Candidate& found) {
         if (nearest.squared < limit && part[found.triangle] != part[nearest.triangle] &&
@@ -185,14 +185,14 @@ struct PointGathering {
             consider_inside(found);
             consider_inside(nearest);
         }
-        if (nearer(found, nearest)) nearest = found;
+        if (nearer_candidate(found, nearest)) nearest = found;
         if (found.squared > band2) return;
         if (count < capacity) {
             kept[count++] = found;
             if (count == capacity) find_furthest();
             return;
         }
-        if (!nearer(found, kept[furthest])) return;
+        if (!nearer_candidate(found, kept[furthest])) return;
         kept[furthest] = found;
         find_furthest();
     }
@@ -268,7 +268,7 @@ PointQueryResult select_planes(PointGathering& g, const SeparatingPlane& first, 
     result.complete = band;
     // When `kept` is full the search radius shrinks, so completeness beyond its furthest entry is unknown.
     if (g.count == PointGathering::capacity) result.complete = std::sqrt(g.kept[g.furthest].squared);
-    std::sort(g.kept.begin(), g.kept.begin() + static_cast<std::ptrdiff_t>(g.count), nearer);
+    std::sort(g.kept.begin(), g.kept.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_candidate);
     result.distance = first.distance;
     if (first.distance > band) return result;
     if (planes.empty()) {

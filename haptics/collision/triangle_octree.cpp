@@ -17,7 +17,7 @@ constexpr std::size_t few_triangles = 8;
 constexpr std::size_t very_few_triangles = 10;
 const double nearly_planar = std::cos(to_radians(3.0));
 // m; exceeds the error of coordinates in float.
-constexpr double rounding = 1e-6;
+constexpr double octree_rounding = 1e-6;
 // m; a leaf is not convex if a triangle rises by more than this above another's plane.
 constexpr double convexity_tolerance = 0.4 * plane_tolerance;
 constexpr std::size_t max_convexity_test = 128;
@@ -73,7 +73,7 @@ class OctreeBuilder {
         const auto& c = solid_.corners[t];
         const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
         const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
-        constexpr double reach = octree_reach + rounding;
+        constexpr double reach = octree_reach + octree_rounding;
         const Vec3 gap = glm::max(glm::max(low - middle, middle - high) - half, Vec3(0.0));
         if (glm::dot(gap, gap) > reach * reach) return false;
         const Vec3 normal(solid_.mesh.face_normals[t]);
@@ -183,8 +183,8 @@ TriangleOctree make_triangle_octree(const Solid& solid, double cell) {
         const auto& c = solid.corners[t];
         const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
         const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
-        const glm::ivec3 from((low - octree_reach - rounding - octree.low) / octree.root);
-        const glm::ivec3 to((high + octree_reach + rounding - octree.low) / octree.root);
+        const glm::ivec3 from((low - octree_reach - octree_rounding - octree.low) / octree.root);
+        const glm::ivec3 to((high + octree_reach + octree_rounding - octree.low) / octree.root);
         for (int z = std::max(0, from.z); z <= std::min(nz - 1, to.z); ++z)
             for (int y = std::max(0, from.y); y <= std::min(ny - 1, to.y); ++y)
                 for (int x = std::max(0, from.x); x <= std::min(nx - 1, to.x); ++x)

@@ -46,8 +46,8 @@ bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> re
 
 namespace {
 
-constexpr double nominal_rate = 125.0;  // 1/s, of wired pucks while deflected
-constexpr int max_reports = 64;         // size of the kernel's queue of reports
+constexpr double puck_rate = 125.0;   // 1/s, of wired pucks while deflected
+constexpr int max_puck_reports = 64;  // size of the kernel's queue of reports
 
 class SpaceMouse : public DeviceDriver {
   public:
@@ -64,7 +64,7 @@ class SpaceMouse : public DeviceDriver {
     Result<std::optional<Sample>> read(double timeout) override {
         const double start = clock_();
         if (deflected_) timeout = std::clamp(last_report_ + response_.silence - start, 0.0, timeout);
-        for (int i = 0; i < max_reports; ++i) {
+        for (int i = 0; i < max_puck_reports; ++i) {
             BOLT_TRY_ASSIGN(const auto report, transport_->read(i == 0 ? timeout : 0.0));
             if (report.empty()) break;
             if (!decode_report(layout_, report, state_)) continue;
@@ -125,7 +125,7 @@ Result<std::unique_ptr<DeviceDriver>> make_space_mouse(std::unique_ptr<HidTransp
     description.id = std::move(id);
     description.sensing = Sensing::rate;
     description.limits.force = description.limits.torque = 0.0;
-    description.rate = nominal_rate;
+    description.rate = puck_rate;
     description.buttons = static_cast<int>(layout.buttons.size());
     return std::make_unique<SpaceMouse>(std::move(transport), std::move(layout), std::move(description),
                                         response, std::move(clock));

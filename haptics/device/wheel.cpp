@@ -95,14 +95,14 @@ bool decode_report(const WheelAxis& layout, std::span<const std::uint8_t> report
 
 namespace {
 
-constexpr double nominal_rate = 1000.0;   // 1/s
+constexpr double wheel_rate = 1000.0;     // 1/s
 constexpr double rest_timeout = 0.25;     // s
 constexpr double reply_timeout = 0.1;     // s, for a reply of a board during opening
 constexpr double position_retry = 0.005;  // s until an unanswered request of the encoder position is repeated
 constexpr double position_interval = 0.004;  // s between requests that only check that the board is alive
 constexpr int max_attempts = 3;
 constexpr std::int64_t max_degrees = 65535;  // largest range that a board can report
-constexpr int max_reports = 256;             // reports per read
+constexpr int max_wheel_reports = 256;       // reports per read
 
 // The common part of wheels and boards: transport, axis and force.
 struct WheelCore {
@@ -155,7 +155,7 @@ Result<WheelCore> make_core(std::unique_ptr<HidTransport> transport, const Repor
     // Below the stiffness that the wheel's own damping stabilises: b/τ with 0.1 N·m·s/rad and a 3 ms round
     // trip.
     d.limits.torsion = 20.0;
-    d.rate = nominal_rate;
+    d.rate = wheel_rate;
     d.buttons = static_cast<int>(core.axis.buttons.size());
     return core;
 }
@@ -180,7 +180,7 @@ class Wheel : public DeviceDriver {
     [[nodiscard]] const Description& describe() const override { return core_.description; }
 
     Result<std::optional<Sample>> read(double timeout) override {
-        for (int i = 0; i < max_reports; ++i) {
+        for (int i = 0; i < max_wheel_reports; ++i) {
             BOLT_TRY_ASSIGN(const auto report, core_.transport->read(i == 0 ? timeout : 0.0));
             if (report.empty()) break;
             if (!decode_report(core_.axis, report, core_.state)) continue;
@@ -219,7 +219,7 @@ class OpenFfboard : public DeviceDriver {
             reply_pending_ = true;
         }
         bool has_sample = false;
-        for (int i = 0; i < max_reports; ++i) {
+        for (int i = 0; i < max_wheel_reports; ++i) {
             const double left = has_sample ? 0.0 : std::max(begun + timeout - core_.clock(), 0.0);
             BOLT_TRY_ASSIGN(const auto report, core_.transport->read(left));
             if (report.empty()) break;
@@ -257,7 +257,7 @@ Result<std::optional<std::int64_t>> query_setting(WheelCore& core, board::Comman
         const auto bytes = board::encode_message({.command = static_cast<std::uint32_t>(question)});
         BOLT_TRY(core.transport->write(bytes));
         const double until = core.clock() + reply_timeout;
-        for (int n = 0; n < max_reports; ++n) {
+        for (int n = 0; n < max_wheel_reports; ++n) {
             BOLT_TRY_ASSIGN(const auto report, core.transport->read(std::max(until - core.clock(), 0.0)));
             if (report.empty()) break;
             if (const auto message = board::decode_message(report)) {

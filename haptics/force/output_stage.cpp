@@ -184,7 +184,7 @@ Vec3 step_towards(const Vec3& now, const Vec3& target, double most) {
 
 }  // namespace
 
-OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& requested,
+OutputCommand limit_output(const OutputLimits& limits, LimiterState& state, const OutputCommand& requested,
                            bool enabled, double dt, double release) {
     const bool healthy = finite(state.force) && finite(state.torque);
     if (!healthy) state.force = state.torque = Vec3(0.0);

@@ -121,7 +121,7 @@ void note_sent(PassivityState& state, const OutputCommand& sent);
 
 // The limiter, the last step. Its output is finite, within the device's limits, and within the slew rates.
 
-struct OutputState {
+struct LimiterState {
     Vec3 force{0.0};
     Vec3 torque{0.0};
     double strength = 0.0;     // 0 … 1, ramp after enabling
@@ -130,10 +130,10 @@ struct OutputState {
 
 // One step of dt. Returns the device's command, which is also stored in the state. If not `enabled`, or if
 // the request is not finite, the output falls to zero within `release` seconds.
-OutputCommand limit_output(const OutputLimits& limits, OutputState& state, const OutputCommand& requested,
+OutputCommand limit_output(const OutputLimits& limits, LimiterState& state, const OutputCommand& requested,
                            bool enabled, double dt, double release);
 
-inline OutputCommand limit_output(const OutputLimits& limits, OutputState& state,
+inline OutputCommand limit_output(const OutputLimits& limits, LimiterState& state,
                                   const OutputCommand& requested, bool enabled, double dt) {
     return limit_output(limits, state, requested, enabled, dt, limits.release);
 }
@@ -141,7 +141,7 @@ inline OutputCommand limit_output(const OutputLimits& limits, OutputState& state
 struct OutputStage {
     WatchdogState watchdog;
     PassivityState passivity;
-    OutputState output;
+    LimiterState output;
 };
 
 // One tick of dt. Returns the device's command. It is zero at most limits.release after the dead-man switch

@@ -13,7 +13,7 @@ bool touches(const hand::FingertipContact& contact) { return contact.distance <=
 // closed hand.
 constexpr double opposing = to_radians(60.0);
 
-bool pushes_towards(const hand::FingertipContact& one, const hand::FingertipContact& other) {
+bool opposes(const hand::FingertipContact& one, const hand::FingertipContact& other) {
     const Vec3 between = other.point - one.point;
     return glm::dot(between, -one.normal) >= std::cos(opposing) * glm::length(between);
 }
@@ -36,7 +36,7 @@ bool opposed_by_virtual_finger(const FingerClosure& closure) {
     all.point /= count;
     all.normal /= length;
     const hand::FingertipContact& thumb = closure.digits[0].nearest;
-    return touches(thumb) && pushes_towards(thumb, all) && pushes_towards(all, thumb);
+    return touches(thumb) && opposes(thumb, all) && opposes(all, thumb);
 }
 
 // The touching bones of thumb and fingers as fingertips for fingertip_grasp().

@@ -36,8 +36,6 @@ Angles clamp_to_limits(const Angles& angles) {
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 Quat frame(const Vec3& forward, const Vec3& up) {
     const Vec3 z = -glm::normalize(forward);
     const Vec3 x = glm::normalize(glm::cross(up, z));

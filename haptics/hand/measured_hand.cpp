@@ -24,7 +24,7 @@ PerSensor<double> sensor_angles(const Calibration& calibration, const GloveFrame
         if (measured[i]) angles[i] = angle(*calibration.fits[i], frame.raw[i]);
     }
     for (const auto& [mpj, pij, dij] : fingers)
-        if (!measured[index(dij)]) angles[index(dij)] = dij_of_pij * angles[index(pij)];
+        if (!measured[index(dij)]) angles[index(dij)] = dip_of_pip * angles[index(pij)];
     return angles;
 }
 

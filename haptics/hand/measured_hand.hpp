@@ -49,7 +49,7 @@ PerSensor<double> sensor_angles(const Calibration& calibration, const GloveFrame
 
 // Ratio of DIP to PIP flexion (H. Rijpkema, M. Girard, Computer animation of knowledge-based human grasping,
 // SIGGRAPH 1991).
-inline constexpr double dij_of_pij = 2.0 / 3.0;
+inline constexpr double dip_of_pip = 2.0 / 3.0;
 
 // Abduction sensors measure the angle between neighbouring fingers. They are summed outward from the middle
 // finger, whose own abduction is not measured and is taken as 0.

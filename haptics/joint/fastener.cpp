@@ -11,7 +11,6 @@ namespace bolt::joint {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double MPa = 1e6;
 
 constexpr FastenerSize row(std::string_view name, double d, double coarse, double fine1, double fine2,

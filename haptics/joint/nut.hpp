@@ -46,9 +46,9 @@ struct NutMotion {
 // The drive of the nut: a spring with play between the angles of hand and nut, or nothing.
 struct DriveHandle {
     bool engaged = false;
-    double angle = 0.0;      // rad, the hand's, counted as the nut's; motion between two grips does not count
-    double half_play = 0.0;  // rad, backlash to either side
-    double stiffness = 0.0;  // N·m/rad
+    double angle = 0.0;         // rad, the nut's angle plus the hand's rotation while it grips
+    double half_play = 0.0;     // rad, backlash to either side
+    double stiffness = 0.0;     // N·m/rad
     double torque_limit = 0.0;  // N·m at which the grip slips (fingers); 0: never
     Click click;                // between hand and spring
     double swung = 0.0;         // rad that the click mechanism has swung, 0 … click.swing

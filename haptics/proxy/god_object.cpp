@@ -250,26 +250,26 @@ class Stepper {
         return {felt.force - before_.felt.force, felt.torque - before_.felt.torque};
     }
 
-    // The largest share ≤ `share` with `excess` ≤ 1; if there is none, the share with the smallest. `excess`
-    // must have a single minimum (ternary search, then bisection).
-    template <class Excess>
-    static double largest_allowed_share(double share, const Excess& excess) {
-        if (excess(share) <= 1.0) return share;
+    // The largest share ≤ `share` with `utilisation` ≤ 1; if there is none, the share with the smallest.
+    // `utilisation` must have a single minimum (ternary search, then bisection).
+    template <class Utilisation>
+    static double largest_allowed_share(double share, const Utilisation& utilisation) {
+        if (utilisation(share) <= 1.0) return share;
         double low = 0.0, high = share;
         for (int i = 0; i < search_iterations; ++i) {
             const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
-            if (excess(a) <= excess(b))
+            if (utilisation(a) <= utilisation(b))
                 high = b;
             else
                 low = a;
         }
         const double best = 0.5 * (low + high);
-        if (excess(best) > 1.0) return best;
+        if (utilisation(best) > 1.0) return best;
         low = best;
         high = share;
         for (int i = 0; i < search_iterations; ++i) {
             const double s = 0.5 * (low + high);
-            (excess(s) <= 1.0 ? low : high) = s;
+            (utilisation(s) <= 1.0 ? low : high) = s;
         }
         return low;
     }

@@ -44,7 +44,7 @@ struct GodObjectParameters {
     std::optional<collision::Box> box;  // bounds the tool as well, in its own frame
     double friction = 0.15;             // coefficient
     // m, kept between tool and obstacles. Features between the finder's samples are detected up to 0.19 mm
-    // late (bolt-contact-validation, on the ZQ350), so the penetration stays below 0.1 mm.
+    // late as measured (bolt-contact-validation, on the ZQ350), so the penetration stays below 0.1 mm.
     double skin = 110e-6;
     double stride = 0.4e-3;  // m, motion of a point between two queries without a certified clearance
     double reach = 5e-3;     // m, widest band of a query
@@ -82,10 +82,10 @@ struct GodObjectStep {
 // The tool must not penetrate anything at `pose`.
 GodObjectState start_god_object(const Pose& pose);
 
-// Advances by one tick of `dt` (s). A motion is carried out only if it is certified beforehand (no point of
-// the tool travels further than the nearest obstacle) or if, at steps of at most `stride`, a query afterwards
-// reports nothing too near that the motion approached; a finder may detect features up to 0.25 mm late.
-// Ignores a pose that is not finite. Does not allocate.
+// Advances by one tick of `dt` (s). A motion is accepted in one of two cases: no point of the tool travels
+// further than the nearest obstacle; or no point travels further than `stride`, and a query at the end finds
+// no contact that is too near and that the motion approached. A finder may detect features up to 0.25 mm
+// late. Ignores a pose that is not finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& device, ContactFinder finder, double dt);
 

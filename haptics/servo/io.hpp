@@ -1,4 +1,5 @@
-// Input and output of a servo tick: small plain values that the session file records bit for bit.
+// Input and output of a servo tick: small plain values. The session file records the input exactly and most
+// of the output in single precision (game/session/tick.hpp).
 #pragma once
 
 #include <cstdint>
@@ -60,8 +61,8 @@ struct Output {
 
     Pose tool;                   // constrained by obstacles, in the assembly's frame
     std::uint16_t contacts = 0;  // constraints within the contact band
-    // The obstacle in contact at the pose of the tick's last contact query. If the god-object rejected that
-    // pose, or moved on within certified clearance, it is not the pose of `tool`.
+    // The obstacle in contact at the pose of the tick's last contact query. That pose can differ
+    // from `tool`.
     collision::ObstacleId touched;
 
     // Physical values, before scaling to the device.

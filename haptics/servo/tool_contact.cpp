@@ -215,11 +215,11 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
 
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& hand, bool held,
-                                      int held_joint) {
+                                      int joint_in_jaw) {
     update_nut_poses(setup, contact, joints, held);
     const int seated_before = contact.seated_joint;
-    if (held_joint >= 0)
-        contact.seated_joint = held_joint;
+    if (joint_in_jaw >= 0)
+        contact.seated_joint = joint_in_jaw;
     else if (contact.seated_joint >= 0 &&
              (!held || jaw_is_clear(contact, static_cast<std::size_t>(contact.seated_joint))))
         contact.seated_joint = -1;

@@ -61,12 +61,12 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
 void set_coupling(const Setup& setup, ToolContact& contact);
 
 // One tick: places the nuts by their joints' angles and moves the wrench towards `hand` as far as contacts
-// allow. `held_joint` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with the jaw, so
+// allow. `joint_in_jaw` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with the jaw, so
 // that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false the wrench follows
 // the hand and the returned request is zero.
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& hand, bool held,
-                                      int held_joint);
+                                      int joint_in_jaw);
 
 // Returns true if an obstacle other than `joint`'s nut crosses the segment. `joint` −1 excludes no nut.
 bool occluded(const ToolContact& contact, const Vec3& from, const Vec3& to, int joint);

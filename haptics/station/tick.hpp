@@ -41,8 +41,8 @@ struct Layout {
 // Fails with ErrorCode::no_device if there is no device or a device cannot take its role.
 Status check(const Layout& layout);
 
-// s that a sample waits for the servo and a command for the device thread, together; subtracted from the time
-// in which forces must be released.
+// s; upper bound of the two delays together: of a sample until the servo reads it, and of a command until the
+// device thread does. Subtracted from the time in which forces must be released.
 inline constexpr double transport_delay = 2e-3;
 
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
@@ -70,8 +70,8 @@ struct StationControls {
     // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open
     // hand.
     std::optional<Pose> wrench_rest{};
-    // Wrist of a gloved hand without a wrench in the frame of its fingertips, which the device then moves;
-    // none: the device moves the hand as if it held the tool.
+    // Pose of the wrist in the frame of its fingertips, for a gloved hand without a wrench. If set, the
+    // device moves the fingertips; if none, it moves the hand as if the hand held the tool.
     std::optional<Pose> bare_wrist{};
     // Joint to whose nut a tool moves by itself if its device gives rates and renders no force; −1: none.
     std::int16_t glide = -1;
@@ -180,7 +180,7 @@ DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, Stati
 
 // The following apply to a tool whose device gives rates.
 //
-// The largest lead of its commanded pose over its constrained pose, so that it reverses without delay.
+// The commanded pose is at most this far ahead of the constrained pose, so that a reversal acts at once.
 inline constexpr double max_lead = 0.01, max_angular_lead = 0.15;  // m, rad
 // Fingers turn a nut `finger_rate_factor` times faster than the device's rate; at the largest torque a wrench
 // turns 1 + `torque_slowdown` times more slowly. Chosen values.

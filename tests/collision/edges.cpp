@@ -14,8 +14,6 @@ using namespace contact_test;
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 // A square bar along X. One of its edges lies on the X axis and points along +Y.
 ContactMesh bar(double length, double width) {
     const double diagonal = width / std::sqrt(2.0);

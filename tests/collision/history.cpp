@@ -14,8 +14,6 @@ using namespace contact_test;
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 bool same(const Contact& a, const Contact& b) {
     return a.distance == b.distance && a.on_tool == b.on_tool && a.on_obstacle == b.on_obstacle &&
            a.normal == b.normal && a.obstacle == b.obstacle && a.feature == b.feature;

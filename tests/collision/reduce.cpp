@@ -18,8 +18,6 @@ using namespace contact_test;
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 // Random contacts on four faces that are slightly curved.
 std::vector<Contact> some_contacts(Random& random, std::size_t count, double size) {
     std::vector<Contact> all;

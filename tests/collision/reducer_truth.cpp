@@ -13,7 +13,6 @@ using namespace contact_test;
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr int fewer = test::sanitized ? 10 : 1;
 
 struct Truth {

@@ -8,6 +8,8 @@
 
 #include "tests/collision/support.hpp"
 
+namespace collision_smooth_normals_test {
+
 using namespace bolt;
 using namespace bolt::collision;
 using contact_test::Triangles;
@@ -137,3 +139,5 @@ TEST_CASE("Smooth normals: a ball's smooth normals point away from its middle") 
     for (std::size_t t = 0; t < block.triangles.size(); ++t)
         for (std::size_t i = 0; i < 3; ++i) CHECK(block.smooth_normals[t][i] == block.face_normals[t]);
 }
+
+}  // namespace collision_smooth_normals_test

@@ -14,7 +14,6 @@ namespace contact_test {
 namespace {
 
 using namespace bolt;
-constexpr double mm = 1e-3;
 
 }  // namespace
 

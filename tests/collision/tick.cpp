@@ -10,6 +10,8 @@
 #include "tests/support/forbidden.hpp"
 #include "tests/support/sanitized.hpp"
 
+namespace collision_tick_test {
+
 using namespace bolt;
 using namespace bolt::collision;
 using namespace bolt::proxy;
@@ -17,7 +19,6 @@ using namespace contact_test;
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr int fewer = test::sanitized ? 10 : 1;
 
 }  // namespace
@@ -138,3 +139,5 @@ TEST_CASE("Narrow phase: on the reducer first contact is detected in time and pe
     }
     CHECK(met >= std::max(1, 15 / fewer));
 }
+
+}  // namespace collision_tick_test

@@ -12,13 +12,14 @@
 #include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 
+namespace collision_truth_test {
+
 using namespace bolt;
 using namespace bolt::collision;
 using namespace contact_test;
 
 namespace {
 
-constexpr double mm = 1e-3;
 // Divisor of the number of samples under a sanitizer. tests/contact_validation runs the same code; the limits
 // apply to the release build.
 constexpr int fewer = test::sanitized ? 10 : 1;
@@ -211,3 +212,5 @@ TEST_CASE("Narrow phase: penetration over 0.1 mm is never missed, although sampl
     else
         CHECK(missed_by_points > 0);
 }
+
+}  // namespace collision_truth_test

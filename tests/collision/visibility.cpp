@@ -14,8 +14,6 @@ using namespace contact_test;
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 // A 20 mm cube at the origin, and walls.
 struct Room {
     ContactMesh cube = box(Vec3(-10.0) * mm, Vec3(10.0) * mm).mesh();

@@ -14,8 +14,6 @@ using namespace contact_test;
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 struct Places {
     ContactMesh block = box(Vec3(-4.0, -4.0, -4.0) * mm, Vec3(4.0, 4.0, 4.0) * mm).mesh();
     ContactMesh plate = box(Vec3(-30.0, -2.0, -30.0) * mm, Vec3(30.0, 0.0, 30.0) * mm).mesh();

@@ -19,7 +19,6 @@ using namespace bolt::contact_validation;
 
 namespace {
 
-constexpr double um = 1e-6;
 constexpr double deepest_allowed = 100 * um;
 
 struct ServoBench {

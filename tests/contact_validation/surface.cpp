@@ -14,8 +14,6 @@ using namespace bolt::contact_oracle;
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 ClosedSurface cube() {
     return contact_test::surface_of(contact_test::box(Vec3(-10.0) * mm, Vec3(10.0) * mm).mesh());
 }

@@ -10,6 +10,8 @@ trap 'rm -f "$program"' EXIT
 flags=$(grep -m1 -oE '"command": ".* -o tests/[^ ]*/test_device\.dir/[^ ]*\.o ' "$build/compile_commands.json" |
     sed -E 's/^"command": "//; s/ -o .*//; s/ -Winvalid-pch//; s, -include [^ ]*cmake_pch[^ ]*,,g; s/\\"/"/g')
 [[ -n $flags ]] || { echo "nothing is built in $build"; exit 1; }
-libraries=(tests/libtest_main.a haptics/device/libdevice.a haptics/force/libforce.a haptics/hand/libhand.a engine/base/libbase.a)
-$flags -o "$program" "$1" "${libraries[@]/#/$build/}" -lfmt -lhidapi-hidraw -pthread
+read -ra libraries < <(sed -n '/^build bin\/test_device:/,/^$/s/^ *LINK_LIBRARIES = //p' "$build/build.ninja")
+source=$(realpath "$1")
+cd "$build"
+$flags -o "$program" "$source" "${libraries[@]}" -pthread
 "$program"

@@ -18,8 +18,8 @@ namespace {
 constexpr double dt = 1e-3;
 const OutputCommand full{Vec3(100, 0, 0), Vec3(0, 100, 0)};
 
-OutputState at_full(const OutputLimits& limits) {
-    OutputState state;
+LimiterState at_full(const OutputLimits& limits) {
+    LimiterState state;
     for (int i = 0; i < 2000; ++i) limit_output(limits, state, full, true, dt);
     return state;
 }
@@ -29,7 +29,7 @@ OutputState at_full(const OutputLimits& limits) {
 TEST_CASE("Limiter: a step of torque is followed at the slew rate, 0.2 N m per millisecond") {
     OutputLimits limits;
     limits.ramp_up = dt;
-    OutputState state;
+    LimiterState state;
     for (int i = 1; i <= 10; ++i)
         CHECK(limit_output(limits, state, full, true, dt).torque.y == doctest::Approx(0.2 * i));
     CHECK(limit_output(limits, state, full, true, dt).torque.y == doctest::Approx(2.0));
@@ -40,7 +40,7 @@ TEST_CASE("Limiter: a step of torque is followed at the slew rate, 0.2 N m per m
 
 TEST_CASE("Limiter: torque and force have the same ramp") {
     const OutputLimits limits;
-    OutputState state;
+    LimiterState state;
     for (int i = 1; i <= 500; ++i) {
         const OutputCommand out = limit_output(limits, state, {Vec3(10, 0, 0), Vec3(0, 1, 0)}, true, dt);
         REQUIRE(out.torque.y == doctest::Approx(i / 500.0));
@@ -50,7 +50,7 @@ TEST_CASE("Limiter: torque and force have the same ramp") {
 
 TEST_CASE("Limiter: a release from full output falls by a twentieth per millisecond to exactly zero") {
     const OutputLimits limits;
-    OutputState state = at_full(limits);
+    LimiterState state = at_full(limits);
     REQUIRE(state.torque.y == doctest::Approx(limits.torque));
     for (int i = 1; i <= 20; ++i) {
         const OutputCommand out = limit_output(limits, state, full, false, dt);
@@ -67,7 +67,7 @@ TEST_CASE("Limiter: enabled again after a release or a fault the output ramps up
     OutputCommand broken = sound;
     broken.torque.z = std::numeric_limits<double>::quiet_NaN();
     for (const bool let_go : {true, false}) {
-        OutputState state = at_full(limits);
+        LimiterState state = at_full(limits);
         for (int i = 0; i < 20; ++i) limit_output(limits, state, let_go ? sound : broken, !let_go, dt);
         REQUIRE(state.force == Vec3(0.0));
         CHECK(state.strength == 0.0);
@@ -86,7 +86,7 @@ TEST_CASE("Limiter: a state that is not finite is cleared") {
             for (const bool enabled : {true, false}) {
                 CAPTURE(k);
                 CAPTURE(enabled);
-                OutputState state;
+                LimiterState state;
                 for (int i = 0; i < 2000; ++i) limit_output(limits, state, wanted, true, dt);
                 (k < 3 ? state.force : state.torque)[k % 3] = value;
                 OutputCommand out = limit_output(limits, state, wanted, enabled, dt);
@@ -110,7 +110,7 @@ TEST_CASE("Limiter: a state that is not finite is cleared") {
 TEST_CASE("Limiter: for any request the output is within the limits and the slew rate") {
     const OutputLimits limits;
     Random random(4);
-    OutputState state;
+    LimiterState state;
     Vec3 last(0.0);
     for (int i = 0; i < 100'000; ++i) {
         OutputCommand wanted;
@@ -134,7 +134,7 @@ TEST_CASE("Limiter: for any request the output is within the limits and the slew
 
 TEST_CASE("Limiter: without the dead-man switch the output is zero within 20 ms and stays zero") {
     const OutputLimits limits;
-    OutputState state;
+    LimiterState state;
     const OutputCommand full{Vec3(100, 0, 0), Vec3(0, 100, 0)};
     for (int i = 0; i < 2000; ++i) limit_output(limits, state, full, true, 1e-3);
     CHECK(glm::length(state.force) == doctest::Approx(limits.force));
@@ -147,7 +147,7 @@ TEST_CASE("Limiter: without the dead-man switch the output is zero within 20 ms 
 
 TEST_CASE("Limiter: the ramp has half the strength after half its time") {
     const OutputLimits limits;
-    OutputState state;
+    LimiterState state;
     for (int i = 0; i < 250; ++i) limit_output(limits, state, {Vec3(10, 0, 0), Vec3(0.0)}, true, 1e-3);
     CHECK(state.force.x == doctest::Approx(5.0).epsilon(0.01));
 }
@@ -155,7 +155,7 @@ TEST_CASE("Limiter: the ramp has half the strength after half its time") {
 TEST_CASE("Limiter: a device without torque output gets no torque") {
     OutputLimits limits;
     limits.torque = 0.0;
-    OutputState state;
+    LimiterState state;
     for (int i = 0; i < 1000; ++i)
         CHECK(limit_output(limits, state, {Vec3(0.0), Vec3(0, 1, 0)}, true, 1e-3).torque == Vec3(0.0));
 }

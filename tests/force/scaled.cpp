@@ -44,7 +44,7 @@ TEST_CASE("Scaled limits: they never exceed the device's own limits") {
 
 TEST_CASE("Scaled limits: the limiter obeys them") {
     const OutputLimits less = scaled(OutputLimits{}, 0.25);
-    OutputState state;
+    LimiterState state;
     double before = 0.0;
     for (int i = 0; i < 2000; ++i) {
         const OutputCommand out =

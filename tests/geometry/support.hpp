@@ -17,8 +17,6 @@ namespace geometry_test {
 
 using bolt::Vec3;
 
-inline constexpr double mm = 1e-3;
-
 // Builds a triangle mesh from prisms; millimetres.
 struct PrismMesh {
     std::vector<Vec3> points;

@@ -6,6 +6,8 @@
 
 #include "tests/collision/support.hpp"
 
+namespace hand_fingertip_contact_test {
+
 using namespace bolt;
 using namespace bolt::collision;
 using namespace bolt::hand;
@@ -13,7 +15,6 @@ using namespace contact_test;
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double away = 200.0;
 
 // A flat bar like a wrench's handle: 150 mm long, 20 mm high, 8 mm thick.
@@ -74,3 +75,5 @@ TEST_CASE("FingertipGrasp: a pad inside the handle reports its depth") {
     CHECK(g.tips[1].normal.z == doctest::Approx(-1.0));
     CHECK(g.held);
 }
+
+}  // namespace hand_fingertip_contact_test

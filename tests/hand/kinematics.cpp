@@ -12,8 +12,6 @@ using namespace bolt::hand;
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 Angles random_angles(Random& random) {
     const auto in = [&](const AngleRange& span) { return random.uniform(span.low, span.high); };
     Angles a;

@@ -8,6 +8,8 @@
 #include "haptics/hand/measured_hand.hpp"
 #include "tests/support/forbidden.hpp"
 
+namespace hand_measured_hand_test {
+
 using namespace bolt;
 using namespace bolt::hand;
 
@@ -140,3 +142,5 @@ TEST_CASE("MeasuredHand: follows its frames, restarts after a gap, and stays wit
     CHECK(test::forbidden_in([&] { update(hand, wearer, frame, 9.0); }).all() == 0);
     CHECK(hand.angles.fingers[1].pip < to_radians(121.0));
 }
+
+}  // namespace hand_measured_hand_test

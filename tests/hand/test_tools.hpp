@@ -9,8 +9,6 @@ namespace grasp_test {
 
 using namespace bolt;
 
-inline constexpr double mm = 1e-3;
-
 struct TestTool {
     collision::ToolShape tool;
     contact_test::ClosedSurface surface;

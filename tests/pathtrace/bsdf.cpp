@@ -16,8 +16,6 @@ using bolt::about;
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
-
 glm::vec3 at(float cosine) { return {std::sqrt(1.0F - cosine * cosine), 0.0F, cosine}; }
 
 ShadingPoint white(float roughness, float metallic, float coat) {
@@ -67,7 +65,7 @@ TEST_CASE("BSDF: brushed metal reflects the expected light within a few per cent
                 s.alpha.x = glm::mix(s.alpha.x, 1.0F, strength * strength);
                 float sum = 0.0F;
                 for (int i = 0; i < 5; ++i) {
-                    const float azimuth = static_cast<float>(i) * pi / 8.0F;
+                    const float azimuth = static_cast<float>(i) * pi_float / 8.0F;
                     const float sine = std::sqrt(1.0F - cosine * cosine);
                     sum +=
                         furnace(s, {sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, 1024) / 5.0F;
@@ -117,7 +115,7 @@ TEST_CASE("BSDF: sampling agrees with evaluation over uniform directions") {
         SobolSampler sampler(1, 2, i);
         const glm::vec2 u = sampler.pair();
         const float r = std::sqrt(1.0F - u.x * u.x);
-        const glm::vec3 in(r * std::cos(2.0F * pi * u.y), r * std::sin(2.0F * pi * u.y), u.x);
+        const glm::vec3 in(r * std::cos(2.0F * pi_float * u.y), r * std::sin(2.0F * pi_float * u.y), u.x);
         const BsdfValue scattered = Bsdf(s, out).evaluate(in);
         uniform += glm::dvec3(scattered.value) * (2.0 * std::numbers::pi / count);
         density += static_cast<double>(scattered.density) * (2.0 * std::numbers::pi / count);

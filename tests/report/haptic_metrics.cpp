@@ -153,7 +153,7 @@ TEST_CASE("Haptic metrics: duration of each fault of the output") {
 }
 
 TEST_CASE("Quartiles: of type 7") {
-    const Quartiles q = quartiles({7.0, 1.0, 3.0, ForceJump::nan, 10.0, 4.0, 20.0});
+    const Quartiles q = quartiles({7.0, 1.0, 3.0, bolt::nan, 10.0, 4.0, 20.0});
     CHECK(q.n == 6);
     CHECK(q.low == doctest::Approx(3.25));  // numpy.percentile([1, 3, 4, 7, 10, 20], [25, 50, 75])
     CHECK(q.median == doctest::Approx(5.5));

@@ -13,7 +13,6 @@ namespace sculpt_skeleton_test {
 
 using namespace bolt;
 using namespace bolt::hand;
-using sculpt::mm;
 namespace test = sculpt::test;
 
 namespace {

@@ -126,7 +126,7 @@ TEST_CASE("Lesson sound: a replay gives the same samples") {
                 servo::Output output = moment.output;
                 if (changed) output.clicked = false;
                 const sound::LessonCues cues = sound::lesson_cues(moment.lesson.events);
-                world::haptic_system(world, {moment.state, moment.input, output});
+                world::write_haptics(world, {moment.state, moment.input, output});
                 replay.add(renderer.next(sound::detect_events(detector, moment.setup, world, cues)));
                 return true;
             });

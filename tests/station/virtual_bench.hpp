@@ -18,7 +18,7 @@ class VirtualBench final : public station_setup::LessonStation {
         layout_.mover = *supervisor_.report().description;
         layout_.mover_buttons = {1, 0, 0, 0};
         options.device = station::limits_of(layout_);
-        session::set_device(options, prepared);
+        session::set_device_limits(options, prepared);
         setup_ = prepared.setup;
         servo_ = std::move(prepared.state);
         state_ = station::initial_state(layout_);

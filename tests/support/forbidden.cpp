@@ -26,7 +26,7 @@ namespace {
 thread_local bool counting = false;
 thread_local bolt::test::Forbidden seen;
 
-void count(int bolt::test::Forbidden::*kind) {
+void count_forbidden(int bolt::test::Forbidden::*kind) {
     if (counting) ++(seen.*kind);
 }
 
@@ -68,17 +68,17 @@ bool makes_no_system_call(void (*work)(void*), void* with) {
 
 // Not in a test's own file: if inlined there, gcc reports the pair as mismatched.
 void* operator new(std::size_t size) {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     if (void* memory = std::malloc(size)) return memory;
     throw std::bad_alloc();
 }
 // Used by the standard library's sorts.
 void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     return std::malloc(size);
 }
 void operator delete(void* memory) noexcept {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     std::free(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
@@ -109,41 +109,41 @@ Function* next(const char* name, Function*& found) {
 }  // namespace
 
 // NOLINTBEGIN: these are the C library's names and signatures.
-#define PASS_ON(kind, result, name, parameters, ...) \
-    extern "C" result name parameters {              \
-        static result(*found) parameters = nullptr;  \
-        count(&bolt::test::Forbidden::kind);         \
-        return next(#name, found)(__VA_ARGS__);      \
+#define PASS_ON(kind, result, name, parameters, ...)   \
+    extern "C" result name parameters {                \
+        static result(*found) parameters = nullptr;    \
+        count_forbidden(&bolt::test::Forbidden::kind); \
+        return next(#name, found)(__VA_ARGS__);        \
     }
 
 extern "C" {
 void* malloc(std::size_t size) {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     return __libc_malloc(size);
 }
 void* calloc(std::size_t n, std::size_t size) {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     return __libc_calloc(n, size);
 }
 void* realloc(void* memory, std::size_t size) {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     return __libc_realloc(memory, size);
 }
 void* memalign(std::size_t alignment, std::size_t size) {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     return __libc_memalign(alignment, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     return __libc_memalign(alignment, size);
 }
 int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     *memory = __libc_memalign(alignment, size);
     return *memory == nullptr ? 12 : 0;  // ENOMEM
 }
 void free(void* memory) {
-    count(&bolt::test::Forbidden::allocations);
+    count_forbidden(&bolt::test::Forbidden::allocations);
     __libc_free(memory);
 }
 }

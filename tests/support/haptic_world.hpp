@@ -1,4 +1,4 @@
-// Worlds as world::haptic_system writes them, for tests that step a servo or set its values by hand.
+// Worlds as world::write_haptics writes them, for tests that step a servo or set its values by hand.
 #pragma once
 
 #include "game/lesson/lesson.hpp"
@@ -15,7 +15,7 @@ inline world::World make_world(const servo::State& state) {
 // Runs the systems that follow a tick (session::tick_systems), without undo.
 inline void observe_tick(lesson::Lesson& lesson, world::World& world, const servo::State& state,
                          const servo::Output& output) {
-    world::haptic_system(world, {state, {}, output});
+    world::write_haptics(world, {state, {}, output});
     lesson::observe(lesson, world);
 }
 
@@ -41,7 +41,7 @@ class HapticWorld {
 
     const world::World& write(const servo::State& state, const servo::Output& output, bool wrench,
                               double room = std::numeric_limits<double>::infinity()) {
-        world::haptic_system(world_, {state, {}, output});
+        world::write_haptics(world_, {state, {}, output});
         world::WorkingHand& hand = world_.only<world::WorkingHand>();
         hand.wrench = wrench;
         hand.action = world::HandAction::holding;

@@ -44,7 +44,6 @@ TEST_CASE("Left hand: its postures mirror the right hand's, around a handle too"
     CHECK(off_mirror(left, right) < 1e-12);
     CHECK(off_mirror(right, right) > 0.05);  // the check can fail
 
-    constexpr double mm = 1e-3;
     const collision::ContactMesh parts[] = {
         contact_test::box(Vec3(-20.0, -12.0, -3.5) * mm, Vec3(240.0, 12.0, 3.5) * mm).mesh()};
     const auto bar = collision::make_tool(parts);

@@ -65,7 +65,7 @@ struct StationLesson {
         }
 
         options.device = bench->setup().limits;
-        session::set_device(options, *other);
+        session::set_device_limits(options, *other);
         auto begun = session::LessonSession::begin(std::move(*other), options, file);
         REQUIRE(begun);
         session = std::move(*begun);

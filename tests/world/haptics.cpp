@@ -21,7 +21,7 @@ struct Bench {
     }
     servo::Output tick() {
         const servo::Output output = servo::tick(setup, state, input);
-        world::haptic_system(world, {state, input, output});
+        world::write_haptics(world, {state, input, output});
         return output;
     }
     // Puts the wrench on a nut, with the handle at this angle in rad.

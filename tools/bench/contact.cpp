@@ -241,8 +241,8 @@ using bench::unwrap;
 constexpr double band = 0.6e-3;
 constexpr double edge_for_a_million_triangles = 8.5e-3;  // m: the longest edge for about a million triangles
 
-constexpr double seconds = 24.0;  // s, duration of the path
-constexpr int rounds = 3;         // the shortest time of each tick is used
+constexpr double path_seconds = 24.0;  // s, duration of the path
+constexpr int path_rounds = 3;         // the shortest time of each tick is used
 
 // The benchmark's argument selects the casing: 0 as shipped (about 60,000 triangles), 1 refined.
 struct ContactScenario {
@@ -272,7 +272,7 @@ struct ContactScenario {
         for (std::size_t i = 0; i < worlds.size(); ++i) worlds[i] = world(i, collision::WorldOptions{}.cell);
         wrench = unwrap(bench::load_contact(content::content_folder() / "tools/wrench-24.contact.glb"));
         tool = unwrap(collision::make_tool(wrench));
-        sweep = bench::make_sweep(worlds[0], worlds[0].shapes[0].solid, tool, 0.1e-3, seconds);
+        sweep = bench::make_sweep(worlds[0], worlds[0].shapes[0].solid, tool, 0.1e-3, path_seconds);
     }
 };
 
@@ -308,7 +308,7 @@ void measure_path(benchmark::State& state, std::size_t every, const MakeStep& ma
     for (auto _ : state) {
         std::vector<double> least(sweep.size(), 1e9);
         std::vector<bool> touches(sweep.size());
-        for (int round = 0; round < rounds; ++round) {
+        for (int round = 0; round < path_rounds; ++round) {
             auto step = make_step();
             for (std::size_t i = 0; i < sweep.size(); i += every) {
                 const double start = bench::thread_microseconds();

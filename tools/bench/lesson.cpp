@@ -63,7 +63,7 @@ void headless_lesson_unrecorded(benchmark::State& state) {
         while (lesson.due() != nullptr && servo.tick < 7'200'000) {
             const servo::Input input = trainee.act(setup, servo, lesson);
             const servo::Output output = servo::tick(setup, servo, input);
-            world::haptic_system(world, {servo, input, output});
+            world::write_haptics(world, {servo, input, output});
             lesson::observe(lesson, world);
             lesson.events.clear();
         }
@@ -73,7 +73,7 @@ void headless_lesson_unrecorded(benchmark::State& state) {
 }
 BENCHMARK(headless_lesson_unrecorded)->Unit(benchmark::kMillisecond);
 
-constexpr double frame = 1.0 / 60.0, time_limit = 3600.0;  // s
+constexpr double frame_time = 1.0 / 60.0, time_limit = 3600.0;  // s
 
 void lesson_frames(benchmark::State& state, const char* name, session::Obstacles obstacles) {
     run_or_skip(state, [&] {
@@ -99,8 +99,8 @@ void lesson_frames(benchmark::State& state, const char* name, session::Obstacles
                 const servo::Output output = unwrap(lesson_session.step(world, input, expert.take_events()));
                 frame_cost += 1e-3 * (bench::thread_microseconds() - start);
                 touches = touches || !output.touched.is_none();
-                if (lesson_session.time() < last_frame + frame) continue;
-                last_frame += frame;
+                if (lesson_session.time() < last_frame + frame_time) continue;
+                last_frame += frame_time;
                 frames.push_back(frame_cost);
                 if (touches) touching.push_back(frame_cost);
                 frame_cost = 0.0;

@@ -20,7 +20,7 @@ using bench::run_or_skip;
 using bench::unwrap;
 using bench::WallClock;
 
-constexpr bench::MachineSize million{115, 1'000'000};
+constexpr bench::MachineSize million_triangles{115, 1'000'000};
 
 // Returns the model with unshared vertices and without normals, as simple exporters write it. The renderer
 // then computes the normals.
@@ -40,7 +40,7 @@ assets::Model unshared(assets::Model model) {
 struct TemporaryModelFile {
     std::filesystem::path path = std::filesystem::temp_directory_path() / "bolt-bench-million.glb";
     explicit TemporaryModelFile(bool shared) {
-        const assets::Model model = bench::make_machine(million);
+        const assets::Model model = bench::make_machine(million_triangles);
         unwrap(assets::write_glb(path, shared ? model : unshared(model)));
     }
     ~TemporaryModelFile() {

@@ -13,7 +13,7 @@ namespace bolt::bench {
 
 namespace {
 
-constexpr float turn = 2.0F * std::numbers::pi_v<float>;
+constexpr float full_turn = 2.0F * std::numbers::pi_v<float>;
 
 // The profile of a turned part, from the axis at the bottom to the axis at the top (m). Each pair of points
 // spans a band of the surface with a sharp edge at either end.
@@ -30,7 +30,7 @@ float round_section(float) { return 1.0F; }
 // Teeth with straight flanks.
 CrossSection toothed_section(int teeth) {
     return [teeth](float angle) {
-        const float phase = angle / turn * static_cast<float>(teeth);
+        const float phase = angle / full_turn * static_cast<float>(teeth);
         const float saw = std::abs(2.0F * (phase - std::floor(phase)) - 1.0F);
         return 1.0F + 0.08F * std::clamp(4.0F * saw - 2.0F, -1.0F, 1.0F);
     };
@@ -39,7 +39,7 @@ CrossSection toothed_section(int teeth) {
 // A regular polygon with slightly rounded corners; four sides make a housing, six a bolt.
 CrossSection polygon_section(int sides) {
     return [sides](float angle) {
-        const float sector = turn / static_cast<float>(sides);
+        const float sector = full_turn / static_cast<float>(sides);
         const float within = std::fmod(angle, sector) - 0.5F * sector;
         return std::min(1.0F / std::cos(within), 0.97F / std::cos(0.5F * sector)) * std::cos(0.5F * sector);
     };
@@ -56,8 +56,8 @@ void add_band(assets::Primitive& to, const ProfilePoint& from, const ProfilePoin
     for (int i = 0; i <= rows; ++i) {
         const float along = static_cast<float>(i) / static_cast<float>(rows);
         for (int j = 0; j <= around; ++j) {
-            const float angle = turn * static_cast<float>(j) / static_cast<float>(around);
-            const float step = 0.25F * turn / static_cast<float>(around);
+            const float angle = full_turn * static_cast<float>(j) / static_cast<float>(around);
+            const float step = 0.25F * full_turn / static_cast<float>(around);
             // Tangents across the band and around it, taken in its middle so that a band that ends on the
             // axis has normals there.
             const glm::vec3 across = at(1.0F, angle) - at(0.0F, angle);
@@ -186,7 +186,8 @@ assets::Model make_machine(const MachineSize& size) {
             pitch * (static_cast<float>(i / columns) - static_cast<float>(columns) / 3.0F)};
         const float angle = static_cast<float>(random.uniform(0.0, 6.28));
         node.rotation = glm::angleAxis(angle, glm::vec3(0, 1, 0));
-        if (shape.lying) node.rotation = node.rotation * glm::angleAxis(-0.25F * turn, glm::vec3(0, 0, 1));
+        if (shape.lying)
+            node.rotation = node.rotation * glm::angleAxis(-0.25F * full_turn, glm::vec3(0, 0, 1));
         model.nodes.push_back(std::move(node));
         model.roots.push_back(i);
     }

@@ -37,7 +37,6 @@ struct DeviceModel {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double max_speed = 0.5, max_turn_speed = 3.0;  // m/s, rad/s: limits of a hand that holds a wrench
 
 // The next target of the hand, and the least duration.

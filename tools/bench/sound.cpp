@@ -83,7 +83,7 @@ void sound_event_detection(benchmark::State& state) {
         for (int i = 0; i < 20; ++i) {
             output.tool.position.x += 1e-4;
             servo.joints[0].nut.angle += 1e-3;
-            world::haptic_system(world, {servo, {}, output});
+            world::write_haptics(world, {servo, {}, output});
             benchmark::DoNotOptimize(sound::detect_events(detector, setup, world));
         }
     report_real_time(state);

@@ -31,7 +31,7 @@ std::vector<Bytes> with_faults(std::vector<Bytes> reports, const HidFaults& faul
 
 namespace {
 
-constexpr double step = 0.00025;         // s
+constexpr double mechanics_step = 0.00025;  // s
 constexpr std::size_t queue_limit = 64;  // reports that the kernel queues for a reader; later ones are lost
 
 tl::unexpected<Error> unplugged_error() {
@@ -51,7 +51,7 @@ Result<std::span<const std::uint8_t>> EmulatedTransport::read(double timeout) {
         for (Bytes& report : link_.device->advance(link_.time))
             if (queue_.size() < queue_limit) queue_.push_back(std::move(report));
         if (!queue_.empty() || link_.time >= until) break;
-        link_.time = std::min(link_.time + step, until);
+        link_.time = std::min(link_.time + mechanics_step, until);
     }
     if (queue_.empty()) return std::span<const std::uint8_t>();
     read_ = std::move(queue_.front());

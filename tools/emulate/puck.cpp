@@ -9,8 +9,8 @@ namespace bolt::emulate {
 
 namespace {
 
-constexpr double period = 0.008;  // s
-constexpr double counts = 350.0;  // at full deflection
+constexpr double puck_period = 0.008;  // s
+constexpr double counts = 350.0;       // at full deflection
 
 Bytes descriptor(bool single_report) {
     DescriptorBuilder d;
@@ -38,7 +38,7 @@ EmulatedPuck::EmulatedPuck(const EmulatedPuckOptions& options)
 
 std::vector<Bytes> EmulatedPuck::advance(double now) {
     std::vector<Bytes> out;
-    for (; next_ <= now; next_ += period) {
+    for (; next_ <= now; next_ += puck_period) {
         if (next_ < now - 1.0) next_ = now - 1.0;  // drop reports older than 1 s
         if (stalled) continue;
         const bool deflected =

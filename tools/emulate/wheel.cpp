@@ -143,10 +143,10 @@ Bytes generic_wheel_descriptor() {
 
 namespace {
 
-constexpr double step = 0.00025;       // s, time step of the mechanics
-constexpr double period = 0.001;       // s, between reports
-constexpr double repeat_period = 0.1;  // s, after which a board repeats an unchanged report
-constexpr std::uint8_t block = 1;      // index of the only effect block
+constexpr double wheel_step = 0.00025;    // s, time step of the mechanics
+constexpr double report_period = 0.001;   // s, between reports
+constexpr double repeat_period = 0.1;     // s, after which a board repeats an unchanged report
+constexpr std::uint8_t effect_block = 1;  // index of the only effect block
 
 unsigned read_u16(std::span<const std::uint8_t> report, std::size_t at) {
     return at + 1 < report.size() ? report[at] | static_cast<unsigned>(report[at + 1]) << 8U : 0U;
@@ -176,12 +176,12 @@ double EmulatedWheel::torque() const {
 std::vector<Bytes> EmulatedWheel::advance(double now) {
     std::vector<Bytes> out;
     if (now - time_ > 1.0) time_ = next_ = now - 1.0;
-    for (; time_ + step <= now; time_ += step) {
+    for (; time_ + wheel_step <= now; time_ += wheel_step) {
         const double pull = torque() + hand_stiffness * (hand - angle_) - options_.damping * speed_;
-        speed_ += pull / options_.inertia * step;
-        angle_ += speed_ * step;
+        speed_ += pull / options_.inertia * wheel_step;
+        angle_ += speed_ * wheel_step;
         if (time_ < next_) continue;
-        next_ += period;
+        next_ += report_period;
         if (stalled) continue;
         Bytes report = axis_report();
         if (report != last_report_ || (options_.board && time_ - last_report_time_ >= repeat_period)) {
@@ -254,7 +254,7 @@ void EmulatedWheel::output(std::span<const std::uint8_t> report) {
         if (start) started_ = time_;
     };
     if (options_.board) {
-        const bool ours = byte(1) == block && loaded_;
+        const bool ours = byte(1) == effect_block && loaded_;
         switch (report[0]) {
             case 0x01:
                 if (!ours || byte(2) != 1) return;
@@ -286,7 +286,7 @@ void EmulatedWheel::output(std::span<const std::uint8_t> report) {
     }
     switch (report[0]) {
         case 0x11:
-            if (byte(1) != block || byte(2) != 2) return;
+            if (byte(1) != effect_block || byte(2) != 2) return;
             duration_ = read_u16(report, 3) / 1000.0;
             effect_gain_ = byte(5) / 100.0 * std::sin(byte(7) / 256.0 * 2.0 * pi);
             set_ = true;
@@ -295,7 +295,7 @@ void EmulatedWheel::output(std::span<const std::uint8_t> report) {
             magnitude_ = static_cast<std::int16_t>(read_u16(report, 1)) / 10000.0;
             return;
         case 0x1a:
-            if (byte(1) == block && (byte(2) == 1 || byte(2) == 2)) start_or_stop(byte(2) == 2);
+            if (byte(1) == effect_block && (byte(2) == 1 || byte(2) == 2)) start_or_stop(byte(2) == 2);
             return;
         case 0x1c: {
             constexpr std::uint8_t as_bits[] = {0, 0x08, 0x04, 0x01, 0x02};
@@ -319,7 +319,7 @@ void EmulatedWheel::set_feature(std::span<const std::uint8_t> report) {
 
 Bytes EmulatedWheel::get_feature(std::uint8_t report) {
     if (stalled || !options_.board || report != 18) return {};
-    return {18, loaded_ ? block : std::uint8_t{0}, loaded_ ? std::uint8_t{1} : std::uint8_t{2}, 39, 0};
+    return {18, loaded_ ? effect_block : std::uint8_t{0}, loaded_ ? std::uint8_t{1} : std::uint8_t{2}, 39, 0};
 }
 
 }  // namespace bolt::emulate

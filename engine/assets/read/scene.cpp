@@ -17,8 +17,6 @@ namespace {
 // Deeper than any real model, and shallow enough for recursive code.
 constexpr int node_depth_limit = 256;
 
-glm::vec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
-
 // Decomposes an affine matrix without shear into translation, rotation and scale. The x scale of a reflection
 // is negative.
 Status decompose(const Document& document, const std::vector<double>& m, const std::string& pointer,
@@ -56,8 +54,8 @@ Status read_node(const Document& document, std::size_t index, Node& node) {
     if (from.matrix.size() == 16) {
         BOLT_TRY(decompose(document, from.matrix, pointer + "/matrix", node));
     } else {
-        if (from.translation.size() == 3) node.translation = vec3(from.translation);
-        if (from.scale.size() == 3) node.scale = vec3(from.scale);
+        if (from.translation.size() == 3) node.translation = glm::make_vec3(from.translation.data());
+        if (from.scale.size() == 3) node.scale = glm::make_vec3(from.scale.data());
         if (from.rotation.size() == 4) {
             const glm::dquat rotation(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
             if (std::abs(glm::length(rotation) - 1.0) > 1e-2)

@@ -12,29 +12,27 @@ namespace bolt::assets {
 
 namespace {
 
-using nlohmann::json;
-
 struct SchemaChecker {
     Document& document;
 
-    Status check_object(json& value, const ObjectSchema& schema, const std::string& pointer);
-    Status check_property(json& value, const Property& property, const std::string& pointer);
-    Status check_list(json& value, const Property& property, const std::string& pointer);
-    Status check_integer(json& value, const Property& property, const std::string& pointer);
-    Status check_number(json& value, const Property& property, const std::string& pointer);
-    Status check_index(json& value, const Property& property, const std::string& pointer);
+    Status check_object(nlohmann::json& value, const ObjectSchema& schema, const std::string& pointer);
+    Status check_property(nlohmann::json& value, const Property& property, const std::string& pointer);
+    Status check_list(nlohmann::json& value, const Property& property, const std::string& pointer);
+    Status check_integer(nlohmann::json& value, const Property& property, const std::string& pointer);
+    Status check_number(nlohmann::json& value, const Property& property, const std::string& pointer);
+    Status check_index(nlohmann::json& value, const Property& property, const std::string& pointer);
 };
 
 // Returns the number of entries in a section that an index may refer to.
-std::size_t section_size(const json& root, const std::string& section) {
-    const json::json_pointer pointer(section.starts_with('/') ? section : '/' + section);
+std::size_t section_size(const nlohmann::json& root, const std::string& section) {
+    const nlohmann::json::json_pointer pointer(section.starts_with('/') ? section : '/' + section);
     if (!root.contains(pointer)) return 0;
-    const json& entries = root.at(pointer);
+    const nlohmann::json& entries = root.at(pointer);
     return entries.is_array() ? entries.size() : 0;
 }
 
 // The type of a JSON value with its article: "an object".
-std::string type_phrase(const json& value) {
+std::string type_phrase(const nlohmann::json& value) {
     const std::string name = value.type_name();
     if (value.is_null()) return name;
     return (value.is_structured() ? "an " : "a ") + name;
@@ -55,7 +53,8 @@ std::string escaped(const std::string& key) {
     return text;
 }
 
-Status SchemaChecker::check_integer(json& value, const Property& property, const std::string& pointer) {
+Status SchemaChecker::check_integer(nlohmann::json& value, const Property& property,
+                                    const std::string& pointer) {
     // JSON and glTF accept 2.0 as an integer, but the libraries do not: convert it in the document.
     if (value.is_number_float() && std::trunc(value.get<double>()) == value.get<double>() &&
         value.get<double>() >= 0.0 && value.get<double>() <= INT_MAX)
@@ -71,7 +70,8 @@ Status SchemaChecker::check_integer(json& value, const Property& property, const
     return {};
 }
 
-Status SchemaChecker::check_number(json& value, const Property& property, const std::string& pointer) {
+Status SchemaChecker::check_number(nlohmann::json& value, const Property& property,
+                                   const std::string& pointer) {
     const double low = std::max(property.low, static_cast<double>(-FLT_MAX));
     const double high = std::min(property.high, static_cast<double>(FLT_MAX));
     if (!value.is_number()) return error_at(document, pointer, "is " + type_phrase(value), "a number");
@@ -80,13 +80,14 @@ Status SchemaChecker::check_number(json& value, const Property& property, const 
     std::string expected = "a number that a float can hold";
     if (property.low > -DBL_MAX || property.high < DBL_MAX) {
         expected = "a number";
-        if (property.low > -DBL_MAX) expected += " from " + json(property.low).dump();
-        if (property.high < DBL_MAX) expected += " to " + json(property.high).dump();
+        if (property.low > -DBL_MAX) expected += " from " + nlohmann::json(property.low).dump();
+        if (property.high < DBL_MAX) expected += " to " + nlohmann::json(property.high).dump();
     }
     return error_at(document, pointer, value.dump() + " is out of range", expected);
 }
 
-Status SchemaChecker::check_index(json& value, const Property& property, const std::string& pointer) {
+Status SchemaChecker::check_index(nlohmann::json& value, const Property& property,
+                                  const std::string& pointer) {
     const std::size_t count = section_size(document.json, property.section);
     BOLT_TRY(check_integer(value, {}, pointer));
     if (value.get<std::uint64_t>() >= count)
@@ -95,7 +96,8 @@ Status SchemaChecker::check_index(json& value, const Property& property, const s
     return {};
 }
 
-Status SchemaChecker::check_list(json& value, const Property& property, const std::string& pointer) {
+Status SchemaChecker::check_list(nlohmann::json& value, const Property& property,
+                                 const std::string& pointer) {
     if (!value.is_array()) return error_at(document, pointer, "is " + type_phrase(value), "an array");
     if (property.length > 0 && value.size() != property.length)
         return error_at(document, pointer, "has " + std::to_string(value.size()) + " entries",
@@ -122,7 +124,8 @@ Status SchemaChecker::check_list(json& value, const Property& property, const st
     return {};
 }
 
-Status SchemaChecker::check_property(json& value, const Property& property, const std::string& pointer) {
+Status SchemaChecker::check_property(nlohmann::json& value, const Property& property,
+                                     const std::string& pointer) {
     switch (property.type) {
         case PropertyType::boolean:
             if (!value.is_boolean())
@@ -155,7 +158,8 @@ Status SchemaChecker::check_property(json& value, const Property& property, cons
     return {};
 }
 
-Status SchemaChecker::check_object(json& value, const ObjectSchema& schema, const std::string& pointer) {
+Status SchemaChecker::check_object(nlohmann::json& value, const ObjectSchema& schema,
+                                   const std::string& pointer) {
     if (!value.is_object()) return error_at(document, pointer, "is " + type_phrase(value), "an object");
     for (const Property& property : schema) {
         const auto entry = value.find(property.name);
@@ -170,7 +174,7 @@ Status SchemaChecker::check_object(json& value, const ObjectSchema& schema, cons
 }
 
 Status check_version(const Document& document) {
-    const json& asset = document.json["asset"];
+    const nlohmann::json& asset = document.json["asset"];
     const std::string version = asset["version"];
     if (!version.starts_with("2."))
         return error_at(document, "/asset/version", "is glTF " + version, "glTF 2.0");
@@ -198,7 +202,7 @@ Status check_extensions(const Document& document) {
     return {};
 }
 
-Status check_enumerator(const Document& document, const json& value,
+Status check_enumerator(const Document& document, const nlohmann::json& value,
                         std::initializer_list<const char*> allowed, const std::string& pointer) {
     std::string expected;
     for (const char* enumerator : allowed) {
@@ -210,27 +214,27 @@ Status check_enumerator(const Document& document, const json& value,
 
 // Checks objects whose type determines their required properties.
 Status check_types(const Document& document) {
-    const json& root = document.json;
+    const nlohmann::json& root = document.json;
     Status status;
     const auto each = [&](const std::string& section, auto check) {
-        const json::json_pointer path(section);
+        const nlohmann::json::json_pointer path(section);
         if (!root.contains(path)) return;
         for (std::size_t i = 0; status && i < root.at(path).size(); ++i)
             status = check(root.at(path)[i], section + '/' + std::to_string(i));
     };
-    each("/accessors", [&](const json& accessor, const std::string& pointer) {
+    each("/accessors", [&](const nlohmann::json& accessor, const std::string& pointer) {
         return check_enumerator(document, accessor["type"],
                                 {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"},
                                 pointer + "/type");
     });
-    each("/cameras", [&](const json& camera, const std::string& pointer) -> Status {
+    each("/cameras", [&](const nlohmann::json& camera, const std::string& pointer) -> Status {
         Status type_status =
             check_enumerator(document, camera["type"], {"perspective", "orthographic"}, pointer + "/type");
         if (!type_status || camera.contains(camera["type"])) return type_status;
         return error_at(document, pointer, "has no '" + camera["type"].get<std::string>() + "'");
     });
     each("/extensions/KHR_lights_punctual/lights",
-         [&](const json& light, const std::string& pointer) -> Status {
+         [&](const nlohmann::json& light, const std::string& pointer) -> Status {
              Status type_status = check_enumerator(document, light["type"], {"directional", "point", "spot"},
                                                    pointer + "/type");
              if (!type_status || light["type"] != "spot" || light.contains("spot")) return type_status;

@@ -16,7 +16,7 @@ void set_texture(GlbWriter& writer, Json& owner, const char* key, const TextureR
     if (has_transform(ref)) {
         Json transform = Json::object();
         if (ref.offset != glm::vec2(0.0F)) transform["offset"] = array(ref.offset);
-        if (ref.rotation != 0.0F) transform["rotation"] = number(ref.rotation);
+        if (ref.rotation != 0.0F) transform["rotation"] = json_number(ref.rotation);
         if (ref.scale != glm::vec2(1.0F)) transform["scale"] = array(ref.scale);
         info["extensions"]["KHR_texture_transform"] = std::move(transform);
         writer.used_extensions.insert("KHR_texture_transform");
@@ -26,7 +26,7 @@ void set_texture(GlbWriter& writer, Json& owner, const char* key, const TextureR
 
 // Sets a factor if it differs from glTF's default.
 void set(Json& owner, const char* key, float value, float default_value) {
-    if (value != default_value) owner[key] = number(value);
+    if (value != default_value) owner[key] = json_number(value);
 }
 
 Json clearcoat(GlbWriter& writer, const Material& m) {

@@ -199,7 +199,7 @@ Result<Json> write_mesh(GlbWriter& writer, std::size_t index) {
     }
     if (!mesh.weights.empty()) {
         json["weights"] = Json::array();
-        for (const float weight : mesh.weights) json["weights"].push_back(number(weight));
+        for (const float weight : mesh.weights) json["weights"].push_back(json_number(weight));
     }
     return json;
 }

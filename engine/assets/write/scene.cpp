@@ -10,7 +10,7 @@ namespace {
 
 Json numbers(const std::vector<float>& values) {
     Json json = Json::array();
-    for (const float value : values) json.push_back(number(value));
+    for (const float value : values) json.push_back(json_number(value));
     return json;
 }
 
@@ -163,14 +163,14 @@ Json write_camera(const Camera& camera) {
     json["type"] = camera.perspective ? "perspective" : "orthographic";
     Json lens = Json::object();
     if (camera.perspective) {
-        if (camera.aspect > 0.0F) lens["aspectRatio"] = number(camera.aspect);
-        lens["yfov"] = number(camera.yfov);
+        if (camera.aspect > 0.0F) lens["aspectRatio"] = json_number(camera.aspect);
+        lens["yfov"] = json_number(camera.yfov);
     } else {
-        lens["xmag"] = number(camera.xmag);
-        lens["ymag"] = number(camera.ymag);
+        lens["xmag"] = json_number(camera.xmag);
+        lens["ymag"] = json_number(camera.ymag);
     }
-    if (!camera.perspective || camera.zfar > 0.0F) lens["zfar"] = number(camera.zfar);
-    lens["znear"] = number(camera.znear);
+    if (!camera.perspective || camera.zfar > 0.0F) lens["zfar"] = json_number(camera.zfar);
+    lens["znear"] = json_number(camera.znear);
     json[camera.perspective ? "perspective" : "orthographic"] = std::move(lens);
     return json;
 }
@@ -179,14 +179,14 @@ Json write_light(const Light& light) {
     Json json = Json::object();
     if (!light.name.empty()) json["name"] = light.name;
     if (light.color != glm::vec3(1.0F)) json["color"] = array(light.color);
-    if (light.intensity != 1.0F) json["intensity"] = number(light.intensity);
+    if (light.intensity != 1.0F) json["intensity"] = json_number(light.intensity);
     json["type"] = light.type == LightType::directional ? "directional"
                    : light.type == LightType::point     ? "point"
                                                         : "spot";
-    if (light.range > 0.0F && light.type != LightType::directional) json["range"] = number(light.range);
+    if (light.range > 0.0F && light.type != LightType::directional) json["range"] = json_number(light.range);
     if (light.type == LightType::spot)
-        json["spot"] = {{"innerConeAngle", number(light.inner_cone)},
-                        {"outerConeAngle", number(light.outer_cone)}};
+        json["spot"] = {{"innerConeAngle", json_number(light.inner_cone)},
+                        {"outerConeAngle", json_number(light.outer_cone)}};
     return json;
 }
 

@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;  // keeps keys in insertion order
 
 // Returns the double whose shortest text equals the shortest text of the float: 0.1F becomes 0.1, not
 // 0.10000000149.
-inline double number(float value) {
+inline double json_number(float value) {
     char text[32];
     const auto [end, status] = std::to_chars(text, text + sizeof text - 1, value);
     if (status != std::errc{}) return static_cast<double>(value);
@@ -34,10 +34,14 @@ inline double number(float value) {
     return std::strtod(text, nullptr);
 }
 
-inline Json array(const glm::vec2& v) { return {number(v.x), number(v.y)}; }
-inline Json array(const glm::vec3& v) { return {number(v.x), number(v.y), number(v.z)}; }
-inline Json array(const glm::vec4& v) { return {number(v.x), number(v.y), number(v.z), number(v.w)}; }
-inline Json array(const glm::quat& q) { return {number(q.x), number(q.y), number(q.z), number(q.w)}; }
+inline Json array(const glm::vec2& v) { return {json_number(v.x), json_number(v.y)}; }
+inline Json array(const glm::vec3& v) { return {json_number(v.x), json_number(v.y), json_number(v.z)}; }
+inline Json array(const glm::vec4& v) {
+    return {json_number(v.x), json_number(v.y), json_number(v.z), json_number(v.w)};
+}
+inline Json array(const glm::quat& q) {
+    return {json_number(q.x), json_number(q.y), json_number(q.z), json_number(q.w)};
+}
 
 static_assert(std::endian::native == std::endian::little, "glTF buffers are little-endian");
 

@@ -23,8 +23,6 @@ namespace bolt::models {
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 // Allowance of position g (ISO 965-1) on the diameter: 15 µm + 11 P. The bolt keeps the basic diameters of
 // the tables. The nut is larger by the allowance, so that the pair has the clearance of 6H/6g.
 double allowance(double pitch) { return 0.015 + 0.011 * pitch; }

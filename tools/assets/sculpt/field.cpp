@@ -78,7 +78,7 @@ Vec3 project(const SignedDistanceField& field, Vec3 p, double h, int steps) {
 
 namespace {
 
-constexpr std::size_t block = 8;  // samples along the edge of a block
+constexpr std::size_t block_size = 8;  // samples along the edge of a block
 
 struct Grid {
     Vec3 low;
@@ -95,12 +95,12 @@ struct Grid {
 };
 
 void fill_block(const SignedDistanceField& field, Grid& grid, const std::array<std::size_t, 3>& start) {
-    const double half = 0.5 * static_cast<double>(block) * grid.cell;
+    const double half = 0.5 * static_cast<double>(block_size) * grid.cell;
     const double centre = field(grid.position(start[0], start[1], start[2]) + Vec3(half - 0.5 * grid.cell));
     const bool near = std::abs(centre) < 2.0 * std::sqrt(3.0) * half;
-    for (std::size_t z = start[2]; z < start[2] + block; ++z) {
-        for (std::size_t y = start[1]; y < start[1] + block; ++y) {
-            for (std::size_t x = start[0]; x < start[0] + block; ++x) {
+    for (std::size_t z = start[2]; z < start[2] + block_size; ++z) {
+        for (std::size_t y = start[1]; y < start[1] + block_size; ++y) {
+            for (std::size_t x = start[0]; x < start[0] + block_size; ++x) {
                 const double value = near ? field(grid.position(x, y, z)) : centre;
                 grid.values[grid.index(x, y, z)] = static_cast<float>(value);
             }
@@ -114,13 +114,13 @@ Grid sample_field(const SignedDistanceField& field, const FieldBounds& box, doub
     grid.cell = cell;
     for (int axis = 0; axis < 3; ++axis) {
         const double cells =
-            std::ceil((box.high[axis] - box.low[axis]) / (cell * static_cast<double>(block)));
-        grid.size[static_cast<std::size_t>(axis)] = (static_cast<std::size_t>(cells) + 1) * block;
+            std::ceil((box.high[axis] - box.low[axis]) / (cell * static_cast<double>(block_size)));
+        grid.size[static_cast<std::size_t>(axis)] = (static_cast<std::size_t>(cells) + 1) * block_size;
     }
     grid.values.resize(grid.size[0] * grid.size[1] * grid.size[2]);
-    for (std::size_t z = 0; z < grid.size[2]; z += block) {
-        for (std::size_t y = 0; y < grid.size[1]; y += block) {
-            for (std::size_t x = 0; x < grid.size[0]; x += block) fill_block(field, grid, {x, y, z});
+    for (std::size_t z = 0; z < grid.size[2]; z += block_size) {
+        for (std::size_t y = 0; y < grid.size[1]; y += block_size) {
+            for (std::size_t x = 0; x < grid.size[0]; x += block_size) fill_block(field, grid, {x, y, z});
         }
     }
     return grid;

@@ -10,8 +10,6 @@
 
 namespace bolt::sculpt {
 
-inline constexpr double mm = 1e-3;
-
 using SignedDistanceField = std::function<double(const Vec3&)>;
 
 // The distance to the convex hull of two spheres.

@@ -13,17 +13,17 @@ constexpr double flatness = 0.92;  // depth of a finger divided by its breadth
 struct ArmStation {
     double z_mm, x_mm, y_mm, centre_x_mm, centre_y_mm;
 };
-constexpr std::array<ArmStation, 6> arm{
+constexpr std::array<ArmStation, 6> arm_stations{
     ArmStation{70, 38.5, 30.5, 0.0, 0.0},    ArmStation{30, 35.5, 26.8, 0.0, 0.0},
     ArmStation{6, 31.6, 22.0, 0.0, -0.5},    ArmStation{-8, 31.8, 19.8, -0.5, -2.0},
     ArmStation{-24, 34.0, 17.8, -1.0, -4.0}, ArmStation{-46, 31.0, 12.0, 1.0, -3.0}};
 
 ArmStation arm_station(double z) {
-    const double z_mm = std::clamp(z / mm, arm.back().z_mm, arm.front().z_mm);
+    const double z_mm = std::clamp(z / mm, arm_stations.back().z_mm, arm_stations.front().z_mm);
     std::size_t i = 0;
-    while (i + 2 < arm.size() && z_mm < arm[i + 1].z_mm) ++i;
-    const ArmStation& a = arm[i];
-    const ArmStation& b = arm[i + 1];
+    while (i + 2 < arm_stations.size() && z_mm < arm_stations[i + 1].z_mm) ++i;
+    const ArmStation& a = arm_stations[i];
+    const ArmStation& b = arm_stations[i + 1];
     const double t = smooth_step(0.0, 1.0, (z_mm - a.z_mm) / (b.z_mm - a.z_mm));
     const auto mix = [t](double from, double to) { return from + t * (to - from); };
     return {z_mm, mix(a.x_mm, b.x_mm), mix(a.y_mm, b.y_mm), mix(a.centre_x_mm, b.centre_x_mm),
@@ -42,7 +42,7 @@ double elliptic(const Vec3& p, double inset) {
 }
 
 // A sleeve with a rolled hem, open at z = cuff_end and closed inside near the wrist.
-double cuff(const Vec3& p) {
+double cuff_distance(const Vec3& p) {
     const double end = HandShape::cuff_end;
     const double bead =
         std::max(0.0, 1.0 - square((p.z - (end - 0.5 * HandShape::hem)) / (0.5 * HandShape::hem)));
@@ -234,8 +234,8 @@ double HandShape::operator()(const Vec3& p) const {
     for (std::size_t digit = 1; digit < 5; ++digit)
         fingers = smooth_union(fingers, digit_distance(digit, p), 1.5 * mm);
     double d = palm_body(p);
-    d = smooth_union(d, cuff(p), 12 * mm);
-    if (p.z > 12 * mm) d = std::max(d, cuff(p));  // the blend must not fill the sleeve
+    d = smooth_union(d, cuff_distance(p), 12 * mm);
+    if (p.z > 12 * mm) d = std::max(d, cuff_distance(p));  // the blend must not fill the sleeve
     d = smooth_union(d, fingers, 6 * mm);
     d = smooth_union(d, digit_distance(0, p), 6 * mm);
     return std::abs(d) < 4 * mm ? d - folds(p) : d;

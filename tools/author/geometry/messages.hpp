@@ -12,8 +12,6 @@
 
 namespace bolt::geometry {
 
-inline constexpr double mm = 1e-3;
-
 struct Messages {
     const content::JsonDocument& document;
     Findings& findings;

@@ -10,8 +10,6 @@ namespace bolt::geometry {
 
 namespace {
 
-constexpr double mm = 1e-3;
-
 struct OutlinePoint {
     double x, y;
 };

@@ -276,14 +276,15 @@ int count_solids(const TopoDS_Shape& shape) {
     return solids;
 }
 
-void explain_missing_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh, FastenerShape& none) {
+void explain_missing_hexagon(const std::vector<PlaneFace>& flats, const PartMesh& mesh,
+                             FastenerShape& rejected) {
     const auto hexagon = find_hexagon(flats, mesh, all_widths);
     if (hexagon && largest_radius(mesh, hexagon->axis) <= largest_width * hexagon->across_flats)
-        none.rejection = fmt::format(
+        rejected.rejection = fmt::format(
             "has a hexagon {:.3f} mm across flats; expected {:g} to {:g} mm: is the unit of the file right?",
             hexagon->across_flats / mm, fastener_widths.low / mm, fastener_widths.high / mm);
     else
-        none.without_hexagon = fmt::format(
+        rejected.without_hexagon = fmt::format(
             "none of its {} plane faces form a hexagon; expected three pairs of opposite faces at 60 "
             "degrees, {:g} to "
             "{:g} mm apart and equal within {:g} mm",

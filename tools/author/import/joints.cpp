@@ -180,9 +180,9 @@ class JointFinder {
     }
 
     const std::vector<PlacedFastener>& placed_of(FastenerKind kind) const {
-        static const std::vector<PlacedFastener> none;
+        static const std::vector<PlacedFastener> no_fasteners;
         const auto found = of_kind_.find(kind);
-        return found == of_kind_.end() ? none : found->second;
+        return found == of_kind_.end() ? no_fasteners : found->second;
     }
 
     const std::string& name_of(int node) const { return tree_.nodes[static_cast<std::size_t>(node)].name; }

@@ -209,7 +209,7 @@ void split_primitives(const JoinedMesh& joined, const std::vector<std::uint32_t>
 }
 
 // Simplifies one mesh up to `error` (m). Returns the error reached, m.
-double simplify(assets::Mesh& mesh, double error) {
+double simplify_mesh(assets::Mesh& mesh, double error) {
     const JoinedMesh joined = join_primitives(mesh);
     if (joined.indices.empty()) return 0.0;
     const float* positions = &joined.positions.front().x;
@@ -240,7 +240,7 @@ FarLevel simplify(const std::vector<assets::Mesh>& meshes, const std::vector<std
     for (double error = 0.05e-3; far.triangles > budget && error <= max_error; error *= 1.4) {
         far.meshes = meshes;
         far.error = 0.0;
-        for (assets::Mesh& mesh : far.meshes) far.error = std::max(far.error, simplify(mesh, error));
+        for (assets::Mesh& mesh : far.meshes) far.error = std::max(far.error, simplify_mesh(mesh, error));
         far.triangles = total(far.meshes);
     }
     return far;

@@ -21,8 +21,6 @@
 
 namespace bolt::step_import {
 
-inline constexpr double mm = 1e-3;
-
 inline Vec3 direction_to_scene(const gp_XYZ& v) { return {v.X(), v.Z(), -v.Y()}; }
 inline Vec3 point_to_scene(const gp_XYZ& p) { return direction_to_scene(p) * mm; }
 

@@ -53,7 +53,7 @@ struct MeshedFace {
     std::size_t first = 0;  // index of its first corner in DisjointSets
 };
 
-constexpr std::size_t none = static_cast<std::size_t>(-1);
+constexpr std::size_t unassigned = static_cast<std::size_t>(-1);
 
 // Unites corners along the edges. The mesher creates the same points, in the same order, on every face of an
 // edge.
@@ -63,7 +63,7 @@ class Stitcher {
         TopExp::MapShapes(shape, TopAbs_EDGE, edges_);
         TopExp::MapShapes(shape, TopAbs_VERTEX, vertices_);
         on_edge_.resize(static_cast<std::size_t>(edges_.Extent()));
-        at_vertex_.assign(static_cast<std::size_t>(vertices_.Extent()), none);
+        at_vertex_.assign(static_cast<std::size_t>(vertices_.Extent()), unassigned);
     }
 
     void add(const MeshedFace& meshed) {
@@ -106,7 +106,7 @@ class Stitcher {
         const int index = vertices_.FindIndex(vertex);
         if (index == 0) return;
         std::size_t& known = at_vertex_[static_cast<std::size_t>(index - 1)];
-        if (known == none)
+        if (known == unassigned)
             known = corner;
         else
             sets_.unite(known, corner);

@@ -16,7 +16,6 @@ using namespace contact_oracle;
 
 namespace {
 
-constexpr double mm = 1e-3, um = 1e-6;
 constexpr std::size_t poses_per_approach = 20;
 constexpr double deep = 0.1 * mm, margin = 0.1 * mm;
 constexpr std::uint32_t obstacle_bit = 0x80000000U;  // the top bit of Contact::feature

@@ -16,7 +16,6 @@ namespace bolt::contact_validation {
 
 namespace {
 
-constexpr double mm = 1e-3;
 constexpr double min_depth = 50e-6;        // m, smaller depths are not resolved
 constexpr double check_within = 0.2 * mm;  // the oracle checks ticks with a contact nearer than this
 

@@ -1,17 +1,14 @@
 #include "tools/verify/pathtrace/bsdf.hpp"
 
-#include "engine/shading/ggx.hpp"
+#include "tools/verify/pathtrace/sampler.hpp"
 
 namespace bolt::pathtrace {
 
-using namespace shading;  // ggx.hpp and albedo.hpp
+using namespace shading;
 
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr float coat_f0 = 0.04F;
-
-float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 glm::vec3 local(const glm::mat3& frame, const glm::vec3& v) {
     return {glm::dot(frame[0], v), glm::dot(frame[1], v), glm::dot(frame[2], v)};
@@ -35,7 +32,7 @@ glm::vec3 reflected(const glm::mat3& frame, const glm::vec3& out, const glm::vec
 
 glm::vec3 cosine_distributed(const glm::mat3& frame, const glm::vec2& u) {
     const float radius = std::sqrt(u.x);
-    const float angle = 2.0F * pi * u.y;
+    const float angle = 2.0F * pi_float * u.y;
     return frame * glm::vec3(radius * std::cos(angle), radius * std::sin(angle), std::sqrt(1.0F - u.x));
 }
 
@@ -73,9 +70,9 @@ BsdfValue Bsdf::evaluate(const glm::vec3& direction) const {
         const glm::vec3 reflectance =
             glm::mix(fresnel(dielectric_, along), fresnel(metal_, along), surface_.metallic);
         const float shape = ggx(half, surface_.alpha) * visibility(out_, in, surface_.alpha);
-        result.value = (diffuse_ / pi + reflectance * shape) * (below_coat_ * in.z);
+        result.value = (diffuse_ / pi_float + reflectance * shape) * (below_coat_ * in.z);
         result.density =
-            pick_diffuse_ * in.z / pi + pick_specular_ * half_density(out_, half, surface_.alpha);
+            pick_diffuse_ * in.z / pi_float + pick_specular_ * half_density(out_, half, surface_.alpha);
     }
     const glm::vec3 coat_in = local(surface_.coat_frame, direction);
     if (pick_coat_ > 0.0F && coat_in.z > 0.0F) {

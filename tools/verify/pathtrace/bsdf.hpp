@@ -21,11 +21,15 @@
 // mean would be 45 % off).
 #pragma once
 
+#include <algorithm>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 namespace bolt::pathtrace {
+
+// Returns the largest component.
+inline float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
 
 // The material at one point of a surface.
 struct ShadingPoint {

@@ -6,11 +6,11 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "tools/verify/pathtrace/sampler.hpp"
+
 namespace bolt::pathtrace {
 
 namespace {
-
-constexpr float pi = std::numbers::pi_v<float>;
 
 double luminance(const glm::vec3& c) {
     return 0.2126 * static_cast<double>(c.r) + 0.7152 * static_cast<double>(c.g) +
@@ -29,7 +29,8 @@ Environment::Environment(RadianceImage image) : image_(std::move(image)) {
     for (const glm::vec3& value : image_.pixels) mean += luminance(value);
     mean /= static_cast<double>(image_.pixels.size());
     for (int y = 0; y < image_.height; ++y) {
-        const float sine = std::sin((static_cast<float>(y) + 0.5F) / static_cast<float>(image_.height) * pi);
+        const float sine =
+            std::sin((static_cast<float>(y) + 0.5F) / static_cast<float>(image_.height) * pi_float);
         double row = 0.0;
         for (int x = 0; x < image_.width; ++x) {
             double weight = 0.02 * mean;

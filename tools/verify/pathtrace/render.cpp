@@ -16,8 +16,6 @@ namespace {
 constexpr int min_bounces = 3;            // before Russian roulette may end a path
 constexpr int max_transparent_hits = 64;  // transparent surfaces that a ray passes
 
-float largest(const glm::vec3& v) { return std::max({v.x, v.y, v.z}); }
-
 float power_heuristic(float a, float b) { return a * a / (a * a + b * b); }
 
 struct Tracer {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <numbers>
 
 #include "engine/shading/ggx.hpp"
 
@@ -13,6 +14,8 @@ namespace bolt::pathtrace {
 using shading::radical_inverse;
 using shading::reverse_bits;
 using shading::unit_float;
+
+inline constexpr float pi_float = std::numbers::pi_v<float>;
 
 // Returns a hash of a pair with good avalanche (Murmur3's finalizer).
 inline std::uint32_t hash(std::uint32_t a, std::uint32_t b) {
