@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks the include graph against the arrows that the CMakeLists.txt files declare.
+"""Checks includes and links against the dependencies that the CMakeLists.txt files declare.
 
 usage: architecture.py SOURCES [--list]
 
@@ -128,7 +128,7 @@ def check(root):
 
 
 def self_test():
-    """A checker that cannot fail checks nothing: each kind of fault, planted in a small tree."""
+    """Verifies that check() finds faults which are planted in a small tree."""
     def tree(files):
         root = tempfile.mkdtemp()
         for path, text in files.items():

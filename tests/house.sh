@@ -7,14 +7,14 @@ cd "$1"
 failed=0
 bad() { echo "$1"; failed=1; }
 
-# The check itself can fail: it finds a planted include of a higher layer.
+# Negative control: a planted include of a higher layer is found.
 planted=$(mktemp -d)
 trap 'rm -rf "$planted"' EXIT
 mkdir "$planted/engine"
 echo '#include "haptics/joint/nut.hpp"' > "$planted/engine/upward.hpp"
 
 includes() { grep -rnE "#include +\"($2)/" --include='*.hpp' --include='*.cpp' "$1" 2>/dev/null || true; }
-[ -n "$(includes "$planted/engine" 'haptics|content|game|tools')" ] || bad "the check of the arrows finds nothing"
+[ -n "$(includes "$planted/engine" 'haptics|content|game|tools')" ] || bad "the check of the includes finds nothing"
 [ -z "$(includes engine 'haptics|content|game|tools')" ] || bad "engine includes upward: $(includes engine 'haptics|content|game|tools')"
 [ -z "$(includes haptics 'content|game|tools|engine/(ecs|gpu|assets|render|platform)')" ] || bad "haptics includes upward"
 [ -z "$(includes content 'game|tools|engine/(ecs|gpu|assets|render|platform)')" ] || bad "content includes upward"
@@ -25,20 +25,20 @@ while read -r header; do
 done < <(find engine haptics content game tools tests -name '*.hpp')
 
 if grep -rnEi '\b(TODO|FIXME|XXX)\b' --include='*.hpp' --include='*.cpp' --include='*.glsl' engine haptics content game tools; then
-    bad "left half done"
+    bad "unfinished: a TODO, FIXME or XXX remains"
 fi
 # Every text key is used in the code, so that translators translate no unused text.
-all_said() {
-    local keys=$1 said key
-    said=$(grep -rhoE '"[a-z_.0-9]+"' --include='*.hpp' --include='*.cpp' engine game tools | sort -u)
+unused_texts() {
+    local keys=$1 used_keys key
+    used_keys=$(grep -rhoE '"[a-z_.0-9]+"' --include='*.hpp' --include='*.cpp' engine game tools | sort -u)
     while read -r key; do
-        grep -qxF "$key" <<<"$said" || echo "$key"
+        grep -qxF "$key" <<<"$used_keys" || echo "$key"
     done < <(grep -oE '\{"[a-z_.0-9]+"' "$keys" | tr -d '{')
 }
 echo '    {"hint.of_nothing", ""},' > "$planted/key_rows.hpp"
-[ -n "$(all_said "$planted/key_rows.hpp")" ] || bad "the check of the texts finds nothing"
-unsaid=$(all_said content/words/key_rows.hpp)
-[ -z "$unsaid" ] || bad "texts that nothing says: $unsaid"
+[ -n "$(unused_texts "$planted/key_rows.hpp")" ] || bad "the check of the texts finds nothing"
+unused_keys=$(unused_texts content/words/key_rows.hpp)
+[ -z "$unused_keys" ] || bad "text keys that no code uses: $unused_keys"
 
 # A test reports what it skips (tests/support/skip.hpp).
 silent_skips() { grep -rnE 'sanitized\)? *\)? (return|continue);|sanitized && .*\) (return|continue);|doctest::skip\(' --include='*.cpp' --include='*.hpp' "$1" || true; }

@@ -69,7 +69,7 @@ TEST_CASE("Align: loosening curves meet at their breakaway") {
     CHECK(a->torque == *std::min_element(measured.torque.begin(), measured.torque.end()));
 }
 
-TEST_CASE("Align: noise within a sample moves the shift within a sample") {
+TEST_CASE("Align: torque noise of 0.5 N m moves the shift by at most one sample") {
     Random random(5);
     const analysis::TorqueCurve ours = curve_of(tightening_torque, 0.0, 95.0, 0.05, Direction::tighten);
     for (int round = 0; round < 50; ++round) {

@@ -64,7 +64,7 @@ TEST_CASE("Comparison page: a remark names peaks that do not match") {
     CHECK(has(console_text(c), "The peaks differ by a factor of up to 5"));
 }
 
-TEST_CASE("Comparison page: closed-form curves") {
+TEST_CASE("Comparison page: closed-form curves have small errors, and every sample is counted") {
     const Comparison c = comparison_of(1, "rig");
     // Aligned at a common torque, the curves differ by less than 5 %.
     CHECK(c.errors.stage[static_cast<std::size_t>(joint::Stage::navigation)].mape ==

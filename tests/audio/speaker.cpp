@@ -29,14 +29,14 @@ extern "C" const char* __tsan_default_suppressions() { return "race:libopenal.so
 
 namespace {
 
-struct Ended {
-    int status = -1;
-    std::string wrote;  // to stderr
+struct ChildResult {
+    int status = -1;     // exit status; 1000 + the wait status after a signal
+    std::string errors;  // output to stderr
 };
 
-// Returns the result of `work`, and the console output of it and its libraries.
+// Runs `work` in a child process with these OpenAL settings; its return value becomes the exit status.
 template <class Work>
-Ended in_child(const char* drivers, const char* config, const Work& work) {
+ChildResult in_child(const char* drivers, const char* config, const Work& work) {
     std::array<int, 2> pipe_ends{};
     REQUIRE(pipe(pipe_ends.data()) == 0);
     const pid_t child = fork();
@@ -50,10 +50,10 @@ Ended in_child(const char* drivers, const char* config, const Work& work) {
         _exit(work());
     }
     close(pipe_ends[1]);
-    Ended ended;
+    ChildResult ended;
     std::array<char, 4096> bytes{};
     for (ssize_t n = 0; (n = read(pipe_ends[0], bytes.data(), bytes.size())) > 0;)
-        ended.wrote.append(bytes.data(), static_cast<std::size_t>(n));
+        ended.errors.append(bytes.data(), static_cast<std::size_t>(n));
     close(pipe_ends[0]);
     int status = 0;
     waitpid(child, &status, 0);
@@ -110,7 +110,7 @@ TEST_CASE("Speaker: the thread keeps a sink full and publishes its status") {
 }
 
 TEST_CASE("Speaker: plays through OpenAL block after block and reports it once") {
-    const Ended ended = in_child("null", "/dev/null", [] {
+    const ChildResult ended = in_child("null", "/dev/null", [] {
         auto speaker = Speaker::start(silence());
         if (!speaker) return 1;
         std::optional<std::string> news;
@@ -132,7 +132,7 @@ TEST_CASE("Speaker: the output contains the samples that were filled in") {
                        "[general]\nfrequency=48000\nchannels=mono\nsample-type=int16\ndither=false\n"
                        "output-limiter=false\n[wave]\nfile=" +
                            heard.string() + "\n"));
-    const Ended ended = in_child("wave", config.c_str(), [] {
+    const ChildResult ended = in_child("wave", config.c_str(), [] {
         // A staircase: every block has its own level.
         int blocks = 0;
         auto speaker = Speaker::start([&](std::span<float> samples) {
@@ -164,7 +164,7 @@ TEST_CASE("Speaker: the output contains the samples that were filled in") {
 TEST_CASE("Speaker: without a device the reason is reported once, without output of libraries") {
     for (const char* drivers : {"none", "alsa"}) {
         CAPTURE(drivers);
-        const Ended ended = in_child(drivers, "/dev/null", [] {
+        const ChildResult ended = in_child(drivers, "/dev/null", [] {
             setenv("ALSA_CONFIG_PATH", "/dev/null", 1);  // ALSA finds no device on any machine
             auto speaker = Speaker::start([](std::span<float>) { _exit(9); });  // no samples are requested
             if (!speaker) return 1;
@@ -174,12 +174,12 @@ TEST_CASE("Speaker: without a device the reason is reported once, without output
             return speaker->status_change() ? 4 : 0;
         });
         CHECK(ended.status == 0);
-        CHECK(ended.wrote.find("ALSA lib") == std::string::npos);
+        CHECK(ended.errors.find("ALSA lib") == std::string::npos);
     }
 }
 
 TEST_CASE("Speaker: stops while its device plays, and continues after a move") {
-    const Ended ended = in_child("null", "/dev/null", [] {
+    const ChildResult ended = in_child("null", "/dev/null", [] {
         for (int i = 0; i < 5; ++i)
             if (!Speaker::start(silence())) return 1;
         auto first = Speaker::start(silence());

@@ -97,13 +97,13 @@ check "both eyes are side by side: 320 wide" bash -c '[[ $(od -An -tu1 -j16 -N4 
 check "the picture exists" test -s now.png
 expect 0 'film.mp4: 3 pictures, with sound' "${film[@]}" solid/session.boltwright --from 2 --until 2.25 --rate 10 --video film.mp4 --size 64x36
 check "the film exists" test -s film.mp4
-check "its temporary files do not" bash -c '! ls film.*.mp4 film.*.wav'
+check "the temporary files of the film are removed" bash -c '! ls film.*.mp4 film.*.wav'
 expect 0 'film.wav' "${film[@]}" solid/session.boltwright --from 4 --until 6 --rate 30 --video film.mp4 --wav film.wav --size 64x36
 lasts() { ffprobe -v error -select_streams "$1" -show_entries stream=duration -of csv=p=0 "$2"; }
 check "pictures and sound last as long as the lesson did" awk -v v="$(lasts v film.mp4)" -v a="$(lasts a film.mp4)" \
     'BEGIN { exit !(v > 1.99 && v < 2.05 && a > 1.99 && a < 2.05) }'
 expect 0 'part.wav' "$bin/boltwright" replay solid/session.boltwright --from 4 --until 6 --wav part.wav
-check "a sound is the same beside a film and alone" cmp film.wav part.wav
+check "--wav writes the same sound with and without a film" cmp film.wav part.wav
 check "... and it is not silent" bash -c "ffmpeg -nostdin -i part.wav -af volumedetect -f null - 2>&1 | grep -E 'max_volume: -[0-4]?[0-9]\.'"
 expect 0 'silent.mp4: 3 pictures$' "${film[@]}" solid/session.boltwright --silent --from 2 --until 2.25 --rate 10 --video silent.mp4 --size 64x36
 check "a silent film has no sound" test -z "$(lasts a silent.mp4)"
@@ -146,7 +146,7 @@ expect 1 'standard output' bash -c "'$bin/boltwright' train --no-pictures cover-
 mkfifo pipe && (cat pipe > piped.html &) && expect 0 '' "$bin/boltwright" report a/session.boltwright --html pipe
 check "a pipe stays a pipe" test -p pipe
 
-# A locking nut is run down with the wrench; plain has no model.
+# `locking` has locking nuts, which are run down with the wrench; `plain` has no model.
 cp -r pump-cover plain
 sed -i '/^  "\(model\|model_far\|contact_model\)": /d; s/"node": "[^"]*", //' plain/assembly.json
 cp -r pump-cover locking
@@ -192,6 +192,8 @@ if [[ $(id -u) -eq 0 ]] && "${nobody[@]}" "$bin/boltwright" --version > /dev/nul
     chgrp dialout "$tty" && chmod 660 "$tty"
     expect 4 'Permission denied; expected a user in the group dialout: sudo usermod' "${nobody[@]}" "$bin/boltwright" devices --glove "$tty"
     expect 4 'Permission denied; expected a user in the group dialout' "${nobody[@]}" "$bin/boltwright" doctor cover-m8 --glove "$tty"
+else
+    skip_part "a port without permission: expected to run as root, with setpriv"
 fi
 kill $emulated && wait $emulated
 expect 4 'plugged in' "$bin/boltwright" devices --glove port
@@ -204,12 +206,12 @@ check "without a GPU all other files are written" test -s unseen/report.html
 expect 0 'none: .*there is no display.*DISPLAY' env -u DISPLAY -u WAYLAND_DISPLAY "${draw[@]}" doctor --seconds 0
 expect 0 'pictures/cover-front.png' "${draw[@]}" render cover-m8 --view top --view front --size 96x64 --validate \
     --png pictures/cover.png
-check "a picture for each view" test -s pictures/cover-top.png -a -s pictures/cover-front.png
+check "there is a picture for each view" test -s pictures/cover-top.png -a -s pictures/cover-front.png
 expect 0 'both.png' "${draw[@]}" render "$sources/content/tools/wrench-13.glb" --stereo --size 48x48 --frames 2 \
     --timings times.json --validate --png both.png
-check "the times of two frames" test "$(grep -c '"ms"' times.json)" -eq 2
+check "--timings has an entry for each of the two frames" test "$(grep -c '"ms"' times.json)" -eq 2
 expect 0 'same.png' "${draw[@]}" render cover-m8 --view top --size 96x64 --png same.png
-check "drawn again the picture is the same" cmp same.png pictures/cover-top.png
+check "a picture drawn again is the same" cmp same.png pictures/cover-top.png
 expect 0 'marked.png' "${draw[@]}" render cover-m8 --view top --inset front --labels --size 96x64 --validate --png marked.png
 check "an inset and labels change the picture" bash -c '! cmp -s marked.png same.png'
 expect 2 '"front"' "${draw[@]}" render cover-m8 --view top --inset frontt --png never.png
@@ -225,9 +227,9 @@ expect 1 'fonts-dejavu-core' env BOLTWRIGHT_FONTS=/nowhere "${draw[@]}" render c
 posed="$sources/tests/fuzz/gltf/everything.gltf"
 expect 0 'posed.png' "${draw[@]}" render "$posed" --animation wave --at 0.4 --size 64x48 --validate --png posed.png
 expect 0 'first.png' "${draw[@]}" render "$posed" --animation 0 --size 64x48 --png first.png
-check "another time, another pose" test -n "$(cmp posed.png first.png)"
+check "another time of the animation gives another picture" test -n "$(cmp posed.png first.png)"
 expect 0 'again.png' "${draw[@]}" render "$posed" --animation 0 --at 0.4 --size 64x48 --png again.png
-check "the same by name and by index" cmp posed.png again.png
+check "an animation is the same by name and by index" cmp posed.png again.png
 expect 2 '"wave"' "${draw[@]}" render "$posed" --animation wav --png never.png
 expect 2 'index from 0 to 0' "${draw[@]}" render "$posed" --animation 1 --png never.png
 expect 2 'has animations' "${draw[@]}" render cover-m8 --view top --animation wave --png never.png
@@ -284,21 +286,21 @@ expect 3 'no calibration of Bob.s right hand.*boltwright glove calibrate --train
 echo grip >&4
 "${tried[@]}" --trainee Ada --folder gloves --seconds 3600 > tried 2>&1 &
 doctor=$!
-says() { for _ in $(seq 1200); do grep -q "$1" tried && return; sleep 0.1; done; return 1; }
-check "a station begins with a glove alone" says 'For 3600 s'
-check "... whose closed hand takes the wrench" says 'the hand takes the wrench'
+reports() { for _ in $(seq 1200); do grep -q "$1" tried && return; sleep 0.1; done; return 1; }
+check "a station begins with a glove alone" reports 'For 3600 s'
+check "... whose closed hand takes the wrench" reports 'the hand takes the wrench'
 kill $emulated && wait $emulated
 exec 4>&-
-check "... an unplugged glove is reported with a remedy" says 'worn.*is the glove.s adapter plugged in'
+check "... an unplugged glove is reported with a remedy" reports 'worn.*is the glove.s adapter plugged in'
 sleep 0.5  # a problem that another message replaces within 0.3 s is dropped
 "$bin/bolt-emulate" glove --postures --link "$work/worn" < asked > /dev/null &
 emulated=$!
 exec 4> asked
 echo grip >&4
-check "... and its return" says 'resolved: .*adapter plugged in'
-check "... and the return of the hand" says 'resolved: The glove is lost'
+check "... its return is reported" reports 'resolved: .*adapter plugged in'
+check "... the hand is reported to work again" reports 'resolved: The glove is lost'
 kill -INT $doctor && wait $doctor
-check "... and the station is not good enough" test $? -eq 1
+check "... and the trial fails" test $? -eq 1
 check "the report describes the glove" grep -qE 'Glove on worn: CyberGlove, right hand, 18 sensors' tried
 check "... its calibration" grep -qE 'calibrated for Ada on 20[0-9-]+, quality 0\.' tried
 check "... the verdict" grep -qE 'not good enough, because' tried
@@ -317,7 +319,7 @@ for delay in 0.05 0.15 0.3; do
     wait $victim 2>/dev/null
     if [[ -s killed/session.boltwright && ! -e killed/summary.json ]]; then
         expect 0 'cut short' "$bin/boltwright" report killed/session.boltwright --html killed.html
-        check "the page states this too" grep -qi 'cut short' killed.html
+        check "the page of a killed lesson states that it was cut short" grep -qi 'cut short' killed.html
     fi
 done
 

@@ -40,7 +40,9 @@ PY
 
 # The shipped files.
 mapfile -d '' shipped < <(find "$sources/content" -name '*.glb' -print0 | sort -z)
-if [[ ${#shipped[@]} -gt 0 ]]; then
+if [[ ${#shipped[@]} -eq 0 ]]; then
+    bad "there are no shipped files"
+else
     node "$runner/validate.mjs" "${shipped[@]}" > "$work/shipped.json" || bad "the runner failed on the shipped files"
     python3 - "$work/shipped.json" "${#shipped[@]}" <<'PY' || bad "a shipped file has an error or a warning"
 import json, sys

@@ -48,8 +48,8 @@ for one in plain crowded; do
     touched "$one-out" > "$one.touched"
 done
 check "the wrench touches a fixed obstacle" grep -qx B1_washer_nut plain.touched
-check "it touches the nut" grep -qx B1_nut plain.touched
-check "among 1,000 more obstacles each contact has the same obstacle's name" cmp plain.touched crowded.touched
+check "the wrench touches the nut" grep -qx B1_nut plain.touched
+check "with 1,000 more obstacles every tick names the same touched obstacle" cmp plain.touched crowded.touched
 expect 0 'all as they were recorded' "$bin/boltwright" replay crowded-out/session.boltwright
 
 expect 0 '' "$bin/boltwright" report crowded-out/session.boltwright --html crowded.html

@@ -70,26 +70,26 @@ check "the title names the model" [ "$(title)" = 'cover-m8 - bolt-author preview
 render cover-m8 --size 320x200 --png all.png
 check "the whole model is shown first" eventually shows all.png
 xdotool key 2
-check "2 is the second view" eventually shows top.png
+check "key 2 shows the second view" eventually shows top.png
 xdotool key 1
-check "1 is the first" eventually shows front.png
+check "key 1 shows the first view" eventually shows front.png
 xdotool mousemove 160 100 mousedown 1 mousemove 220 110 mouseup 1
-check "dragging turns it" eventually shows_not front.png
+check "dragging turns the view" eventually shows_not front.png
 check "... and comes to rest" settle
 cp after.png turned.png
 xdotool key 1
 eventually shows front.png
 xdotool mousemove 160 100 mousedown 3 mousemove 220 110 mouseup 3
-check "dragging with the right button moves it" eventually shows_not front.png
+check "dragging with the right button moves the view" eventually shows_not front.png
 settle
 check "... which gives another picture" bash -c '! cmp -s after.png turned.png'
 cp after.png moved.png
 xdotool key 1
 eventually shows front.png
 xdotool mousemove 160 100 mousedown 2 mousemove 220 110 mouseup 2
-check "the middle button does what the right one does" eventually shows moved.png
+check "dragging with the middle button moves the view in the same way" eventually shows moved.png
 xdotool mousemove 60 60 click 4 click 4 click 4
-check "the wheel goes nearer" eventually shows_not moved.png
+check "the wheel zooms in" eventually shows_not moved.png
 settle
 cp after.png near.png
 xdotool click 5 click 5 click 5
@@ -107,8 +107,8 @@ check "F11 switches to full screen" eventually shows whole.png
 xdotool key F11
 check "... and back" eventually shows wide.png
 xdotool key l
-check "L is the far level" eventually grep -q 'reloaded cover-m8' log
-check "... which looks nearly the same" eventually shows_not wide.png
+check "key L loads the far level" eventually grep -q 'reloaded cover-m8' log
+check "... which looks different" eventually shows_not wide.png
 xdotool key l
 check "... and back" eventually shows wide.png
 check "Esc closes" ends_well
@@ -116,7 +116,7 @@ check "Esc closes" ends_well
 # Changing files.
 cp -r "$sources/content/assemblies/cover-m8" mine
 start mine --view top --size 320x200
-check "the folder of an assembly" eventually shows top.png
+check "the folder of an assembly is shown" eventually shows top.png
 sed -i 's/"name": "top", "eye_mm": \[0, 500, 1\]/"name": "top", "eye_mm": [200, 300, 1]/' mine/assembly.json
 check "a changed assembly.json is reloaded" eventually grep -q 'reloaded mine' log
 xdotool key 2

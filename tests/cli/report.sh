@@ -42,7 +42,7 @@ sessions+=(expert{1,2}/session.boltwright)
 expect 0 'page.html' "$bin/boltwright" report "${sessions[@]}" person{1,2}/session.boltwright --html page.html
 check "a learning curve for each trainee: Anna, Ben, the simulated expert, the person called expert" \
     test "$(count '<div class="trainee">' page.html)" -eq 4
-check "each with four plots" test "$(count '<h4>' page.html)" -eq 16
+check "each learning curve has four plots" test "$(count '<h4>' page.html)" -eq 16
 for name in 'Anna (simulated novice)' 'Ben (simulated expert)' 'expert (simulated)' 'expert'; do
     check "the curves of $name are labelled" grep -qF "<h3>$name <span" page.html
     check "$name has a row among the trainees" grep -qF "<td class=\"w\">$name</td>" page.html
@@ -56,12 +56,12 @@ check "the person's lessons are compared" grep -q 'With and without guiding' stu
 check "a person called expert is not simulated" bash -c "! grep -qi simulated study.html"
 simulated plain 31 --operator expert && simulated unled 31 --operator expert --no-guide
 expect 0 'study2.html' "$bin/boltwright" report plain/session.boltwright unled/session.boltwright --html study2.html
-check "a simulated expert is" grep -q 'trainees are simulated' study2.html
+check "a simulated expert is reported as simulated" grep -q 'trainees are simulated' study2.html
 
 # Sessions of older programs do not record whether the trainee was simulated.
 expect 0 'old.html' "$bin/boltwright" report "$sources"/tests/data/format-[23].boltwright --html old.html
-check "an old session that does not say who held the tool" grep -q 'person or simulated: not recorded' old.html
-check "... claims no simulated trainee" bash -c "! grep -q '(simulated' old.html"
+check "an old session is reported as person or simulated: not recorded" grep -q 'person or simulated: not recorded' old.html
+check "... and not as simulated" bash -c "! grep -q '(simulated' old.html"
 
 [[ -z $page ]] || cp page.html "$page"
 finish_checks

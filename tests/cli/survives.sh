@@ -28,18 +28,18 @@ kept=$(ticks killed)
 check "killed after $at s it has kept $kept ticks" awk -v at="${at:-1e9}" -v kept="$kept" 'BEGIN { exit !(kept >= 1000 * (at - 1)) }'
 check 'a killed session is replayed' replays killed
 check 'a killed session is reported' reports killed
-check 'the report says that it was cut short' grep -q 'cut short' killed.complaint
+check 'the report states that the session was cut short' grep -q 'cut short' killed.complaint
 
 # The file size limit of 120 KB allows some seconds of recording.
 (ulimit -f 120 && play full)
 status=$?
-check "no room is exit 1, not $status" [ $status = 1 ]
+check "a full disk gives exit code 1, not $status" [ $status = 1 ]
 check 'a full disk is reported, with the time that is kept' grep -Eq 'full/session.boltwright: cannot be written: .*the recording up to [0-9.]+ s is kept' full.log
 up_to=$(sed -n 's/.*recording up to \([0-9.]*\) s is kept.*/\1/p' full.log)
 kept=$(ticks full)
 check "the recording has $kept ticks, for the reported $up_to s" awk -v s="${up_to:-0}" -v kept="$kept" 'BEGIN { exit !(s >= 1 && kept == 1000 * s) }'
-check 'a session without room is replayed' replays full
-check 'a session without room is reported' reports full
+check 'the session of the full disk is replayed' replays full
+check 'the session of the full disk is reported' reports full
 
 # The display is lost: its X server, started by with_screen.sh, is killed.
 BIN=$bin BOLTWRIGHT_CONTENT=$BOLTWRIGHT_CONTENT "$sources/tests/with_screen.sh" bash -c '
@@ -49,11 +49,11 @@ BIN=$bin BOLTWRIGHT_CONTENT=$BOLTWRIGHT_CONTENT "$sources/tests/with_screen.sh" 
     kill "$(pgrep -P $PPID -x Xvfb)"
     wait $lesson
     echo $? >gone.status'
-check "no display is exit 1, not $(cat gone.status)" [ "$(cat gone.status)" = 1 ]
+check "a lost display gives exit code 1, not $(cat gone.status)" [ "$(cat gone.status)" = 1 ]
 check 'the lost display is reported' logged gone 'the display has ended'
 check 'no message of Xlib is printed' [ "$(grep -ci 'xlib\|X connection' gone.log)" = 0 ]
 check 'the lesson was ended, its session completed, and a report written' whole gone
-check 'it is replayed' replays gone
-check 'it is reported' reports gone
+check 'the session of the lost display is replayed' replays gone
+check 'the session of the lost display is reported' reports gone
 [[ ! -s gone.complaint ]] || check "nothing is missing: $(cat gone.complaint)" false
 finish_checks

@@ -35,9 +35,9 @@ sleep 1
 picture 3-wrench
 after=$(sed -n 's/^ *\([0-9.]*\) s  the wrench is in the hand.*/\1/p' log | head -1)
 echo "holds the wrench $after s after the lesson has begun, by two keys"
-check 'within a minute of the lesson' awk -v after="${after:-1e9}" 'BEGIN { exit !(after <= 60) }'
+check 'the wrench is in the hand within a minute of the lesson' awk -v after="${after:-1e9}" 'BEGIN { exit !(after <= 60) }'
 kill -INT $player
-check 'an orderly end' wait $player
+check 'an interrupt ends the program with exit code 0' wait $player
 player=
-check 'it leaves a report' test -s out/report.html
+check 'the interrupted lesson has a report' test -s out/report.html
 finish_checks

@@ -75,7 +75,7 @@ TEST_CASE("Edges: a piece that moves within its certified bounds has no crossing
     const Solid solid = make_solid({&still, 1}).value();
     const ToolShape tool = make_tool({&mine, 1}).value();
     Random random(51);
-    int held = 0, told = 0;
+    int held = 0, crossed = 0;
     for (int i = 0; i < 40'000; ++i) {
         const SurfaceSample& sample = tool.samples.samples[random.bits() % tool.samples.samples.size()];
         if (sample.piece == SurfaceSample::no_piece) continue;
@@ -85,7 +85,7 @@ TEST_CASE("Edges: a piece that moves within its certified bounds has no crossing
                         random.uniform(0.0, 4.0) * mm * random_direction(random);
         Pose pose{Vec3(0.0), random_turn(random)};
         pose.position = at - pose.orientation * sample.at;
-        const auto ask = [&](const Pose& p, double band, Crossings& found) {
+        const auto query = [&](const Pose& p, double band, Crossings& found) {
             const Quat& q = p.orientation;
             const EdgePiece piece{p * sample.at, q * edge.half, {q * edge.inward[0], q * edge.inward[1]}};
             std::array<Crossing, max_planes> crossings;
@@ -93,8 +93,8 @@ TEST_CASE("Edges: a piece that moves within its certified bounds has no crossing
             found = query_edges(solid, piece, tool.solid, inverse(p), 6.0 * mm, band, crossings, facing);
         };
         Crossings first;
-        ask(pose, 0.6 * mm, first);
-        told += first.count > 0 ? 1 : 0;
+        query(pose, 0.6 * mm, first);
+        crossed += first.count > 0 ? 1 : 0;
         for (const double band : {0.05 * mm, 0.6 * mm, 2.0 * mm}) {
             const double way = 0.999 * (first.clear - band);
             if (!(way > 0.0)) continue;
@@ -105,11 +105,11 @@ TEST_CASE("Edges: a piece that moves within its certified bounds has no crossing
             const double shift = way - turn * tool.reach();
             Pose there{pose.position + shift * random_direction(random), turned};
             Crossings again;
-            ask(there, band, again);
+            query(there, band, again);
             CHECK(again.count == 0);
             ++held;
         }
     }
     CHECK(held > 4'000);
-    CHECK(told > 100);
+    CHECK(crossed > 100);
 }

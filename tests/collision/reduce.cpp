@@ -36,7 +36,7 @@ std::vector<Contact> some_contacts(Random& random, std::size_t count, double siz
     return all;
 }
 
-struct Space {
+struct ReductionBuffers {
     std::vector<Contact> near;
     std::vector<RankedContact> order{1024}, deferred_order{1024};
     std::vector<KeptContact> kept{1024};
@@ -51,7 +51,7 @@ struct Space {
     }
 };
 
-double came(const Contact& c, const Twist& motion) {
+double normal_motion(const Contact& c, const Twist& motion) {
     return glm::dot(c.normal, motion.linear + glm::cross(motion.angular, c.on_tool));
 }
 
@@ -59,13 +59,13 @@ double came(const Contact& c, const Twist& motion) {
 
 TEST_CASE("Contact reduction: a motion allowed by the kept contacts stays within tolerance of merged ones") {
     Random random(71);
-    Space space;
+    ReductionBuffers buffers;
     std::array<Contact, 600> out;
     int merged = 0, moved = 0;
     double worst = 0.0;
     for (int set = 0; set < 20'000; ++set) {
         const std::vector<Contact> all = some_contacts(random, 1 + random.bits() % 8, 1.0 * mm);
-        const ContactQueryResult found = space.reduce_contacts(
+        const ContactQueryResult found = buffers.reduce_contacts(
             all, {}, [](const DeferredContact&, Contact&) { return false; }, out);
         const auto kept = std::span(out).first(found.count);
         REQUIRE(!found.truncated);
@@ -77,14 +77,14 @@ TEST_CASE("Contact reduction: a motion allowed by the kept contacts stays within
                          random.uniform(0.0, 1.0) * random_direction(random)};
             double share = merge_stride / travel(motion, 0.3);
             for (const Contact& c : kept)
-                if (came(c, motion) < 0.0)
-                    share = std::min(share, std::max(c.distance, 0.0) / -came(c, motion));
+                if (normal_motion(c, motion) < 0.0)
+                    share = std::min(share, std::max(c.distance, 0.0) / -normal_motion(c, motion));
             motion = share * motion;
             moved += share > 0.0 ? 1 : 0;
             const double tolerance =
                 merge_angle * merge_stride + first_merge_distance * glm::length(motion.angular);
             for (const Contact& c : all) {
-                const double behind = -(c.distance + came(c, motion));
+                const double behind = -(c.distance + normal_motion(c, motion));
                 worst = std::max(worst, behind / tolerance);
             }
         }
@@ -97,7 +97,7 @@ TEST_CASE("Contact reduction: a motion allowed by the kept contacts stays within
 
 TEST_CASE("Contact reduction: deferred contacts give the same result as contacts known from the start") {
     Random random(72);
-    Space space;
+    ReductionBuffers buffers;
     int waited = 0, asked = 0;
     for (int set = 0; set < 500; ++set) {
         const std::vector<Contact> all = some_contacts(random, 250, 8.0 * mm);
@@ -126,9 +126,9 @@ TEST_CASE("Contact reduction: deferred contacts give the same result as contacts
         // The output alternates between enough room for all contacts and room for 32, which forces merging.
         std::array<Contact, 600> a, b;
         const std::size_t room = set % 2 == 0 ? 32 : 600;
-        const ContactQueryResult x = space.reduce_contacts(all, {}, find, std::span(a).first(room));
+        const ContactQueryResult x = buffers.reduce_contacts(all, {}, find, std::span(a).first(room));
         waited += static_cast<int>(deferred.size());
-        const ContactQueryResult y = space.reduce_contacts(there, deferred, find, std::span(b).first(room));
+        const ContactQueryResult y = buffers.reduce_contacts(there, deferred, find, std::span(b).first(room));
         REQUIRE(x.count == y.count);
         REQUIRE(x.clearance == y.clearance);
         REQUIRE(x.truncated == y.truncated);

@@ -14,12 +14,12 @@ using namespace contact_test;
 
 namespace {
 
-struct Places {
+struct PlateAndBlocks {
     ContactMesh block = box(Vec3(-4.0, -4.0, -4.0) * mm, Vec3(4.0, 4.0, 4.0) * mm).mesh();
     ContactMesh plate = box(Vec3(-30.0, -2.0, -30.0) * mm, Vec3(30.0, 0.0, 30.0) * mm).mesh();
     std::vector<Pose> poses;
 
-    Places() {
+    PlateAndBlocks() {
         Random random(31);
         for (int i = 0; i < 5; ++i)
             poses.push_back(
@@ -36,9 +36,9 @@ struct Places {
 }  // namespace
 
 TEST_CASE("Collision world: moving bodies give the distances of fixed ones within float precision") {
-    const Places places;
-    const CollisionWorld still = places.world(false);
-    const CollisionWorld moving = places.world(true);
+    const PlateAndBlocks layout;
+    const CollisionWorld still = layout.world(false);
+    const CollisionWorld moving = layout.world(true);
     CHECK(still.bodies.size() == 1);
     CHECK(moving.bodies.size() == 6);
     CHECK(moving.shapes.size() == 2);  // the plate, and one that five bodies share
@@ -66,8 +66,8 @@ TEST_CASE("Collision world: moving bodies give the distances of fixed ones withi
 }
 
 TEST_CASE("Collision world: contacts follow a moving body, and a disabled body has none") {
-    const Places places;
-    CollisionWorld world = places.world(true);
+    const PlateAndBlocks layout;
+    CollisionWorld world = layout.world(true);
     const std::vector<ContactMesh> parts{box(Vec3(-1.0) * mm, Vec3(1.0) * mm).mesh()};
     const ToolShape tool = make_tool(parts).value();
     NarrowPhaseState state = make_narrow_phase(world, tool);
@@ -75,10 +75,10 @@ TEST_CASE("Collision world: contacts follow a moving body, and a disabled body h
     CHECK_FALSE(find_body(world, ObstacleId::nut(100)));  // 100 is a fixed obstacle
     CHECK_FALSE(find_body(world, ObstacleId::nut(77)));
     std::array<Contact, 16> contacts;
-    const Pose above{places.poses[3].position + Vec3(0.0, 6.0, 0.0) * mm, Quat(1.0, 0.0, 0.0, 0.0)};
+    const Pose above{layout.poses[3].position + Vec3(0.0, 6.0, 0.0) * mm, Quat(1.0, 0.0, 0.0, 0.0)};
     for (int i = 0; i < 300; ++i) {
         const double down = 0.01 * i * mm;
-        world.bodies[body].pose.position = places.poses[3].position - Vec3(0.0, down, 0.0);
+        world.bodies[body].pose.position = layout.poses[3].position - Vec3(0.0, down, 0.0);
         const ContactQueryResult found = find_contacts(world, tool, above, 1.5 * mm, state, contacts);
         const double gap = 1.0 * mm + down;
         REQUIRE((found.count > 0) == (gap <= 1.5 * mm));
@@ -87,7 +87,7 @@ TEST_CASE("Collision world: contacts follow a moving body, and a disabled body h
             CHECK(contacts[0].obstacle == ObstacleId::nut(3));
         }
     }
-    world.bodies[body].pose = places.poses[3];
+    world.bodies[body].pose = layout.poses[3];
     CHECK(find_contacts(world, tool, above, 1.5 * mm, state, contacts).count > 0);
     world.bodies[body].on = false;
     CHECK(find_contacts(world, tool, above, 1.5 * mm, state, contacts).count == 0);
@@ -96,8 +96,8 @@ TEST_CASE("Collision world: contacts follow a moving body, and a disabled body h
 }
 
 TEST_CASE("Collision world: a line of sight is occluded by obstacles at their current poses") {
-    const Places places;
-    CollisionWorld world = places.world(true);
+    const PlateAndBlocks layout;
+    CollisionWorld world = layout.world(true);
     const Vec3 left = Vec3(-100.0, 6.0, 0.0) * mm;
     const Vec3 right = Vec3(100.0, 6.0, 0.0) * mm;
     CHECK(occluded(world, left, right));

@@ -13,7 +13,7 @@ namespace dead_ends {
 namespace {
 
 constexpr double longest_at_a_joint = 60.0;  // s
-constexpr double sure = 0.97;                // fraction of the room at which the handle is set back
+constexpr double set_back_share = 0.97;      // fraction of the room at which the handle is set back
 
 // A joint and the torque to which the trainee tightens it.
 struct JointAttempt {
@@ -67,7 +67,7 @@ trainer::MouseCommand next_command(JointAttempt& v, trainer_test::Player& p,
     const bool on = session.state().engagement.joint == static_cast<int>(v.joint);
     if (on) v.peak = std::max(v.peak, sense * session.state().joints[v.joint].torque);
     const bool spent =
-        p.hand.wrench && std::abs(p.hand.handle_angle - p.hand.stroke_begin) > sure * p.hand.room;
+        p.hand.wrench && std::abs(p.hand.handle_angle - p.hand.stroke_begin) > set_back_share * p.hand.room;
     const bool missed = p.hand.missed && p.hand.action == trainer::HandAction::resting;
     if ((p.hand.action == trainer::HandAction::holding && spent) || missed || done(v, session)) {
         command.held = p.held = false;

@@ -19,11 +19,11 @@ namespace {
 // Lets the test unplug the device and block its writes.
 struct Bench {
     std::atomic<bool> plugged{true};
-    std::atomic<bool> holds{false};    // writes block until release()
-    std::atomic<bool> holding{false};  // a write is blocked now
+    std::atomic<bool> block_writes{false};   // writes block until release()
+    std::atomic<bool> write_blocked{false};  // a write is blocked now
     std::atomic<int> open{0};
     std::mutex mutex;
-    std::condition_variable let_go;
+    std::condition_variable unblocked;
     std::vector<force::OutputCommand> commands;
 
     std::vector<force::OutputCommand> written() {
@@ -32,17 +32,17 @@ struct Bench {
     }
     void release() {
         const std::lock_guard lock(mutex);
-        holds = false;
-        let_go.notify_all();
+        block_writes = false;
+        unblocked.notify_all();
     }
 };
 
-class OnBench final : public DeviceDriver {
+class BenchDriver final : public DeviceDriver {
   public:
-    explicit OnBench(std::shared_ptr<Bench> bench) : bench_(std::move(bench)) { ++bench_->open; }
-    OnBench(const OnBench&) = delete;
-    OnBench& operator=(const OnBench&) = delete;
-    ~OnBench() override { --bench_->open; }
+    explicit BenchDriver(std::shared_ptr<Bench> bench) : bench_(std::move(bench)) { ++bench_->open; }
+    BenchDriver(const BenchDriver&) = delete;
+    BenchDriver& operator=(const BenchDriver&) = delete;
+    ~BenchDriver() override { --bench_->open; }
 
     [[nodiscard]] const Description& describe() const override { return description_; }
     Result<std::optional<Sample>> read(double timeout) override {
@@ -55,10 +55,10 @@ class OnBench final : public DeviceDriver {
     Status write(const force::OutputCommand& command) override {
         if (!bench_->plugged) return lost();
         std::unique_lock lock(bench_->mutex);
-        if (bench_->holds) {
-            bench_->holding = true;
-            bench_->let_go.wait(lock, [&] { return !bench_->holds; });
-            bench_->holding = false;
+        if (bench_->block_writes) {
+            bench_->write_blocked = true;
+            bench_->unblocked.wait(lock, [&] { return !bench_->block_writes; });
+            bench_->write_blocked = false;
         }
         bench_->commands.push_back(command);
         return {};
@@ -82,7 +82,7 @@ class OnBench final : public DeviceDriver {
 DeviceFactory opens(const std::shared_ptr<Bench>& bench) {
     return [bench]() -> Result<std::unique_ptr<DeviceDriver>> {
         if (!bench->plugged) return fail(ErrorCode::no_device, "there is no arm", "a connected arm");
-        return std::make_unique<OnBench>(bench);
+        return std::make_unique<BenchDriver>(bench);
     };
 }
 
@@ -93,25 +93,25 @@ TEST_CASE(
     "force") {
     const auto bench = std::make_shared<Bench>();
     {
-        Result<DeviceThread> line = DeviceThread::start(opens(bench));
-        REQUIRE(line);
-        const auto description = line->wait_until_open(60.0);
+        Result<DeviceThread> device_thread = DeviceThread::start(opens(bench));
+        REQUIRE(device_thread);
+        const auto description = device_thread->wait_until_open(60.0);
         REQUIRE(description);
         CHECK((*description)->name == "an arm");
         std::uint64_t number = 0;
         bool in_order = true;
         REQUIRE(eventually([&] {
-            line->command({Vec3(2, 0, 0), Vec3(0.0)}, true);
-            const DeviceSnapshot& told = line->snapshot();
-            in_order = in_order && told.number >= number;
-            number = told.number;
+            device_thread->command({Vec3(2, 0, 0), Vec3(0.0)}, true);
+            const DeviceSnapshot& current = device_thread->snapshot();
+            in_order = in_order && current.number >= number;
+            number = current.number;
             const auto written = bench->written();
             return number > 20 && !written.empty() && written.back().force.x == 2.0;
         }));
         CHECK(in_order);
-        CHECK(line->snapshot().usable);
-        CHECK(line->snapshot().opening == 1);
-        CHECK(line->snapshot().sample.pose.position.x > 0.0);
+        CHECK(device_thread->snapshot().usable);
+        CHECK(device_thread->snapshot().opening == 1);
+        CHECK(device_thread->snapshot().sample.pose.position.x > 0.0);
     }
     CHECK(bench->written().back().force.x == 0.0);
     CHECK(bench->open == 0);
@@ -121,22 +121,22 @@ TEST_CASE(
     "DeviceThread: command() returns while the device hangs in a write; afterwards only the latest command "
     "is sent") {
     const auto bench = std::make_shared<Bench>();
-    Result<DeviceThread> line = DeviceThread::start(opens(bench));
-    REQUIRE(line);
-    REQUIRE(line->wait_until_open(60.0));
+    Result<DeviceThread> device_thread = DeviceThread::start(opens(bench));
+    REQUIRE(device_thread);
+    REQUIRE(device_thread->wait_until_open(60.0));
     REQUIRE(eventually([&] { return bench->written().size() == 1; }));  // the initial zero
-    bench->holds = true;
+    bench->block_writes = true;
     double force = 0.0;
     REQUIRE(eventually([&] {
-        line->command({Vec3(force += 1e-3, 0, 0), Vec3(0.0)}, true);
-        return bench->holding.load();
+        device_thread->command({Vec3(force += 1e-3, 0, 0), Vec3(0.0)}, true);
+        return bench->write_blocked.load();
     }));
     const std::size_t before = bench->written().size();
     // The write blocks during all of these commands.
-    for (int i = 1; i <= 1000; ++i) line->command({Vec3(1 + i, 0, 0), Vec3(0.0)}, true);
-    CHECK(bench->holding);
-    CHECK(line->snapshot().number > 0);
-    CHECK(bench->holding);
+    for (int i = 1; i <= 1000; ++i) device_thread->command({Vec3(1 + i, 0, 0), Vec3(0.0)}, true);
+    CHECK(bench->write_blocked);
+    CHECK(device_thread->snapshot().number > 0);
+    CHECK(bench->write_blocked);
     CHECK(bench->written().size() == before);
     bench->release();
     REQUIRE(eventually([&] { return bench->written().size() >= before + 2; }));
@@ -149,28 +149,30 @@ TEST_CASE(
 TEST_CASE(
     "DeviceThread: after a replug the report names it, the device is usable, and the opening count changes") {
     const auto bench = std::make_shared<Bench>();
-    Result<DeviceThread> line = DeviceThread::start(opens(bench));
-    REQUIRE(line);
-    REQUIRE(eventually([&] { return line->snapshot().number > 5; }));
+    Result<DeviceThread> device_thread = DeviceThread::start(opens(bench));
+    REQUIRE(device_thread);
+    REQUIRE(eventually([&] { return device_thread->snapshot().number > 5; }));
     bench->plugged = false;
-    REQUIRE(eventually([&] { return !line->snapshot().usable; }));
-    REQUIRE(eventually([&] { return line->report().trouble.find("a connected arm") != std::string::npos; }));
-    CHECK(line->report().losses == 1);
-    CHECK(line->report().state == DeviceState::absent);
-    const std::uint64_t at = line->snapshot().number;
+    REQUIRE(eventually([&] { return !device_thread->snapshot().usable; }));
+    REQUIRE(eventually(
+        [&] { return device_thread->report().trouble.find("a connected arm") != std::string::npos; }));
+    CHECK(device_thread->report().losses == 1);
+    CHECK(device_thread->report().state == DeviceState::absent);
+    const std::uint64_t at = device_thread->snapshot().number;
     bench->plugged = true;
-    REQUIRE(eventually([&] { return line->snapshot().usable && line->snapshot().number > at; }));
-    CHECK(line->snapshot().opening == 2);
-    REQUIRE(eventually([&] { return line->report().trouble.empty(); }));
+    REQUIRE(eventually(
+        [&] { return device_thread->snapshot().usable && device_thread->snapshot().number > at; }));
+    CHECK(device_thread->snapshot().opening == 2);
+    REQUIRE(eventually([&] { return device_thread->report().trouble.empty(); }));
 }
 
 TEST_CASE("DeviceThread: wait_until_open reports why a missing device does not open") {
     const auto bench = std::make_shared<Bench>();
     bench->plugged = false;
-    Result<DeviceThread> line = DeviceThread::start(opens(bench));
-    REQUIRE(line);
-    REQUIRE(eventually([&] { return line->report().refusals > 0; }));
-    const auto none = line->wait_until_open(0.0);
+    Result<DeviceThread> device_thread = DeviceThread::start(opens(bench));
+    REQUIRE(device_thread);
+    REQUIRE(eventually([&] { return device_thread->report().refusals > 0; }));
+    const auto none = device_thread->wait_until_open(0.0);
     REQUIRE_FALSE(none);
     CHECK(none.error().code == ErrorCode::no_device);
     CHECK(none.error().message() == "there is no arm; expected a connected arm");

@@ -35,9 +35,9 @@ inline void check_description(const device::Description& d) {
     CHECK(d.limits.delay <= 3);
 }
 
-// `speaks` makes the device send a sample, as a hand on it would.
-template <class Speaks>
-void check_driver_contract(const device::DeviceFactory& open, const Speaks& speaks) {
+// `move_device` makes the device send a sample, as the hand of a user does.
+template <class MoveDevice>
+void check_driver_contract(const device::DeviceFactory& open, const MoveDevice& move_device) {
     for (int plugged = 0; plugged < 2; ++plugged) {  // the device can be reopened
         Result<std::unique_ptr<device::DeviceDriver>> opened = open();
         REQUIRE(opened);
@@ -45,16 +45,16 @@ void check_driver_contract(const device::DeviceFactory& open, const Speaks& spea
         const device::Description description = device.describe();
         check_description(description);
         CHECK(device.describe().id == description.id);
-        int heard = 0;
-        for (int i = 0; i < 1000 && heard < 3; ++i) {
-            speaks();
+        int samples = 0;
+        for (int i = 0; i < 1000 && samples < 3; ++i) {
+            move_device();
             const Result<std::optional<device::Sample>> read = device.read(0.005);
             REQUIRE(read);
             if (!*read) continue;
             CHECK(is_valid(description, **read));
-            ++heard;
+            ++samples;
         }
-        CHECK(heard == 3);
+        CHECK(samples == 3);
         const force::OutputCommand most{Vec3(description.limits.force, 0, 0),
                                         description.axis * description.limits.torque};
         CHECK(device.write(most));
@@ -63,7 +63,8 @@ void check_driver_contract(const device::DeviceFactory& open, const Speaks& spea
     }
 }
 
-// `pull` unplugs the device. Reads or writes then fail soon, and the error of open() says what to do.
+// `pull` unplugs the device. Reads or writes must then fail within 1000 calls, and the error of open() must
+// name a remedy.
 template <class Pull>
 void check_unplugged(const device::DeviceFactory& open, const Pull& pull) {
     Result<std::unique_ptr<device::DeviceDriver>> opened = open();

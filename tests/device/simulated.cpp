@@ -21,7 +21,7 @@ std::unique_ptr<DeviceDriver> opened(const DeviceFactory& open) {
 }
 
 // Returns the samples until the time `until`, with a read timeout of 1 ms.
-std::vector<Sample> heard(DeviceDriver& device, const VirtualTime& time, double until) {
+std::vector<Sample> read_until(DeviceDriver& device, const VirtualTime& time, double until) {
     std::vector<Sample> samples;
     while (time.now < until) {
         const auto read = device.read(1e-3);
@@ -48,7 +48,7 @@ TEST_CASE("SimulatedDevice: the hand follows its script at the device's rate") {
                            {}},
                           virtual_timer(time));
     const auto device = opened(thing.open());
-    const auto samples = heard(*device, time, 1.0);
+    const auto samples = read_until(*device, time, 1.0);
     CHECK(samples.size() == doctest::Approx(250).epsilon(0.02));
     for (const Sample& s : samples) CHECK(s.pose.position.x == doctest::Approx(0.1 * s.time));
     CHECK(samples.back().buttons == 1);
@@ -60,9 +60,9 @@ TEST_CASE(
     const HandImpedance hand;
     SimulatedDevice thing(still(hand), virtual_timer(time));
     const auto device = opened(thing.open());
-    heard(*device, time, 0.1);
+    read_until(*device, time, 0.1);
     REQUIRE(device->write({Vec3(3, 0, -1.5), Vec3(0, 0.2, 0)}));
-    heard(*device, time, 3.0);
+    read_until(*device, time, 3.0);
     CHECK(thing.hand().pose.position.x == doctest::Approx(3.0 / hand.stiffness).epsilon(1e-3));
     CHECK(thing.hand().pose.position.z == doctest::Approx(-1.5 / hand.stiffness).epsilon(1e-3));
     CHECK(rotation_vector(thing.hand().pose.orientation).y ==
@@ -81,9 +81,9 @@ TEST_CASE("SimulatedDevice: a wheel turns against the hand about its own axis") 
     const HandImpedance hand;
     SimulatedDevice thing({wheel, [](double) { return Sample{}; }, hand, {}}, virtual_timer(time));
     const auto device = opened(thing.open());
-    heard(*device, time, 0.1);
+    read_until(*device, time, 0.1);
     REQUIRE(device->write({Vec3(0.0), Vec3(5, 4, 0)}));
-    heard(*device, time, 3.0);
+    read_until(*device, time, 3.0);
     CHECK(thing.hand().turn == doctest::Approx(4.0 / hand.torsion).epsilon(1e-3));
 }
 
@@ -92,22 +92,22 @@ TEST_CASE("SimulatedDevice: each injected fault behaves as named, for its interv
     SimulatedDevice thing(still(), virtual_timer(time));
     auto device = opened(thing.open());
     thing.inject({InjectedFault::silent, 1.0, 2.0});
-    CHECK(heard(*device, time, 1.0).size() > 990);
+    CHECK(read_until(*device, time, 1.0).size() > 990);
     REQUIRE(device->write({Vec3(1, 0, 0), Vec3(0.0)}));
-    CHECK(heard(*device, time, 2.0).size() <= 1);
+    CHECK(read_until(*device, time, 2.0).size() <= 1);
     CHECK(thing.rendered().force.x == 1.0);  // a silent device keeps its last force
 
     thing.inject({InjectedFault::not_a_number, 2.0, 2.5});
-    for (const Sample& s : heard(*device, time, 2.4)) CHECK(std::isnan(s.pose.position.y));
-    heard(*device, time, 3.0);
+    for (const Sample& s : read_until(*device, time, 2.4)) CHECK(std::isnan(s.pose.position.y));
+    read_until(*device, time, 3.0);
     thing.inject({InjectedFault::jumped, 3.0, 3.5});
-    for (const Sample& s : heard(*device, time, 3.4)) CHECK(s.pose.position.x == 0.5);
-    heard(*device, time, 4.0);
+    for (const Sample& s : read_until(*device, time, 3.4)) CHECK(s.pose.position.x == 0.5);
+    read_until(*device, time, 4.0);
 
     thing.inject({InjectedFault::slow, 4.0, 5.0});
     REQUIRE(device->write({Vec3(2, 0, 0), Vec3(0.0)}));
     CHECK(time.now == doctest::Approx(4.015).epsilon(1e-3));
-    heard(*device, time, 5.0);
+    read_until(*device, time, 5.0);
     thing.inject({InjectedFault::stuck, 5.0, 5.7});
     REQUIRE(device->write({Vec3(3, 0, 0), Vec3(0.0)}));
     CHECK(time.now > 5.7);
@@ -143,7 +143,7 @@ TEST_CASE(
     const DeviceFactory open = recorded(test::arm(), recording, virtual_timer(time));
     {
         const auto device = opened(open);
-        const auto samples = heard(*device, time, 100.5);
+        const auto samples = read_until(*device, time, 100.5);
         REQUIRE(samples.size() == doctest::Approx(250).epsilon(0.02));
         for (std::size_t i = 0; i < samples.size(); ++i)
             CHECK(samples[i].pose.position.x == static_cast<double>(i));
@@ -152,7 +152,7 @@ TEST_CASE(
         REQUIRE(late);
         REQUIRE(*late);
         CHECK((*late)->pose.position.x == doctest::Approx(450).epsilon(0.01));
-        const auto rest = heard(*device, time, 101.5);
+        const auto rest = read_until(*device, time, 101.5);
         CHECK(rest.back().pose.position.x == 499);
         CHECK(rest.back().buttons == 0);
         CHECK(rest.size() > 400);  // the last sample repeats
@@ -172,15 +172,15 @@ TEST_CASE("VirtualPuck: deflection becomes velocity, quadratically; without inpu
     VirtualPuck puck(feel, virtual_timer(time));
     const auto device = opened(puck.open());
     CHECK(device->describe().sensing == Sensing::rate);
-    CHECK(heard(*device, time, 0.1).back().velocity == Vec3(0.0));
+    CHECK(read_until(*device, time, 0.1).back().velocity == Vec3(0.0));
     puck.set_input({Vec3(1, -0.5, 7), Vec3(0, 0.5, 0), 2});
-    const Sample pushed = heard(*device, time, 0.2).back();
+    const Sample pushed = read_until(*device, time, 0.2).back();
     CHECK(pushed.velocity.x == doctest::Approx(feel.speed));
     CHECK(pushed.velocity.y == doctest::Approx(-0.25 * feel.speed));
     CHECK(pushed.velocity.z == doctest::Approx(feel.speed));
     CHECK(pushed.angular_velocity.y == doctest::Approx(0.25 * feel.angular_speed));
     CHECK(pushed.buttons == 2);
-    const auto rest = heard(*device, time, 1.0);
+    const auto rest = read_until(*device, time, 1.0);
     CHECK(rest.back().velocity == Vec3(0.0));
     CHECK(rest.back().buttons == 0);
     CHECK(rest.size() == doctest::Approx(0.8 * feel.rate).epsilon(0.05));

@@ -17,9 +17,11 @@ using namespace bolt::device;
 
 namespace {
 
-// A supervisor of a simulated device, and a servo that issues one command per millisecond while `ordering`.
-struct Kept {
-    explicit Kept(Description description = test::arm(), const std::vector<FaultInterval>& troubles = {})
+// A supervisor of a simulated device, and a servo that issues one command per millisecond while
+// `sends_commands`.
+struct SupervisedDevice {
+    explicit SupervisedDevice(Description description = test::arm(),
+                              const std::vector<FaultInterval>& troubles = {})
         : thing({std::move(description), [](double) { return Sample{}; }, std::nullopt, troubles},
                 virtual_timer(time)),
           supervisor(thing.open(), virtual_timer(time)) {}
@@ -27,20 +29,20 @@ struct Kept {
     VirtualTime time;
     SimulatedDevice thing;
     DeviceSupervisor supervisor;
-    force::OutputCommand wanted{Vec3(1, 2, 3), Vec3(0.1, 0, 0)};
-    bool ordering = true, enabled = true;
+    force::OutputCommand command_to_send{Vec3(1, 2, 3), Vec3(0.1, 0, 0)};
+    bool sends_commands = true, enabled = true;
     std::uint64_t samples = 0;
 
-    std::optional<Sample> turn() {
+    std::optional<Sample> poll_once() {
         const auto sample = supervisor.poll([&] {
-            if (ordering) number_ = 1 + static_cast<std::uint64_t>(time.now * 1e3);
-            return ForceCommand{wanted, enabled, number_};
+            if (sends_commands) number_ = 1 + static_cast<std::uint64_t>(time.now * 1e3);
+            return ForceCommand{command_to_send, enabled, number_};
         });
         if (sample) ++samples;
         return sample;
     }
     void until(double end) {
-        while (time.now < end) turn();
+        while (time.now < end) poll_once();
     }
     [[nodiscard]] double force() const { return glm::length(thing.rendered().force); }
     [[nodiscard]] double torque() const { return glm::length(thing.rendered().torque); }
@@ -146,70 +148,71 @@ TEST_CASE("DeviceSupervisor: a device that fails at its first read is not reopen
 TEST_CASE("DeviceSupervisor: a replug at any moment is reported within 10 ms and usable within 2 s") {
     Random random(1);
     for (int run = 0; run < 200; ++run) {
-        Kept kept;
-        kept.until(random.uniform(0.01, 0.5));
-        REQUIRE(kept.supervisor.report().state == DeviceState::usable);
-        REQUIRE(kept.supervisor.report().trouble.empty());
-        const double pulled = kept.time.now;
+        SupervisedDevice supervised;
+        supervised.until(random.uniform(0.01, 0.5));
+        REQUIRE(supervised.supervisor.report().state == DeviceState::usable);
+        REQUIRE(supervised.supervisor.report().trouble.empty());
+        const double pulled = supervised.time.now;
         const double back = pulled + random.uniform(0.001, 5.0);
-        kept.thing.inject({InjectedFault::unplugged, pulled, back});
-        kept.until(pulled + 0.01);
+        supervised.thing.inject({InjectedFault::unplugged, pulled, back});
+        supervised.until(pulled + 0.01);
         if (back > pulled + 0.01) {
-            CHECK(kept.supervisor.report().state == DeviceState::absent);
-            CHECK(kept.supervisor.report().trouble.find("not plugged in") != std::string::npos);
-            CHECK(kept.supervisor.report().losses == 1);
+            CHECK(supervised.supervisor.report().state == DeviceState::absent);
+            CHECK(supervised.supervisor.report().trouble.find("not plugged in") != std::string::npos);
+            CHECK(supervised.supervisor.report().losses == 1);
         }
-        kept.until(back);
-        while (kept.supervisor.report().state != DeviceState::usable && kept.time.now < back + 3.0)
-            kept.turn();
-        CHECK(kept.time.now <= back + 2.0);
-        kept.turn();
-        kept.turn();
-        CHECK(kept.force() == doctest::Approx(std::sqrt(14.0)));
-        CHECK(kept.supervisor.report().trouble.empty());
+        supervised.until(back);
+        while (supervised.supervisor.report().state != DeviceState::usable &&
+               supervised.time.now < back + 3.0)
+            supervised.poll_once();
+        CHECK(supervised.time.now <= back + 2.0);
+        supervised.poll_once();
+        supervised.poll_once();
+        CHECK(supervised.force() == doctest::Approx(std::sqrt(14.0)));
+        CHECK(supervised.supervisor.report().trouble.empty());
     }
 }
 
 TEST_CASE("DeviceSupervisor: when commands stop, the force is released within 20 ms") {
     Random random(2);
     for (int run = 0; run < 200; ++run) {
-        Kept kept;
-        kept.until(random.uniform(0.05, 0.2));
-        REQUIRE(kept.force() > 3.0);
-        kept.ordering = false;
-        const double last = kept.time.now;
-        kept.until(last + 0.010);
-        CHECK(kept.force() > 3.0);  // a late command is no loss yet
-        kept.until(last + 0.020);
-        CHECK(kept.force() == 0.0);
-        CHECK(kept.torque() == 0.0);
-        CHECK(kept.supervisor.report().lapses == 1);
-        kept.until(last + 0.5);
-        CHECK(kept.supervisor.report().lapses == 1);
-        kept.ordering = true;
-        kept.until(last + 0.51);
-        CHECK(kept.force() > 3.0);
+        SupervisedDevice supervised;
+        supervised.until(random.uniform(0.05, 0.2));
+        REQUIRE(supervised.force() > 3.0);
+        supervised.sends_commands = false;
+        const double last = supervised.time.now;
+        supervised.until(last + 0.010);
+        CHECK(supervised.force() > 3.0);  // a late command is no loss yet
+        supervised.until(last + 0.020);
+        CHECK(supervised.force() == 0.0);
+        CHECK(supervised.torque() == 0.0);
+        CHECK(supervised.supervisor.report().lapses == 1);
+        supervised.until(last + 0.5);
+        CHECK(supervised.supervisor.report().lapses == 1);
+        supervised.sends_commands = true;
+        supervised.until(last + 0.51);
+        CHECK(supervised.force() > 3.0);
     }
 }
 
 TEST_CASE("DeviceSupervisor: no force without enable, for NaN, and after close") {
-    Kept kept;
-    kept.until(0.1);
-    REQUIRE(kept.force() > 3.0);
-    kept.enabled = false;
-    kept.until(0.103);
-    CHECK(kept.force() == 0.0);
-    kept.enabled = true;
-    kept.until(0.106);
-    REQUIRE(kept.force() > 3.0);
-    kept.wanted.torque.z = std::numeric_limits<double>::quiet_NaN();
-    kept.until(0.109);
-    CHECK(kept.force() == 0.0);
-    kept.wanted.torque.z = 0.0;
-    kept.until(0.112);
-    REQUIRE(kept.force() > 3.0);
-    kept.supervisor.close();
-    CHECK(kept.force() == 0.0);
+    SupervisedDevice supervised;
+    supervised.until(0.1);
+    REQUIRE(supervised.force() > 3.0);
+    supervised.enabled = false;
+    supervised.until(0.103);
+    CHECK(supervised.force() == 0.0);
+    supervised.enabled = true;
+    supervised.until(0.106);
+    REQUIRE(supervised.force() > 3.0);
+    supervised.command_to_send.torque.z = std::numeric_limits<double>::quiet_NaN();
+    supervised.until(0.109);
+    CHECK(supervised.force() == 0.0);
+    supervised.command_to_send.torque.z = 0.0;
+    supervised.until(0.112);
+    REQUIRE(supervised.force() > 3.0);
+    supervised.supervisor.close();
+    CHECK(supervised.force() == 0.0);
 
     VirtualTime time;
     const auto state = std::make_shared<test::Written>();
@@ -252,42 +255,43 @@ TEST_CASE("DeviceSupervisor: a command is clamped to the described limits and ax
 }
 
 TEST_CASE("DeviceSupervisor: invalid samples are counted and dropped; many in a row count as silence") {
-    Kept kept;
-    kept.until(0.1);
-    const std::uint64_t before = kept.samples;
-    kept.thing.inject({InjectedFault::not_a_number, 0.1, 0.2});
-    kept.until(0.199);
-    CHECK(kept.samples == before);
-    CHECK(kept.supervisor.report().malformed >= 98);
-    CHECK(kept.supervisor.report().state == DeviceState::usable);
-    kept.until(0.3);
-    CHECK(kept.samples > before + 90);
-    kept.thing.inject({InjectedFault::not_a_number, 0.3, 0.7});
-    kept.until(0.6);
-    CHECK(kept.supervisor.report().state == DeviceState::silent);
-    CHECK(kept.supervisor.report().trouble.find("no valid samples") != std::string::npos);
-    kept.until(0.8);
-    CHECK(kept.supervisor.report().state == DeviceState::usable);
-    CHECK(kept.supervisor.report().trouble.empty());
-    CHECK(kept.supervisor.report().openings == 1);
+    SupervisedDevice supervised;
+    supervised.until(0.1);
+    const std::uint64_t before = supervised.samples;
+    supervised.thing.inject({InjectedFault::not_a_number, 0.1, 0.2});
+    supervised.until(0.199);
+    CHECK(supervised.samples == before);
+    CHECK(supervised.supervisor.report().malformed >= 98);
+    CHECK(supervised.supervisor.report().state == DeviceState::usable);
+    supervised.until(0.3);
+    CHECK(supervised.samples > before + 90);
+    supervised.thing.inject({InjectedFault::not_a_number, 0.3, 0.7});
+    supervised.until(0.6);
+    CHECK(supervised.supervisor.report().state == DeviceState::silent);
+    CHECK(supervised.supervisor.report().trouble.find("no valid samples") != std::string::npos);
+    supervised.until(0.8);
+    CHECK(supervised.supervisor.report().state == DeviceState::usable);
+    CHECK(supervised.supervisor.report().trouble.empty());
+    CHECK(supervised.supervisor.report().openings == 1);
 }
 
 TEST_CASE(
     "DeviceSupervisor: a silent device is reported within 1 s, reopened, and usable within 2 s of its "
     "return") {
-    Kept kept;
-    kept.until(0.1);
-    kept.thing.inject({InjectedFault::silent, 0.1, 4.0});
-    kept.until(0.5);
-    CHECK(kept.supervisor.report().state == DeviceState::silent);
-    CHECK_FALSE(kept.supervisor.report().trouble.empty());
-    CHECK(kept.supervisor.report().openings == 1);
-    kept.until(3.9);
-    CHECK(kept.supervisor.report().silences >= 2);
-    CHECK_FALSE(kept.supervisor.report().trouble.empty());
-    kept.until(4.0);
-    while (kept.supervisor.report().state != DeviceState::usable && kept.time.now < 8.0) kept.turn();
-    CHECK(kept.time.now < 6.0);
+    SupervisedDevice supervised;
+    supervised.until(0.1);
+    supervised.thing.inject({InjectedFault::silent, 0.1, 4.0});
+    supervised.until(0.5);
+    CHECK(supervised.supervisor.report().state == DeviceState::silent);
+    CHECK_FALSE(supervised.supervisor.report().trouble.empty());
+    CHECK(supervised.supervisor.report().openings == 1);
+    supervised.until(3.9);
+    CHECK(supervised.supervisor.report().silences >= 2);
+    CHECK_FALSE(supervised.supervisor.report().trouble.empty());
+    supervised.until(4.0);
+    while (supervised.supervisor.report().state != DeviceState::usable && supervised.time.now < 8.0)
+        supervised.poll_once();
+    CHECK(supervised.time.now < 6.0);
 }
 
 TEST_CASE("DeviceSupervisor: devices that are silent at rest may rest indefinitely") {
@@ -295,12 +299,12 @@ TEST_CASE("DeviceSupervisor: devices that are silent at rest may rest indefinite
         Description description = test::arm();
         description.sensing = sensing;
         description.silent_at_rest = sensing == Sensing::turn;
-        Kept kept(description, {{InjectedFault::silent, 0.0, 100.0}});
-        kept.until(10.0);
-        CHECK(kept.supervisor.report().state == DeviceState::usable);
-        CHECK(kept.supervisor.report().openings == 1);
-        CHECK(kept.supervisor.report().trouble.empty());
-        CHECK(kept.supervisor.report().samples == 0);
+        SupervisedDevice supervised(description, {{InjectedFault::silent, 0.0, 100.0}});
+        supervised.until(10.0);
+        CHECK(supervised.supervisor.report().state == DeviceState::usable);
+        CHECK(supervised.supervisor.report().openings == 1);
+        CHECK(supervised.supervisor.report().trouble.empty());
+        CHECK(supervised.supervisor.report().samples == 0);
     }
 }
 

@@ -178,7 +178,7 @@ TEST_CASE("Wheel: an OpenFFBoard with known counts per turn has no angle limit a
     CHECK(by_range.samples == 0);
 }
 
-TEST_CASE("Wheel: silence counts as rest for a while, then as a loss") {
+TEST_CASE("Wheel: a silent wheel returns samples at rest for a while, then none") {
     Bench b(design_of(false));
     b.run(0.2, [] { return 0.0; });
     CHECK(b.samples > 50);

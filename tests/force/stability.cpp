@@ -67,21 +67,21 @@ ForceRequest wall_of(const Scene& scene, const Pose& tool) {
     return request;
 }
 
-struct Felt {
+struct PressResult {
     double greatest_energy = 0.0, energy = 0.0;  // J delivered to the hand: maximum, and at the end
     double early_swing = 0.0, late_swing = 0.0;  // m, range of the tool's motion while the hand is still
 };
 
-enum class Energy { told, not_told };
+enum class StoredEnergy { reported, omitted };
 
 // The hand approaches, presses, shakes for half a second at 6 Hz and holds still for 1.5 s.
-Felt feel(const Scene& scene, const OutputLimits& limits, Energy energy, double dt) {
+PressResult press_wall(const Scene& scene, const OutputLimits& limits, StoredEnergy energy, double dt) {
     test::Arm arm;
     arm.parameters = scene.arm;
     arm.parameters.delay = limits.delay;
     arm.pose.position = arm.intention.position = clear * scene.way;
     OutputStage stage;
-    Felt felt;
+    PressResult outcome;
     test::Range early, late;
     const int second = static_cast<int>(std::lround(1.0 / dt));
     for (int k = 0; k < 4 * second; ++k) {
@@ -93,17 +93,17 @@ Felt feel(const Scene& scene, const OutputLimits& limits, Energy energy, double 
         input.pose = test::sample(arm);
         input.enabled = true;
         ForceRequest request = wall_of(scene, input.pose);
-        if (energy == Energy::not_told) request.stored_energy = 0.0;
+        if (energy == StoredEnergy::omitted) request.stored_energy = 0.0;
         test::step(arm, render(limits, stage, input, request, dt), dt);
-        felt.greatest_energy = std::max(felt.greatest_energy, arm.energy_out);
+        outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_out);
         const double x = glm::dot(arm.pose.position, scene.way);
         if (t >= 2.6 && t < 2.9) early.add(x);
         if (t >= 3.7 && t < 4.0) late.add(x);
     }
-    felt.energy = arm.energy_out;
-    felt.early_swing = early.width();
-    felt.late_swing = late.width();
-    return felt;
+    outcome.energy = arm.energy_out;
+    outcome.early_swing = early.width();
+    outcome.late_swing = late.width();
+    return outcome;
 }
 
 OutputLimits device() {
@@ -112,8 +112,8 @@ OutputLimits device() {
     return limits;
 }
 
-bool swings_on(const Felt& felt) {
-    return felt.late_swing > 50e-6 && felt.late_swing > 0.3 * felt.early_swing;
+bool keeps_oscillating(const PressResult& outcome) {
+    return outcome.late_swing > 50e-6 && outcome.late_swing > 0.3 * outcome.early_swing;
 }
 
 }  // namespace
@@ -125,12 +125,12 @@ TEST_CASE("Stability: no net energy and no lasting oscillation for forty arms an
             CAPTURE(seed);
             CAPTURE(dt);
             const Scene scene = random_scene(seed);
-            const Felt felt = feel(scene, device(), Energy::told, dt);
-            CHECK(felt.energy <= 0.0);
-            CHECK(felt.greatest_energy <=
+            const PressResult outcome = press_wall(scene, device(), StoredEnergy::reported, dt);
+            CHECK(outcome.energy <= 0.0);
+            CHECK(outcome.greatest_energy <=
                   5e-3);  // transient, because a slew-limited force cannot recover the energy at once
-            CHECK_FALSE(swings_on(felt));
-            most = std::max(most, felt.greatest_energy);
+            CHECK_FALSE(keeps_oscillating(outcome));
+            most = std::max(most, outcome.greatest_energy);
         }
         MESSAGE("dt ", dt, ": most energy that was out at any time, mJ: ", 1e3 * most);
     }
@@ -147,7 +147,7 @@ TEST_CASE("Stability: a wall of 1 N/mm is rendered with at least 0.8 N/mm for ev
         // Press with 3 N, then 5 N, for three seconds each. The stiffness is the difference of force over the
         // difference of penetration.
         const Vec3& n = scene.normals[0];
-        double stood[2] = {}, pushed[2] = {};
+        double depth_at[2] = {}, force_at[2] = {};
         for (int k = 0; k < 6000; ++k) {
             const int level = k / 3000;
             arm.intention.position = -(level == 0 ? 3.0 : 5.0) / scene.arm.stiffness * n;
@@ -158,39 +158,40 @@ TEST_CASE("Stability: a wall of 1 N/mm is rendered with at least 0.8 N/mm for ev
             const ForceRequest request{{1000.0 * depth * n, Vec3(0.0)}, 500.0 * depth * depth};
             test::step(arm, render(device(), stage, input, request, 1e-3), 1e-3);
             if (k % 3000 < 2500) continue;
-            stood[level] -= glm::dot(arm.pose.position, n) / 500.0;
-            pushed[level] +=
+            depth_at[level] -= glm::dot(arm.pose.position, n) / 500.0;
+            force_at[level] +=
                 scene.arm.stiffness * glm::dot(arm.pose.position - arm.intention.position, n) / 500.0;
         }
-        CHECK((pushed[1] - pushed[0]) / (stood[1] - stood[0]) >= 800.0);
+        CHECK((force_at[1] - force_at[0]) / (depth_at[1] - depth_at[0]) >= 800.0);
     }
 }
 
 TEST_CASE("Stability: the result is as stable if requests omit the springs' stored energy") {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         CAPTURE(seed);
-        const Felt felt = feel(random_scene(seed), device(), Energy::not_told, 1e-3);
-        CHECK(felt.energy <= 0.0);
-        CHECK(felt.greatest_energy <= 2e-3);
-        CHECK_FALSE(swings_on(felt));
+        const PressResult outcome = press_wall(random_scene(seed), device(), StoredEnergy::omitted, 1e-3);
+        CHECK(outcome.energy <= 0.0);
+        CHECK(outcome.greatest_energy <= 2e-3);
+        CHECK_FALSE(keeps_oscillating(outcome));
     }
 }
 
 TEST_CASE("Stability: without the controller most cases generate energy and many oscillate") {
     OutputLimits uncontrolled = device();
     uncontrolled.damping = uncontrolled.angular_damping = 0.0;
-    int active = 0, trembling = 0;
+    int active = 0, oscillating = 0;
     double most = 0.0;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
-        const Felt felt = feel(random_scene(seed), uncontrolled, Energy::told, 1e-3);
-        active += felt.energy > 0.0;
-        trembling += swings_on(felt);
-        most = std::max(most, felt.energy);
+        const PressResult outcome =
+            press_wall(random_scene(seed), uncontrolled, StoredEnergy::reported, 1e-3);
+        active += outcome.energy > 0.0;
+        oscillating += keeps_oscillating(outcome);
+        most = std::max(most, outcome.energy);
     }
     CHECK(active >= 20);
-    CHECK(trembling >= 10);
+    CHECK(oscillating >= 10);
     CHECK(most > 1.0);
-    MESSAGE("energy came out of ", active, ", ", trembling, " tremble on; the worst, J: ", most);
+    MESSAGE("energy came out of ", active, ", ", oscillating, " tremble on; the worst, J: ", most);
 }
 
 }  // namespace force_stability_test

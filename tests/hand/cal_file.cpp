@@ -30,15 +30,15 @@ TEST_CASE(
     "index line") {
     const Result<Calibration> c = parse_cal(sample(), "right.cal");
     REQUIRE_MESSAGE(c, (c ? "" : c.error().message()));
-    const auto line = [&](Sensor s) { return *c->fits[index(s)]; };
-    CHECK(line(Sensor::thumb_roll).offset == 50.5);
-    CHECK(line(Sensor::thumb_roll).gain == doctest::Approx(-0.01));
-    CHECK(line(Sensor::index_mpj).offset == 54.5);
-    CHECK(line(Sensor::middle_abduction).offset == 61.5);
-    CHECK(line(Sensor::middle_abduction).gain == doctest::Approx(-0.01 - 0.0007));
-    CHECK(line(Sensor::palm_arch).offset == 70.5);
-    CHECK(line(Sensor::wrist_yaw).offset == 72.5);
-    CHECK(angle(line(Sensor::thumb_roll), 30.5) == doctest::Approx(0.2));
+    const auto fit = [&](Sensor s) { return *c->fits[index(s)]; };
+    CHECK(fit(Sensor::thumb_roll).offset == 50.5);
+    CHECK(fit(Sensor::thumb_roll).gain == doctest::Approx(-0.01));
+    CHECK(fit(Sensor::index_mpj).offset == 54.5);
+    CHECK(fit(Sensor::middle_abduction).offset == 61.5);
+    CHECK(fit(Sensor::middle_abduction).gain == doctest::Approx(-0.01 - 0.0007));
+    CHECK(fit(Sensor::palm_arch).offset == 70.5);
+    CHECK(fit(Sensor::wrist_yaw).offset == 72.5);
+    CHECK(angle(fit(Sensor::thumb_roll), 30.5) == doctest::Approx(0.2));
     for (const Sensor s : sensors_of(22)) CHECK(c->fits[index(s)]);
 }
 

@@ -63,9 +63,9 @@ TEST_CASE("CalibrationSession: four postures are requested and sampled, and the 
     REQUIRE(trainee.session.result);
     CHECK(trainee.session.result->score > 0.5);
     CHECK(trainee.session.result->remarks.empty());
-    const auto& line = trainee.session.result->calibration.fits[index(Sensor::ring_pij)];
-    REQUIRE(line);
-    CHECK(line->gain == doctest::Approx(0.013).epsilon(0.02));
+    const auto& fit = trainee.session.result->calibration.fits[index(Sensor::ring_pij)];
+    REQUIRE(fit);
+    CHECK(fit->gain == doctest::Approx(0.013).epsilon(0.02));
     for (const PostureSamples& held : trainee.session.taken) {
         CHECK(held.samples.size() > 150);
         for (const auto& sample : held.samples)  // none during the motion between postures

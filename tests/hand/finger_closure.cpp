@@ -21,9 +21,8 @@ namespace {
 // m, the penetration that ball_spacing and stop_tolerance permit (finger_closure.hpp).
 constexpr double stated = 0.65 * mm;
 
-// Returns true if the digit penetrates the tool.
-bool in_it(const TestTool& held, const hand::Hand& hand, const Pose& wrist, std::size_t d,
-           const hand::Angles& a) {
+bool penetrates_tool(const TestTool& held, const hand::Hand& hand, const Pose& wrist, std::size_t d,
+                     const hand::Angles& a) {
     return deepest(held, hand, wrist, d, a) > 0.0;
 }
 
@@ -92,7 +91,7 @@ TEST_CASE(
         for (std::size_t d = 0; d < hand::digit_count; ++d) {
             CAPTURE(d);
             const hand::Angles open = opened(measured);
-            const bool already = in_it(held, hand, wrist, d, open);
+            const bool already = penetrates_tool(held, hand, wrist, d, open);
             if (already) ++overlapping;
             // If the digit penetrates from the start, points between its balls get slightly deeper.
             CHECK(deeper(held, hand, wrist, d, closure.angles, open) < (already ? 2.0 * mm : stated));
@@ -114,7 +113,7 @@ TEST_CASE("FingerClosure: a finger stops at first contact") {
         const FingerClosure closure = close_fingers(held.tool, hand, measured, wrist);
         for (std::size_t d = 0; d < hand::digit_count; ++d) {
             const double share = closure.digits[d].share[0];
-            if (in_it(held, hand, wrist, d, open)) continue;
+            if (penetrates_tool(held, hand, wrist, d, open)) continue;
             for (int i = 0; i <= 20; ++i)
                 CHECK(deeper(held, hand, wrist, d, between(open, measured, share * i / 20.0), open) < stated);
             if (!closure.digits[d].touches || share > 0.97) continue;
@@ -125,7 +124,7 @@ TEST_CASE("FingerClosure: a finger stops at first contact") {
     CHECK(stops > (test::sanitized ? 5 : 40));
 }
 
-TEST_CASE("FingerClosure: a harder squeeze draws the same stop and never a more open finger") {
+TEST_CASE("FingerClosure: a harder squeeze gives the same stop and never a more open finger") {
     int held_back = 0, grazing = 0;
     at_random(test::sanitized ? 30 : 250, [&](const TestTool& held, const hand::Hand& hand, const Pose& wrist,
                                               const hand::Angles& measured) {
@@ -159,7 +158,7 @@ TEST_CASE("FingerClosure: a bar inside the back of the hand does not stop the fi
     const FingerClosure closure = close_fingers(held.tool, hand, measured, wrist);
     int in = 0;
     for (std::size_t d = 1; d < hand::digit_count; ++d) {
-        if (in_it(held, hand, wrist, d, opened(measured))) ++in;
+        if (penetrates_tool(held, hand, wrist, d, opened(measured))) ++in;
         CHECK(closure.angles.fingers[d - 1].mcp == doctest::Approx(measured.fingers[d - 1].mcp));
     }
     CHECK(in >= 2);

@@ -14,16 +14,16 @@ namespace {
 
 // A glove on a hand, with the response of each sensor to its angle.
 struct Worn {
-    PerSensor<LinearFit> lines;
+    PerSensor<LinearFit> sensor_fits;
     std::size_t sensors = 22;
     double noise = 0.0;  // counts
 
     explicit Worn(std::uint64_t seed) {
         Random random(seed, 1);
-        for (auto& line : lines) {
-            line.gain = random.uniform(0.011, 0.016);
-            line.offset = random.uniform(30.0, 60.0);
-            if (random.uniform(0.0, 1.0) < 0.3) line = {-line.gain, 255.0 - line.offset};
+        for (auto& fit : sensor_fits) {
+            fit.gain = random.uniform(0.011, 0.016);
+            fit.offset = random.uniform(30.0, 60.0);
+            if (random.uniform(0.0, 1.0) < 0.3) fit = {-fit.gain, 255.0 - fit.offset};
         }
     }
     [[nodiscard]] PostureSamples hold(Posture posture, std::uint64_t seed) const {
@@ -32,9 +32,9 @@ struct Worn {
         for (int i = 0; i < 160; ++i) {
             PerSensor<std::uint8_t> raw{};
             for (const Sensor s : sensors_of(sensors)) {
-                const LinearFit& line = lines[index(s)];
+                const LinearFit& fit = sensor_fits[index(s)];
                 const double at = posture_angle(posture, s).value_or(random.uniform(0.0, 0.3));
-                const double value = at / line.gain + line.offset + noise * random.normal();
+                const double value = at / fit.gain + fit.offset + noise * random.normal();
                 raw[index(s)] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 1L, 255L));
             }
             held.samples.push_back(raw);
@@ -61,14 +61,14 @@ TEST_CASE("GloveCalibration: four postures recover each sensor's fit within the 
             if (s == Sensor::wrist_pitch || s == Sensor::wrist_yaw)
                 continue;  // no posture determines the wrist's sensors
             CAPTURE(std::string(name_of(s)));
-            const auto& line = c->calibration.fits[index(s)];
-            REQUIRE(line);
+            const auto& fit = c->calibration.fits[index(s)];
+            REQUIRE(fit);
             for (const double at : {0.0, 0.5, 1.2}) {
-                const double raw = at / worn.lines[index(s)].gain + worn.lines[index(s)].offset;
+                const double raw = at / worn.sensor_fits[index(s)].gain + worn.sensor_fits[index(s)].offset;
                 // Rounding errors of half a count at both ends of the span.
                 const double span = c->quality[index(s)].span;
-                CHECK(std::abs(angle(*line, raw) - at) <
-                      std::abs(line->gain) * (1.0 + 2.0 * std::abs(at / line->gain) / span));
+                CHECK(std::abs(angle(*fit, raw) - at) <
+                      std::abs(fit->gain) * (1.0 + 2.0 * std::abs(at / fit->gain) / span));
             }
         }
     }
@@ -88,7 +88,7 @@ TEST_CASE("GloveCalibration: the score falls with noise and with a small span, a
     CHECK(shaking->remarks.back().find("hold still") != std::string::npos);
 
     worn.noise = 0.0;
-    worn.lines[index(Sensor::ring_pij)].gain = 2.0;  // a sensor that does not bend with its finger
+    worn.sensor_fits[index(Sensor::ring_pij)].gain = 2.0;  // a sensor that does not bend with its finger
     const Result<CalibrationResult> loose = calibrate(worn.all(1));
     REQUIRE(loose);
     CHECK(loose->score == 0.0);

@@ -10,13 +10,13 @@ using namespace bolt::hand;
 namespace {
 
 // Runs the handshake with an emulated glove over a line with a delay of 2 ms. Returns the time it took, s.
-double talk(GloveHandshake& handshake, emulate::EmulatedGlove& glove, double most = 10.0) {
+double run_handshake(GloveHandshake& handshake, emulate::EmulatedGlove& glove, double most = 10.0) {
     std::vector<std::uint8_t> to_glove, from_glove;
     double now = 0.0;
     for (; now < most && !handshake.done() && !handshake.failed(); now += 2e-3) {
-        const auto said = handshake.update(from_glove, now);
+        const auto sent = handshake.update(from_glove, now);
         from_glove = glove.advance(to_glove, now);
-        to_glove = said;
+        to_glove = sent;
     }
     from_glove = glove.advance(to_glove, now);
     return now;
@@ -31,7 +31,7 @@ TEST_CASE("GloveHandshake: reads the identity and configures the stream") {
                 emulate::EmulatedGlove glove(
                     {.sensors = sensors, .hand = hand, .status = busy, .time = busy, .streaming = busy});
                 GloveHandshake handshake;
-                const double took = talk(handshake, glove);
+                const double took = run_handshake(handshake, glove);
                 REQUIRE(handshake.done());
                 CHECK(took < 0.5);
                 CHECK(handshake.identity().sensors == sensors);
@@ -52,8 +52,8 @@ TEST_CASE("GloveHandshake: reads the identity and configures the stream") {
 TEST_CASE("GloveHandshake: sets the requested rate; a glove without that command keeps its own") {
     emulate::EmulatedGlove quick({}), old({.old_firmware = true});
     GloveHandshake fast({.rate = 120.0}), with_old({.rate = 120.0});
-    talk(fast, quick);
-    talk(with_old, old);
+    run_handshake(fast, quick);
+    run_handshake(with_old, old);
     REQUIRE(fast.done());
     REQUIRE(with_old.done());
     CHECK(quick.rate() == doctest::Approx(120.0));
@@ -64,7 +64,7 @@ TEST_CASE("GloveHandshake: sets the requested rate; a glove without that command
 TEST_CASE("GloveHandshake: a glove disconnected from its interface unit is reported") {
     emulate::EmulatedGlove glove({.plugged = false});
     GloveHandshake handshake;
-    talk(handshake, glove);
+    run_handshake(handshake, glove);
     REQUIRE(handshake.done());
     CHECK(!handshake.identity().plugged);
 }
@@ -75,7 +75,7 @@ TEST_CASE("GloveHandshake: on a bad line it succeeds or fails, never hangs, and 
         emulate::EmulatedGlove glove(
             {.sensors = 22, .streaming = true, .faults = {0.02, 0.0, 0.02}, .seed = seed});
         GloveHandshake handshake;
-        CHECK(talk(handshake, glove, 30.0) < 29.0);
+        CHECK(run_handshake(handshake, glove, 30.0) < 29.0);
         if (!handshake.done()) continue;
         ++done;
         CHECK(handshake.identity().sensors == 22);
@@ -88,12 +88,12 @@ TEST_CASE("GloveHandshake: a device that is not a glove is rejected") {
         emulate::EmulatedGlove dead({});
         dead.stalled = true;
         GloveHandshake handshake;
-        CHECK(talk(handshake, dead) < 2.0);
+        CHECK(run_handshake(handshake, dead) < 2.0);
         REQUIRE(handshake.failed());
         CHECK(handshake.failed()->code == ErrorCode::no_device);
         CHECK(handshake.failed()->message().find("answers") != std::string::npos);
     }
-    SUBCASE("a line that never stops") {
+    SUBCASE("a device that sends without end") {
         GloveHandshake handshake;
         const std::vector<std::uint8_t> chatter(3, 'x');
         double now = 0.0;
@@ -102,20 +102,20 @@ TEST_CASE("GloveHandshake: a device that is not a glove is rejected") {
         CHECK(now < 4.0);
         CHECK(handshake.failed()->message().find("quiet") != std::string::npos);
     }
-    SUBCASE("a glove of a number of sensors that there is not") {
+    SUBCASE("a glove with an unknown number of sensors") {
         emulate::EmulatedGlove odd({.sensors = 5});
         GloveHandshake handshake;
-        talk(handshake, odd);
+        run_handshake(handshake, odd);
         REQUIRE(handshake.failed());
         CHECK(handshake.failed()->message().find("5 sensors") != std::string::npos);
     }
-    SUBCASE("something that understands nothing") {
+    SUBCASE("a device that answers every command with an error") {
         GloveHandshake handshake;
         const std::vector<std::uint8_t> error{'e', '?', '\r', '\n', 0};
         std::vector<std::uint8_t> answer;
         for (double now = 0.0; now < 5.0 && !handshake.failed(); now += 2e-3) {
-            const auto said = handshake.update(answer, now);
-            answer = said.empty() || said.front() == 3 ? std::vector<std::uint8_t>{} : error;
+            const auto sent = handshake.update(answer, now);
+            answer = sent.empty() || sent.front() == 3 ? std::vector<std::uint8_t>{} : error;
         }
         REQUIRE(handshake.failed());
         CHECK(handshake.failed()->message().find("sensors") != std::string::npos);

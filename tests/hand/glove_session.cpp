@@ -10,8 +10,8 @@ using namespace bolt::hand;
 namespace {
 
 // A session with an emulated glove over a line, in virtual time.
-struct Talk {
-    explicit Talk(const emulate::EmulatedGloveOptions& design) : glove(design) {}
+struct SessionBench {
+    explicit SessionBench(const emulate::EmulatedGloveOptions& design) : glove(design) {}
 
     emulate::EmulatedGlove glove;
     GloveSession session;
@@ -21,11 +21,11 @@ struct Talk {
 
     void update(double seconds) {
         for (const double end = now + seconds; now < end; now += 1e-3) {
-            const auto said = session.update(to_us_, now, [&](const GloveFrame&) { ++frames; });
-            to_us_ = glove.advance(to_glove_, now);
-            to_glove_ = said;
+            const auto sent = session.update(from_glove_, now, [&](const GloveFrame&) { ++frames; });
+            from_glove_ = glove.advance(to_glove_, now);
+            to_glove_ = sent;
             if (cut) {
-                to_us_.clear();
+                from_glove_.clear();
                 to_glove_.clear();
             }
         }
@@ -38,65 +38,65 @@ struct Talk {
     }
 
   private:
-    std::vector<std::uint8_t> to_us_, to_glove_;
+    std::vector<std::uint8_t> from_glove_, to_glove_;
 };
 
 }  // namespace
 
 TEST_CASE("GloveSession: a stalled glove is reported within 0.25 s and read again afterwards") {
-    Talk talk({.sensors = 22});
-    CHECK(talk.until(GloveState::streaming) < 0.5);
-    talk.update(1.0);
-    CHECK(talk.frames >= 78);
-    talk.glove.stalled = true;
-    CHECK(talk.until(GloveState::silent) < 0.27);
-    CHECK(talk.session.trouble().find("stopped sending") != std::string::npos);
-    talk.update(7.0);
-    CHECK(talk.session.state() != GloveState::streaming);
-    talk.glove.stalled = false;
-    CHECK(talk.until(GloveState::streaming) < 2.0);
-    const int frames = talk.frames;
-    talk.update(1.0);
-    CHECK(talk.frames > frames + 75);
-    CHECK(talk.session.handshakes() == 2);
-    CHECK(talk.session.trouble().empty());
+    SessionBench bench({.sensors = 22});
+    CHECK(bench.until(GloveState::streaming) < 0.5);
+    bench.update(1.0);
+    CHECK(bench.frames >= 78);
+    bench.glove.stalled = true;
+    CHECK(bench.until(GloveState::silent) < 0.27);
+    CHECK(bench.session.trouble().find("stopped sending") != std::string::npos);
+    bench.update(7.0);
+    CHECK(bench.session.state() != GloveState::streaming);
+    bench.glove.stalled = false;
+    CHECK(bench.until(GloveState::streaming) < 2.0);
+    const int frames = bench.frames;
+    bench.update(1.0);
+    CHECK(bench.frames > frames + 75);
+    CHECK(bench.session.handshakes() == 2);
+    CHECK(bench.session.trouble().empty());
 }
 
 TEST_CASE("GloveSession: a replug at any moment is read again within 2 s") {
     for (int trial = 0; trial < 30; ++trial) {
-        Talk talk({.seed = static_cast<std::uint64_t>(trial)});
-        talk.until(GloveState::streaming);
-        talk.update(0.1 + 0.013 * trial);
-        talk.cut = true;
-        CHECK(talk.until(GloveState::silent) < 0.27);
-        talk.update(0.4 * trial);
-        talk.cut = false;
-        CHECK(talk.until(GloveState::streaming) < 2.0);
+        SessionBench bench({.seed = static_cast<std::uint64_t>(trial)});
+        bench.until(GloveState::streaming);
+        bench.update(0.1 + 0.013 * trial);
+        bench.cut = true;
+        CHECK(bench.until(GloveState::silent) < 0.27);
+        bench.update(0.4 * trial);
+        bench.cut = false;
+        CHECK(bench.until(GloveState::streaming) < 2.0);
     }
 }
 
 TEST_CASE("GloveSession: a glove disconnected from its interface unit yields no frames and a reason") {
-    Talk talk({.plugged = false});
-    talk.until(GloveState::streaming);
-    talk.update(1.0);
-    CHECK(talk.frames == 0);
-    CHECK(!talk.session.identity().plugged);
-    CHECK(talk.session.trouble().find("not plugged") != std::string::npos);
+    SessionBench bench({.plugged = false});
+    bench.until(GloveState::streaming);
+    bench.update(1.0);
+    CHECK(bench.frames == 0);
+    CHECK(!bench.session.identity().plugged);
+    CHECK(bench.session.trouble().find("not plugged") != std::string::npos);
 }
 
-TEST_CASE("GloveSession: two hours on a bad line with stalls: never stuck, no growth") {
-    Talk talk({.sensors = 22, .faults = {0.002, 0.001, 0.002}});
+TEST_CASE("GloveSession: for two hours on a bad line with stalls, frames keep arriving") {
+    SessionBench bench({.sensors = 22, .faults = {0.002, 0.001, 0.002}});
     Random random(9);
     std::uint64_t frames = 0;
     for (int minute = 0; minute < 120; ++minute) {
-        talk.update(random.uniform(0.0, 50.0));
-        talk.glove.stalled = random.uniform(0.0, 1.0) < 0.5;
-        talk.update(random.uniform(0.0, 8.0));
-        talk.glove.stalled = false;
-        talk.until(GloveState::streaming, 30.0);
-        talk.update(2.0);
-        CHECK(talk.session.frames() > frames);
-        frames = talk.session.frames();
+        bench.update(random.uniform(0.0, 50.0));
+        bench.glove.stalled = random.uniform(0.0, 1.0) < 0.5;
+        bench.update(random.uniform(0.0, 8.0));
+        bench.glove.stalled = false;
+        bench.until(GloveState::streaming, 30.0);
+        bench.update(2.0);
+        CHECK(bench.session.frames() > frames);
+        frames = bench.session.frames();
     }
     CHECK(frames > 100000);
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr double count = to_radians(0.75);  // rad per count of a sensor that spans 120° in 160 counts
 constexpr double dt = 1.0 / 80.0;
 
-// Delay, s, with which the filtered value reaches `level` after the value itself, which only rises.
+// `value` rises monotonically. Returns the delay, s, with which the filtered value reaches `level`.
 double lateness(const std::function<double(double)>& value, double level) {
     OneEuro filter;
     const auto reached = [&](const std::function<double(double)>& f) {
@@ -98,7 +98,7 @@ TEST_CASE(
     "HandAngles: a glove with 18 sensors gets its DIP angles, abductions add outward, unmeasured joints are "
     "0") {
     Calibration calibration;
-    for (auto& line : calibration.fits) line = LinearFit{0.01, 100.0};
+    for (auto& fit : calibration.fits) fit = LinearFit{0.01, 100.0};
     calibration.fits[index(Sensor::wrist_pitch)].reset();
     GloveFrame frame;
     for (const Sensor s : sensors_of(18)) frame.raw[index(s)] = 110;  // 0.1 rad each
@@ -120,7 +120,7 @@ TEST_CASE(
 TEST_CASE("MeasuredHand: follows its frames, restarts after a gap, and stays within the limits") {
     GloveWearer wearer;
     wearer.hand = hand::make_hand(hand::Side::right);
-    for (auto& line : wearer.calibration.fits) line = LinearFit{0.02, 100.0};
+    for (auto& fit : wearer.calibration.fits) fit = LinearFit{0.02, 100.0};
     GloveFrame frame;
     const auto all = [&](std::uint8_t raw) {
         for (const Sensor s : sensors_of(22)) frame.raw[index(s)] = raw;

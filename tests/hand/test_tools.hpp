@@ -18,7 +18,7 @@ struct TestTool {
 TestTool bar();
 TestTool of(const std::vector<collision::ContactMesh>& parts);
 
-// The right hand's wrist in the frame of a bar that lies across its palm and points out on the thumb's side.
+// Pose of the right wrist in the frame of a bar that lies across the palm and protrudes on the thumb's side.
 Pose across_the_palm();
 // Angles of a closed hand. `share`: 0 flat and open, 1 a fist without anything in it.
 inline hand::Angles closed(double share) { return hand::closed_hand_angles(share); }

@@ -54,7 +54,7 @@ struct Bench : Script {
         for (const int joint : {0, 1}) pull(joint, 35.0);
         wrench = true;
     }
-    // To the re-check pass.
+    // Completes all passes before the re-check.
     void to_the_check() {
         to_the_full_pass();
         for (const int joint : {0, 1}) pull(joint, 70.0);

@@ -61,16 +61,16 @@ struct Outcome {
 };
 
 using Keys = std::vector<std::string_view>;
-using Said = std::vector<std::string>;
+using ReasonTexts = std::vector<std::string>;
 
 }  // namespace
 
-TEST_CASE("Feedback: a perfect result has no reasons and one advice") {
+TEST_CASE("Feedback: a perfect result has no reasons and one piece of advice") {
     CHECK(Outcome().reasons().empty());
     CHECK(Outcome().advice() == Keys{"advice.nothing"});
 }
 
-TEST_CASE("Feedback: each deduction has a reason with numbers and an advice") {
+TEST_CASE("Feedback: each deduction has a reason with numbers and a piece of advice") {
     struct Case {
         const char* reason;
         const char* advice;
@@ -116,7 +116,7 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and an advice") {
         CAPTURE(c.reason);
         Outcome r;
         c.spoil(r);
-        CHECK(r.reasons() == Said{c.reason});
+        CHECK(r.reasons() == ReasonTexts{c.reason});
         CHECK(r.advice() == Keys{c.advice});
         for (const char* language : {"de", "zh"})
             for (const Remark& remark : r.review().reasons)
@@ -124,7 +124,7 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and an advice") {
     }
     Outcome loose(Task::loosen);
     loose.lesson.joints[1].result.torque = 0.0;
-    CHECK(loose.reasons() == Said{"B2 was not loosened."});
+    CHECK(loose.reasons() == ReasonTexts{"B2 was not loosened."});
 }
 
 TEST_CASE("Feedback: advice begins with the costliest mistake and has at most three entries") {

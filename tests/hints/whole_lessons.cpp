@@ -53,9 +53,7 @@ bool urgent(Situation s) {
     return false;
 }
 
-int unfilled(const std::string& previous) {
-    return previous.empty() || previous.find('{') != std::string::npos ? 1 : 0;
-}
+int unfilled(const std::string& text) { return text.empty() || text.find('{') != std::string::npos ? 1 : 0; }
 
 HintLog play_through(const char* trainee, std::uint64_t seed, Mode mode, Task task) {
     const content::Assembly& assembly = cover();

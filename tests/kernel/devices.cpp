@@ -33,7 +33,7 @@ CommandOutput run_devices(std::vector<std::string> options = {}) {
 
 }  // namespace
 
-TEST_CASE("Kernel, devices: without devices the command says so, and fails only if one was named") {
+TEST_CASE("Kernel, devices: without devices the command reports that, and fails only if a device was named") {
     const CommandOutput all = run_devices();
     CHECK_MESSAGE(all.exit_code == 0, all.text);
     CHECK(all.has("none by USB"));

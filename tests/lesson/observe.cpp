@@ -330,7 +330,7 @@ TEST_CASE("Lesson: excess torque is reported once, and again only after the nut 
     s.pull(1, 35.0);
     s.pull(0, 78.0);
     s.pull(0, 90.0);
-    CHECK(s.count(EventKind::mistake) == 2);  // the other one: done already
+    CHECK(s.count(EventKind::mistake) == 2);  // the other is work on a finished joint
     CHECK(s.lesson.events.back().joint == 0);
     s.state.joints[0].stage = joint::Stage::navigation;
     s.tick(0, servo::Grip::wrench, -0.1, -1.0);

@@ -20,7 +20,7 @@ std::vector<double> crossings(const TopoDS_Shape& shape, const gp_Lin& line);
 // Every `every`-th vertex of a mesh of the shape.
 std::vector<gp_Pnt> surface_points(const TopoDS_Shape& shape, double deflection, std::size_t every);
 
-// Measures how deep points are inside a solid. To prepare a solid takes longer than to measure a point.
+// Measures how deep points are inside a solid. Reuse it: its constructor takes longer than a measurement.
 class DepthInside {
   public:
     explicit DepthInside(const TopoDS_Shape& solid);

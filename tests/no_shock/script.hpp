@@ -39,8 +39,8 @@ Run with_penalty(const proxy::Coupling& coupling, const Script& script, double s
 struct Shock {
     double step = 0.0;  // greatest change of force in 1 ms, as a share of the greatest force
     double torque_step = 0.0;
-    // Greatest change in 1 ms beyond the change that the hand's own motion causes through the spring, as a
-    // share of the rendered force, while that exceeds a tenth of the greatest force.
+    // Greatest change of force in 1 ms that the hand's own motion through the spring does not explain, as a
+    // share of the force before it. Forces below a tenth of the greatest force are excluded.
     double event = 0.0;
 };
 Shock shock_of(const Run& run, const proxy::Coupling& coupling, double dt);

@@ -17,12 +17,12 @@ using Color = std::array<int, 3>;
 constexpr Color red{200, 30, 10}, green{20, 180, 40}, blue{0, 60, 250};
 
 // The X server draws asynchronously, so wait for the result.
-bool comes_to_be(const Color& color, std::uint32_t x, std::uint32_t y) {
+bool screen_shows(const Color& color, std::uint32_t x, std::uint32_t y) {
     return test::eventually([&] { return test::need(test::read_screen()).at(x, y) == color; });
 }
 
 bool fills_window(const Color& color, std::uint32_t width, std::uint32_t height) {
-    return comes_to_be(color, 0, 0) && comes_to_be(color, width - 1, height - 1);
+    return screen_shows(color, 0, 0) && screen_shows(color, width - 1, height - 1);
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ TEST_CASE("Swapchain: a picture fills the window with exact values, frame after 
     CHECK(fills_window({39, 234, 216}, 320, 240));
     CHECK(show.swapchain().creations() == 1);
     CHECK(show.swapchain().plan().reasons.size() == 3);
-    CHECK(comes_to_be({0, 0, 0}, 400, 300));  // the screen beside the window is black
+    CHECK(screen_shows({0, 0, 0}, 400, 300));  // the screen beside the window is black
 }
 
 namespace {

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double dt = 1e-3;
 
-// N; second difference of the force over the ticks: root mean square and maximum.
+// Second difference of the force over three ticks, N: root mean square and maximum.
 class Trembling {
   public:
     void add(const Vec3& force) {
@@ -57,7 +57,7 @@ ContactMesh cylinder(double radius, int sides) {
     return t.mesh();
 }
 
-constexpr ForceRateLimits any{
+constexpr ForceRateLimits no_rate_limits{
     .of_rendered = 10.0, .of_maximum = 10.0, .maximum = 10.0, .any_direction_share = 1.0};
 
 // Moves the device around the cylinder below its surface; the tool is a die that touches with one corner.
@@ -107,7 +107,8 @@ Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_lim
 
 TEST_CASE("God-object: with smooth normals a faceted bar renders as a round one") {
     for (const int sides : {16, 24, 48, 96}) {
-        const Trembling facets = about_cylinder(sides, false, any), smooth = about_cylinder(sides, true, any);
+        const Trembling facets = about_cylinder(sides, false, no_rate_limits),
+                        smooth = about_cylinder(sides, true, no_rate_limits);
         MESSAGE(
             fmt::format("{} sides: the change of force changes by {:.4f} N in the mean, {:.3f} N at worst; "
                         "smooth by {:.4f} N and {:.3f} N",
@@ -120,7 +121,8 @@ TEST_CASE("God-object: with smooth normals a faceted bar renders as a round one"
 
 TEST_CASE("God-object: the rate limits reduce alternating forces, also without smooth normals") {
     for (const int sides : {16, 24, 48, 96}) {
-        const Trembling free = about_cylinder(sides, false, any), held = about_cylinder(sides, false, {}),
+        const Trembling free = about_cylinder(sides, false, no_rate_limits),
+                        held = about_cylinder(sides, false, {}),
                         leaping = about_cylinder(sides, false, {.any_direction_share = 1.0});
         MESSAGE(fmt::format("{} sides: {:.3f} N free, {:.3f} N as it comes, {:.3f} N held", sides, free.rms(),
                             leaping.rms(), held.rms()));

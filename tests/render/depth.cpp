@@ -25,20 +25,20 @@ constexpr float znear = 0.1F, zfar = 5.0F;
 // The first of the four standard sample locations (Vulkan specification, 25.3.1 Multisampling).
 constexpr glm::vec2 first_sample(0.375F, 0.125F);
 
-struct Point {
+struct CameraPose {
     std::string name;
     glm::vec3 eye{0.0F}, target{0.0F};
     float fov = 0.0F;
 };
 
 struct Comparison {
-    double median = 0.0, most_of_them = 0.0;  // m; the latter is the 99th percentile
-    double silhouette = 0.0;                  // fraction of pixels covered in only one of the pictures
-    double covered = 0.0;                     // fraction of pixels covered in both
+    double median = 0.0, p99 = 0.0;  // m
+    double silhouette = 0.0;         // fraction of pixels covered in only one of the pictures
+    double covered = 0.0;            // fraction of pixels covered in both
 };
 
 // Distances along the view direction in metres; 0: background.
-std::vector<float> rendered(test::Studio& studio, const render::Scene& scene, const Point& from) {
+std::vector<float> rendered(test::Studio& studio, const render::Scene& scene, const CameraPose& from) {
     render::Perspective lens;
     lens.fov = from.fov;
     lens.aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
@@ -57,7 +57,7 @@ std::vector<float> rendered(test::Studio& studio, const render::Scene& scene, co
     return depth;
 }
 
-std::vector<float> traced(const pathtrace::TracedScene& scene, const Point& from) {
+std::vector<float> traced(const pathtrace::TracedScene& scene, const CameraPose& from) {
     pathtrace::PinholeCamera camera;
     camera.eye = from.eye;
     camera.target = from.target;
@@ -114,29 +114,29 @@ TEST_CASE(
     render::add_model(scene, *model, gpu_model);
 
     const glm::vec3 middle = 0.5F * (rays->low() + rays->high()), size = rays->high() - rays->low();
-    const Point points[] = {
+    const CameraPose poses[] = {
         {"the whole, from the front", middle + glm::vec3(0.55F, 0.5F, 1.0F), middle, 0.6F},
         {"the whole, from behind", middle + glm::vec3(-0.8F, 0.9F, -0.7F), middle, 0.6F},
         {"near a corner of the lid", middle + size * glm::vec3(0.75F, 0.8F, 1.1F),
          middle + size * glm::vec3(0.28F, 0.22F, 0.2F), 0.5F}};
-    for (const Point& from : points) {
+    for (const CameraPose& from : poses) {
         CAPTURE(from.name);
         const std::vector<float> expected = traced(*rays, from), seen = rendered(studio, scene, from);
         const Comparison result = compare(seen, expected);
         CAPTURE(result.covered);
         CHECK(result.median < 1e-4);
-        CHECK(result.most_of_them < 1e-3);
+        CHECK(result.p99 < 1e-3);
         // Rasterisers snap vertices to a grid of 1/256 pixel or finer, which moves silhouettes by at most
         // that much. A few per cent of the pixels are on a silhouette, and about one in 256 of those changes
         // sides.
         CHECK(result.silhouette < 1e-3);
 
         // Negative control: an eye 2 mm aside or 1 mm nearer, or a shift by a pixel, is detected.
-        Point aside = from;
+        CameraPose aside = from;
         aside.eye += glm::vec3(0.002F, 0.0F, 0.0F);
         aside.target += glm::vec3(0.002F, 0.0F, 0.0F);
         CHECK(compare(rendered(studio, scene, aside), expected).silhouette > 1e-3);
-        Point nearer = from;
+        CameraPose nearer = from;
         nearer.eye += 1e-3F * glm::normalize(from.target - from.eye);
         CHECK(compare(rendered(studio, scene, nearer), expected).median > 5e-4);
         std::vector<float> shifted = seen;

@@ -36,7 +36,6 @@ TEST_CASE("Axis ticks: covering ticks are round, evenly spaced and cover the ran
         CHECK(ticks.range.high == doctest::Approx(ticks.values.back()));
         CHECK(is_nice(step));
         CHECK(ticks.values.size() <= static_cast<std::size_t>(about) + 2);
-        CHECK(step < 1.01 * std::max(step, high - low));
         // The labels of neighbours differ.
         CHECK(step * std::pow(10.0, ticks.decimals) > 0.99);
     }
@@ -52,7 +51,7 @@ TEST_CASE("Axis ticks: empty and invalid ranges still give an axis") {
     }
 }
 
-TEST_CASE("Axis ticks: known axes") {
+TEST_CASE("Axis ticks: torques, degrees and counts have the expected ticks") {
     const AxisTicks torque = covering_ticks(0.0, 230.7, 5);
     CHECK(torque.values == std::vector<double>{0.0, 50.0, 100.0, 150.0, 200.0, 250.0});
     CHECK(torque.decimals == 0);

@@ -72,10 +72,10 @@ TEST_CASE("Haptic metrics: contacts with the due or the held nut are no bumps") 
     script.touch(200, 230, ObstacleId::fixed(0));
     script.touch(270, 280, ObstacleId::fixed(1));  // 40 ms later: still the same bump
     script.touch(600, 650, ObstacleId::fixed(1));
-    script.touch(900, 950, ObstacleId::nut(0));    // the nut that it is going to
-    script.touch(1000, 1010, ObstacleId::nut(1));  // a neighbour's
+    script.touch(900, 950, ObstacleId::nut(0));    // the due nut
+    script.touch(1000, 1010, ObstacleId::nut(1));  // a nut that is not due
     script.hold(1200, 1300, 0);
-    script.touch(1250, 1400, ObstacleId::fixed(0));  // began with the nut in its jaw
+    script.touch(1250, 1400, ObstacleId::fixed(0));  // begins while the jaw holds a nut
     script.push(610, 620, 4.0F);
     for (const std::size_t piece : {1500U, 1U, 77U}) {
         const HapticMetrics metrics = script.metrics(piece);
@@ -94,7 +94,7 @@ TEST_CASE(
     "limited") {
     ScriptedSession script;
     script.push(300, 310, 1.5F);
-    script.push(500, 900, 2.0F);  // two newtons in a millisecond is what the device may do
+    script.push(500, 900, 2.0F);  // 2 N in a tick is the limit of the output stage
     script.hold(500, 880, 0);
     const HapticMetrics metrics = script.metrics();
     CHECK(metrics.force.greatest == 2.0);
@@ -130,7 +130,7 @@ TEST_CASE(
 
 TEST_CASE("Haptic metrics: time with a visible nut while the wrench is near it") {
     ScriptedSession script;
-    script.hold(1490, 1500, 0);  // near it from tick 1460 on, due from 100 on
+    script.hold(1490, 1500, 0);  // the nut is due from tick 100 on; the wrench is near it from tick 1460 on
     script.events.push_back({1300, lesson::EventKind::visibility, 0, 0.3, ""});
     script.events.push_back({1470, lesson::EventKind::visibility, 0, 0.6, ""});
     script.events.push_back({1480, lesson::EventKind::visibility, 0, 0.59, ""});
@@ -152,7 +152,7 @@ TEST_CASE("Haptic metrics: duration of each fault of the output") {
     CHECK(metrics.faults[0] == 0.0);
 }
 
-TEST_CASE("Quartiles: of type 7") {
+TEST_CASE("Quartiles: they agree with numpy.percentile, and values that are not finite are ignored") {
     const Quartiles q = quartiles({7.0, 1.0, 3.0, bolt::nan, 10.0, 4.0, 20.0});
     CHECK(q.n == 6);
     CHECK(q.low == doctest::Approx(3.25));  // numpy.percentile([1, 3, 4, 7, 10, 20], [25, 50, 75])
@@ -162,7 +162,7 @@ TEST_CASE("Quartiles: of type 7") {
     CHECK_FALSE(std::isfinite(quartiles({}).median));
 }
 
-TEST_CASE("Haptics section: shows all metrics, and which ones an old session lacks") {
+TEST_CASE("Haptics section: shows all metrics, and names those that an old session lacks") {
     ScriptedSession script;
     script.touch(200, 230, ObstacleId::fixed(0));
     script.push(300, 310, 1.5F);

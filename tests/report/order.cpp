@@ -75,9 +75,9 @@ TEST_CASE("Order: passes are separated by their events, and nuts that were only 
         CHECK(order.in_turn());
     }
     session.data.pass_texts.clear();
-    const std::vector<PassOrder> untold = pass_orders(session.data);
-    REQUIRE(untold.size() == 1);
-    CHECK(untold[0].planned.empty());
+    const std::vector<PassOrder> without_passes = pass_orders(session.data);
+    REQUIRE(without_passes.size() == 1);
+    CHECK(without_passes[0].planned.empty());
 }
 
 TEST_CASE("Joint map: keeps proportions, and all drawings are well-formed") {

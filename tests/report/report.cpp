@@ -115,7 +115,7 @@ TEST_CASE("Report: a session that was cut short shows this first") {
     CHECK(markup_fault(html) == "");
 }
 
-TEST_CASE("Report: of an empty session") {
+TEST_CASE("Report: an empty session gives a well-formed page without NaN") {
     SessionData empty;
     empty.assembly = synthetic_assembly();
     empty.joints = results_by_joint(empty.assembly, {});
@@ -150,7 +150,7 @@ TEST_CASE("Report: several sessions begin with the overview") {
     CHECK(html.find("Learning curve") < html.find("<section"));
 }
 
-TEST_CASE("Joint plot: the run-down is cut") {
+TEST_CASE("Joint plot: the run-down is cut off, and the angle axis begins shortly before snug") {
     const SyntheticSession session = synthetic_session({});
     const JointPlotFrame frame = joint_plot_frame(session.data, 0);
     CHECK(frame.cut_before);
@@ -332,10 +332,10 @@ TEST_CASE("Learning curves: one for each trainee, with the axes of all") {
           std::vector<std::vector<std::size_t>>{{0, 4, 8}, {1, 5, 9}, {2, 6}, {3}, {7}});
     const std::string html = learning_curves_section(attempts, all, true);
     CHECK(markup_fault(page("t", html)) == "");
-    CHECK(count_of(html, "<div class=\"trainee\">") == 3);  // one attempt is no curve
+    CHECK(count_of(html, "<div class=\"trainee\">") == 3);  // a trainee with one attempt has no curve
     CHECK(count_of(html, "<td class=\"w\">") == 5);
     CHECK(has(html, "<td class=\"w\">&lt;Cy&gt;</td>"));
-    CHECK(count_of(html, ">60</text>") == 3);        // minutes, on the axis of each: the longest lesson is 50
+    CHECK(count_of(html, ">60</text>") == 3);  // each time axis ends at 60 min: the longest lesson takes 50
     CHECK(count_of(html, "class=\"ln p2\"") == 12);  // four plots for each of three
     CHECK(count_of(html, "class=\"ln cl\"") == 12);  // the median of the first and second attempts
     const std::vector<std::size_t> two = {0, 1};

@@ -52,7 +52,7 @@ std::string cover_text() {
 
 }  // namespace
 
-TEST_CASE("Report: of a session file") {
+TEST_CASE("Report: a session file gives its curves, results and score") {
     const Recorded recorded(cover_text(), true);
     const Result<session::SessionReader> reader = session::SessionReader::open(recorded.path);
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
@@ -73,7 +73,7 @@ TEST_CASE("Report: of a session file") {
     CHECK(html->find("cut short") == std::string::npos);
 }
 
-TEST_CASE("Report: of a session file that was cut short") {
+TEST_CASE("Report: a session file that was cut short is reported as such") {
     const Recorded recorded(cover_text(), false);
     const Result<session::SessionReader> reader = session::SessionReader::open(recorded.path);
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
@@ -114,8 +114,8 @@ TEST_CASE("Comparison: torque curves exist only in the direction of work") {
         const TorqueCurve& curve = *(*tightened)[j];
         std::size_t checked = 0;
         for (std::size_t i = 0; i < curve.size(); ++i) {
-            // Angles count from the first tick of the run-down, at 5.4°; from about the seat on the wrench
-            // turns.
+            // Angles count from the first tick of the run-down, which is at 5.4°. From about the seat on the
+            // wrench turns the nut.
             const double beyond_seat = to_degrees(curve.angle[i]) + 5.4 - 18.0 * 360.0;
             if (beyond_seat < 0.0) continue;
             CHECK(curve.torque[i] == doctest::Approx(synthetic_torque(beyond_seat)).epsilon(1e-3));

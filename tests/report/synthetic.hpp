@@ -13,7 +13,7 @@ namespace bolt::report {
 struct SyntheticOptions {
     std::uint64_t seed = 1;
     double scatter = 0.03;  // of the torque at the release of the wrench
-    bool slips = false;  // with a swap in the order and an over-tightened, an unfinished and a stripped joint
+    bool slips = false;     // mistakes: two joints swapped; one over-tightened, one unfinished, one stripped
     bool cut_short = false;
     double dt = 0.01;  // s
     double run_down_turns = 18.0;

@@ -43,7 +43,7 @@ TEST_CASE("Torque curve: a loosening run starts at the largest angle") {
     CHECK(curve.torque.back() == doctest::Approx(-30.0));
 }
 
-TEST_CASE("Torque curve: a test rig may count angles up or down") {
+TEST_CASE("Torque curve: angles that a test rig counts up or down give the same curve") {
     const std::vector<double> up = {0.0, 0.1, 0.2, 0.3, 0.4}, down = {9.0, 8.9, 8.8, 8.7, 8.6};
     const std::vector<double> torque = {-0.1, -3.0, -1.0, -0.5, 0.0};
     for (const std::vector<double>& angle : {up, down}) {

@@ -75,7 +75,7 @@ TEST_CASE("Click: none without a setting, with a plain wrench or with fingers") 
         bench.scale = 0.0;
         CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(setting));
     }
-    SUBCASE("a setting that is none") {
+    SUBCASE("a setting of NaN") {
         Bench bench(with_torque_wrench());
         bench.scale = std::numeric_limits<double>::quiet_NaN();
         CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(setting));

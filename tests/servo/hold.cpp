@@ -72,8 +72,8 @@ TEST_CASE("Hold: engaged off centre, the pull starts at zero and settles with a 
     for (int n = 0; n <= 1000; ++n) {
         const Output output = held.step(Grip::wrench, held.at(offset));
         REQUIRE(output.joint == 0);
-        const double came = 1.0 - std::pow(1.0 - 1e-3 / 0.05, n);
-        REQUIRE(glm::dot(output.force, held.nut.e1) == doctest::Approx(-came).epsilon(1e-3));
+        const double settled = 1.0 - std::pow(1.0 - 1e-3 / 0.05, n);
+        REQUIRE(glm::dot(output.force, held.nut.e1) == doctest::Approx(-settled).epsilon(1e-3));
     }
     CHECK(glm::length(held.state.engagement.offset_at_engagement) < 1e-9);
 }
@@ -241,9 +241,9 @@ TEST_CASE("Servo: an invalid sample is not taken for a hand at the origin") {
         lost.position[0] = std::nanf("");
         CHECK(held.step(Grip::fingers, lost).joint == -1);
         CHECK(held.step(Grip::fingers, lost).joint == -1);
-        DeviceSample lame = there;
-        for (float& q : lame.orientation) q = 0.0F;
-        CHECK(held.step(Grip::fingers, lame).joint == -1);
+        DeviceSample without_rotation = there;
+        for (float& q : without_rotation.orientation) q = 0.0F;
+        CHECK(held.step(Grip::fingers, without_rotation).joint == -1);
         CHECK(held.step(Grip::fingers, there).joint == 0);
     }
 }

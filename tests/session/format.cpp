@@ -161,9 +161,7 @@ TEST_CASE("Session format: a timing row that is not a histogram is refused") {
     CHECK_FALSE(read_row(timing, wrong));
 }
 
-TEST_CASE(
-    "Session header: its texts read back, and a text that no program writes is an error with the right "
-    "ones") {
+TEST_CASE("Session header: its texts round-trip, and an invalid text is an error that names the valid ones") {
     const Header header = sample_header(0.001);
     const auto same_header = header_of(texts_of(header), "a.session");
     REQUIRE(same_header);

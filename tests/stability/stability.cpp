@@ -16,11 +16,11 @@ using namespace bolt::test;
 
 namespace {
 
-enum class Before : std::uint8_t { wall, corner, edge, row, ball };
+enum class SceneKind : std::uint8_t { wall, corner, edge, row, ball };
 
 struct Trial {
     Scene scene;
-    Before what = Before::wall;
+    SceneKind kind = SceneKind::wall;
     test::ArmParameters arm;
     Vec3 from{0.0};  // m, start position of the hand
     double speed = 0.2, press = 5.0;
@@ -43,27 +43,27 @@ Trial trial(std::uint64_t seed) {
     Random random(seed, 31);
     Trial t;
     t.arm = test::random_arm(random);
-    t.what = static_cast<Before>(seed % 5);
+    t.kind = static_cast<SceneKind>(seed % 5);
     add_wrench(t.scene);
-    switch (t.what) {
-        case Before::wall:
+    switch (t.kind) {
+        case SceneKind::wall:
             t.scene.obstacles.push_back(HalfSpace{{0, 0, 1}, 0.0});
             break;
-        case Before::corner:
+        case SceneKind::corner:
             t.scene.obstacles.push_back(HalfSpace{{0, 0, 1}, 0.0});
             t.scene.obstacles.push_back(HalfSpace{{-1, 0, 0}, -0.03});
             break;
-        case Before::edge: {
+        case SceneKind::edge: {
             const test::Box box{{Vec3(0.1, 0.0, -0.05), Quat(1, 0, 0, 0)}, Vec3(0.1, 0.1, 0.05)};
             t.scene.obstacles.emplace_back(box);
             add_edges_as_pins(t.scene, box, 0.002);
             break;
         }
-        case Before::row:
+        case SceneKind::row:
             for (int i = -6; i <= 6; ++i)
                 t.scene.obstacles.push_back(Rod{{0.03 * i, 0.0, -0.2}, {0.03 * i, 0.0, -0.008}, 0.008});
             break;
-        case Before::ball:
+        case SceneKind::ball:
             t.scene.obstacles.push_back(Ball{{0.0, 0.0, -0.04}, 0.04});
             break;
     }
@@ -134,7 +134,9 @@ OutputLimits device() {
     return limits;
 }
 
-bool swings_on(const Outcome& o) { return o.late_swing > 100e-6 && o.late_swing > 0.3 * o.early_swing; }
+bool keeps_oscillating(const Outcome& o) {
+    return o.late_swing > 100e-6 && o.late_swing > 0.3 * o.early_swing;
+}
 
 }  // namespace
 
@@ -148,7 +150,7 @@ TEST_CASE("Stability: forty arms in forty scenes get no net energy and no sustai
             const Outcome o = run(trial(seed), coupled(dt), device(), dt);
             CHECK(o.energy <= 0.0);
             CHECK(o.greatest_energy <= 1e-3);
-            CHECK_FALSE(swings_on(o));
+            CHECK_FALSE(keeps_oscillating(o));
             CHECK(o.deepest > -1e-4);
             touched += o.touched;
             most = std::max(most, o.greatest_energy);
@@ -161,13 +163,13 @@ TEST_CASE("Stability: forty arms in forty scenes get no net energy and no sustai
 TEST_CASE("Stability: without the passivity controller energy is released and oscillation persists") {
     OutputLimits uncontrolled = device();
     uncontrolled.damping = uncontrolled.angular_damping = 0.0;
-    int active = 0, trembling = 0;
+    int active = 0, oscillating = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
         const Outcome o = run(trial(seed), coupled(1e-3), uncontrolled, 1e-3);
         active += o.energy > 0.0;
-        trembling += swings_on(o);
+        oscillating += keeps_oscillating(o);
     }
     CHECK(active >= 10);
-    CHECK(trembling >= 5);
-    MESSAGE("energy came out of ", active, ", ", trembling, " tremble on");
+    CHECK(oscillating >= 5);
+    MESSAGE("energy came out of ", active, ", ", oscillating, " tremble on");
 }

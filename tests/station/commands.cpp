@@ -27,7 +27,7 @@ TEST_CASE("Station: a pause renders no force and moves nothing; afterwards force
     rests(100);
     CHECK(rig.servo.tick == ticks);
     CHECK(glm::length(rig.tool().position - before.position) < 1e-12);
-    SUBCASE("and goes on") {
+    SUBCASE("the pause ends") {
         double last = 0.0;
         for (int i = 0; i < 1500; ++i) {
             const double now = glm::length(rig.tick().mover.force);
@@ -38,7 +38,7 @@ TEST_CASE("Station: a pause renders no force and moves nothing; afterwards force
         CHECK(glm::length(rig.tool().position - before.position) < 1e-9);
         CHECK(rig.servo.output.watchdog.counts[static_cast<std::size_t>(force::Fault::jumped)] == 0);
     }
-    SUBCASE("a stop that was pressed meanwhile counts") {
+    SUBCASE("a stop pressed during the pause is a fault afterwards") {
         rig.layout.mover_buttons.stop = 16;
         rig.inputs.mover.sample.buttons = 16;
         rests(5);
@@ -74,7 +74,7 @@ TEST_CASE(
     rig.ticks(20);
     CHECK(rig.servo.checkpoint_count == 3);
     CHECK(rig.state.input.undo == 2);
-    SUBCASE("it is done once, and again for another command") {
+    SUBCASE("each command is executed once") {
         rig.commands = {PlaceTool{away}};
         rig.ticks(20);
         CHECK(rig.servo.checkpoint_count == 2);
@@ -97,7 +97,7 @@ TEST_CASE(
         rig.ticks(20);
         CHECK(rig.servo.checkpoint_count == 3);
     }
-    SUBCASE("of more steps than there are checkpoints: ignored, never taken for a save") {
+    SUBCASE("amended to more steps than there are checkpoints: ignored, and nothing is saved") {
         rig.commands = {AmendRestore{servo::save_checkpoint}, PlaceTool{away}};
         rig.ticks(20);
         CHECK(rig.servo.checkpoint_count == 2);

@@ -20,23 +20,23 @@ TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stop
     CHECK(glm::length(rig.tool().position - Vec3(0, 0.1, 0)) < 1e-4);
     CHECK(rotation_vector(rig.tool().orientation).z == doctest::Approx(0.5).epsilon(1e-3));
     CHECK(rig.state.output.fault == force::Fault::none);
-    SUBCASE("it has gone quiet while pushed: not for long") {
+    SUBCASE("a puck that falls silent while pushed moves the tool for rate_timeout") {
         rig.mover_speaks = false;
         rig.ticks(2000);
         CHECK(rig.tool().position.y - 0.1 == doctest::Approx(0.1 * rate_timeout).epsilon(0.02));
     }
-    SUBCASE("it is lost while pushed") {
+    SUBCASE("a puck that is lost while pushed stops the tool") {
         rig.inputs.mover.usable = false;
         rig.ticks(2000);
         CHECK(rig.tool().position.y == doctest::Approx(0.1).epsilon(1e-3));
         CHECK(rig.state.output.fault == force::Fault::silent);
     }
-    SUBCASE("the clutch holds it") {
+    SUBCASE("the clutch stops the tool") {
         rig.inputs.controls.clutch = true;
         rig.ticks(2000);
         CHECK(rig.tool().position.y == doctest::Approx(0.1).epsilon(1e-3));
     }
-    SUBCASE("something holds the tool back: the hand is not far inside it") {
+    SUBCASE("the hand leads a blocked tool by at most max_lead") {
         const Pose held = rig.state.output.tool;
         rig.inputs.mover.sample.velocity = Vec3(0.3, 0, 0);
         for (int i = 0; i < 1000; ++i) {
@@ -81,7 +81,7 @@ TEST_CASE("Wheel: clockwise as the user sees it tightens, whatever the sign of t
     }
 }
 
-TEST_CASE("Station: of two rendering devices each is released on its own") {
+TEST_CASE("Station: a silent arm is released and the wheel keeps its torque; a silent wheel is released") {
     Layout layout = with_arm();
     layout.wheel = test::wheel_of(10.0);
     for (const bool arm_falls_mute : {true, false}) {
@@ -151,7 +151,7 @@ TEST_CASE("Puck: the tool glides onto the nut, descends with it, and leaves it w
     rig.ticks(800);
     CHECK(rig.state.output.joint < 0);
     CHECK(rig.tool().position.y > servo::nut_centre(nut, rig.state.output.nut_angle).y + 0.05);
-    SUBCASE("a hand that is led by force is not moved besides") {
+    SUBCASE("a device that moves the tool itself does not glide") {
         Rig arm(with_arm());
         arm.inputs.controls.glide = 0;
         arm.ticks(2000);

@@ -44,7 +44,7 @@ struct MonitoredDevice {
     test::VirtualLine line;
     Random random;
     device::FaultInterval trouble{InjectedFault::silent, -1.0, -1.0};  // the latest one; it may be over
-    double sound_since = 0.0;                                          // s, end of the latest fault
+    double healthy_since = 0.0;                                        // s, end of the latest fault
     double undisturbed = 0.0;  // s, time from which no fault delays a write
     bool recovered = true;     // usable since the end of the latest fault
     std::array<std::uint64_t, device::injected_fault_count> counts{};
@@ -57,7 +57,7 @@ struct MonitoredDevice {
         : line(std::move(design)), random(seed) {}
 
     void advance(double now) {
-        if (now >= trouble.until && now > sound_since + 0.1 && random.chance(dt / 4.0)) {
+        if (now >= trouble.until && now > healthy_since + 0.1 && random.chance(dt / 4.0)) {
             const auto kind = static_cast<InjectedFault>(random.bits() % device::injected_fault_count);
             // 1 ms to 3 s, uniform in the logarithm.
             const double lasts = 1e-3 * std::exp(random.uniform() * std::log(3000.0));
@@ -67,7 +67,7 @@ struct MonitoredDevice {
             recovered = false;
         }
         if (now < trouble.until) {
-            sound_since = trouble.until;
+            healthy_since = trouble.until;
             if (trouble.what == InjectedFault::stuck || trouble.what == InjectedFault::slow)
                 undisturbed = trouble.until + device::slow_write_time;
         }
@@ -258,7 +258,7 @@ class Soak {
         // The latest frame may precede the closing.
         statistics_.require(!dropped || open_ || now_ - moved_at_ < 0.1, "a closed hand releases the wrench",
                             now_);
-        // A frame may still arrive from a lost line.
+        // A frame sent before the loss may still arrive.
         const double quiet = now_ - frame_at_;
         if (now.held) {
             const auto current_messages = messages({now.held, now.lost}, hand_setup_.wearer.hand.side, {});
@@ -268,9 +268,9 @@ class Soak {
         }
         statistics_.require(!now.has_frame || quiet <= report_timeout || now.lost,
                             "a lost glove is not reported", now_);
-        const double sound = now_ - std::max({moved_at_, back_at_, glove_until_ + recovery_timeout});
-        statistics_.require(sound <= 0.0 || !now.lost, "a returned glove is reported as lost", now_);
-        if (sound > grasp_timeout)
+        const double settled_for = now_ - std::max({moved_at_, back_at_, glove_until_ + recovery_timeout});
+        statistics_.require(settled_for <= 0.0 || !now.lost, "a returned glove is reported as lost", now_);
+        if (settled_for > grasp_timeout)
             statistics_.require(
                 now.held != open_,
                 open_ ? "an open hand holds the wrench" : "a closed hand does not hold the wrench", now_);
@@ -292,7 +292,7 @@ class Soak {
             if (glm::length(rendered.force) > limits.force * 1.0001 ||
                 glm::length(rendered.torque) > limits.torque * 1.0001)
                 statistics_.require(false, is("exceeds its limits"), now_);
-            // A line may be one step ahead of the servo.
+            // A device's thread may be one step ahead of the servo.
             if (now_ < t.until && w->line.now() < t.until) {
                 const double since = now_ - t.from;
                 if (mutes(t.what) && !is_zero(rendered)) w->longest_lost = std::max(w->longest_lost, since);
@@ -310,7 +310,7 @@ class Soak {
                 if (w->line.report().state == device::DeviceState::usable && w->line.snapshot().usable) {
                     w->recovered = true;
                     w->longest_recovery = std::max(w->longest_recovery, now_ - t.until);
-                } else if (now_ - w->sound_since > recovery_timeout) {
+                } else if (now_ - w->healthy_since > recovery_timeout) {
                     statistics_.require(false, is("is plugged in and not usable"), now_);
                 }
             }
@@ -329,7 +329,7 @@ class Soak {
         }
     }
     void check_recovery() {
-        const double since = std::max({arm_.sound_since, wheel_.sound_since, hangs_until_});
+        const double since = std::max({arm_.healthy_since, wheel_.healthy_since, hangs_until_});
         if (now_ - since > recovery_timeout && state_.output.fault != force::Fault::none)
             statistics_.require(false,
                                 fmt::format("no device has a fault, but the output has \"{}\"",

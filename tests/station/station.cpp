@@ -67,7 +67,7 @@ StationOptions plan_of(device::DeviceFactory mover) {
     return plan;
 }
 
-std::string words(const std::vector<std::string>& troubles) {
+std::string joined_lines(const std::vector<std::string>& troubles) {
     std::string all;
     for (const std::string& trouble : troubles) all += trouble + "\n";
     return all;
@@ -151,7 +151,8 @@ TEST_CASE("Station: an unplugged device is reported and stops the tool; it resum
     CHECK(eventually([&] { return height() > 0.32F && station->troubles().empty(); }));
     cable->plugged = false;
     REQUIRE(eventually([&] { return station->latest_tick().output.fault == force::Fault::silent; }));
-    REQUIRE(eventually([&] { return words(station->troubles()).find("plug it in") != std::string::npos; }));
+    REQUIRE(eventually(
+        [&] { return joined_lines(station->troubles()).find("plug it in") != std::string::npos; }));
     REQUIRE(eventually([&] { return station->link_stats().mover.longest_silence > 0.3; }));
     CHECK(station->link_stats().mover.samples > 0);
     CHECK(station->mover_report()->losses == 1);
@@ -170,8 +171,8 @@ TEST_CASE("Station: a driver that hangs is reported, although its thread is bloc
     REQUIRE(station);
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
     cable->hangs = true;
-    REQUIRE(
-        eventually([&] { return words(station->troubles()).find("hangs: unplug it") != std::string::npos; }));
+    REQUIRE(eventually(
+        [&] { return joined_lines(station->troubles()).find("hangs: unplug it") != std::string::npos; }));
     cable->hangs = false;
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
 }
@@ -189,7 +190,7 @@ TEST_CASE("Station: the glove has its own thread, and its problems are reported"
     CHECK(station->wheel_report() == nullptr);
     REQUIRE(eventually([&] { return station->glove()->sample().number > 5; }));
     line->stall(true);
-    REQUIRE(eventually([&] { return words(station->troubles()).find("glove") != std::string::npos; }));
+    REQUIRE(eventually([&] { return joined_lines(station->troubles()).find("glove") != std::string::npos; }));
     REQUIRE(eventually([&] { return station->glove_report()->longest_silence > 0.5; }));
     CHECK(station->glove_report()->frames > 5);
     line->stall(false);
@@ -226,7 +227,7 @@ TEST_CASE(
 
     line->stall(true);
     REQUIRE(eventually(
-        [&] { return words(station->troubles()).find("stays in your hand") != std::string::npos; }));
+        [&] { return joined_lines(station->troubles()).find("stays in your hand") != std::string::npos; }));
     line->set_raw(test::raw_open());  // not received: the glove is lost
     const std::uint64_t then = station->latest_tick().number;
     bool kept = true;
@@ -254,8 +255,8 @@ TEST_CASE("Station: a glove of the wrong side is reported; a gloved hand without
     plan.glove = line->port();
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
-    REQUIRE(
-        eventually([&] { return words(station->troubles()).find("is a left one") != std::string::npos; }));
+    REQUIRE(eventually(
+        [&] { return joined_lines(station->troubles()).find("is a left one") != std::string::npos; }));
     StationOptions bare = plan_of(puck.open());
     bare.hand = test::hand_at_bar();
     CHECK_FALSE(Station::start(std::move(bare)));

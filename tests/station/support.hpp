@@ -20,7 +20,7 @@ class VirtualLine {
     device::SimulatedDevice thing;
 
     void until(double now) {
-        while (time_.now < now) device::run_once(supervisor_, mailboxes_, told_);
+        while (time_.now < now) device::run_once(supervisor_, mailboxes_, snapshot_);
     }
     const device::DeviceSnapshot& snapshot() {
         mailboxes_.snapshots.update();
@@ -41,7 +41,7 @@ class VirtualLine {
   private:
     device::DeviceSupervisor supervisor_;
     device::DeviceMailboxes mailboxes_;
-    device::DeviceSnapshot told_;
+    device::DeviceSnapshot snapshot_;
     std::uint64_t number_ = 0;
 };
 

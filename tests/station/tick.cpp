@@ -136,7 +136,7 @@ TEST_CASE("Station: after a stall of the servo forces ramp up from zero, whateve
         CHECK(nothing(rig.tick().wheel));
         rig.inputs.missed = 0;
     };
-    SUBCASE("the wheel goes on") {
+    SUBCASE("the wheel still sends samples") {
         hangs();
         double before = 0.0;
         for (int i = 0; i < 1500; ++i) {
@@ -146,12 +146,12 @@ TEST_CASE("Station: after a stall of the servo forces ramp up from zero, whateve
         }
         CHECK(before > 5.0);
     }
-    SUBCASE("the dead-man was let go") {
+    SUBCASE("the dead-man switch was released") {
         rig.inputs.controls.dead_man = false;
         hangs();
         for (int i = 0; i < 1000; ++i) CHECK(nothing(rig.tick().wheel));
     }
-    SUBCASE("the wheel was lost, after it had told something") {
+    SUBCASE("the wheel falls silent after one more sample") {
         hangs();
         rig.wheel_speaks = false;
         for (int i = 0; i < 1000; ++i) CHECK(nothing(rig.tick().wheel));

@@ -69,7 +69,7 @@ class VirtualBench final : public station_setup::LessonStation {
     bool garbles_ = false;  // the record of the next tick deviates from the tick itself
 
   private:
-    void serve() { device::run_once(supervisor_, mailboxes_, told_); }
+    void serve() { device::run_once(supervisor_, mailboxes_, snapshot_); }
     void tick() {
         if (stopped_) return;
         now_ += setup_.dt;
@@ -86,7 +86,7 @@ class VirtualBench final : public station_setup::LessonStation {
         const station::DeviceCommands output = works ? station::tick(layout_, setup_, state_, servo_, inputs)
                                                      : station::pause_tick(layout_, setup_, state_, inputs);
         commands_.clear();
-        mailboxes_.commands.write({output.mover, true, ++orders_});
+        mailboxes_.commands.write({output.mover, true, ++command_number_});
         newest_ = {++number_,          state_.input,           state_.output, state_.workspace.tool,
                    state_.wrench_rest, state_.dead_man_pressed};
         if (std::exchange(garbles_, false)) newest_.input.device.position[0] += 1e-3F;
@@ -97,7 +97,7 @@ class VirtualBench final : public station_setup::LessonStation {
     device::VirtualPuck puck_;
     device::DeviceSupervisor supervisor_;
     device::DeviceMailboxes mailboxes_;
-    device::DeviceSnapshot told_;
+    device::DeviceSnapshot snapshot_;
     station::Layout layout_;
     servo::Setup setup_;
     servo::State servo_;
@@ -107,7 +107,7 @@ class VirtualBench final : public station_setup::LessonStation {
     std::deque<station::StationTick> ticks_;
     station::StationTick newest_;
     double now_ = 0.0, owed_ = 0.0;  // s
-    std::uint64_t number_ = 0, orders_ = 0;
+    std::uint64_t number_ = 0, command_number_ = 0;
     bool stopped_ = false;
 };
 

@@ -8,8 +8,7 @@ namespace bolt::test {
 // Reports that the rest of the running test case, or of its subcase, is not checked; the caller returns right
 // after:
 //
-//     if (test::sanitized) return test::skip_rest("plays a whole lesson, which takes minutes under a
-//     sanitizer");
+//     if (test::sanitized) return test::skip_rest("a lesson takes minutes under a sanitizer");
 //
 // At the end of the test case main.cpp prints one line, and appends it to the file $BOLT_SKIPPED:
 // "SKIPPED: <suite>: <test>: <reason>" if the test case has checked nothing, else "SKIPPED IN PART: ...". A

@@ -20,17 +20,17 @@ struct Puller {
     test::Workbench bench{"zq350"};
     Random random{0};
 
-    [[nodiscard]] ToolContact& touch() { return *bench.state.tool_contact; }
+    [[nodiscard]] ToolContact& contact() { return *bench.state.tool_contact; }
 
     bool clear(const Pose& pose) {
-        collision::clear_cache(touch().narrow_phase, touch().world, touch().wrench);
+        collision::clear_cache(contact().narrow_phase, contact().world, contact().wrench);
         std::array<collision::Contact, 1> any;
-        return collision::find_contacts(touch().world, touch().wrench, pose, clearance, touch().narrow_phase,
-                                        any)
+        return collision::find_contacts(contact().world, contact().wrench, pose, clearance,
+                                        contact().narrow_phase, any)
                    .count == 0;
     }
     Pose anywhere() {
-        const collision::Box& box = touch().world.shapes[touch().world.bodies[0].shape].solid.box;
+        const collision::Box& box = contact().world.shapes[contact().world.bodies[0].shape].solid.box;
         Pose pose;
         do {
             for (int k = 0; k < 3; ++k)
@@ -38,7 +38,7 @@ struct Puller {
             pose.orientation =
                 glm::normalize(Quat(random.normal(), random.normal(), random.normal(), random.normal()));
         } while (!clear(pose));
-        collision::clear_cache(touch().narrow_phase, touch().world, touch().wrench);
+        collision::clear_cache(contact().narrow_phase, contact().world, contact().wrench);
         return pose;
     }
 };
@@ -62,7 +62,7 @@ TEST_CASE("Tool contact: a wrench pulled through the reducer is never caught for
         double deepest = 1.0;
         Pose before = here;
         const auto check = [&](const Output& output) {
-            const proxy::GodObjectStep& step = puller.touch().last_step;
+            const proxy::GodObjectStep& step = puller.contact().last_step;
             const bool stays = glm::length(output.tool.position - before.position) < still &&
                                glm::length(proxy::twist_between(before, output.tool).angular) < still;
             caught = step.budget_exhausted && stays ? caught + 1 : 0;

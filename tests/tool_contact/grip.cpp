@@ -17,8 +17,8 @@ using namespace bolt::servo;
 
 namespace {
 
-// Share of the greatest force per tick. The output stage would limit a jump to 0.1, so a smaller change is
-// not a limited jump.
+// Limit of the change of force per tick, as a share of the greatest force. The output stage limits a jump to
+// 0.1, so a change below 0.095 is not a jump that it has limited.
 constexpr double leap = 0.095;
 
 // Depth, m, of the jaw in a hexagon that contact permits for one tick: the motion within a tick is

@@ -10,7 +10,7 @@ using namespace bolt::servo;
 
 namespace {
 
-// Share of the greatest force: a change in one tick that is a shock.
+// Change of force in one tick that counts as a shock, as a share of the greatest force.
 constexpr double shock = 0.1;
 
 struct ForceRecord {

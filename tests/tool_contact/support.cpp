@@ -8,10 +8,10 @@ Workbench::Workbench(const char* name, const force::OutputLimits& limits) {
     assembly = std::move(loaded.assembly);
     setup = session::make_setup(assembly, joint::Law::mechanistic, limits, 1, 0.001);
     state = servo::initial_state(setup);
-    Result<std::optional<servo::ToolContact>> touch = session::load_tool_contact(assembly, setup);
-    REQUIRE_MESSAGE(touch, (touch ? "" : touch.error().message()));
-    REQUIRE(touch->has_value());
-    state.tool_contact = std::move(*touch);
+    Result<std::optional<servo::ToolContact>> loaded_contact = session::load_tool_contact(assembly, setup);
+    REQUIRE_MESSAGE(loaded_contact, (loaded_contact ? "" : loaded_contact.error().message()));
+    REQUIRE(loaded_contact->has_value());
+    state.tool_contact = std::move(*loaded_contact);
 }
 
 Pose Workbench::wrench(std::size_t joint, double above, double misfit, const Vec3& beside,

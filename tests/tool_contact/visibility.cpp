@@ -68,7 +68,7 @@ TEST_CASE("Visibility: the head moves only as far as needed to see the nut") {
     CHECK(searches >= 8);
     CHECK(2 * successes >= searches);
     CHECK(successes <
-          searches);  // the search must not know the visibility of places where the head has not been
+          searches);  // the search must not use the visibility from places where the head has not been
 }
 
 TEST_CASE("Visibility: with less sight placement is worse, and improves with every contact") {

@@ -11,8 +11,8 @@ using namespace bolt::scene;
 
 namespace {
 
-// Largest deviation of the left hand from the right hand's image in the plane y = 0 of the tool: of positions
-// in m, of rotations as the distance between axes.
+// Greatest deviation of the left hand from the right hand mirrored in the tool's plane y = 0. Positions count
+// in m, rotations as the distance between axes.
 double off_mirror(const hand::Skeleton& left, const hand::Skeleton& right) {
     const glm::dmat3 across(1, 0, 0, 0, -1, 0, 0, 0, 1), own(-1, 0, 0, 0, 1, 0, 0, 0, 1);
     double most = 0.0;
@@ -49,7 +49,8 @@ TEST_CASE("Left hand: its postures mirror the right hand's, around a handle too"
     const auto bar = collision::make_tool(parts);
     REQUIRE(bar);
     const Postures right_closed = make_postures(&*bar, 0.15, hand::Side::right);
-    // A digit stops within stop_tolerance of the bar, which bends it by that over half a bone.
+    // A digit stops within stop_tolerance of the bar. Over half a bone (20 mm) this changes its bend by at
+    // most stop_tolerance / 20 mm.
     CHECK(off_mirror(make_postures(&*bar, 0.15, hand::Side::left), right_closed) <
           4.0 * hand::stop_tolerance / 0.02);
     CHECK(off_mirror(right_closed, make_postures(nullptr, 0.15)) > 0.05);  // the hand did close on the bar
@@ -86,6 +87,6 @@ TEST_CASE("Seated trainee: the shoulder follows the eye height and is never high
         CHECK(y >= before);
         before = y;
     }
-    // 1.2 m of eyes, 0.85 m of bench, 0.2 m from the eyes to the shoulders, the foot at -0.1 m.
+    // Eyes at 1.2 m, bench at 0.85 m, shoulders 0.2 m below the eyes, foot of the machine at -0.1 m.
     CHECK(shoulder_position(machine, {hand::Side::right, 1.2}).y == doctest::Approx(1.2 - 0.85 - 0.2 - 0.1));
 }

@@ -59,14 +59,14 @@ Outcome play_through(const char* name, session::LessonOptions options, double lo
 TEST_CASE("Mouse hand: a lesson is played from beginning to end") {
     session::LessonOptions options;
     SUBCASE("among obstacles") { options.obstacles = session::Obstacles::required; }
-    SUBCASE("without") {}
-    SUBCASE("not guided") { options.mode = lesson::Mode::practice; }
-    SUBCASE("loosened again") {
+    SUBCASE("without obstacles") {}
+    SUBCASE("in practice mode") { options.mode = lesson::Mode::practice; }
+    SUBCASE("loosening") {
         options.task = lesson::Task::loosen;
         options.obstacles = session::Obstacles::required;
     }
     const char* name = "cover-m8";
-    SUBCASE("the reducer, into yield") {
+    SUBCASE("the reducer, tightened into yield") {
         if (test::sanitized) return test::skip_rest("sixty steps take minutes under a sanitizer");
         name = "zq350";
         options.obstacles = session::Obstacles::required;

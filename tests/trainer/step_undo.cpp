@@ -12,7 +12,7 @@ using test::Script;
 
 namespace {
 
-void take(StepUndo& undo, Script& s) {
+void observe_events(StepUndo& undo, Script& s) {
     for (const lesson::LessonEvent& event : s.lesson.events) observe(undo, s.lesson, event);
     s.lesson.events.clear();
 }
@@ -52,10 +52,10 @@ TEST_CASE("Step undo: a mistake restarts its step in a guided lesson only, and w
         s.seat_both();
         const std::size_t step = s.lesson.current;
         StepUndo undo;
-        take(undo, s);
+        observe_events(undo, s);
         CHECK_FALSE(steps_to_undo(undo, s.lesson));
         s.pull(1, 20.0);  // out of turn
-        take(undo, s);
+        observe_events(undo, s);
         update(undo, 100.0);
         const bool returns = mode == Mode::guided;
         CHECK(steps_to_undo(undo, s.lesson).has_value() == returns);
@@ -69,12 +69,12 @@ TEST_CASE("Step undo: a mistake restarts its step in a guided lesson only, and w
         CHECK(steps_to_undo(undo, s.lesson) == 1);
         CHECK(due(undo, s.lesson) == &s.lesson.steps[step]);
         REQUIRE(s.undo(1));
-        take(undo, s);
+        observe_events(undo, s);
         CHECK_FALSE(steps_to_undo(undo, s.lesson));
         CHECK(s.lesson.current == step);
         CHECK(due(undo, s.lesson) == s.lesson.due());
         s.pull(1, 20.0);
-        take(undo, s);
+        observe_events(undo, s);
         s.pull(0, 35.0);
         request_undo(undo, s.lesson, 1);  // a key requests the previous step
         CHECK(steps_to_undo(undo, s.lesson) == 2);

@@ -60,7 +60,7 @@ TEST_CASE("View: for every nut of the reducer it contains the wrist and still sh
         CHECK(seen >= view::sufficient_visibility);
         CHECK(found.distance < 0.8);
     }
-    CHECK(outside_before > 0);  // otherwise this test proves nothing
+    CHECK(outside_before > 0);  // verifies that the wrist changes the view
     MESSAGE(outside_before << " of 12 wrists were outside the view without this");
     begun->reset();
     std::filesystem::remove(file);

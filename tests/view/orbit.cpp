@@ -14,7 +14,7 @@ namespace {
 
 const render::BoundingBox box{{-0.2F, -0.1F, -0.3F}, {0.4F, 0.3F, 0.1F}};
 
-Orbit some(Random& random) {
+Orbit random_orbit(Random& random) {
     Orbit o;
     o.target = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
     o.yaw = random.uniform(-4, 4);
@@ -44,7 +44,7 @@ Vec3 unprojected(const Orbit& o, const glm::dvec2& at) {
 TEST_CASE("Camera: viewpoints convert to orbits and back") {
     Random random(3);
     for (int i = 0; i < 200; ++i) {
-        const Orbit o = some(random);
+        const Orbit o = random_orbit(random);
         const Viewpoint view = viewpoint_of(o);
         const Viewpoint again = viewpoint_of(orbit_of(view));
         CHECK(glm::distance(again.eye, view.eye) < 1e-5F);
@@ -72,7 +72,7 @@ TEST_CASE("Camera: the eye of an orbit equals render::make_eye, and from straigh
 TEST_CASE("Camera: panning moves the point under the cursor with it") {
     Random random(5);
     for (int i = 0; i < 200; ++i) {
-        Orbit o = some(random);
+        Orbit o = random_orbit(random);
         const glm::dvec2 from(random.uniform(-0.7, 0.7), random.uniform(-0.5, 0.5));
         const glm::dvec2 to(random.uniform(-0.7, 0.7), random.uniform(-0.5, 0.5));
         const Vec3 point = unprojected(o, from);
@@ -87,7 +87,7 @@ TEST_CASE(
     Random random(7);
     for (int i = 0; i < 200; ++i) {
         CameraGlide camera;
-        camera.jump(some(random));
+        camera.jump(random_orbit(random));
         const glm::dvec2 at(random.uniform(-0.7, 0.7), random.uniform(-0.5, 0.5));
         const Vec3 point = unprojected(camera.shown, at);
         const double before = camera.shown.distance;
@@ -130,7 +130,7 @@ TEST_CASE(
 TEST_CASE("Camera: frame_all shows every corner of the box from every direction, and fills the picture") {
     Random random(11);
     for (int i = 0; i < 100; ++i) {
-        const Orbit o = frame_all(some(random), box, 1.6F);
+        const Orbit o = frame_all(random_orbit(random), box, 1.6F);
         double most = 0.0;
         for (int corner = 0; corner < 8; ++corner) {
             const glm::dvec2 at = projected(o, Vec3(box.corner(corner)));
@@ -147,8 +147,8 @@ TEST_CASE(
     Random random(13);
     for (int i = 0; i < 50; ++i) {
         CameraGlide one, many;
-        one.jump(some(random));
-        one.goal = some(random);
+        one.jump(random_orbit(random));
+        one.goal = random_orbit(random);
         many = one;
         one.advance(0.12);
         for (const double part : {0.001, 0.039, 0.05, 0.03}) many.advance(part);
