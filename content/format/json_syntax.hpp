@@ -24,8 +24,8 @@ struct ParserStop {
     std::size_t end = 0;  // byte after the last valid token
     ParserState before = ParserState::start;
     std::optional<std::size_t> open;     // offset of the innermost open bracket
-    std::optional<std::size_t> suspect;  // offset of a bracket that, by the indentation, was closed by the
-                                         // closing bracket of another
+    std::optional<std::size_t> suspect;  // offset of an opening bracket without a closing bracket of its
+                                         // own, judged by the indentation
 };
 
 // The error in `text` at which the parser stopped. `place` formats an offset as "line:column".

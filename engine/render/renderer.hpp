@@ -52,9 +52,9 @@ class Renderer {
   public:
     static Result<std::unique_ptr<Renderer>> create(gpu::Device& device, const RendererOptions& options);
 
-    // Records the views of a frame that have the same size. Their pictures are in use `transfer_from`
-    // afterwards. Views of another size (an inset, the instructor's view) form another group, which has its
-    // own pictures; `group` is any number that identifies it.
+    // Records the views of a frame that have the same size. Afterwards their images are in
+    // ResourceUse::transfer_from. Views of another size (an inset, the instructor's view) form another group,
+    // which has its own pictures; `group` is any number that identifies it.
     Status render(gpu::FrameContext& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
                   std::uint32_t group = 0);
 

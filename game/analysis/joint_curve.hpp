@@ -48,8 +48,8 @@ class CurveDecimator {
     std::vector<Bucket> buckets_;
 };
 
-// A visit lasts from the first grip of a nut to the last one before another nut is gripped or the next pass
-// begins.
+// A visit lasts from the first grip of a nut until another nut is gripped or the next pass begins; it ends
+// with its last grip.
 struct Visit {
     int pass = 0;              // counted from 0
     double begin = 0.0;        // s

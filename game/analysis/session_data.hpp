@@ -75,7 +75,7 @@ std::string title_of(const content::Assembly& assembly);
 // A visit in the actual order of the joints.
 struct OrderEntry {
     std::size_t joint = 0;
-    bool out_of_turn = false;  // belongs to the smallest set of joints to move for the planned order
+    bool out_of_turn = false;  // one of the fewest visits whose removal leaves the planned order
     bool repeated = false;     // the joint was visited before in this pass
 };
 
@@ -98,8 +98,8 @@ struct PassOrder {
 // order if the assembly has several passes.
 std::vector<PassOrder> pass_orders(const SessionData& session);
 
-// A drawing for the passes that followed the same planned order completely, or for one other pass that was
-// begun. The label names all its passes.
+// All passes that followed the same planned order completely share one drawing; every other pass that was
+// begun has its own. The label names all its passes.
 struct OrderDrawing {
     PassOrder order;
     std::size_t passes = 1;

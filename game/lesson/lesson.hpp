@@ -33,8 +33,8 @@ struct LessonStep {
 
 // Returns the assembly with `law` in force and its specifications adapted to it. The specifications of joint
 // types hold under the mechanistic law. Under the published law every joint ends at the same T_max, for any
-// fastener: the assembly's own published targets replace the specified ones; without any, targets above 98 %
-// of T_max are lowered to 98 %. No angle is judged, and the target clamp force follows from the target
+// fastener: the assembly's own published targets replace the specified ones. If it has none, targets above
+// 98 % of T_max are lowered to 98 %. No angle is judged, and the target clamp force follows from the target
 // torque. Idempotent.
 content::Assembly apply_law(content::Assembly assembly, joint::Law law);
 
@@ -62,7 +62,7 @@ struct JointTrack {
     bool snug = false;           // the snug torque has been reached
     double snug_angle = 0.0;     // rad, nut angle when it was reached first
     double peak_torque = 0.0;    // N·m, of the step that is due
-    double turned_torque = 0.0;  // N·m, highest that turned the nut further on since it was last off its seat
+    double turned_torque = 0.0;  // N·m, highest that tightened the nut further since it last left its seat
     double begin_angle = 0.0;    // rad, nut angle when the step began
     bool yielded = false;        // the yield stage was reached
     bool clicked = false;        // the torque wrench clicked in the due step

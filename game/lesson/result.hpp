@@ -33,7 +33,7 @@ struct JointResult {
     std::string id;
     double torque = 0.0;  // N·m, highest of the tightening step or of any later pull that turned the nut on
     double angle = 0.0;   // rad from snug
-    // N, when the result was last updated; at the end of the lesson after embedding and cross-talk
+    // N, when the result was last updated; at the end of the lesson it includes embedding and coupling
     double clamp = 0.0;
     double clamp_at_release = 0;  // N, when the wrench last left the nut
     Verdict torque_verdict = Verdict::none;

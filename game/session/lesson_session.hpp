@@ -67,12 +67,12 @@ Result<SessionSetup> prepare(const content::Assembly& given, const LessonOptions
 // Changes the device to `options.device`. All other options must equal those of prepare().
 void set_device_limits(const LessonOptions& options, SessionSetup& start);
 
-// A lesson that follows the ticks of this or another servo.
+// A lesson that follows the ticks of the session's own servo, or of a station's.
 struct LessonTracker {
     lesson::Lesson lesson;
-    // Number of steps begun. The servo saves one checkpoint of the nuts for each
-    // (servo::State::checkpoint_count); a station's servo does so some ticks later. Until it has, undoing n
-    // checkpoints undoes n + 1 steps.
+    // Number of steps begun. The servo saves one checkpoint for each (servo::State::checkpoint_count). A
+    // station's servo saves it some ticks late; while the newest is missing, restoring the n-th last
+    // checkpoint undoes n + 1 steps.
     std::uint32_t steps_begun = 0;
 };
 
@@ -118,8 +118,8 @@ class LessonSession {
     Result<servo::Output> step(const world::WriteHaptics& world, const servo::Input& input,
                                std::vector<lesson::LessonEvent> extra_events = {});
 
-    // Computes a tick that another servo, that of a station, has already computed from the same initial
-    // state. Also fails if the outputs differ, which means that one of the two missed an input.
+    // Repeats a tick that a station's servo has computed from the same initial state, and compares the
+    // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::Input& input, const servo::Output& output);
     // The number of checkpoints that the other servo should have saved since the start.
     [[nodiscard]] std::uint32_t target_checkpoints() const {

@@ -76,8 +76,8 @@ struct Header {
 // "virtual time", or the rate as text.
 std::string servo_text(double rate);
 
-// Determines the kind of trainee without using the trainee's name. The first row that applies to a session
-// without the key `trainee`:
+// Determines the kind of trainee without using the trainee's name. A session with the key `trainee` states
+// it; for others the first row that applies decides:
 //   the view help is recorded (only simulated trainees record it)                                 simulated
 //   the operator is "person"                                                                      person
 //   it has the tool of format 4 (by then every simulated trainee recorded the view help)          person

@@ -36,8 +36,8 @@ struct TickRecord {
 };
 
 // The number of an obstacle in a session file, in its ticks and in its table of names: none −1, fixed
-// obstacles 0 to 999, nuts from 1000 on. Fixed obstacles from 1000 on have the numbers −2, −3, …, which no
-// older file contains. No value if the index is max_fixed or max_nuts or more.
+// obstacles 0 to 999, nuts from 1000 on. A fixed obstacle with an index i ≥ 1000 has the number 998 − i,
+// which no older file contains. No value if the index is max_fixed or max_nuts or more.
 std::optional<std::int16_t> file_number(collision::ObstacleId obstacle);
 collision::ObstacleId obstacle_of_number(std::int16_t number);
 
@@ -63,7 +63,7 @@ bool is_valid(const TickRecord& record);
 // Version 1 ends with the clamp force, version 2 with the fault, version 3 with the undo; the columns that
 // are missing get their defaults.
 
-// Ticks of one second at the shortest tick length of a session; a larger count means damage.
+// The greatest number of ticks in a chunk: one second at the shortest tick, 10 µs. A larger count is damage.
 inline constexpr std::size_t max_chunk_ticks = 100'000;
 
 // Reuses its buffers, so a chunk no longer than an earlier one needs no allocation.

@@ -28,7 +28,8 @@ std::optional<double> pixels_to_segment(const Screen& screen, const glm::dvec2& 
                                         const Vec3& to);
 
 // Movement of the end of the handle in the picture per radian of tightening, px/rad, for a wrench at `tool`
-// on a nut with this axis. At least `min_lever` long: a handle seen end-on would turn at the slightest drag.
+// on a nut with this axis. At least `min_lever` long, because otherwise a handle seen end-on would turn
+// at the slightest drag.
 inline constexpr double min_lever = 160.0;
 glm::dvec2 lever_on_screen(const Screen& screen, const Pose& tool, const Vec3& axis, double handle_length);
 

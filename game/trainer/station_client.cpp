@@ -240,7 +240,8 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
     const auto attracting_nut =
         leads ? std::optional(due->joint)
               : nearest_nut(session, client.latest.output.tool.position, attraction_range);
-    controls.glide = attracting_nut && closes ? static_cast<std::int16_t>(*attracting_nut) : std::int16_t{-1};
+    controls.approach_joint =
+        attracting_nut && closes ? static_cast<std::int16_t>(*attracting_nut) : std::int16_t{-1};
     controls.click_setting = static_cast<float>(lesson::wrench_setting(session.lesson()));
     client.link->set_controls(controls);
     client.hand_closed = closes;

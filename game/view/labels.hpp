@@ -46,9 +46,9 @@ struct LabelBox {
 LabelBox box_of(const text::Fonts& fonts, const render::Label& label, const render::Eye& eye,
                 const glm::vec2& picture);
 
-// Changes `offset_px` of the labels of placement on_screen so that as far as there is room no two overlap,
-// none covers a rectangle of `occupied` (px), and none whose anchor is in the picture extends beyond it.
-// Moves each label to the nearest free place, beginning with the lowest.
+// Changes `offset_px` of the labels of placement on_screen. Moves each to the nearest free place, beginning
+// with the lowest: there it overlaps no other label and no rectangle of `occupied` (px). If its anchor is in
+// the picture, so is the whole label. Where there is no room, labels may overlap.
 void separate_labels(const text::Fonts& fonts, std::span<render::Label> labels, const render::Eye& eye,
                      const glm::vec2& picture, std::span<const render::Rectangle> occupied = {});
 

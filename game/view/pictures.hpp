@@ -40,9 +40,10 @@ inline constexpr float interpupillary_distance = 0.063F;  // m, mean of adults
 // Offsets of the eyes from the middle, m, to the right: left and right eye, or a single eye at 0.
 std::vector<float> eye_offsets(bool stereo);
 
-// A shear to be multiplied before the clip coordinates of an eye at `offset`: points at `distance` m along
-// the axis get the same screen position for both eyes, as on a screen there (off-axis projection, Kooima
-// 2008). Without it the axes of the eyes would be parallel, and near points would not be in both pictures.
+// A shear, to be multiplied from the left onto the projection of an eye at `offset`: points at `distance` m
+// along the axis get the same screen position for both eyes, as on a screen there (off-axis projection,
+// Kooima 2008). Without it the axes of the eyes would be parallel, and near points would not be in both
+// pictures.
 glm::mat4 convergence_shear(float offset, float distance, const render::Perspective& lens);
 
 // Joins pictures of equal height, the first on the left.

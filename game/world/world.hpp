@@ -80,13 +80,13 @@ enum class HandAction : std::uint8_t {
 // The working hand, moved by a mouse, a device or a recorded session.
 struct WorkingHand {
     HandAction action = HandAction::resting;
-    bool wrench = false;                                    // the wrench is in the hand
-    bool pinches = false;                                   // the fingers are closed on a nut
-    std::optional<std::size_t> nut;                         // joint that the hand moves to, is at or holds
-    Pose pose;                                              // commanded pose of the tool or the empty hand
-    Pose to;                                                // end of a reach
-    Pose rest;                                              // of the wrench while it is not in the hand
-    double twisted = 0.0;                                   // angle by the fingers since they gripped the nut
+    bool wrench = false;             // the wrench is in the hand
+    bool pinches = false;            // the fingers are closed on a nut
+    std::optional<std::size_t> nut;  // joint that the hand moves to, is at or holds
+    Pose pose;                       // commanded pose of the tool or the empty hand
+    Pose to;                         // end of a reach
+    Pose rest;                       // of the wrench while it is not in the hand
+    double twisted = 0.0;            // rad that the fingers have turned since they gripped the nut
     double room = std::numeric_limits<double>::infinity();  // angle by which the hand can still turn the tool
 };
 

@@ -199,7 +199,7 @@ Crossings select_crossings(EdgeGathering& g, const Solid& other, const Pose& to_
             (c.distance < -g.band || !is_inside(other, to_other * c.on_edge)))
             continue;
         if (result.count == crossings.size()) {
-            result.complete = std::min(result.complete, c.distance);
+            result.complete_within = std::min(result.complete_within, c.distance);
             break;
         }
         crossings[result.count++] = c;

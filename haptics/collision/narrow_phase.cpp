@@ -68,7 +68,7 @@ struct PoseMatrix {
 struct ContactCollector {
     std::span<Contact> buffer;
     std::size_t count = 0;
-    double complete;  // m; all contacts nearer than this are in the buffer
+    double complete_within;  // m; all contacts nearer than this are in the buffer
     std::span<DeferredContact> deferred;
     std::size_t deferred_count = 0;
     std::uint32_t work = 0;
@@ -86,12 +86,12 @@ struct ContactCollector {
             return;
         }
         if (nearer(contact, buffer.front())) {
-            complete = std::min(complete, buffer.front().distance);
+            complete_within = std::min(complete_within, buffer.front().distance);
             std::pop_heap(buffer.begin(), buffer.end(), nearer);
             buffer.back() = contact;
             std::push_heap(buffer.begin(), buffer.end(), nearer);
         } else {
-            complete = std::min(complete, contact.distance);
+            complete_within = std::min(complete_within, contact.distance);
         }
     }
 };
@@ -315,7 +315,7 @@ class SurfaceQueryPass {
     void store_result(SurfaceQueryCache& cache, std::uint32_t index, const Vec3& at, double accumulated,
                       const PointQueryResult& near, double distance,
                       std::span<const SeparatingPlane> planes) const {
-        collected_.complete = std::min(collected_.complete, near.complete);
+        collected_.complete_within = std::min(collected_.complete_within, near.complete_within);
         store_bound(cache, index, at, distance, accumulated);
         for (std::size_t i = 0; i < near.planes; ++i) collected_.add(contact_of(index, at, planes[i]));
     }
@@ -363,7 +363,7 @@ class SurfaceQueryPass {
         const Crossings found = query_edges_cached(surface_, piece, tool_, from_surface_, accumulated.turn,
                                                    band_, last.edge_near, edges, searched, crossings);
         if (searched) collected_.work += edge_search_work;
-        collected_.complete = std::min(collected_.complete, found.complete);
+        collected_.complete_within = std::min(collected_.complete_within, found.complete_within);
         bound = {found.clear - rounding + accumulated.displacement, found.turn + accumulated.turn};
         last = {glm::vec3(at), static_cast<float>(found.clear), accumulated.turn,
                 found.clear < short_lookahead};
@@ -460,10 +460,11 @@ ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& t
         return surface_pass(one.pair, one.of_tool, pair_cache.last, to_tool)
             .resolve(one, one.of_tool ? pair_cache.of_tool : pair_cache.of_body, contact);
     };
-    ContactQueryResult found = reduce_contacts(
-        {state.near, collected.count, state.order, state.kept, state.kept_in,
-         std::span(state.deferred).first(collected.deferred_count), state.deferred_order, collected.complete},
-        resolve, out);
+    ContactQueryResult found =
+        reduce_contacts({state.near, collected.count, state.order, state.kept, state.kept_in,
+                         std::span(state.deferred).first(collected.deferred_count), state.deferred_order,
+                         collected.complete_within},
+                        resolve, out);
     found.work = collected.work;
     return found;
 }

@@ -3,8 +3,8 @@
 // tool against edges of bodies.
 //
 // Every sample and every cluster of samples stores a lower bound of its distance. The relative motion since
-// then is subtracted from it; the surface is queried again only where the rest is within the band. The bounds
-// save work and never change the result: it is the same bit for bit with an empty cache.
+// then is subtracted from it; the surface is queried again only where the remaining bound is within the band.
+// The bounds save work and never change the result: it is the same bit for bit with an empty cache.
 #pragma once
 
 #include <vector>

@@ -109,7 +109,7 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
     return solid;
 }
 
-bool blocked(const Solid& solid, const Vec3& from, const Vec3& to) {
+bool occluded(const Solid& solid, const Vec3& from, const Vec3& to) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRay ray{};
@@ -265,14 +265,14 @@ bool is_behind_plane(const ContactMesh& mesh, const Candidate& c, const Separati
 PointQueryResult select_planes(PointGathering& g, const SeparatingPlane& first, double band,
                                std::span<SeparatingPlane> planes) {
     PointQueryResult result;
-    result.complete = band;
+    result.complete_within = band;
     // When `kept` is full the search radius shrinks, so completeness beyond its furthest entry is unknown.
-    if (g.count == PointGathering::capacity) result.complete = std::sqrt(g.kept[g.furthest].squared);
+    if (g.count == PointGathering::capacity) result.complete_within = std::sqrt(g.kept[g.furthest].squared);
     std::sort(g.kept.begin(), g.kept.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_candidate);
     result.distance = first.distance;
     if (first.distance > band) return result;
     if (planes.empty()) {
-        result.complete = std::min(result.complete, first.distance);
+        result.complete_within = std::min(result.complete_within, first.distance);
         return result;
     }
     planes[result.planes++] = first;
@@ -289,7 +289,7 @@ PointQueryResult select_planes(PointGathering& g, const SeparatingPlane& first, 
         if (plane.distance < 0.0 || glm::dot(g.p - c.point, Vec3(g.mesh->face_normals[c.triangle])) < 0.0)
             continue;
         if (result.planes == planes.size()) {
-            result.complete = std::min(result.complete, plane.distance);
+            result.complete_within = std::min(result.complete_within, plane.distance);
             break;
         }
         planes[result.planes++] = plane;
@@ -323,7 +323,7 @@ PointQueryResult query_point(const Solid& solid, const Vec3& point, double radiu
 
     if (!(g.nearest.squared <= g.radius2)) {
         PointQueryResult result;
-        result.complete = band;
+        result.complete_within = band;
         return result;
     }
     return select_planes(g, nearest_plane(g), band, planes);

@@ -64,7 +64,7 @@ struct PointQueryResult {
     double distance = infinite_distance;  // m, signed, to the nearest surface within the radius
     std::size_t planes = 0;               // written
     // m; every surface nearer than this is behind one of the planes written. Equals the band if all fitted.
-    double complete = 0.0;
+    double complete_within = 0.0;
 };
 
 // m; a surface that rises by no more than this above a plane gets no plane of its own.
@@ -77,6 +77,6 @@ PointQueryResult query_point(const Solid& solid, const Vec3& point, double radiu
                              std::span<SeparatingPlane> planes);
 
 // True if a surface intersects the segment between two points.
-bool blocked(const Solid& solid, const Vec3& from, const Vec3& to);
+bool occluded(const Solid& solid, const Vec3& from, const Vec3& to);
 
 }  // namespace bolt::collision

@@ -90,7 +90,7 @@ bool occluded(const CollisionWorld& world, const Vec3& from, const Vec3& to,
         const Body& body = world.bodies[i];
         if (!body.on || i == ignored) continue;
         const Pose back = inverse(body.pose);
-        if (blocked(world.shapes[body.shape].solid, back * from, back * to)) return true;
+        if (occluded(world.shapes[body.shape].solid, back * from, back * to)) return true;
     }
     return false;
 }
@@ -125,7 +125,7 @@ Visibility visibility(const CollisionWorld& world, std::optional<std::size_t> bo
         const Vec3 to_eye = eye_local - at;
         const double distance2 = glm::dot(to_eye, to_eye);
         const double facing = glm::dot(sample.normal, to_eye);
-        if (facing <= 0.0 || blocked(solid, eye_local, at)) continue;
+        if (facing <= 0.0 || occluded(solid, eye_local, at)) continue;
         const double size = sample.area * facing / (distance2 * std::sqrt(distance2));
         alone += size;
         if (!occluded(world, eye, pose * at, body)) visible += size;
@@ -160,8 +160,8 @@ std::vector<SurfacePoint> sample_surface(const ContactMesh& mesh, std::size_t co
 std::vector<SurfacePoint> sample_outer_surface(const Solid& solid, std::size_t count) {
     std::vector<SurfacePoint> points = sample_surface(solid.mesh, count);
     std::erase_if(points, [&](const SurfacePoint& sample) {
-        return blocked(solid, sample.at + 2.0 * off_surface * sample.normal,
-                       sample.at + 2.0 * solid.radius * sample.normal);
+        return occluded(solid, sample.at + 2.0 * off_surface * sample.normal,
+                        sample.at + 2.0 * solid.radius * sample.normal);
     });
     return points;
 }

@@ -10,9 +10,9 @@ namespace bolt::force {
 
 // Positions are scaled, rotations are not: a quarter turn of the wrench is a quarter turn of the hand.
 //
-// Forces use the transposed map, so power is preserved up to one factor: for every motion F·v + T·ω at the
-// device is `power` times its value in the assembly, and passivity carries over. `power` 1: forces grow with
-// the scale. `power` 1/scale: forces are unchanged and torques shrink by the scale.
+// Forces use the transposed map, so power is preserved up to one factor: for every motion, the power F·v +
+// T·ω at the device is `power` times the power in the assembly, and passivity carries over. `power` 1: forces
+// grow with the scale. `power` 1/scale: forces are unchanged and torques shrink by the scale.
 struct Workspace {
     Quat turn{1.0, 0.0, 0.0, 0.0};  // unit, from the device's frame to the assembly's
     double scale = 1.0;             // m of the tool per m of the device
@@ -59,7 +59,8 @@ TorqueRendering make_torque_rendering(const OutputLimits& limits, double greates
 OutputCommand render_torque(const TorqueRendering& rendering, double torque, const Vec3& axis,
                             const Vec3& handle);
 
-// J that the device can return of the energy in a spring of `stiffness` (N·m/rad) under this torque.
+// The part, J, of the energy in a spring of `stiffness` (N·m/rad) under this torque that the device can
+// return to the hand.
 double stored_torque_energy(const TorqueRendering& rendering, double torque, double stiffness,
                             double handle_length);
 

@@ -68,7 +68,8 @@ struct GuidePath {
 
 // Candidates: straight, if that arrives along the axis or level from the side; via the approach point; over
 // the target at several heights; around one side. Returns the shortest free candidate. If none is free,
-// returns the straight segment if that is free, else an empty path. Queries `free` at most 100 times.
+// returns the straight segment, whatever its direction, if it is free; else an empty path. Queries `free` at
+// most 100 times.
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free);
 
 // The lowest height above the target, m, to which the tool may be led from its present position. The segment
@@ -82,7 +83,7 @@ void move_end(GuidePath& path, const GuideTarget& target);
 double length(const GuidePath& path);
 Vec3 point_at(const GuidePath& path, double along);  // `along` in m from the start, clamped
 
-// Returns `free` of those parts of the segment that are outside the ball of GuideTarget::shell.
+// Returns true if the parts of the segment outside the ball of GuideTarget::shell are free.
 bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegmentFree free);
 
 // The guiding force: plans a path to a nut, pulls the tool towards the farthest point of the path in its line

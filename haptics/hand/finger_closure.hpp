@@ -65,8 +65,8 @@ struct FingerClosure {
     std::array<DigitStop, hand::digit_count> digits;
 };
 
-// `wrist` is in the tool frame. A bone that already penetrates with the digit open does not stop it; deeper
-// penetration does.
+// `wrist` is in the tool frame. Penetration that exists while the digit is open is tolerated; only deeper
+// penetration stops the digit.
 FingerClosure close_fingers(const collision::ToolShape& tool, const hand::Hand& hand,
                             const hand::Angles& measured, const Pose& wrist);
 

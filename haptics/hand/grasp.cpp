@@ -70,7 +70,7 @@ GraspEvent update_glove_loss(GraspState& grasp, const GraspOptions& options, con
     if (input.fresh) {
         if (!grasp.lost) return GraspEvent::none;
         grasp.lost = false;
-        grasp.release_blocked_for = options.regrasp_time;
+        grasp.release_blocked_for = options.release_block_time;
         grasp.change_pending = false;
         return GraspEvent::glove_back;
     }

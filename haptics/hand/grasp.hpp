@@ -9,12 +9,12 @@
 namespace bolt::hand {
 
 struct GraspOptions {
-    std::size_t fingers = 2;         // number that must touch, opposed by the thumb, for a grasp
-    double grasp_delay = 0.03;       // s of contact before the grasp
-    double release_distance = 6e-3;  // m: released if the thumb or all fingers are farther away
-    double release_delay = 0.15;     // s beyond release_distance before the release
-    double silence = 0.1;            // s without a frame until the glove counts as lost
-    double regrasp_time = 0.5;       // s without release after the glove is back
+    std::size_t fingers = 2;          // number that must touch, opposed by the thumb, for a grasp
+    double grasp_delay = 0.03;        // s of contact before the grasp
+    double release_distance = 6e-3;   // m: released if the thumb or all fingers are farther away
+    double release_delay = 0.15;      // s beyond release_distance before the release
+    double silence = 0.1;             // s without a frame until the glove counts as lost
+    double release_block_time = 0.5;  // s after the glove is back during which the tool is not released
 };
 
 struct GraspInput {
@@ -40,7 +40,7 @@ struct GraspState {
     double frame_age = 0.0;            // s since the latest frame
     bool change_pending = false;       // the condition contradicts `held`
     double change_pending_for = 0.0;   // s of that contradiction
-    double release_blocked_for = 0.0;  // s left of regrasp_time
+    double release_blocked_for = 0.0;  // s left of release_block_time
 };
 
 GraspEvent update_grasp(GraspState& grasp, const GraspOptions& options, const collision::ToolShape& tool,

@@ -75,9 +75,8 @@ TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double m
 inline double bearing_mean_diameter(double d_w, double d_h) { return 0.5 * (d_w + d_h); }
 
 // tan(φ + ρ'), the slope on which the nut slides: φ lead angle, tan ρ' = share · μ_G/cos β. share in [−1, 1]:
-// +1 tightening, −1 loosening. VDI 2230's closed forms write it as P/(π d2) + 1.155 μ_G, the first order of
-// this; the published table A1 is reproduced to its rounding by the exact tangent (within 0.9 % by the closed
-// form).
+// +1 tightening, −1 loosening. VDI 2230's closed forms use its first order, P/(π d2) + 1.155 μ_G. The exact
+// tangent reproduces the published table A1 to its rounding, the closed form within 0.9 %.
 double sliding_slope(const ScrewThread& thread, double mu_thread, double share = 1.0);
 
 // Ratio of equivalent (von Mises) to tensile stress while the thread torque acts: √(1 + 3 [κ (d2/d0) tan(φ +

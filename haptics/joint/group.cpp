@@ -67,7 +67,7 @@ double neighbour_closure(const CouplingMatrix& c, std::span<const JointState> jo
 
 void copy_outputs(JointState& joint) {
     joint.clamp = joint.mechanistic.clamp;
-    joint.breakaway = joint.mechanistic.dwell;
+    joint.breakaway = joint.mechanistic.breakaway;
 
     joint.stage = joint.mechanistic.stage;
     joint.condition = joint.mechanistic.condition;

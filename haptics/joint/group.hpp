@@ -76,15 +76,15 @@ std::vector<JointState> initial_state(const GroupParameters& group, std::size_t 
 
 Resistance resistance(const GroupParameters& group, std::size_t joint, const JointState& state);
 
-// One step of dt: moves the nut `driven` (−1: none) under its handle, then updates every joint's clamp force.
+// One step of dt: moves the nut `driven` (−1: none) with the handle, then updates every joint's clamp force.
 // The group's forces minimise a strictly convex energy. Each step performs one sweep of exact minimisation,
 // joint by joint, from the last solution, so it never diverges, and the remaining error is reduced by the
 // next steps. Returns the step of the handle's click mechanism.
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
                      const DriveHandle& handle, double dt);
 
-// Turns one nut to an angle kinematically, as a machine does. `share` is the direction of friction: +1
-// tightening, −1 loosening.
+// Turns one nut to an angle kinematically, as a machine does. `share`: as in
+// MechanisticState, +1 while the nut slides tightening, −1 loosening.
 void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::size_t joint, double angle,
               double share, double dt);
 

@@ -266,9 +266,10 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
 }
 
 Resistance resistance(const MechanisticParameters& p, const MechanisticState& s) {
-    const double breakaway = 1.0 + (p.static_ratio - 1.0) * s.dwell;
-    const double friction_lever = p.levers.friction() * wear_factor(p, s.uses) * breakaway;
-    const double drag = (p.prevailing_torque + running_drag_at(p, s.angle) + p.weight_friction) * breakaway;
+    const double breakaway_factor = 1.0 + (p.static_ratio - 1.0) * s.breakaway;
+    const double friction_lever = p.levers.friction() * wear_factor(p, s.uses) * breakaway_factor;
+    const double drag =
+        (p.prevailing_torque + running_drag_at(p, s.angle) + p.weight_friction) * breakaway_factor;
     const double rate = s.stiffness * p.levers.lead;  // dF/dθ, N/rad: dx/dθ = P/2π
     Resistance r;
     r.lead = s.clamp * p.levers.lead + p.weight_lead;
@@ -285,8 +286,8 @@ double free_closure(const MechanisticParameters& p, const MechanisticState& s, d
 
 void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double share, double dt) {
     const double turned = std::abs(angle - s.angle);
-    s.dwell = turned > 0.0 ? s.dwell * std::exp(-turned / p.breakaway_angle)
-                           : s.dwell + (1.0 - s.dwell) * -std::expm1(-dt / p.healing_time);
+    s.breakaway = turned > 0.0 ? s.breakaway * std::exp(-turned / p.breakaway_angle)
+                               : s.breakaway + (1.0 - s.breakaway) * -std::expm1(-dt / p.healing_time);
     const double clamp_before = s.clamp;
     s.angle = angle;
     s.share = share;

@@ -5,7 +5,8 @@
 //   clamp force F from x: seat_spring.hpp, δ from VDI 2230 (design.hpp)
 //   torque      T = F P/2π ± r F (μ_G r_t/cos β + μ_K r_b) ± thread drag: design.hpp (Motosh)
 //   yield       F q ≤ Y(plastic), q von Mises of tension and thread torque: design.hpp, PlasticCurve
-//   r           breakaway: 1 + (static ratio − 1) dwell; dwell heals at rest and wears off with sliding
+//   r           breakaway: 1 + (static ratio − 1) breakaway; breakaway heals at rest and wears off with
+//   sliding
 #pragma once
 
 #include <cstdint>
@@ -67,7 +68,7 @@ struct MechanisticParameters {
     double healing_time = 0.0;    // s of rest over which it recovers
     double wear_early = 0.0;      // relative change of friction that saturates over the first re-uses
     double wear_early_uses = 1;
-    double wear_per_use = 0.0;       // relative change of friction per use that continues
+    double wear_per_use = 0.0;       // relative change of friction with every use, without end
     double prevailing_torque = 0.0;  // N·m
     double running_drag = 0.0;       // N·m, mean drag of the free thread
     double weight_lead = 0.0;    // N·m, weight of the nut along the lead; negative if it helps tightening
@@ -85,8 +86,8 @@ struct MechanisticState {
     double stripped = 0.0;    // m, travel of sheared nut threads, never falls
     double embedding = 0.0;   // m, flattened roughness, never falls
     double uses = 0.0;        // tightenings of the faces to the reference load so far
-    double dwell = 1.0;       // 0…1, breakaway state
-    double share = 0.0;       // −1…1, share of the friction that carries torque (+1: slides tightening)
+    double breakaway = 1.0;   // 0…1, breakaway state
+    double share = 0.0;       // −1…1, torque of friction over its maximum; +1: slides tightening
     double clamp = 0.0;       // N
     double stiffness = 0.0;   // dF/dx of the elastic joint, N/m
     double neighbours = 0.0;  // m, closure taken up by the other joints of the group

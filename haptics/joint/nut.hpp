@@ -19,14 +19,14 @@ namespace bolt::joint {
 //   swinging back  T = rearm_torque_share · setting + c · speed
 //   bottomed       T ≥ rearm_torque_share · setting
 //
-// c = stiffness · settling_time: at rest the torque falls with that time constant instead of jumping. Between
-// its two torques a mechanism that has swung stands still, so swinging back and forth dissipates energy and
+// c = stiffness · settling_time: at rest the torque falls with that time constant instead of jumping. At
+// torques between these two a swung mechanism does not move, so swinging back and forth dissipates energy and
 // never generates any. The shares and times are ours, because the standard specifies the setting only.
 struct Click {
     double setting = 0.0;             // N·m at which it trips; 0: never
     double swing = 0.0;               // rad that the handle swings before it bottoms; 0: no mechanism
-    double swing_torque_share = 0.5;  // of the setting, above rearm_torque_share
-    double rearm_torque_share = 0.2;  // of the setting, above 0
+    double swing_torque_share = 0.5;  // fraction of the setting; greater than rearm_torque_share
+    double rearm_torque_share = 0.2;  // fraction of the setting; positive
     double settling_time = 0.01;      // s
 
     [[nodiscard]] bool trips() const { return setting > 0.0 && swing > 0.0; }
@@ -67,16 +67,16 @@ struct NutStep {
 // velocity step (Moreau's time stepping) resolves it in closed form: stand, turn on or turn off, whichever is
 // consistent.
 //
-// `inertia` (kg·m²) of nut and wrench about the bolt while the jaw pushes; inside the play only the nut's
-// small inertia acts. The step does not follow a loosening torque that falls faster than inertia/dt² +
-// stiffness.
+// `inertia`: kg·m² about the bolt while the spring is wound, see coupling_inertia(); inside the play the
+// nut's own small inertia acts. The step does not follow a loosening torque that falls with the angle faster
+// than inertia/dt² + stiffness (N·m/rad).
 NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const DriveHandle& handle,
                  double dt);
 
 // N·m that the handle applies to a nut at rest at this angle.
 double wound_torque(const DriveHandle& handle, double nut_angle);
 
-// The inertia with which the time step resolves the coupling spring.
+// The smallest inertia, kg·m², for which a step of `dt` (s) resolves the coupling spring: K dt².
 inline double coupling_inertia(double stiffness, double dt) { return stiffness * dt * dt; }
 
 // The torque that the corners of a nut bear before an open jaw slips over them.

@@ -17,8 +17,9 @@ inline double wright_omega_step(double w, double r) {
     return w * (1.0 + (r / w1) * (t - r) / (t - 2.0 * r));
 }
 
-// Relative error below 1e-15, for negative x times 1 + |x|; 0 where ω underflows. Two iteration steps from a
-// starting value; one step suffices for x > 30, where the initial residual is below 0.015.
+// Relative error below 1e-15 for x ≥ 0 and below 1e-15 (1 + |x|) for x < 0; 0 where ω underflows. Two
+// iteration steps from a starting value; one step suffices for x > 30, where the initial residual is below
+// 0.015.
 inline double wright_omega(double x) {
     if (x < -36.0) return x < -700.0 ? 0.0 : std::exp(x);  // ω = e^x (1 − e^x + …)
     double w = 0.0;

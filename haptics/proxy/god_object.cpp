@@ -94,9 +94,9 @@ class Stepper {
 
     [[nodiscard]] const Pose& pose() const { return pose_; }
     [[nodiscard]] Twist first_motion() const { return first_motion_.value_or(Twist{}); }
-    [[nodiscard]] force::OutputCommand event_of(const force::OutputCommand& felt) const {
-        return {force_.event_of(felt.force - before_.felt.force),
-                torque_.event_of(felt.torque - before_.felt.torque)};
+    [[nodiscard]] force::OutputCommand own_change_of(const force::OutputCommand& felt) const {
+        return {force_.own_change_of(felt.force - before_.felt.force),
+                torque_.own_change_of(felt.torque - before_.felt.torque)};
     }
 
   private:
@@ -197,7 +197,7 @@ class Stepper {
     // trend of the last tick.
     struct ForceChangeLimit {
         Vec3 hand{0.0};              // change due to the hand's motion with the tool held
-        Vec3 trend{0.0};             // permitted change along the direction of the last tick's event
+        Vec3 trend{0.0};             // permitted change along the direction of the last tick's own change
         double any_direction = 0.0;  // permitted change in any direction
         double total_limit = 0.0;    // limit of the whole change
 
@@ -213,7 +213,7 @@ class Stepper {
             return std::max(excess(change) / std::max(any_direction, 1e-9),
                             glm::length(change) / std::max(total_limit, 1e-9));
         }
-        [[nodiscard]] Vec3 event_of(const Vec3& change) const {
+        [[nodiscard]] Vec3 own_change_of(const Vec3& change) const {
             const Vec3 from = change - 0.5 * hand;
             const double size = glm::length(from), own = 0.5 * glm::length(hand);
             return size > own ? from * (1.0 - own / size) : Vec3(0.0);
@@ -222,15 +222,15 @@ class Stepper {
     [[nodiscard]] ForceChangeLimit change_limit(const Vec3& hand, const Vec3& before, double present,
                                                 double greatest) const {
         const double ms = dt_ / 1e-3;
-        const double event =
+        const double own_change =
             ms * std::max(p_.rate_limits.of_rendered * present, p_.rate_limits.of_maximum * greatest);
         // While the tool is pushed out of an obstacle only the total limit applies.
         const double most = p_.rate_limits.maximum * greatest * ms;
-        const double any_direction = p_.rate_limits.any_direction_share * event,
-                     along = event - any_direction;
+        const double any_direction = p_.rate_limits.any_direction_share * own_change,
+                     along = own_change - any_direction;
         const double was = glm::length(before);
         return {hand, was > along ? before * (along / was) : before, any_direction,
-                recovering_ ? most : std::min(most, event + glm::length(hand))};
+                recovering_ ? most : std::min(most, own_change + glm::length(hand))};
     }
 
     void set_change_limits() {
@@ -238,9 +238,9 @@ class Stepper {
         // The change that the hand's motion would cause with the tool held in place.
         const force::OutputCommand if_held =
             proxy::coupling_force(c, proxy::offset_between(device_, before_.tool), before_.offset, dt_);
-        force_ = change_limit(if_held.force - before_.felt.force, before_.event.force,
+        force_ = change_limit(if_held.force - before_.felt.force, before_.own_change.force,
                               glm::length(before_.felt.force), c.force);
-        torque_ = change_limit(if_held.torque - before_.felt.torque, before_.event.torque,
+        torque_ = change_limit(if_held.torque - before_.felt.torque, before_.own_change.torque,
                                glm::length(before_.felt.torque), c.torque);
     }
 
@@ -403,7 +403,7 @@ GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectSt
     state.first_motion = stepper.first_motion();
     const proxy::Offset offset = proxy::offset_between(device, state.tool);
     const force::OutputCommand felt = proxy::coupling_force(parameters.coupling, offset, state.offset, dt);
-    state.event = stepper.event_of(felt);
+    state.own_change = stepper.own_change_of(felt);
     state.felt = felt;
     state.offset = offset;
     state.device = device;

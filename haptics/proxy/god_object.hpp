@@ -25,9 +25,9 @@ using ContactFinder =
 inline constexpr std::size_t max_contacts = 32;  // room that the finder gets
 
 // Limits of the change of the rendered force per millisecond that the god-object's own motion causes
-// (slipping, falling off an edge), beyond the change that the hand's motion would cause with the tool held.
-// People notice a step of 7 %. While the tool is pushed out of an obstacle that moved into it, only `maximum`
-// applies.
+// (slipping, falling off an edge). The change that the hand alone would cause if the tool stood still is
+// added. People notice a step of 7 %. While the tool is pushed out of an obstacle that moved into it, only
+// `maximum` applies.
 struct ForceRateLimits {
     double of_rendered = 0.05;  // share of the rendered force
     double of_maximum = 0.005;  // share of the greatest force; applies where the rendered force is small
@@ -49,9 +49,9 @@ struct GodObjectParameters {
     double stride = 0.4e-3;  // m, motion of a point between two queries without a certified clearance
     double reach = 5e-3;     // m, widest band of a query
     double recovery = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
-    // Budget per tick: number of queries, and their cost (ContactQueryResult::work, without the first query
-    // at the last tick's pose) after which no query follows a motion. An exhausted budget only delays the
-    // tool; it continues in the next tick.
+    // Budget per tick: the number of queries, and their work (ContactQueryResult::work). The first query, at
+    // the pose of the last tick, is not charged. Once the work is spent, no query follows a motion. An
+    // exhausted budget only delays the tool; it continues in the next tick.
     int queries = 5;
     std::uint32_t work = 800;
 };
@@ -61,8 +61,8 @@ struct GodObjectState {
     // Values of the last tick.
     Pose device;
     proxy::Offset offset;
-    force::OutputCommand felt;   // N and N·m, rendered by the coupling
-    force::OutputCommand event;  // part of its change that the hand's motion did not cause
+    force::OutputCommand felt;        // N and N·m, rendered by the coupling
+    force::OutputCommand own_change;  // part of its change that the hand's motion did not cause
     // m, nearest contact; infinite without contacts.
     double nearest_contact = std::numeric_limits<double>::infinity();
     Twist first_motion;  // first constrained motion of the tick; warm-starts the next solve

@@ -36,7 +36,7 @@ struct Engagement {
 
     // Wrench with contact simulation.
     collision::JawSeat seat;
-    double strength = 1.0;  // 0 … 1 of the corner torque that is left while the jaw slips
+    double strength = 1.0;  // 0 … 1, remaining fraction of the corner torque while the jaw slips
     double yielded = 0.0;   // rad turned beyond the corner torque
 };
 
@@ -55,11 +55,11 @@ void update_engagement(const Setup& setup, std::span<const joint::JointState> jo
 // Grip of a wrench on a nut with contact simulation. Geometry alone determines whether the jaw holds the nut
 // (haptics/collision/jaw.hpp); the corners limit the torque that it can transmit (haptics/joint/nut.hpp).
 //
-// In the contact query the hexagon turns with the jaw beyond the play, and the contacts' moment about the
-// bolt is removed. So the joint law with its implicit step acts about the bolt's axis, and contacts act in
-// the other five directions. If contacts drove the nut instead, its torque would depend on the position error
-// of the god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3 N·m. The force is continuous at
-// engagement: inside the play both the law's torque and the removed moment are zero.
+// For contact queries the hexagon turns with the jaw once the play is used up, and the contacts' moment about
+// the bolt is removed. So the joint law with its implicit step acts about the bolt's axis, and contacts act
+// in the other five directions. If contacts drove the nut instead, its torque would depend on the position
+// error of the god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3 N·m. The force is continuous
+// at engagement: inside the play both the law's torque and the removed moment are zero.
 
 // Pose of the wrench in the nut's frame.
 Pose on_nut(const NutGeometry& nut, double nut_angle, const ToolPose& tool);

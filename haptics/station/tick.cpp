@@ -61,10 +61,11 @@ using device::DeviceSnapshot;
 
 // s without a tick; less than device::SupervisorOptions::command_timeout.
 constexpr double servo_stall = 0.010;
-// Chosen for a gliding tool: 12 cm/s from 8 cm on, slower than a user who pushes it away.
-constexpr force::GuidingParameters gliding{.gain = 0.25, .greatest = 3.0, .torque = 0.2};
-constexpr double glide_speed = 0.04;  // m/s per N of the guiding law
-constexpr double glide_turn = 3.0;    // rad/s per N·m; slower than a user who turns the tool
+// Chosen for a tool that approaches a nut by itself: 12 cm/s from 8 cm on, slower than a user who pushes it
+// away.
+constexpr force::GuidingParameters approach_guiding{.gain = 0.25, .greatest = 3.0, .torque = 0.2};
+constexpr double approach_speed = 0.04;      // m/s per N of the guiding law
+constexpr double approach_turn_speed = 3.0;  // rad/s per N·m; slower than a user who turns the tool
 constexpr double largest_deflection = to_radians(2.5);  // of the wrench, at the largest torque
 constexpr double wheel_fade_time = 0.05;                // s in which a wheel's torque fades in and out
 
@@ -293,12 +294,12 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
     return input;
 }
 
-void glide(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
-           const StationInputs& inputs, servo::Input& input) {
+void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
+                 const StationInputs& inputs, servo::Input& input) {
     if (!layout.mover || layout.mover->sensing != Sensing::rate || renders_force(*layout.mover)) return;
     Pose& tool = s.workspace.tool;
     const int held = s.output.joint;
-    const int joint = held < 0 && s.mover.usable && input.enabled ? inputs.controls.glide : -1;
+    const int joint = held < 0 && s.mover.usable && input.enabled ? inputs.controls.approach_joint : -1;
     // A held nut carries the tool along as it descends.
     if (held >= 0) {
         const auto i = static_cast<std::size_t>(held);
@@ -312,11 +313,12 @@ void glide(const Layout& layout, const servo::Setup& setup, StationState& s, con
         return !servo.tool_contact || !servo::occluded(*servo.tool_contact, from, to, joint);
     };
     const force::OutputCommand guiding =
-        force::guide(gliding, s.glide_guide, servo::guided_tool(setup, now),
+        force::guide(approach_guiding, s.approach_guide, servo::guided_tool(setup, now),
                      servo::goal_at(setup, servo.joints, joint), free, setup.dt)
             .command;
-    tool.position += glide_speed * setup.dt * guiding.force;
-    tool.orientation = glm::normalize(rotation(glide_turn * setup.dt * guiding.torque) * tool.orientation);
+    tool.position += approach_speed * setup.dt * guiding.force;
+    tool.orientation =
+        glm::normalize(rotation(approach_turn_speed * setup.dt * guiding.torque) * tool.orientation);
     input.device = servo::sample_of(tool);
     s.input = input;
 }
@@ -348,7 +350,7 @@ DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, Stati
 DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
                     const StationInputs& inputs) {
     servo::Input input = read_inputs(layout, setup, state, inputs);
-    glide(layout, setup, state, servo, inputs, input);
+    move_to_nut(layout, setup, state, servo, inputs, input);
     return map_output(layout, setup, state, servo::tick(setup, servo, input));
 }
 

@@ -33,7 +33,7 @@ struct Layout {
     // forces only.
     std::optional<device::Description> wheel;
     Buttons wheel_buttons;
-    force::Workspace workspace;  // of the mover; for a device that gives rates only `turn` applies
+    force::Workspace workspace;  // of the mover; for a device that senses velocity only `turn` applies
     Pose home;                   // initial pose of the tool in the assembly's frame
     std::optional<Pose> wrist;   // of a gloved hand that holds the tool, in the tool's frame
 };
@@ -41,8 +41,8 @@ struct Layout {
 // Fails with ErrorCode::no_device if there is no device or a device cannot take its role.
 Status check(const Layout& layout);
 
-// s; upper bound of the two delays together: of a sample until the servo reads it, and of a command until the
-// device thread does. Subtracted from the time in which forces must be released.
+// s; upper bound of the sum of two delays: from a sample's arrival until the servo reads it, and from a
+// command until the device thread reads it. Subtracted from the time in which forces must be released.
 inline constexpr double transport_delay = 2e-3;
 
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
@@ -73,8 +73,8 @@ struct StationControls {
     // Pose of the wrist in the frame of its fingertips, for a gloved hand without a wrench. If set, the
     // device moves the fingertips; if none, it moves the hand as if the hand held the tool.
     std::optional<Pose> bare_wrist{};
-    // Joint to whose nut a tool moves by itself if its device gives rates and renders no force; −1: none.
-    std::int16_t glide = -1;
+    // Joint to whose nut a tool moves by itself if its device senses velocity and renders no force; −1: none.
+    std::int16_t approach_joint = -1;
 };
 
 // Moves the tool to a pose in the assembly's frame; the hand stays where it is, and the tool follows it from
@@ -131,8 +131,8 @@ struct StationState {
     bool restarting = false;          // after a stall or a pause: no force until the output stage is at zero
     // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest.
     std::optional<Pose> wrench_rest;
-    force::GuideState glide_guide;
-    int carrying_joint = -1;   // joint whose nut moves the tool along (see glide()); −1: none
+    force::GuideState approach_guide;
+    int carrying_joint = -1;   // joint whose nut moves the tool along (see move_to_nut()); −1: none
     Vec3 carrying_point{0.0};  // m, centre of that nut at the last tick
     // Commands received and not executed yet.
     std::optional<Pose> tool_to_place;
@@ -159,10 +159,10 @@ DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationStat
 // The parts of tick(), in order.
 servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, StationState& state,
                          const StationInputs& inputs);
-// Moves a tool whose device gives rates and renders no force: along with a held nut, and towards
-// StationControls::glide. Changes `input`.
-void glide(const Layout& layout, const servo::Setup& setup, StationState& state, const servo::State& servo,
-           const StationInputs& inputs, servo::Input& input);
+// Moves a tool whose device senses velocity and renders no force: along with a held nut, and towards
+// StationControls::approach_joint. Changes `input`.
+void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& state,
+                 const servo::State& servo, const StationInputs& inputs, servo::Input& input);
 DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const servo::Output& output);
 
@@ -178,7 +178,7 @@ inline constexpr double handle_capture_distance = 0.10;  // m from the handle's 
 DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const StationInputs& inputs);
 
-// The following apply to a tool whose device gives rates.
+// The following apply to a tool whose device senses velocity (Sensing::rate).
 //
 // The commanded pose is at most this far ahead of the constrained pose, so that a reversal acts at once.
 inline constexpr double max_lead = 0.01, max_angular_lead = 0.15;  // m, rad

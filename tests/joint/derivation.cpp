@@ -85,7 +85,7 @@ TEST_CASE("Derive: the slopes of the resistance are its derivatives over the ang
     for (const double force : {500.0, 5e3, 40e3}) {
         CAPTURE(force);
         MechanisticState s = tightened(p, force);
-        s.dwell = 0.5;
+        s.breakaway = 0.5;
         s.uses = 2.0;
         const auto at = [&](double by) {
             MechanisticState t = s;
@@ -236,7 +236,7 @@ TEST_CASE(
     MechanisticState s;
     CHECK(resistance(p, s).tighten == doctest::Approx(40.0));
     CHECK(resistance(p, s).loosen == doctest::Approx(-40.0));
-    s.dwell = 0.0;
+    s.breakaway = 0.0;
     CHECK(resistance(p, s).tighten == doctest::Approx(32.0));
     CHECK(resistance(p, s).loosen == doctest::Approx(-32.0));
 }

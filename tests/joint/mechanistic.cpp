@@ -158,14 +158,14 @@ TEST_CASE(
     const double wear = resistance(p,
                                    [&] {
                                        MechanisticState s = joints[0].mechanistic;
-                                       s.dwell = 0.0;
+                                       s.breakaway = 0.0;
                                        return s;
                                    }())
                             .loosen;
     CHECK(rested.loosen / wear > 1.2);
     CHECK(-rested.loosen > F * p.levers.loosen());
     for (int i = 0; i < 2000; ++i) turn_nut(group, joints, 0, joints[0].nut.angle - 1e-4, -1.0, 1e-3);
-    CHECK(joints[0].mechanistic.dwell < 0.01);
+    CHECK(joints[0].mechanistic.breakaway < 0.01);
 }
 
 TEST_CASE("Mechanistic law: the elastic angles from snug to 80.9 kN are VDI's") {

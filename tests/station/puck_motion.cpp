@@ -126,7 +126,7 @@ TEST_CASE("Wheel: without an engaged nut it turns nothing, and that rotation is 
     CHECK(on.state.output.joint == 0);
 }
 
-TEST_CASE("Puck: the tool glides onto the nut, descends with it, and leaves it when pushed away") {
+TEST_CASE("Puck: the tool approaches the nut by itself, descends with it, and leaves it when pushed away") {
     Layout layout;
     layout.mover = test::puck();
     const servo::Setup setup = test::two_joints(limits_of(layout));
@@ -137,7 +137,7 @@ TEST_CASE("Puck: the tool glides onto the nut, descends with it, and leaves it w
     rig.ticks(1500);
     CHECK(rig.state.output.joint < 0);
     CHECK(glm::length(rig.tool().position - layout.home.position) < 1e-9);
-    rig.inputs.controls.glide = 0;
+    rig.inputs.controls.approach_joint = 0;
     rig.ticks(4000);
     REQUIRE(rig.state.output.joint == 0);
     // Spun clockwise, seen from above.
@@ -151,9 +151,9 @@ TEST_CASE("Puck: the tool glides onto the nut, descends with it, and leaves it w
     rig.ticks(800);
     CHECK(rig.state.output.joint < 0);
     CHECK(rig.tool().position.y > servo::nut_centre(nut, rig.state.output.nut_angle).y + 0.05);
-    SUBCASE("a device that moves the tool itself does not glide") {
+    SUBCASE("a device that moves the tool itself does not approach by itself") {
         Rig arm(with_arm());
-        arm.inputs.controls.glide = 0;
+        arm.inputs.controls.approach_joint = 0;
         arm.ticks(2000);
         CHECK(glm::length(arm.tool().position - arm.layout.home.position) < 1e-12);
     }
