@@ -7,12 +7,12 @@ namespace bolt::joint {
 
 namespace {
 
-constexpr double g = 9.8;  // m/s², the paper's value
+constexpr double published_gravity = 9.8;  // m/s², the paper's value
 constexpr double Nmm = 1e-3;
 
 double sign_of(Direction direction) { return direction == Direction::tighten ? 1.0 : -1.0; }
 
-double weight(const PublishedParameters& p) { return p.nut_mass_g * 1e-3 * g; }
+double weight(const PublishedParameters& p) { return p.nut_mass_g * 1e-3 * published_gravity; }
 
 // F_c = A E* h'/κ in newtons; A·h' in mm², E in GPa makes kN.
 double contact_force(const PublishedParameters& p, double area_slope_mm2) {
