@@ -1,7 +1,7 @@
 # Build settings of all targets: warnings, sanitizers and reproducible floating point.
 
-# The sources of a target are compiled as one file, which takes half of the CPU time. So a name in an unnamed namespace must be
-# unique in its target. The debug preset compiles each file by itself: a change then compiles in less time.
+# The sources of a target are compiled as one file, which takes a third less CPU time (boltwright: 435 s instead of 692 s). So a name
+# in an unnamed namespace must be unique in its target. The debug preset compiles each file by itself, and rebuilds faster.
 option(BOLT_UNITY "Compile the sources of a target as one file" ON)
 set(CMAKE_UNITY_BUILD ${BOLT_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 0)

@@ -286,14 +286,18 @@ double free_closure(const MechanisticParameters& p, const MechanisticState& s, d
 
 void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double share, double dt) {
     const double turned = std::abs(angle - s.angle);
-    s.breakaway = turned > 0.0 ? s.breakaway * std::exp(-turned / p.breakaway_angle)
-                               : s.breakaway + (1.0 - s.breakaway) * -std::expm1(-dt / p.healing_time);
+    // Exponentials are computed only where they have an effect: most joints rest unloaded in most ticks.
+    if (turned > 0.0)
+        s.breakaway *= std::exp(-turned / p.breakaway_angle);
+    else if (s.breakaway < 1.0)
+        s.breakaway += (1.0 - s.breakaway) * -std::expm1(-dt / p.healing_time);
     const double clamp_before = s.clamp;
     s.angle = angle;
     s.share = share;
 
     const double final_embedding = p.embedding * std::min(1.0, s.clamp / p.reference_load);
-    s.embedding += -std::expm1(-dt / p.embedding_time) * std::max(0.0, final_embedding - s.embedding);
+    if (final_embedding > s.embedding)
+        s.embedding += -std::expm1(-dt / p.embedding_time) * (final_embedding - s.embedding);
 
     if (s.condition == Condition::broken) {
         s.clamp = s.stiffness = 0.0;

@@ -46,7 +46,7 @@ struct NutMotion {
 // The drive of the nut: a spring with play between the angles of hand and nut, or nothing.
 struct DriveHandle {
     bool engaged = false;
-    double angle = 0.0;         // rad, the nut's angle plus the hand's rotation while it grips
+    double angle = 0.0;         // rad, the nut's angle at the grip plus the hand's rotation since
     double half_play = 0.0;     // rad, backlash to either side
     double stiffness = 0.0;     // N·m/rad
     double torque_limit = 0.0;  // N·m at which the grip slips (fingers); 0: never
