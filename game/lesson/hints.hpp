@@ -46,7 +46,8 @@ struct Hint {
     [[nodiscard]] GhostKind ghost() const;
 };
 
-// `situation` gives the text, `underlying` the motion; they differ while a step is announced.
+// `situation` gives the text, `underlying` the motion. They differ while the text announces a new step: the
+// motion is already that of the work itself.
 Hint make_hint(Situation situation, Situation underlying, int level, const WorkState& work);
 
 // The control for each motion as text ("hold F and drag").
@@ -80,8 +81,8 @@ ControlNames glove_controls(const words::Words& words, ControlNames moved_by);
 //   practice:   the same after a long time, or one level more for each request
 //   assessment: none, also on request
 //
-// A hint stays for 1.5 s, unless the step changes, the trainee has to stop, or its request has been
-// fulfilled.
+// A hint stays for 1.5 s. It goes earlier if the step changes, if the trainee has to stop, or if the trainee
+// has done what the hint asks.
 
 // Time without progress after which each level is reached, s.
 struct HintTimes {

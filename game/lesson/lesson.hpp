@@ -32,10 +32,10 @@ struct LessonStep {
 };
 
 // Returns the assembly with `law` in force and its specifications adapted to it. The specifications of joint
-// types hold under the mechanistic law. Under the published law every joint ends at the same T_max, for any
-// fastener: the assembly's own published targets replace the specified ones. If it has none, targets above
-// 98 % of T_max are lowered to 98 %. No angle is judged, and the target clamp force follows from the target
-// torque. Idempotent.
+// types hold under the mechanistic law. Under the published law every joint ends at the same torque T_max
+// (haptics/joint/published.hpp), for any fastener: the assembly's own published targets replace the specified
+// ones. If it has none, targets above 98 % of T_max are lowered to 98 %. No angle is judged, and the target
+// clamp force follows from the target torque. Idempotent.
 content::Assembly apply_law(content::Assembly assembly, joint::Law law);
 
 // Tightening: the assembly's passes in order. Loosening: every joint once, in the reverse order of the last

@@ -31,7 +31,7 @@ constexpr std::string_view name(Verdict verdict) {
 
 struct JointResult {
     std::string id;
-    double torque = 0.0;  // N·m, highest of the tightening step or of any later pull that turned the nut on
+    double torque = 0.0;  // N·m, highest of the tightening step and of later pulls that tightened further
     double angle = 0.0;   // rad from snug
     // N, when the result was last updated; at the end of the lesson it includes embedding and coupling
     double clamp = 0.0;

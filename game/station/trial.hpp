@@ -18,7 +18,8 @@ struct Episode {
 using MessageHandler = FunctionRef<void(double time, const std::string& message)>;
 
 // Updates the episodes from Station::troubles() at `time` and reports each problem that begins or ends. If
-// another message replaces one within 0.3 s, both have the same cause, so the first one is dropped.
+// another message replaces one within 0.3 s, both have the same cause, and the first episode is removed from
+// the list again.
 void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
                      MessageHandler on_message);
 

@@ -120,7 +120,8 @@ struct Frame {
 // previous frame.
 void handle_input(const scene::SceneWorld& world, Frame& frame);
 
-// The systems of a frame, in the order in which they run.
+// The systems of a frame follow, in the order in which they run.
+
 // Steps the ticks that are due; after each of them runs session::tick_systems.
 void tick_system(scene::SceneWorld& world, Frame& frame);
 // Sets the poses of nuts, wrench and hand from the components.

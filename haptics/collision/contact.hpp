@@ -54,11 +54,11 @@ struct Contact {
     Vec3 normal{0.0};       // unit, from the obstacle to the free side
     double distance = 0.0;  // m, signed; negative: penetration
     ObstacleId obstacle;
-    // Index of the feature of the tool or, with the bit `of_obstacle`, of the obstacle. Does not change while
-    // tool and obstacle move.
+    // Index of a feature of the tool; if the bit `of_obstacle` is set, of a feature of the obstacle. The
+    // index does not change while tool and obstacle move.
     std::uint32_t feature = 0;
-    // Contacts with meshes only: a triangle that contains the closest point, of the body that `feature` does
-    // not belong to.
+    // Contacts with meshes only: a triangle that contains the closest point. If `feature` is of the tool, the
+    // triangle is of the obstacle, and the reverse.
     std::uint32_t triangle = 0;
     // Unit: the normal of the smooth surface that the facets approximate (narrow_phase.hpp). Zero: none;
     // use `normal`.
@@ -79,9 +79,9 @@ struct ContactQueryResult {
 // `first_merge_distance` and doubles up to `last_merge_distance` until the kept contacts fit the output. The
 // permitted angle grows with the difference of the two distances.
 //
-// Error bound: in a motion that the kept contacts permit and that moves no point by more than `merge_stride`,
-// a merged contact penetrates its obstacle more than the kept one by at most merge_angle × merge_stride plus
-// the merge distance times the turn.
+// Error bound: let a motion move no point by more than `merge_stride` and be permitted by the kept contacts.
+// A merged contact then goes deeper into its obstacle than the kept one by at most merge_angle × merge_stride
+// plus the merge distance times the angle of the motion.
 inline constexpr double merge_angle = 4.0 * pi / 180.0;  // rad
 inline constexpr double merge_stride = 0.5e-3;           // m
 inline constexpr double first_merge_distance = 2e-3;     // m

@@ -3,10 +3,10 @@
 //
 // Two convex solids are separated by s along n if a slab of width s, normal to n, lies between them. The
 // greatest s over all n equals the distance if the nearest features are face and corner or two edges; it is
-// less than the distance if they are two corners, and minus the penetration depth if the solids overlap. It
-// is found among the normals of both solids' faces and the cross products of those pairs of edges whose arcs
-// on the Gauss map cross (Gottschalk, Lin, Manocha, SIGGRAPH 1996; for the arcs: Gregorius, Game Developers
-// Conference 2013).
+// less than the distance if they are two corners, and minus the penetration depth if the solids overlap. The
+// n of the greatest s is a normal of a face, or the cross product of two edges whose arcs on the Gauss map
+// cross, so only these are tried (Gottschalk, Lin, Manocha, SIGGRAPH 1996; for the arcs: Gregorius, Game
+// Developers Conference 2013).
 #pragma once
 
 #include <array>

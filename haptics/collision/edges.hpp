@@ -30,8 +30,8 @@ inline constexpr double rounding_in_float = 1e-6;
 struct Crossings {
     std::size_t count = 0;
     double complete_within = 0.0;  // as in PointQueryResult
-    // The result stays empty while the piece's points move by less than `clear` minus the band (m) and the
-    // piece turns by less than `turn` (rad).
+    // No crossing comes within the band while the piece's points move by less than `clear` minus the band (m)
+    // and the piece turns by less than `turn` (rad).
     double clear = 0.0, turn = 0.0;
 };
 

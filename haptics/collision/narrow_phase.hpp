@@ -2,8 +2,9 @@
 // samples of the tool against surfaces of bodies, samples of bodies against the tool's surface, edges of the
 // tool against edges of bodies.
 //
-// Every sample and every cluster of samples stores a lower bound of its distance. The relative motion since
-// then is subtracted from it; the surface is queried again only where the remaining bound is within the band.
+// Every sample and every cluster of samples stores the lower bound of its distance that its last query found.
+// The relative motion since that query is subtracted; the surface is queried again only where the remaining
+// bound is within the band.
 // The bounds save work and never change the result: it is the same bit for bit with an empty cache.
 #pragma once
 

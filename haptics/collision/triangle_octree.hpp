@@ -19,8 +19,8 @@ struct OctreeLeaf {
     // Index in `TriangleOctree::boxes` of the triangles' bounding boxes: the lowest x of all, …, the highest
     // z of all. Each coordinate is padded to a multiple of four entries.
     std::uint32_t boxes = 0;
-    // Plane normal · x = height that has all triangles behind it; `spread` (rad) bounds the angle between
-    // their normals and the plane's.
+    // The plane of the points x with normal · x = height. All triangles are behind it; `spread` (rad) bounds
+    // the angle between their normals and the plane's.
     Vec3 normal{0.0};
     double height = 0.0;
     float spread = 0.0F;
@@ -43,7 +43,7 @@ struct TriangleOctree {
     double rounding = 0.0;                          // m; exceeds the error of points and distances in float
     std::array<int, 3> roots{};                     // root cells along each axis; 0: the octree is empty
     std::vector<OctreeNode> nodes;                  // root cells first, x fastest
-    std::vector<OctreeLeaf> leaves;                 // the first is a placeholder
+    std::vector<OctreeLeaf> leaves;                 // the first is not used: index 0 means empty
     std::vector<std::uint32_t> triangles;
     std::vector<float> boxes;
 };

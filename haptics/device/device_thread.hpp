@@ -13,7 +13,8 @@ namespace bolt::device {
 
 struct SupervisorOptions {
     double first_retry_delay = 0.05, max_retry_delay = 1.0;  // s between two attempts to open; doubles
-    // s without a new command until the force is released; at most 20 ms including one poll and one write.
+    // s without a new command until the force is released. With one poll and one write on top, the device
+    // lets go after 20 ms at the latest.
     double command_timeout = 0.015;
     double silence = 0.25;      // s without a valid sample until this is reported
     double reopen_after = 1.0;  // s of silence until the device is reopened

@@ -41,7 +41,7 @@ Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const Whe
 // The factory searches for the id each time it opens.
 DeviceFactory factory_for(std::string id, const WheelConfig& config = {}, const PuckResponse& response = {});
 
-// Pure functions used by the above.
+// The decisions of list_devices() and open(), from the arguments alone.
 HidKind kind_of(const HidIdentity& identity, const ReportDescriptor& descriptor);
 std::string id_of(const HidIdentity& identity);
 // A udev rule for a device that tools/udev does not cover.

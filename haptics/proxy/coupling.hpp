@@ -28,10 +28,11 @@ struct CouplingRange {
     double dt = 0.001;              // s
 };
 
-// As stiff as passivity permits with a margin, b > K dt / 2 + |B| (Colgate and Schenkel, J. Robotic Systems
-// 14(1), 1997), and such that a collision at 0.5 m/s adds at most a tenth of the greatest force per
-// millisecond. Half of the remaining damping is used. The stiffnesses are positive even if the device renders
-// no force or torque, because they also weight the tool's motions.
+// As stiff as passivity permits with a margin: the damping of device and hand must exceed stiffness × dt / 2
+// plus the coupling's own damping (Colgate and Schenkel, J. Robotic Systems 14(1), 1997). Also such that a
+// collision at 0.5 m/s adds at most a tenth of the greatest force per millisecond. Half of the remaining
+// damping is used. The stiffnesses are positive even if the device renders no force or torque, because they
+// also weight the tool's motions.
 Coupling make_coupling(const CouplingRange& range);
 
 // Pose of the tool relative to the device.

@@ -25,9 +25,9 @@ using ContactFinder =
 inline constexpr std::size_t max_contacts = 32;  // room that the finder gets
 
 // Limits of the change of the rendered force per millisecond that the god-object's own motion causes
-// (slipping, falling off an edge). The change that the hand alone would cause if the tool stood still is
-// added. People notice a step of 7 %. While the tool is pushed out of an obstacle that moved into it, only
-// `maximum` applies.
+// (slipping, falling off an edge). Each limit is raised by the change that the hand alone would cause if the
+// tool stood still. People notice a step of 7 %. While the tool is pushed out of an obstacle that moved into
+// it, only `maximum` applies.
 struct ForceRateLimits {
     double of_rendered = 0.05;  // share of the rendered force
     double of_maximum = 0.005;  // share of the greatest force; applies where the rendered force is small
@@ -50,8 +50,9 @@ struct GodObjectParameters {
     double reach = 5e-3;     // m, widest band of a query
     double recovery = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
     // Budget per tick: the number of queries, and their work (ContactQueryResult::work). The first query, at
-    // the pose of the last tick, is not charged. Once the work is spent, no query follows a motion. An
-    // exhausted budget only delays the tool; it continues in the next tick.
+    // the pose of the last tick, is not charged, and `work` limits only queries after the tick's first
+    // motion. Once the budget is spent, the tool moves only as far as earlier queries proved free, and
+    // continues in the next tick.
     int queries = 5;
     std::uint32_t work = 800;
 };
@@ -83,9 +84,9 @@ struct GodObjectStep {
 GodObjectState start_god_object(const Pose& pose);
 
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases: no point of the tool travels
-// further than the nearest obstacle; or no point travels further than `stride`, and a query at the end finds
-// no contact that is too near and that the motion approached. A finder may detect features up to 0.25 mm
-// late. Ignores a pose that is not finite. Does not allocate.
+// further than the nearest obstacle; or no point travels further than `stride`, and every contact that a
+// query at the end finds nearer than the skin is one that the motion did not approach. A finder may detect
+// features up to 0.25 mm late. Ignores a pose that is not finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& device, ContactFinder finder, double dt);
 

@@ -55,11 +55,12 @@ void update_engagement(const Setup& setup, std::span<const joint::JointState> jo
 // Grip of a wrench on a nut with contact simulation. Geometry alone determines whether the jaw holds the nut
 // (haptics/collision/jaw.hpp); the corners limit the torque that it can transmit (haptics/joint/nut.hpp).
 //
-// For contact queries the hexagon turns with the jaw once the play is used up, and the contacts' moment about
-// the bolt is removed. So the joint law with its implicit step acts about the bolt's axis, and contacts act
-// in the other five directions. If contacts drove the nut instead, its torque would depend on the position
-// error of the god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3 N·m. The force is continuous
-// at engagement: inside the play both the law's torque and the removed moment are zero.
+// For contact queries the hexagon turns with the jaw once the play is used up, and the torque of the contacts
+// about the bolt is left out of the rendered torque. So the joint law with its implicit step acts about the
+// bolt's axis, and contacts act in the other five directions. If contacts drove the nut instead, its torque
+// would depend on the position error of the god-object: 0.01 mm at a corner changes a torque of 100 N·m by 3
+// N·m. The force is continuous at engagement: inside the play both the law's torque and the removed moment
+// are zero.
 
 // Pose of the wrench in the nut's frame.
 Pose on_nut(const NutGeometry& nut, double nut_angle, const ToolPose& tool);

@@ -122,8 +122,8 @@ struct HostAssessment {
     std::size_t violations = 0;        // number of violated limits
 };
 
-// `rate` (1/s) may differ from the rate at which the timing was measured: a wake-up later than a period of
-// `rate` counts as a missed deadline.
+// `rate` (1/s) may differ from the rate at which the timing was measured. A wake-up that came more than
+// 1 / rate after its deadline counts as missed.
 HostAssessment assess_host(const Timing& timing, double rate, const HostRequirements& requirements = {});
 
 // A table: one row per histogram (median, p99 and p99.9 in µs, greatest in ms), then ticks and missed

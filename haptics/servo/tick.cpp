@@ -109,9 +109,9 @@ force::ForceRequest release_request(const Setup& setup, ReleaseFade& release_fad
     return request;
 }
 
-// J that the guiding force does on the motion of the device relative to the tool. The guiding force acts on
-// the hand but is a potential of the tool's pose; where contacts hold the tool back the two differ, and the
-// difference counts as injected energy.
+// The work (J) of the guiding force on the motion of the device relative to the tool. The guiding force acts
+// on the hand but is a potential of the tool's pose; where contacts hold the tool back the two differ, and
+// the difference counts as injected energy.
 double relative_work(const force::OutputCommand& help, const Pose& hand_before, const Pose& hand,
                      const Pose& tool_before, const Pose& tool) {
     const Vec3 relative = (hand.position - hand_before.position) - (tool.position - tool_before.position);
