@@ -1,7 +1,8 @@
 # Build settings of all targets: warnings, sanitizers and reproducible floating point.
 
 # The sources of a target are compiled as one file, which takes a third less CPU time (boltwright: 435 s instead of 692 s). So a name
-# in an unnamed namespace must be unique in its target. The debug preset compiles each file by itself, and rebuilds faster.
+# in an unnamed namespace must be unique in its target. The debug preset compiles each file by itself, and rebuilds faster. So do
+# SEPARATE libraries in every preset: collision and proxy as one file each make a lesson's frames slower (docs/performance.md).
 option(BOLT_UNITY "Compile the sources of a target as one file" ON)
 set(CMAKE_UNITY_BUILD ${BOLT_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 0)
@@ -74,14 +75,17 @@ function(house_optimisation name is_hot)
     endif()
 endfunction()
 
-# house_library(NAME SOURCES a.cpp ... [LINK public...] [PRIVATE private...] [HOT])
+# house_library(NAME SOURCES a.cpp ... [LINK public...] [PRIVATE private...] [HOT] [SEPARATE])
 function(house_library name)
-    cmake_parse_arguments(ARG "HOT" "" "SOURCES;LINK;PRIVATE" ${ARGN})
+    cmake_parse_arguments(ARG "HOT;SEPARATE" "" "SOURCES;LINK;PRIVATE" ${ARGN})
     if(ARG_SOURCES)
         add_library(${name} STATIC ${ARG_SOURCES})
         target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE house_options ${ARG_PRIVATE})
         target_include_directories(${name} PUBLIC ${CMAKE_SOURCE_DIR})
         house_optimisation(${name} ${ARG_HOT})
+        if(ARG_SEPARATE)
+            set_target_properties(${name} PROPERTIES UNITY_BUILD OFF)
+        endif()
     else()
         add_library(${name} INTERFACE)
         target_link_libraries(${name} INTERFACE ${ARG_LINK})
