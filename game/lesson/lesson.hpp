@@ -49,8 +49,9 @@ bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, dou
 // A step is due until it is done. The hand may leave the nut in between (an open-end wrench comes off for
 // each stroke). A step is done when the hand releases a nut that meets the step's condition:
 //   run down    the fingers have turned the nut onto its seat
-//   tighten     the torque reached the low edge of the step's window. A full step with strategy `yield` also
-//               needs the joint to yield, the torque to exceed its window, or the torque wrench to click
+//   tighten     the torque reached the low edge of the step's window. A step to the whole target with
+//               strategy `yield` also needs one of: the joint yields, the torque exceeds its window, the
+//               torque wrench clicks
 //   re-check    the wrench turned the nut further, or reached the window without turning it
 //   loosen      the nut is free of clamp force
 // In assessment, work on the next joint ends the due step, fulfilled or not. In other modes the step

@@ -71,8 +71,8 @@ void set_device_limits(const LessonOptions& options, SessionSetup& start);
 struct LessonTracker {
     lesson::Lesson lesson;
     // Number of steps begun. The servo saves one checkpoint for each (servo::State::checkpoint_count). A
-    // station's servo saves it some ticks late. Until it has, its newest checkpoint is that of the step
-    // before, so restoring it undoes two steps, and each older one a step more.
+    // station's servo saves it some ticks late. Until then the newest checkpoint belongs to the previous
+    // step: restoring it begins the previous step again, and each older one a step further back.
     std::uint32_t steps_begun = 0;
 };
 

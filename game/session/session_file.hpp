@@ -80,7 +80,7 @@ std::string servo_text(double rate);
 // it; for others the first row that applies decides:
 //   the view help is recorded (only simulated trainees record it)                                 simulated
 //   the operator is "person"                                                                      person
-//   it has the tool of format 4 (a simulated trainee of that format would be in the first row)    person
+//   a tool is recorded (since format 4, which records the view help of simulated trainees)        person
 //   otherwise                                                                                     unrecorded
 OperatorKind operator_kind(const Header& header);
 

@@ -30,13 +30,14 @@ inline constexpr double rounding_in_float = 1e-6;
 struct Crossings {
     std::size_t count = 0;
     double complete_within = 0.0;  // as in PointQueryResult
-    // No crossing comes within the band while the piece's points move by less than `clear` minus the band (m)
-    // and the piece turns by less than `turn` (rad).
+    // As long as the piece's points move by less than (clear − band), m, and it turns by less than `turn`,
+    // rad, no further crossing enters the band.
     double clear = 0.0, turn = 0.0;
 };
 
-// Candidate edges of a solid for a piece. Any other edge is further than the radius of the query or cannot
-// face the piece until it has turned by `turn` (rad).
+// Two edges face each other if their common perpendicular points out of both solids; otherwise a face, a
+// vertex or another edge is nearer. These are the candidate edges of a solid for a piece: any other edge is
+// further than the radius of the query, or does not face the piece until it has turned by `turn` (rad).
 struct FacingEdges {
     std::array<std::uint32_t, 40> ridges{};  // indices in `Solid::ridges`
     std::uint32_t count = 0;
@@ -44,9 +45,9 @@ struct FacingEdges {
     double turn = 0.0;
 };
 
-// Finds the crossings within `band` of the piece in which edge faces edge; if the output is too small, the
-// nearest. `other` is the solid that the piece belongs to, `to_other` leads into its frame. Edges further
-// than `radius` are ignored. Fills `facing`.
+// Finds the crossings within `band` of the piece whose edges face each other. If the output is too small, it
+// gets the nearest. `other` is the solid that the piece belongs to, `to_other` leads into its frame. Edges
+// further than `radius` are ignored. Fills `facing`.
 Crossings query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
                       double radius, double band, std::span<Crossing> crossings, FacingEdges& facing);
 

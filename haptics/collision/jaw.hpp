@@ -44,8 +44,8 @@ struct HexagonPrism {
     [[nodiscard]] double corner_drop() const;
 };
 
-// The two jaws and the bottom between them, in the wrench's frame. They extend `jaw_cover` openings beyond
-// the slot.
+// The two jaws and the bottom between them, in the wrench's frame. They extend beyond the slot by
+// `jaw_cover` times its opening.
 using JawParts = std::array<Convex, 3>;
 inline constexpr double jaw_cover = 0.3;
 Result<JawParts> jaw_parts(const Jaw& jaw);
@@ -83,8 +83,8 @@ inline constexpr std::size_t max_jaw_contacts = 18;
 std::size_t jaw_contacts(const JawParts& jaw, const Convex& hexagon, const Pose& wrench, const Pose& nut,
                          double band, ObstacleId obstacle, std::span<Contact, max_jaw_contacts> out);
 
-// Shifts the lines of action, perpendicular to the axis, until they intersect it. The contacts then constrain
-// a body except for its rotation about the axis.
+// Shifts each contact, perpendicular to the axis, until its normal has no moment about the axis. The contacts
+// then constrain a body except for its rotation about the axis.
 void remove_axial_moment(const Vec3& on_axis, const Vec3& axis, std::span<Contact> contacts);
 
 }  // namespace bolt::collision

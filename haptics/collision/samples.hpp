@@ -47,8 +47,8 @@ struct SurfaceSamples {
 
 struct SampleOptions {
     double longest_piece = 4e-3;  // m; edges that continue nearly straight are joined up to this length
-    // One solid of a pair has edge pieces (`edges`), the other has points along its round edges (`round`):
-    // where the two meet, the samples of one side suffice.
+    // `edges`: pieces of sharp edges, for a tool. `round`: points along round edges, for obstacles. Where a
+    // sharp edge meets a round one, the samples of one of the two suffice.
     bool edges = true, round = false;
     // m, spacing of points along edges. A fillet of the other solid that crosses an edge between two points
     // is detected late: a fillet of radius 1 mm falls by 0.28 mm over half of 1.5 mm, by 0.15 mm over half

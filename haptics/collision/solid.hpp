@@ -63,8 +63,8 @@ inline constexpr double infinite_distance = std::numeric_limits<double>::infinit
 struct PointQueryResult {
     double distance = infinite_distance;  // m, signed, to the nearest surface within the radius
     std::size_t planes = 0;               // written
-    // m; every surface nearer than this is on the solid's side of a plane written. Equals the band if all
-    // fitted.
+    // m; up to this distance the planes in the output cover every surface. Equals the band if the output
+    // had room for all planes.
     double complete_within = 0.0;
 };
 

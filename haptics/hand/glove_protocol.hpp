@@ -62,8 +62,9 @@ std::span<const Sensor> sensors_of(std::size_t count);
 const char* name_of(Sensor sensor);
 
 // A frame is a letter ('S' when streaming, 'G' when polled), one byte 1 … 255 per sensor, five bytes of time
-// and one of status if enabled, 'e' and a letter if the glove reports an error, and a zero. Without the time
-// no other byte is zero, so incomplete frames are detected and the reader resynchronises at the next zero.
+// and one of status if enabled, 'e' and a letter if the glove reports an error, and a zero. In frames
+// without the time only the last byte is zero, so incomplete frames are detected and the reader
+// resynchronises at the next zero.
 
 struct GloveFrameLayout {
     std::size_t sensors = 18;  // 18 or 22

@@ -81,14 +81,14 @@ struct MechanisticParameters {
 MechanisticParameters derive(const JointDesign& design, Random& random, double own = 0.0);
 
 struct MechanisticState {
-    double angle = 0.0;       // rad, nut from hand-started
-    double plastic = 0.0;     // m, permanent elongation of the bolt, never falls
-    double stripped = 0.0;    // m, travel of sheared nut threads, never falls
-    double embedding = 0.0;   // m, flattened roughness, never falls
-    double uses = 0.0;        // tightenings of the faces to the reference load so far
-    double breakaway = 1.0;   // 0…1, breakaway state
-    double share = 0.0;       // −1…1, torque of friction over its maximum; +1: slides tightening
-    double clamp = 0.0;       // N
+    double angle = 0.0;      // rad, nut from hand-started
+    double plastic = 0.0;    // m, permanent elongation of the bolt, never falls
+    double stripped = 0.0;   // m, travel of sheared nut threads, never falls
+    double embedding = 0.0;  // m, flattened roughness, never falls
+    double uses = 0.0;       // tightenings of the faces to the reference load so far
+    double breakaway = 1.0;  // 0…1, breakaway state
+    double share = 0.0;  // −1…1, friction torque ÷ its maximum; +1: slides tightening, −1: loosening
+    double clamp = 0.0;  // N
     double stiffness = 0.0;   // dF/dx of the elastic joint, N/m
     double neighbours = 0.0;  // m, closure taken up by the other joints of the group
     Stage stage = Stage::navigation;

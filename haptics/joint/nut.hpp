@@ -20,8 +20,9 @@ namespace bolt::joint {
 //   bottomed       T ≥ rearm_torque_share · setting
 //
 // c = stiffness · settling_time: at rest the torque falls with that time constant instead of jumping. At
-// torques between these two a swung mechanism does not move, so swinging back and forth dissipates energy and
-// never generates any. The shares and times are ours, because the standard specifies the setting only.
+// torques between those of swinging on and swinging back the mechanism does not move, so swinging back and
+// forth dissipates energy and never generates any. The shares and times are ours, because the standard
+// specifies the setting only.
 struct Click {
     double setting = 0.0;             // N·m at which it trips; 0: never
     double swing = 0.0;               // rad that the handle swings before it bottoms; 0: no mechanism
@@ -68,8 +69,8 @@ struct NutStep {
 // consistent.
 //
 // `inertia`: kg·m² about the bolt while the spring is wound, see coupling_inertia(); inside the play the
-// nut's own small inertia acts. The step does not follow a loosening torque that falls with the angle faster
-// than inertia/dt² + stiffness (N·m/rad).
+// nut's own small inertia acts. If the loosening torque falls with the angle faster than inertia/dt² +
+// stiffness (N·m/rad), the step uses about that slope instead, and the nut turns less than it should.
 NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const DriveHandle& handle,
                  double dt);
 

@@ -84,9 +84,9 @@ struct GodObjectStep {
 GodObjectState start_god_object(const Pose& pose);
 
 // Advances by one tick of `dt` (s). A motion is accepted in one of two cases: no point of the tool travels
-// further than the nearest obstacle; or no point travels further than `stride`, and every contact that a
-// query at the end finds nearer than the skin is one that the motion did not approach. A finder may detect
-// features up to 0.25 mm late. Ignores a pose that is not finite. Does not allocate.
+// further than the nearest obstacle; or no point travels further than `stride`, and the motion did not bring
+// the tool closer to any contact within the skin at its end. A finder may detect features up to 0.25 mm
+// late. Ignores a pose that is not finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& device, ContactFinder finder, double dt);
 
