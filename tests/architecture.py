@@ -53,7 +53,7 @@ def targets(root, folder):
         for word in words.split():
             if word in ("LINK", "PRIVATE"):
                 into = True
-            elif word in ("SOURCES", "HOT", "TOGETHER"):
+            elif word in ("SOURCES", "HOT", "COLD", "SEPARATE"):
                 into = False
             elif into:
                 links.append(word)

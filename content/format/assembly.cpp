@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,16 @@ constexpr std::size_t max_errors = 200;  // reported per file
 bool holds_content(const fs::path& folder) {
     std::error_code ignored;
     return fs::is_regular_file(folder / "schema" / "assembly.schema.json", ignored);
+}
+
+// $XDG_DATA_DIRS or its default (XDG Base Directory Specification 0.8).
+std::vector<fs::path> data_folders() {
+    const char* given = std::getenv("XDG_DATA_DIRS");  // NOLINT(concurrency-mt-unsafe): nothing sets it
+    std::istringstream list(given != nullptr && *given != '\0' ? given : "/usr/local/share:/usr/share");
+    std::vector<fs::path> folders;
+    for (std::string folder; std::getline(list, folder, ':');)
+        if (fs::path(folder).is_absolute()) folders.emplace_back(folder);
+    return folders;
 }
 
 std::vector<std::string> assembly_names(const fs::path& content) {
@@ -181,6 +192,8 @@ fs::path content_folder() {
             return folder / "share" / "boltwright" / "content";
         if (folder == folder.root_path()) break;
     }
+    for (const fs::path& folder : data_folders())
+        if (holds_content(folder / "boltwright" / "content")) return folder / "boltwright" / "content";
     const fs::path source = BOLT_SOURCE_CONTENT;
     return holds_content(source) ? source : fs::path{};
 }

@@ -157,8 +157,9 @@ LoadedAssembly load_assembly(const std::filesystem::path& where, std::string_vie
 Status choose_tool(Assembly& assembly, std::string_view name);
 
 // The content folder (with schema/ and assemblies/): $BOLTWRIGHT_CONTENT; else content/ or
-// share/boltwright/content/ in the program's folder or a folder above it; else that of the source tree from
-// which the program was built. Empty if none exists, or if $BOLTWRIGHT_CONTENT is not a content folder.
+// share/boltwright/content/ in the program's folder or a folder above it; else boltwright/content/ in a
+// folder of $XDG_DATA_DIRS; else that of the source tree from which the program was built, if it was not
+// built for a package. Empty if none exists, or if $BOLTWRIGHT_CONTENT is not a content folder.
 std::filesystem::path content_folder();
 
 // Creates a new assembly from the template: makes `folder` (fails if it exists and is not empty) and writes a

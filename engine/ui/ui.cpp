@@ -72,7 +72,7 @@ std::size_t texture_number(ImTextureID id) {
 }
 
 // In the order of UiKey.
-constexpr ImGuiKey_ imgui_keys[key_count] = {
+constexpr ImGuiKey imgui_keys[key_count] = {
     ImGuiKey_Tab,    ImGuiKey_LeftArrow, ImGuiKey_RightArrow, ImGuiKey_UpArrow, ImGuiKey_DownArrow,
     ImGuiKey_PageUp, ImGuiKey_PageDown,  ImGuiKey_Home,       ImGuiKey_End,     ImGuiKey_Insert,
     ImGuiKey_Delete, ImGuiKey_Backspace, ImGuiKey_Space,      ImGuiKey_Enter,   ImGuiKey_Escape,

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "engine/base/result.hpp"
+
 namespace CLI {
 class App;
 }
@@ -19,6 +21,14 @@ void add_render(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_glove(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
+
+// Opens the menu in a window, as the desktop's entry does. Each lesson gets a folder in
+// data_folder()/sessions.
+Status train_from_desktop();
+
+// Prints the error. Without a terminal it also shows it in a window, if the desktop has a program for that
+// (zenity, kdialog or xmessage). Returns the exit code.
+int report_error(const Error& error);
 
 // From now on SIGINT (Ctrl+C) and SIGTERM only set the flag that interrupted() returns, so that a recording
 // command can complete its session file.

@@ -47,6 +47,7 @@ struct TrainArguments {
     std::string operator_name = "expert";  // of a simulated trainee
     std::uint64_t seed = 1;
     std::string out = "out";
+    bool folder_per_lesson = false;  // each lesson of a window gets a folder of its own in `out`
 };
 
 // Prints the progress to stderr: one line that is overwritten on a terminal, otherwise one line a pass.
@@ -237,13 +238,14 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     app_options.lesson.operator_name = "person";
     if (!options.law.empty()) app_options.choice.law = train.lesson.law;
     app_options.out = out;
+    app_options.folder_per_lesson = options.folder_per_lesson;
     app_options.settings_file = options.settings;
     // Without a home folder no settings are kept.
     if (const auto data = content::data_folder()) app_options.settings_folder = *data / "settings";
-    app_options.on_start = [out] { remove_stale_files(out); };
-    app_options.on_end = [&](const content::Assembly& assembly, const session::LessonOptions& lesson,
-                             const session::LessonOutcome& outcome) {
-        return write_results(assembly, lesson, outcome, out, false);
+    app_options.on_start = remove_stale_files;
+    app_options.on_end = [](const content::Assembly& assembly, const session::LessonOptions& lesson,
+                            const session::LessonOutcome& outcome, const std::filesystem::path& folder) {
+        return write_results(assembly, lesson, outcome, folder, false);
     };
     if (!options.quiet)
         app_options.log = [](const std::string& line) { (void)std::fprintf(stderr, "%s\n", line.c_str()); };
@@ -295,6 +297,23 @@ int run_train(const TrainArguments& options) {
     const Status done = run_window(options, *train, *equipment, *desktop);
     return done ? 0 : print_error(done.error());
 }
+
+}  // namespace
+
+Status train_from_desktop() {
+    TrainArguments options;
+    BOLT_TRY_ASSIGN(const auto data, content::data_folder());
+    options.out = (data / "sessions").string();
+    options.folder_per_lesson = true;
+    BOLT_TRY_ASSIGN(const auto equipment, equipment_of(options));
+    const content::LoadedAssembly loaded = content::load_assembly(options.assembly);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    BOLT_TRY_ASSIGN(const auto train, train_options(options, loaded.assembly));
+    BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());
+    return run_window(options, train, equipment, desktop);
+}
+
+namespace {
 
 // CLI11 itself would accept "-1" and convert it to the largest unsigned number.
 const CLI::Validator whole_number(

@@ -1,10 +1,12 @@
 #include "game/trainer/app.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <bit>
 #include <chrono>
+#include <ctime>
 
 #include "game/sound/event_detection.hpp"
 #include "game/trainer/hud.hpp"
@@ -72,6 +74,27 @@ std::string describe_event(const content::Assembly& assembly, const lesson::Less
                                   : std::string();
     return fmt::format("{:7.2f} s  {}{} {}", static_cast<double>(event.tick) * dt, joint,
                        lesson::name(event.kind), event.text);
+}
+
+// The folder of the next session, which is created: `out` itself, or "2026-11-25_15-40-12_zq350" in it.
+Result<std::filesystem::path> lesson_folder(const AppOptions& options) {
+    std::filesystem::path folder = options.out;
+    if (options.folder_per_lesson) {
+        const std::string assembly = std::filesystem::path(options.choice.assembly).filename().string();
+        const std::string name =
+            fmt::format("{:%Y-%m-%d_%H-%M-%S}_{}", fmt::localtime(std::time(nullptr)), assembly);
+        folder /= name;
+        for (int i = 2; std::filesystem::exists(folder); ++i)
+            folder = options.out / fmt::format("{}_{}", name, i);
+    }
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (!problem) return folder;
+    Error error;
+    error.file = folder.string();
+    error.what = "this folder cannot be created: " + problem.message();
+    error.expected = "a folder that you may write to";
+    return fail(error);
 }
 
 bool pressed_enter(const platform::InputEvent& event) {
@@ -154,13 +177,15 @@ Status App::begin_lesson(float aspect) {
     select_trainee();
     save_preferences();
     if (active_ && !options_.choice.equipment.uses_mouse()) active_->station.reset();  // it holds the devices
+    BOLT_TRY_ASSIGN(const auto folder, lesson_folder(options_));
     BOLT_TRY_ASSIGN(auto started, start_lesson({options_.choice, preferences_.settings, options_.lesson,
-                                                options_.out, options_.start_station}));
+                                                folder, options_.start_station}));
+    folder_ = folder;
     if (active_) {
         BOLT_TRY(gpu_->context->device->idle());
         active_.reset();
     }
-    if (options_.on_start) options_.on_start();
+    if (options_.on_start) options_.on_start(folder_);
     context_ = std::move(started.context);
     active_.emplace(std::move(started.active));
     ActiveLesson& active = *active_;
@@ -206,7 +231,8 @@ Status App::end_lesson() {
     if (active.clock.lag > 1.0)
         log(fmt::format("drawing was too slow: the lesson lagged {:.0f} s behind real time",
                         active.clock.lag));
-    if (options_.on_end) return options_.on_end(active.session->assembly(), context_->options, *outcome_);
+    if (options_.on_end)
+        return options_.on_end(active.session->assembly(), context_->options, *outcome_, folder_);
     return {};
 }
 

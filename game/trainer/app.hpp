@@ -17,15 +17,17 @@ struct AppOptions {
     bool menu = true;  // false: a lesson starts at once
     session::LessonOptions lesson;
     std::filesystem::path out;                             // folder of the session
+    bool folder_per_lesson = false;                        // each lesson gets a folder of its own in `out`
     std::filesystem::path settings_folder, settings_file;  // Preferences::folder and ::file
     StartStation start_station = trainer::start_station;
 
-    // Called when a lesson starts. Removes the files of an earlier lesson that would describe another
-    // session.
-    std::function<void()> on_start;
-    // Called when a lesson has ended, completed or not. Writes what belongs beside the session.
+    // Called with the folder of a lesson when it starts. Removes the files of an earlier lesson that would
+    // describe another session.
+    std::function<void(const std::filesystem::path&)> on_start;
+    // Called when a lesson has ended, completed or not. Writes what belongs beside the session, into the same
+    // folder.
     std::function<Status(const content::Assembly&, const session::LessonOptions&,
-                         const session::LessonOutcome&)>
+                         const session::LessonOutcome&, const std::filesystem::path&)>
         on_end;
     std::function<void(const std::string&)> log;  // receives one line at a time
 };
@@ -97,6 +99,7 @@ class App {
     bool start_requested_ = false, end_requested_ = false;
 
     std::optional<LessonContext> context_;  // of the last lesson that started
+    std::filesystem::path folder_;          // of its session
     std::optional<ActiveLesson> active_;    // also while its result is shown
     std::optional<session::LessonOutcome> outcome_;
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson

@@ -2,14 +2,13 @@
 // and Embree point queries with a margin for its single precision.
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cfloat>
 #include <cstdint>
 #include <glm/geometric.hpp>
 
+#include "engine/base/embree.hpp"
 #include "engine/base/math.hpp"
 
 namespace bolt::collision {

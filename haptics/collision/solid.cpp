@@ -1,6 +1,5 @@
 #include "haptics/collision/solid.hpp"
 
-#include <embree3/rtcore.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -110,8 +109,6 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
 }
 
 bool occluded(const Solid& solid, const Vec3& from, const Vec3& to) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
     RTCRay ray{};
     ray.org_x = static_cast<float>(from.x);
     ray.org_y = static_cast<float>(from.y);
@@ -121,8 +118,7 @@ bool occluded(const Solid& solid, const Vec3& from, const Vec3& to) {
     ray.dir_z = static_cast<float>(to.z - from.z);
     ray.tfar = 1.0F;
     ray.mask = 0xffffffffU;
-    rtcOccluded1(solid.scene.get(), &context, &ray);
-    return ray.tfar < 0.0F;
+    return embree::occluded(solid.scene.get(), ray);
 }
 
 namespace {

@@ -21,7 +21,7 @@ HeadlessTrainer::HeadlessTrainer(AppOptions options, Display display)
     options.out = folder_;
     options.log = [this](const std::string& line) { log_.push_back(line); };
     options.on_end = [this](const content::Assembly&, const session::LessonOptions&,
-                            const session::LessonOutcome& outcome) {
+                            const session::LessonOutcome& outcome, const std::filesystem::path&) {
         outcome_ = outcome;
         return Status{};
     };
@@ -37,6 +37,7 @@ HeadlessTrainer::HeadlessTrainer(AppOptions options, Display display)
 void HeadlessTrainer::make_gpu() {
     render::RendererOptions drawn;
     drawn.level_error_px = 0.7F;  // as in the window
+    drawn.shadow_size = 256;      // enough for such small pictures
     auto gpu_context = view::make_gpu_context(*instance_, {}, drawn);
     if (!gpu_context) FAIL(gpu_context.error().message());
     gpu_context_ = std::move(*gpu_context);

@@ -60,7 +60,7 @@ struct Program {
         std::filesystem::create_directories(out);
         options.log = [this](const std::string& line) { log.add(line); };
         options.on_end = [this](const content::Assembly&, const session::LessonOptions&,
-                                const session::LessonOutcome& how) {
+                                const session::LessonOutcome& how, const std::filesystem::path&) {
             played = how;
             return Status{};
         };

@@ -1,5 +1,5 @@
 // bolt-author: the command-line tool for authors of assemblies.
-#include "engine/base/program.hpp"
+#include "engine/program/program.hpp"
 #include "tools/author/commands.hpp"
 
 int main(int argc, char** argv) {

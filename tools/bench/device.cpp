@@ -83,7 +83,8 @@ void device_through_a_mailbox(benchmark::State& state) {
         unwrap(thread.wait_until_open(10.0));
         measure(state, ticks, [&](int i) {
             thread.command({Vec3(i, 0, 0), Vec3(0.0)}, true);
-            benchmark::DoNotOptimize(thread.snapshot());
+            device::DeviceSnapshot snapshot = thread.snapshot();
+            benchmark::DoNotOptimize(snapshot);
         });
         state.counters["writes"] = static_cast<double>(thread.report().writes);
     });

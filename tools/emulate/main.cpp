@@ -16,8 +16,8 @@
 #include <thread>
 
 #include "engine/base/math.hpp"
-#include "engine/base/program.hpp"
 #include "engine/base/result.hpp"
+#include "engine/program/program.hpp"
 #include "haptics/device/hid_transport.hpp"
 #include "haptics/hand/kinematics.hpp"
 #include "tools/emulate/glove.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/program.hpp"
+#include "engine/program/program.hpp"
 #include "tools/assets/models/document.hpp"
 #include "tools/assets/models/shipped.hpp"
 

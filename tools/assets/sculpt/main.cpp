@@ -10,8 +10,8 @@
 
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
-#include "engine/base/program.hpp"
 #include "engine/base/result.hpp"
+#include "engine/program/program.hpp"
 #include "haptics/hand/kinematics.hpp"
 #include "haptics/hand/measured_hand.hpp"
 #include "tools/assets/sculpt/generated_content.hpp"

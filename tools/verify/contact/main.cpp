@@ -6,8 +6,8 @@
 #include <CLI/CLI.hpp>
 
 #include "content/format/assembly.hpp"
-#include "engine/base/program.hpp"
 #include "engine/base/result.hpp"
+#include "engine/program/program.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/lesson_session.hpp"
 #include "tools/verify/contact/near_poses.hpp"

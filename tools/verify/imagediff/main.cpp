@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/base/program.hpp"
 #include "engine/base/result.hpp"
+#include "engine/program/program.hpp"
 #include "tools/verify/imagediff/flip.hpp"
 
 namespace {

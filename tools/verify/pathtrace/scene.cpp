@@ -1,7 +1,5 @@
 #include "tools/verify/pathtrace/scene.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cfloat>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <string>
 
 #include "engine/assets/image.hpp"
+#include "engine/base/embree.hpp"
 #include "tools/verify/pathtrace/camera.hpp"
 #include "tools/verify/pathtrace/flatten.hpp"
 
@@ -175,19 +174,14 @@ std::optional<SurfaceHit> TracedScene::cast(const glm::vec3& origin, const glm::
     RTCRayHit query{};
     query.ray = make_ray(origin, direction, FLT_MAX);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(tree_.get(), &context, &query);
+    embree::intersect(tree_.get(), query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
     return SurfaceHit{query.ray.tfar, query.hit.primID, {query.hit.u, query.hit.v}};
 }
 
 bool TracedScene::blocked(const glm::vec3& origin, const glm::vec3& direction, float distance) const {
     RTCRay ray = make_ray(origin, direction, distance);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(tree_.get(), &context, &ray);
-    return ray.tfar < 0.0F;  // Embree sets tfar to −∞ if the ray is blocked
+    return embree::occluded(tree_.get(), ray);
 }
 
 namespace {

@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Builds Boltwright in a Debian 13 root and runs its release tests there: tests/debian13.sh [FOLDER]. FOLDER (default:
+# build/debian13) keeps the root and the build, so that a second run is fast. Needs root, mmdebstrap and the package archive;
+# exits with 77 and the reason where one of them is missing. Arguments after the folder go to ctest.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+sources=$PWD
+folder=$(realpath -m "${1:-build/debian13}")
+shift || true
+skip() { echo "skipped: $1" >&2; exit 77; }
+[[ $(id -u) -eq 0 ]] || skip "only root can make a Debian 13 root"
+command -v mmdebstrap >/dev/null || skip "mmdebstrap is not installed"
+root=$folder/root
+if [[ ! -e $root/made ]]; then
+    rm -rf "$root"
+    mkdir -p "$folder"
+    mmdebstrap --variant=apt --aptopt='APT::Install-Recommends "false"' trixie "$root" >"$folder/log" 2>&1 ||
+        skip "mmdebstrap failed: $(tail -1 "$folder/log")"
+    touch "$root/made"
+fi
+mkdir -p "$root/src" "$root/build"
+trap 'umount "$root/src" "$root/dev" "$root/proc" 2>/dev/null' EXIT
+{ mount --bind "$sources" "$root/src" && mount --bind /dev "$root/dev" && mount -t proc proc "$root/proc"; } ||
+    skip "mounts are not allowed"
+in_root() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
+tests=("$@")
+[[ $# -gt 0 ]] || tests=(-L '^check$')
+in_root /src/tools/install-packages.sh build test bench
+in_root cmake -S /src -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
+in_root ninja -C /build --quiet checks
+in_root ctest --test-dir /build -j2 --no-tests=error --output-on-failure "${tests[@]}"

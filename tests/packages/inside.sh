@@ -1,0 +1,57 @@
+# What fresh_root.sh does in the root. Prints one line a check; exits with 1 if one fails.
+failed=0
+check() {
+    local name=$1
+    shift
+    if "$@"; then echo "ok: $name"; else echo "FAILED: $name"; failed=1; fi
+}
+eventually() { for _ in $(seq 120); do "$@" && return; sleep 0.5; done; return 1; }
+cd /packages
+apt-get update -qq
+find / -xdev -path /packages -prune -o -path /proc -prune -o -path /var/lib/dpkg -prune -o -iname '*boltwright*' -print >/tmp/before
+check 'apt installs the packages' apt-get install -y -qq ./boltwright_*.deb ./boltwright-content_*.deb ./boltwright-author_*.deb
+check 'lintian reports no error' lintian --fail-on error --no-tag-display-limit ./boltwright_*.deb ./boltwright-content_*.deb ./boltwright-author_*.deb
+check 'the desktop entry is valid' desktop-file-validate /usr/share/applications/boltwright.desktop
+check 'the AppStream data is valid' appstreamcli validate --no-net /usr/share/metainfo/io.github.boltwright.metainfo.xml
+check 'the manual pages have no warnings' bash -c '
+    for page in boltwright bolt-author; do man --warnings -E UTF-8 -l /usr/share/man/man1/$page.1.gz 2>&1 >/dev/null; done | { ! grep .; }'
+useradd -m ada
+as_ada() { su ada -s /bin/bash -c "cd; $1"; }
+check 'bash completes a command and a value' as_ada '
+    . /usr/share/bash-completion/completions/boltwright
+    COMP_WORDS=(boltwright train --mode pr) COMP_CWORD=3; _boltwright; [[ ${COMPREPLY[*]} == practice ]] || exit
+    COMP_WORDS=(boltwright tr) COMP_CWORD=1; _boltwright; [[ ${COMPREPLY[*]} == train ]]'
+find /usr -newer /tmp/before -type f >/tmp/installed
+check 'a simulated trainee finishes a lesson' as_ada 'boltwright train cover-m8 --headless --quiet --no-pictures --out lesson'
+check 'bolt-author finds the content' as_ada 'bolt-author validate zq350'
+cat >/tmp/play.sh <<'P'
+cd
+Xvfb :7 -screen 0 1280x800x24 >/dev/null 2>&1 &
+export DISPLAY=:7
+sleep 2
+$(sed -n 's/^Exec=//p' /usr/share/applications/boltwright.desktop) 2>log >/dev/null &
+player=$!
+for _ in $(seq 120); do window=$(xdotool search --pid $player 2>/dev/null | tail -1) && [[ -n $window ]] && break; sleep 0.5; done
+sleep 6
+import -window root menu.png
+for _ in $(seq 40); do
+    grep -q 'lesson begun' log && break
+    xdotool key --window $window Return
+    sleep 2
+done
+sleep 8
+import -window root lesson.png
+kill -INT $player
+wait $player
+P
+check 'the menu entry opens the program, and Enter begins a lesson' as_ada 'bash /tmp/play.sh && grep -q "lesson begun" log'
+check 'the lesson of the window is kept below the data folder' as_ada 'ls ~/.local/share/boltwright/sessions/*_zq350/session.boltwright'
+check 'the kept session replays' as_ada 'boltwright replay ~/.local/share/boltwright/sessions/*_zq350/session.boltwright'
+find /usr -newer /tmp/before -type f | sort >/tmp/used
+sort /tmp/installed | comm -13 - /tmp/used | grep -i bolt >/tmp/written || true
+check 'nothing is written to where it was installed' test ! -s /tmp/written
+check 'apt removes the packages' apt-get purge -y -qq boltwright boltwright-content boltwright-author
+find / -xdev -path /packages -prune -o -path /proc -prune -o -path /var/lib/dpkg -prune -o -path /home -prune -o -iname '*boltwright*' -print >/tmp/after
+check 'nothing of them is left' cmp /tmp/before /tmp/after
+check 'the sessions of the user are kept' as_ada 'ls ~/.local/share/boltwright/sessions/*_zq350/session.boltwright lesson/session.boltwright'
+exit $failed
