@@ -29,7 +29,7 @@ install(TARGETS boltwright RUNTIME DESTINATION bin COMPONENT boltwright)
 install(DIRECTORY content/words DESTINATION ${content} COMPONENT boltwright FILES_MATCHING PATTERN "*.json")
 # Who sits at a machine may use the devices that are plugged into it.
 install(FILES tools/udev/60-boltwright.rules DESTINATION lib/udev/rules.d COMPONENT boltwright)
-install(FILES ${BOLT_PACKAGING}/boltwright.desktop DESTINATION share/applications COMPONENT boltwright)
+install(FILES ${BOLT_PACKAGING}/boltwright.desktop ${BOLT_PACKAGING}/boltwright-session.desktop DESTINATION share/applications COMPONENT boltwright)
 install(FILES ${BOLT_PACKAGING}/boltwright.svg DESTINATION share/icons/hicolor/scalable/apps COMPONENT boltwright)
 install(FILES ${BOLT_PACKAGING}/boltwright.xml DESTINATION share/mime/packages COMPONENT boltwright)
 install(FILES ${BOLT_PACKAGING}/io.github.boltwright.metainfo.xml DESTINATION share/metainfo COMPONENT boltwright)
@@ -76,22 +76,23 @@ set(CPACK_DEBIAN_BOLTWRIGHT_PACKAGE_DEPENDS
     "boltwright-content (= ${PROJECT_VERSION}), libvulkan1, mesa-vulkan-drivers | vulkan-icd, fonts-dejavu-core, fonts-wqy-microhei")
 set(CPACK_DEBIAN_BOLTWRIGHT_PACKAGE_RECOMMENDS "ffmpeg, zenity | kdialog | x11-utils")
 set(CPACK_DEBIAN_BOLTWRIGHT_PACKAGE_SUGGESTS boltwright-author)
+# The first line is the synopsis; CPack indents the others.
 set(CPACK_DEBIAN_BOLTWRIGHT_DESCRIPTION "trainer for tightening bolted joints by feel
- A trainee takes a wrench to the joints of a machine and turns each nut through
- run-down, seating, load and yield, with mouse and keyboard or with a device
- that renders force. Lessons are recorded, replayed and explained in a report.")
+A trainee takes a wrench to the joints of a machine and turns each nut through
+run-down, seating, load and yield, with mouse and keyboard or with a device
+that renders force. Lessons are recorded, replayed and explained in a report.")
 set(CPACK_DEBIAN_CONTENT_PACKAGE_NAME boltwright-content)
 set(CPACK_DEBIAN_CONTENT_PACKAGE_SECTION education)
 set(CPACK_DEBIAN_CONTENT_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_CONTENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_CONTENT_DEBUGINFO_PACKAGE OFF)
 set(CPACK_DEBIAN_CONTENT_DESCRIPTION "assemblies and tools for Boltwright
- The gear reducer ZQ350, a flange DN 200, a bearing cover, wrenches, hands and
- a workshop, as glTF models with their STEP sources.")
+The gear reducer ZQ350, a flange DN 200, a bearing cover, wrenches, hands and
+a workshop, as glTF models with their STEP sources.")
 set(CPACK_DEBIAN_AUTHOR_PACKAGE_NAME boltwright-author)
 set(CPACK_DEBIAN_AUTHOR_PACKAGE_SECTION education)
 set(CPACK_DEBIAN_AUTHOR_PACKAGE_DEPENDS "boltwright (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_AUTHOR_DESCRIPTION "makes assemblies for Boltwright
- Imports STEP files, checks assemblies, shows their models, and computes the
- torque, clamp force and curve of a bolted joint.")
+Imports STEP files, checks assemblies, shows their models, and computes the
+torque, clamp force and curve of a bolted joint.")
 include(CPack)

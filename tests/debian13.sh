@@ -19,7 +19,7 @@ if [[ ! -e $root/made ]]; then
     touch "$root/made"
 fi
 mkdir -p "$root/src" "$root/build"
-trap 'umount "$root/src" "$root/dev" "$root/proc" 2>/dev/null' EXIT
+trap 'umount "$root/src" "$root/dev" "$root/proc" 2>/dev/null || true' EXIT
 { mount --bind "$sources" "$root/src" && mount --bind /dev "$root/dev" && mount -t proc proc "$root/proc"; } ||
     skip "mounts are not allowed"
 in_root() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }

@@ -200,6 +200,16 @@ inline constexpr KeyRow key_rows[] = {
     {"menu.sound", ""},
     {"menu.settings", ""},
     {"menu.back", ""},
+    // The viewer of sessions (game/viewer).
+    {"viewer.play", ""},
+    {"viewer.pause", ""},
+    {"viewer.follow", ""},
+    {"viewer.clamps", ""},
+    {"viewer.picture", ""},
+    {"viewer.film", ""},
+    {"viewer.making", ""},
+    {"viewer.saved", "file"},
+    {"viewer.differs", ""},
     // Settings, and the actions of keys.
     {"settings.seated_height", ""},
     {"settings.usual_keys", ""},

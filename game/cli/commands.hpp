@@ -13,6 +13,7 @@ namespace bolt::cli {
 
 // Each of these adds its subcommand to the command line; when the subcommand runs, it sets `exit_code`.
 void add_train(CLI::App& app, int& exit_code);
+void add_open(CLI::App& app, int& exit_code);
 void add_replay(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);

@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "boltwright " BOLTWRIGHT_VERSION);
     int exit_code = 0;
     bolt::cli::add_train(app, exit_code);
+    bolt::cli::add_open(app, exit_code);
     bolt::cli::add_replay(app, exit_code);
     bolt::cli::add_report(app, exit_code);
     bolt::cli::add_export(app, exit_code);

@@ -20,9 +20,10 @@
 #include "game/session/export.hpp"
 #include "game/station/station_setup.hpp"
 #include "game/trainees/trainee.hpp"
-#include "game/trainer/window.hpp"
+#include "game/trainer/app.hpp"
 #include "game/view/camera.hpp"
 #include "game/view/pictures.hpp"
+#include "game/view/window.hpp"
 #include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::cli {
@@ -263,8 +264,8 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     if (!instance) return fail(instance.error());
     trainer::App app(std::move(app_options));
     catch_interruption();
-    const trainer::WindowChoice window_choice{options.gpu, [] { return interrupted(); }};
-    if (Status run = trainer::run_in_window(app, *window, *instance, window_choice); !run) return run;
+    const view::WindowChoice window_choice{options.gpu, [] { return interrupted(); }};
+    if (Status run = view::run_in_window(app, *window, *instance, window_choice); !run) return run;
     if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
     return {};
 }

@@ -14,17 +14,10 @@ namespace {
 
 constexpr float level_error = 0.5F;  // px, allowed error of a model's level of detail
 
-std::optional<std::size_t> active_joint(const scene::SceneWorld& world, const lesson::Lesson& lesson) {
-    if (const std::int16_t held = world.only<world::ContactState>().joint; held >= 0)
-        return static_cast<std::size_t>(held);
-    const lesson::LessonStep* due = lesson.due();
-    return due != nullptr ? std::optional(due->joint) : std::nullopt;
-}
-
 struct GpuResources {
     std::optional<gpu::Instance> instance;
     view::GpuContext gpu_context;
-    std::unique_ptr<scene::GpuLessonModels> models;
+    std::optional<ReplayScene> replay;
 
     GpuResources() = default;
     GpuResources(const GpuResources&) = delete;
@@ -36,13 +29,59 @@ struct GpuResources {
 
 }  // namespace
 
+std::optional<std::size_t> active_joint(const scene::SceneWorld& world, const lesson::Lesson& lesson) {
+    if (const std::int16_t held = world.only<world::ContactState>().joint; held >= 0)
+        return static_cast<std::size_t>(held);
+    const lesson::LessonStep* due = lesson.due();
+    return due != nullptr ? std::optional(due->joint) : std::nullopt;
+}
+
+Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonModels& models,
+                                      const session::SessionSetup& start, hand::Side hand) {
+    ReplayScene replay;
+    BOLT_TRY_ASSIGN(auto uploaded, scene::upload(device, models));
+    replay.models = std::move(uploaded);
+    scene::SceneWorld world;
+    world::add_haptics(world, start.state);
+    BOLT_TRY_ASSIGN(auto workplace, scene::make_workplace(std::move(world), models, *replay.models,
+                                                          start.assembly, start.setup));
+    replay.workplace = std::move(workplace);
+    replay.scene = scene::make_lit_scene(replay.workplace, replay.models->light);
+    replay.postures =
+        scene::make_postures(start.state.tool_contact ? &start.state.tool_contact->wrench : nullptr,
+                             start.setup.wrench.handle_length, hand, scene::widest_nut(start.setup));
+    replay.workplace.world.only<world::WorkingHand>().rest =
+        scene::wrench_rest_pose(replay.workplace.machine, start.assembly.wrench.head_thickness, hand);
+    replay.shoulder = scene::shoulder_position(replay.workplace.machine, {hand, std::nullopt});
+    return replay;
+}
+
+void place(ReplayScene& replay, const ReplayMoment& moment) {
+    scene::SceneWorld& world = replay.workplace.world;
+    const std::size_t grip = scene::natural_grip(replay.postures, world.only<world::HeldTool>().pose,
+                                                 Vec3(0, 1, 0), replay.shoulder);
+    scene::placement_system(world,
+                            {moment.setup, replay.postures, replay.shoulder, grip,
+                             std::abs(scene::relative_torque(moment.setup, world)), 0.0, moment.seconds,
+                             moment.contact != nullptr ? &moment.contact->world : nullptr});
+    replay.scene.cut_away.strength = 0.0F;
+    if (const std::int16_t held = world.only<world::ContactState>().joint; held >= 0)
+        scene::fade_occluders(world, replay.scene, moment.setup, static_cast<std::size_t>(held));
+}
+
+void present(ReplayScene& replay, const ReplayMoment& moment, const Vec3& eye) {
+    scene::SceneWorld& world = replay.workplace.world;
+    scene::fade_near_arms(world, eye);
+    replay.scene.labels.clear();
+    if (const auto label = scene::work_label(moment.words, moment.lesson, moment.setup, world))
+        replay.scene.labels.push_back(*label);
+    scene::appearance_system(world);
+    view::collect_objects(world, replay.scene);
+}
+
 struct FilmState {
     FilmOptions options;
     GpuResources gpu;
-    scene::Workplace workplace;
-    scene::Postures postures;
-    Vec3 shoulder{0.0};
-    render::Scene scene;
     view::CameraGlide camera;
     motion::VisibilityModel visibility;
     std::optional<std::size_t> followed_joint;
@@ -50,31 +89,9 @@ struct FilmState {
 
 namespace {
 
-// Input of the systems of one picture.
-struct FilmFrame {
-    FilmState& film;
-    const session::ReplayTick& tick;
-    double seconds = 0.0;  // since the previous picture
-};
-
-void placement_system(scene::SceneWorld& world, FilmFrame& frame) {
-    const FilmState& film = frame.film;
-    const servo::State& state = frame.tick.state;
-    const std::size_t grip =
-        scene::natural_grip(film.postures, world.only<world::HeldTool>().pose, Vec3(0, 1, 0), film.shoulder);
-    scene::placement_system(world,
-                            {frame.tick.setup, film.postures, film.shoulder, grip,
-                             std::abs(scene::relative_torque(frame.tick.setup, world)), 0.0, frame.seconds,
-                             state.tool_contact ? &state.tool_contact->world : nullptr});
-}
-
-// Moves the camera to the active joint when it changes, and cuts away what hides a held nut.
-void view_system(scene::SceneWorld& world, FilmFrame& frame) {
-    FilmState& film = frame.film;
-    const session::ReplayTick& tick = frame.tick;
-    film.scene.cut_away.strength = 0.0F;
-    if (const std::int16_t held = world.only<world::ContactState>().joint; held >= 0)
-        scene::fade_occluders(world, film.scene, tick.setup, static_cast<std::size_t>(held));
+// Moves the camera to the active joint when it changes.
+void follow_work(FilmState& film, const session::ReplayTick& tick, double seconds) {
+    const scene::SceneWorld& world = film.gpu.replay->workplace.world;
     const auto joint = active_joint(world, tick.lesson);
     if (film.options.view.empty() && joint && film.followed_joint != joint) {
         const view::ViewTarget target{tick.setup,
@@ -83,35 +100,15 @@ void view_system(scene::SceneWorld& world, FilmFrame& frame) {
         film.camera.glide_to(view::find_view(target, film.visibility, film.camera.goal));
         film.followed_joint = joint;
     }
-    (void)film.camera.advance(frame.seconds);
-    scene::fade_near_arms(world, Vec3(view::viewpoint_of(film.camera.shown).eye));
+    (void)film.camera.advance(seconds);
 }
-
-void label_system(scene::SceneWorld& world, FilmFrame& frame) {
-    FilmState& film = frame.film;
-    film.scene.labels.clear();
-    if (const auto label = scene::work_label(film.options.words, frame.tick.lesson, frame.tick.setup, world))
-        film.scene.labels.push_back(*label);
-}
-
-void present_system(scene::SceneWorld& world, FilmFrame& frame) {
-    scene::appearance_system(world);
-    view::collect_objects(world, frame.film.scene);
-}
-
-// The systems of a picture, in the order in which they run: a film needs only these of the systems of a
-// lesson (trainer::frame_systems).
-constexpr ecs::System<scene::SceneWorld, FilmFrame> film_systems[] = {{"placement", placement_system},
-                                                                      {"view", view_system},
-                                                                      {"labels", label_system},
-                                                                      {"present", present_system}};
 
 }  // namespace
 
 Film::Film(std::unique_ptr<FilmState> state) : state_(std::move(state)) {}
 Film::~Film() = default;
 
-scene::SceneWorld& Film::world() { return state_->workplace.world; }
+scene::SceneWorld& Film::world() { return state_->gpu.replay->workplace.world; }
 
 Result<std::unique_ptr<Film>> Film::create(const session::SessionSetup& start, const FilmOptions& options) {
     auto film = std::make_unique<FilmState>();
@@ -137,43 +134,33 @@ Result<std::unique_ptr<Film>> Film::create(const session::SessionSetup& start, c
     Result<view::GpuContext> gpu_context = view::make_gpu_context(*gpu.instance, {options.gpu}, renderer);
     if (!gpu_context) return fail(gpu_context.error());
     gpu.gpu_context = std::move(*gpu_context);
-    Result<std::unique_ptr<scene::GpuLessonModels>> uploaded =
-        scene::upload(*gpu.gpu_context.device, *models);
-    if (!uploaded) return fail(uploaded.error());
-    gpu.models = std::move(*uploaded);
-    scene::SceneWorld world;
-    world::add_haptics(world, start.state);
-    Result<scene::Workplace> workplace =
-        scene::make_workplace(std::move(world), *models, *gpu.models, start.assembly, start.setup);
-    if (!workplace) return fail(workplace.error());
-    film->workplace = std::move(*workplace);
-    film->scene = scene::make_lit_scene(film->workplace, gpu.models->light);
-    film->postures =
-        scene::make_postures(start.state.tool_contact ? &start.state.tool_contact->wrench : nullptr,
-                             start.setup.wrench.handle_length, options.hand, scene::widest_nut(start.setup));
-    film->workplace.world.only<world::WorkingHand>().rest =
-        scene::wrench_rest_pose(film->workplace.machine, start.assembly.wrench.head_thickness, options.hand);
+    BOLT_TRY_ASSIGN(auto replay, make_replay_scene(*gpu.gpu_context.device, *models, start, options.hand));
+    gpu.replay.emplace(std::move(replay));
     if (options.view.empty() && models->machine.views.empty())
         first = view::default_viewpoint(
-            film->workplace.machine, view::default_fov,
+            gpu.replay->workplace.machine, view::default_fov,
             static_cast<float>(options.size.width) / static_cast<float>(options.size.height));
-    film->shoulder = scene::shoulder_position(film->workplace.machine, {options.hand, std::nullopt});
     film->camera.jump(view::orbit_of(first));
     return std::unique_ptr<Film>(new Film(std::move(film)));
 }
 
 Result<render::Picture> Film::draw(const session::ReplayTick& tick, double seconds) {
     FilmState& film = *state_;
-    FilmFrame frame{film, tick, seconds};
-    ecs::run(film_systems, film.workplace.world, frame);
+    ReplayScene& replay = *film.gpu.replay;
+    const ReplayMoment moment{tick.setup, tick.lesson,
+                              tick.state.tool_contact ? &*tick.state.tool_contact : nullptr,
+                              film.options.words, seconds};
+    place(replay, moment);
+    follow_work(film, tick, seconds);
+    present(replay, moment, Vec3(view::viewpoint_of(film.camera.shown).eye));
     const VkExtent2D size = film.options.size;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     std::vector<render::Eye> eyes;
     for (const float aside : view::eye_offsets(film.options.stereo))
-        eyes.push_back(view::eye_of(film.camera.shown, render::bounds(film.scene), aspect, aside));
+        eyes.push_back(view::eye_of(film.camera.shown, render::bounds(replay.scene), aspect, aside));
     const view::GpuContext& gpu = film.gpu.gpu_context;
     BOLT_TRY_ASSIGN(const auto pictures,
-                    render::take_pictures(*gpu.device, *gpu.frames, *gpu.renderer, film.scene, eyes, size));
+                    render::take_pictures(*gpu.device, *gpu.frames, *gpu.renderer, replay.scene, eyes, size));
     return view::side_by_side(pictures);
 }
 

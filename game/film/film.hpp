@@ -11,6 +11,36 @@
 
 namespace bolt::film {
 
+// The workplace of a replayed session on a GPU. Destroy it before the device.
+struct ReplayScene {
+    std::unique_ptr<scene::GpuLessonModels> models;
+    scene::Workplace workplace;
+    scene::Postures postures;
+    Vec3 shoulder{0.0};  // m
+    render::Scene scene;
+};
+
+// Makes it for the beginning of a session.
+Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonModels& models,
+                                      const session::SessionSetup& start, hand::Side hand);
+
+// What a picture shows besides the components in the world.
+struct ReplayMoment {
+    const servo::Setup& setup;
+    const lesson::Lesson& lesson;
+    const servo::ToolContact* contact;  // null: the session has no obstacles
+    const words::Words& words;
+    double seconds;  // since the previous picture, for the motion of the fingers
+};
+
+// The joint that the tool holds, else the due one.
+std::optional<std::size_t> active_joint(const scene::SceneWorld& world, const lesson::Lesson& lesson);
+
+// The parts of a picture: moves everything to its place and cuts away what hides a held nut; then, when the
+// eye is known, makes the labels and collects what is drawn in `replay.scene`.
+void place(ReplayScene& replay, const ReplayMoment& moment);
+void present(ReplayScene& replay, const ReplayMoment& moment, const Vec3& eye);
+
 struct FilmOptions {
     hand::Side hand = hand::Side::right;  // the working hand
     words::Words words;                   // for the label at the wrench

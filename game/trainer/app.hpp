@@ -7,7 +7,7 @@
 #include "engine/ui/ui.hpp"
 #include "game/trainer/backdrop.hpp"
 #include "game/trainer/settings_screen.hpp"
-#include "game/view/pictures.hpp"
+#include "game/view/window.hpp"
 
 namespace bolt::trainer {
 
@@ -34,32 +34,33 @@ struct AppOptions {
 
 enum class ShownScreen : std::uint8_t { menu, lesson, result };
 
-class App {
+class App : public view::WindowContent {
   public:
     explicit App(AppOptions options);
-    App(const App&) = delete;
-    App& operator=(const App&) = delete;
-    ~App();
+    ~App() override;
 
     // Creates all GPU objects. Call it at the beginning and after release().
-    Status start(view::GpuContext& gpu_context);
+    Status start(view::GpuContext& gpu_context) override;
     // Releases all GPU objects; call it before the GPU context is destroyed. A lesson continues after the
     // next start().
-    void release();
+    void release() override;
 
     // Records a frame; the picture is the renderer's picture 0. `scale`: px per point. `seconds`: since the
     // last frame. Fails if the GPU fails or the session cannot be recorded.
     Status frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events, VkExtent2D size,
-                 float scale, double seconds);
+                 float scale, double seconds) override;
     // Replaces frame() while the window is minimised: pauses a station.
-    Status frame_while_hidden();
+    Status frame_while_hidden() override;
 
     // Ends the lesson, if one runs, as it stands. Its session and the files beside it are written.
     Status end_lesson();
+    Status end() override { return end_lesson(); }
 
-    [[nodiscard]] bool closed() const { return closed_; }
+    [[nodiscard]] bool closed() const override { return closed_; }
     // True once after each request to switch between window and full screen.
-    [[nodiscard]] bool take_full_screen_request() { return std::exchange(full_screen_requested_, false); }
+    [[nodiscard]] bool take_full_screen_request() override {
+        return std::exchange(full_screen_requested_, false);
+    }
 
     // The state on the screen, for tests.
     [[nodiscard]] ShownScreen screen() const { return screen_; }

@@ -42,6 +42,22 @@ check 'the session is kept in a folder of its own' test -s "$session"
 check 'its report lies beside it' test -s "${session%/*}/report.html"
 check 'its summary lies beside it' test -s "${session%/*}/summary.json"
 expect 0 'all as they were recorded' "$prefix/bin/boltwright" replay "$session"
+# The entry for the session's file type opens the viewer; Escape closes it.
+check 'an entry opens sessions' grep -q '^MimeType=application/vnd.boltwright.session;$' "$prefix/share/applications/boltwright-session.desktop"
+opener=$(sed -n 's/^Exec=//p' "$prefix/share/applications/boltwright-session.desktop")
+# shellcheck disable=SC2086
+"$prefix/bin/"${opener/\%f/$session} 2>log >/dev/null &
+player=$!
+check 'the viewer opens a window' eventually shown
+gone() {
+    xdotool key --window "$(window)" Escape 2>/dev/null
+    ! kill -0 $player 2>/dev/null
+}
+for ((i = 0; i < 240; i++)); do gone && break; sleep 0.5; done
+check 'Escape closes the viewer with exit code 0' wait $player
+player=
+expect 1 'cannot be read as a session' "$prefix/bin/boltwright" open before
+expect 1 'cannot be opened' "$prefix/bin/boltwright" open nowhere.boltwright
 listing >after
 check 'nothing was written to where it was installed' cmp before after
 

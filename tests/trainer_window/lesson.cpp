@@ -82,8 +82,8 @@ TEST_CASE("Window: a whole lesson from the menu to the result") {
             thrown = std::current_exception();
         }
     });
-    const Status run = trainer::run_in_window(*program.app, program.window, *program.instance,
-                                              {{}, [&] { return driver.turn(); }});
+    const Status run = view::run_in_window(*program.app, program.window, *program.instance,
+                                           {{}, [&] { return driver.turn(); }});
     driver.window_closed();
     user_thread.join();
     const std::vector<std::string> log = program.log.lines();

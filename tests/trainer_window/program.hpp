@@ -6,7 +6,8 @@
 #include <filesystem>
 #include <mutex>
 
-#include "game/trainer/window.hpp"
+#include "game/trainer/app.hpp"
+#include "game/view/window.hpp"
 
 namespace bolt::test {
 

@@ -38,7 +38,7 @@ TEST_CASE("Window: Enter starts a lesson, the tool key takes the wrench, closing
             test::eventually([&] { return test::WindowUser("boltwright").rectangle().width > int{width}; });
         hand.close();
     });
-    const Status run = trainer::run_in_window(*program.app, program.window, *program.instance);
+    const Status run = view::run_in_window(*program.app, program.window, *program.instance);
     user_thread.join();
     CHECK(begun);
     CHECK(taken);

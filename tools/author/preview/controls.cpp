@@ -40,34 +40,16 @@ void press(Key key, PreviewCommands& commands) {
 PreviewCommands PreviewControls::apply(std::span<const InputEvent> events, double height, double aspect,
                                        view::Orbit& camera, const render::BoundingBox& box) {
     PreviewCommands commands;
+    (void)mouse_.apply(events, {height, aspect}, camera, box);
     for (const InputEvent& event : events) {
         if (const auto* key = std::get_if<KeyEvent>(&event)) {
             const Modifiers& m = key->modifiers;
             if (key->down && !key->repeated && !m.control && !m.alt && !m.super) press(key->key, commands);
-        } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
-            cursor_ = button->at;
-            // A second button is ignored while one is held.
-            if (button->down && drag_ == Drag::none && button->button != Button::other) {
-                drag_ = button->button == Button::left ? Drag::turn : Drag::pan;
-                held_ = button->button;
-            } else if (!button->down && button->button == held_) {
-                drag_ = Drag::none;
-                held_ = Button::other;
-            }
-        } else if (const auto* cursor = std::get_if<CursorEvent>(&event)) {
-            const glm::dvec2 motion = (cursor->at - cursor_) / height;
-            cursor_ = cursor->at;
-            if (drag_ == Drag::turn) view::turn(camera, {motion.x, -motion.y});
-            if (drag_ == Drag::pan) view::pan(camera, {motion.x, -motion.y});
-        } else if (const auto* wheel = std::get_if<WheelEvent>(&event)) {
-            const glm::dvec2 at(wheel->at.x / height - 0.5 * aspect, 0.5 - wheel->at.y / height);
-            view::zoom(camera, wheel->notches.y, at, box);
-        } else if (const auto* focus = std::get_if<FocusEvent>(&event)) {
-            if (!focus->focused) drag_ = Drag::none;  // the release may go to another window
         } else if (std::holds_alternative<CloseEvent>(event)) {
             commands.close = true;
-        } else if (!std::holds_alternative<TextEvent>(event)) {
-            commands.redraw = true;  // resize or refresh
+        } else if (std::holds_alternative<ResizeEvent>(event) ||
+                   std::holds_alternative<RefreshEvent>(event)) {
+            commands.redraw = true;
         }
     }
     return commands;

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "engine/platform/input.hpp"
-#include "game/view/camera.hpp"
+#include "game/view/window.hpp"
 
 namespace bolt::author {
 
@@ -23,10 +23,7 @@ class PreviewControls {
                           view::Orbit& camera, const render::BoundingBox& box);
 
   private:
-    enum class Drag : std::uint8_t { none, turn, pan };
-    Drag drag_ = Drag::none;
-    platform::Button held_ = platform::Button::other;
-    glm::dvec2 cursor_{0.0};
+    view::OrbitControl mouse_;
 };
 
 // Returns one line that lists the keys and the names of up to nine views.

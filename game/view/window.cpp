@@ -1,4 +1,4 @@
-#include "game/trainer/window.hpp"
+#include "game/view/window.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
 
-namespace bolt::trainer {
+namespace bolt::view {
 
 namespace {
 
@@ -24,7 +24,7 @@ VkExtent2D size_of(const platform::Window& window) {
 
 // The GPU and the swapchain of the window. The destructor waits until the GPU is idle.
 struct Canvas {
-    view::GpuContext gpu_context;
+    GpuContext gpu_context;
     std::unique_ptr<gpu::Swapchain> swapchain;
 
     Canvas() = default;
@@ -42,8 +42,7 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     render::RendererOptions renderer;
     renderer.level_error_px = level_error;
     Canvas canvas;
-    BOLT_TRY_ASSIGN(auto gpu_context,
-                    view::make_gpu_context(instance, {choice.gpu, surface.get()}, renderer));
+    BOLT_TRY_ASSIGN(auto gpu_context, make_gpu_context(instance, {choice.gpu, surface.get()}, renderer));
     canvas.gpu_context = std::move(gpu_context);
     BOLT_TRY_ASSIGN(auto swapchain,
                     gpu::Swapchain::create(*canvas.gpu_context.device, std::move(surface), make_surface));
@@ -51,21 +50,22 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     return canvas;
 }
 
-Status draw(App& app, Canvas& canvas, platform::Window& window, std::span<const platform::InputEvent> events,
-            double elapsed) {
+Status draw(WindowContent& content, Canvas& canvas, platform::Window& window,
+            std::span<const platform::InputEvent> events, double elapsed) {
     BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->prepare(size_of(window)));
-    if (size.width == 0 || size.height == 0) return app.frame_while_hidden();
+    if (size.width == 0 || size.height == 0) return content.frame_while_hidden();
     BOLT_TRY_ASSIGN(const auto frame, canvas.gpu_context.frames->begin());
-    BOLT_TRY(app.frame(*frame, events, size, window.content_scale(), elapsed));
+    BOLT_TRY(content.frame(*frame, events, size, window.content_scale(), elapsed));
     const render::ImageLayer picture = canvas.gpu_context.renderer->picture(0);
     BOLT_TRY(canvas.swapchain->present(*canvas.gpu_context.frames, *frame, *picture.image, picture.layer));
     return {};
 }
 
-Status run_until_closed(App& app, Canvas& canvas, platform::Window& window, const WindowChoice& choice) {
+Status run_until_closed(WindowContent& content, Canvas& canvas, platform::Window& window,
+                        const WindowChoice& choice) {
     platform::Pace pace{platform::Clock::now(), platform::period_of(window.refresh_rate()), 0};
     double last = seconds();
-    while (!app.closed() && !(choice.stop && choice.stop())) {
+    while (!content.closed() && !(choice.stop && choice.stop())) {
         const bool minimised = canvas.swapchain->plan().extent.width == 0;
         const std::vector<platform::InputEvent> events =
             minimised ? window.wait_for_events(0.1) : window.poll_events();
@@ -74,12 +74,12 @@ Status run_until_closed(App& app, Canvas& canvas, platform::Window& window, cons
             if (minimised && std::holds_alternative<platform::CloseEvent>(event)) return {};
         const double now = seconds(), elapsed = now - last;
         last = now;
-        if (Status done = draw(app, canvas, window, events, elapsed); !done) {
+        if (Status done = draw(content, canvas, window, events, elapsed); !done) {
             // If the display server has ended, report that instead of the failed presentation.
             Status display = window.display_status();
             return display ? done : display;
         }
-        if (app.take_full_screen_request()) window.set_full_screen(!window.full_screen());
+        if (content.take_full_screen_request()) window.set_full_screen(!window.full_screen());
         (void)platform::wait_for_deadline(pace);
     }
     return {};
@@ -87,7 +87,44 @@ Status run_until_closed(App& app, Canvas& canvas, platform::Window& window, cons
 
 }  // namespace
 
-Status run_in_window(App& app, platform::Window& window, const gpu::Instance& instance,
+void OrbitControl::stop() {
+    drag_ = Drag::none;
+    held_ = platform::Button::other;
+}
+
+bool OrbitControl::apply(std::span<const platform::InputEvent> events, const Picture& picture, Orbit& orbit,
+                         const render::BoundingBox& box) {
+    using namespace platform;
+    bool moved = false;
+    for (const InputEvent& event : events) {
+        if (const auto* button = std::get_if<ButtonEvent>(&event)) {
+            cursor_ = button->at;
+            // A second button is ignored while one is held.
+            if (button->down && drag_ == Drag::none && button->button != Button::other) {
+                drag_ = button->button == Button::left ? Drag::turn : Drag::pan;
+                held_ = button->button;
+            } else if (!button->down && button->button == held_) {
+                stop();
+            }
+        } else if (const auto* cursor = std::get_if<CursorEvent>(&event)) {
+            const glm::dvec2 motion = (cursor->at - cursor_) / picture.height;
+            cursor_ = cursor->at;
+            if (drag_ == Drag::turn) turn(orbit, {motion.x, -motion.y});
+            if (drag_ == Drag::pan) pan(orbit, {motion.x, -motion.y});
+            moved = moved || drag_ != Drag::none;
+        } else if (const auto* wheel = std::get_if<WheelEvent>(&event)) {
+            const glm::dvec2 at(wheel->at.x / picture.height - 0.5 * picture.aspect,
+                                0.5 - wheel->at.y / picture.height);
+            zoom(orbit, wheel->notches.y, at, box);
+            moved = true;
+        } else if (const auto* focus = std::get_if<FocusEvent>(&event)) {
+            if (!focus->focused) stop();  // the release may go to another window
+        }
+    }
+    return moved;
+}
+
+Status run_in_window(WindowContent& content, platform::Window& window, const gpu::Instance& instance,
                      const WindowChoice& choice) {
     gpu::DeviceLossPolicy loss_policy;
     for (;;) {
@@ -97,19 +134,19 @@ Status run_in_window(App& app, platform::Window& window, const gpu::Instance& in
             if (!canvas) {
                 result = fail(canvas.error());
             } else {
-                result = app.start(canvas->gpu_context);
-                if (result) result = run_until_closed(app, *canvas, window, choice);
-                app.release();
+                result = content.start(canvas->gpu_context);
+                if (result) result = run_until_closed(content, *canvas, window, choice);
+                content.release();
                 // Without the saved pipelines the next start is only slower.
                 (void)canvas->gpu_context.renderer->save_pipelines();
             }
         }
         if (result || !result.error().lost) {
-            const Status ended = app.end_lesson();
+            const Status ended = content.end();
             return result ? ended : result;
         }
         if (!loss_policy.should_restart(seconds())) {
-            (void)app.end_lesson();
+            (void)content.end();
             return fail(ErrorCode::no_device,
                         fmt::format("the GPU was lost twice within {:.0f} s: {}",
                                     gpu::DeviceLossPolicy::min_interval, result.error().what),
@@ -120,4 +157,4 @@ Status run_in_window(App& app, platform::Window& window, const gpu::Instance& in
     }
 }
 
-}  // namespace bolt::trainer
+}  // namespace bolt::view

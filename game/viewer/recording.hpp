@@ -1,0 +1,59 @@
+// A replayed session in memory: its components at regular times, so that any moment can be shown at once.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "game/analysis/session_data.hpp"
+#include "game/session/replay.hpp"
+#include "game/world/world.hpp"
+
+namespace bolt::viewer {
+
+// A mark on the time line. Chapters are the steps of the lesson.
+struct Mark {
+    double time = 0.0;  // s
+    int joint = -1;     // index; −1: none
+    bool mistake = false;
+    lesson::LessonEvent event;
+};
+
+// The components of the simulation at one moment (game/world/world.hpp).
+struct RecordedState {
+    world::ServoClock clock;
+    world::HeldTool tool;
+    world::ContactState contact;
+    world::GuidingForce guiding;
+    world::DeviceForce force;
+    world::WorkingHand hand;
+    std::vector<world::Joint> joints;  // by index
+};
+RecordedState state_of(const world::ReadHaptics& world);
+// Writes all components but WorkingHand::rest.
+void write_state(const world::WriteHaptics& world, const RecordedState& state);
+
+struct Recording {
+    session::SessionSetup start;  // of the lesson; its tool contact stays at the start
+    analysis::SessionData data;
+    double period = 0.02;
+    std::vector<RecordedState> states;    // the first one at the start of the lesson
+    std::vector<lesson::Lesson> lessons;  // as they were when a step began or ended
+    std::vector<std::size_t> lesson_of;   // for each of `states` an index into `lessons`
+    std::vector<Mark> marks;              // in order of time
+    std::uint64_t mismatches = 0;         // ticks that differ from the recording
+
+    [[nodiscard]] double duration() const { return static_cast<double>(states.size() - 1) * period; }
+    [[nodiscard]] std::size_t index_at(double time) const;
+    // The chapters: marks that are no mistakes.
+    [[nodiscard]] const Mark* chapter_at(double time) const;
+    // The beginning of the next chapter (`by` 1), or of the one that lasts at `time` (`by` −1; the previous
+    // one within its first second). The end or the start of the session if there is none.
+    [[nodiscard]] double neighbouring_chapter(double time, int by) const;
+};
+
+// Replays the whole session, which takes about 1/300 of its duration. Not movable, because lessons refer to
+// its assembly. Fails as session::restore_setup, or if the session has no tick.
+Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& session);
+
+}  // namespace bolt::viewer
