@@ -246,7 +246,7 @@ expect 1 'null' "${draw[@]}" render cover-m8 --size 8x8 --png /dev/null/picture.
 check "no picture is written after an error" test ! -e never.png
 
 # Errors and their exit codes.
-expect 2 '' "$bin/boltwright"
+expect 4 'there is no display' env -u DISPLAY -u WAYLAND_DISPLAY "$bin/boltwright"
 expect 2 '' "$bin/boltwright" train --no-pictures --mode hard
 expect 2 'did you mean expert' "$bin/boltwright" train --no-pictures --headless --operator exprt --out never
 expect 4 'no headset' "$bin/boltwright" train --no-pictures --headless --hmd --out never
