@@ -12,7 +12,7 @@ root=$folder/root
 rm -rf "$root"
 # The first packages are only for this test: a screen, keys, a screenshot, and what a desktop has anyway.
 mmdebstrap --variant=apt --aptopt='APT::Install-Recommends "false"' \
-    --include=xvfb,xdotool,imagemagick,procps,desktop-file-utils,shared-mime-info,xdg-utils,appstream,man-db,bash-completion,lintian \
+    --include=passwd,xvfb,xdotool,imagemagick,procps,desktop-file-utils,shared-mime-info,libglib2.0-bin,appstream,man-db,bash-completion,lintian \
     "$suite" "$root" >"$folder/log" 2>&1 || skip "mmdebstrap failed: $(tail -1 "$folder/log")"
 trap 'umount -l "$root/dev" "$root/proc" 2>/dev/null || true' EXIT
 { mount --bind /dev "$root/dev" && mount -t proc proc "$root/proc"; } || skip "mounts are not allowed"
