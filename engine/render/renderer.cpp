@@ -62,10 +62,11 @@ Result<std::unique_ptr<Renderer>> Renderer::create(gpu::Device& device, const Re
 
 Status Renderer::prepare() {
     BOLT_TRY(assign(cache_, gpu::PipelineCache::open(*device_, options_.pipeline_cache)));
-    for (const char* name :
-         {"scene.vert", "light.vert", "surface.frag", "light.frag", "scene.frag", "over.frag", "mark.vert",
-          "mark.frag", "outline.frag", "shadow.vert", "screen.vert", "shrink.frag", "occlusion.frag",
-          "smooth.frag", "labels.vert", "labels.frag", "overlay.vert", "overlay.frag", "deform.comp"}) {
+    for (const char* name : {"scene.vert",  "light.vert",     "surface.frag", "surface_material.frag",
+                             "light.frag",  "scene.frag",     "over.frag",    "mark.vert",
+                             "mark.frag",   "outline.frag",   "shadow.vert",  "screen.vert",
+                             "shrink.frag", "occlusion.frag", "smooth.frag",  "labels.vert",
+                             "labels.frag", "overlay.vert",   "overlay.frag", "deform.comp"}) {
         BOLT_TRY_ASSIGN(auto shader, load_shader(name, options_.shaders));
         shaders_.insert_or_assign(name, std::move(shader));
     }

@@ -130,7 +130,7 @@ Result<const gpu::Pipeline*> SurfacePass::pipeline(gpu::Device& device, const Pi
     const auto known = pipelines_.find(key);
     if (known != pipelines_.end()) return &known->second;
     gpu::GraphicsInfo info = part_pipeline(*shaders_, key.kind, views);
-    info.fragment = &shaders_->at("surface.frag");
+    info.fragment = &shaders_->at(per_pixel_material ? "surface_material.frag" : "surface.frag");
     info.colors = {surface_format};
     if (per_pixel_material)
         info.colors.insert(info.colors.end(), {material_color_format, material_roughness_format});
