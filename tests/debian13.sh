@@ -19,8 +19,8 @@ if [[ ! -e $root/made ]]; then
     touch "$root/made"
 fi
 mkdir -p "$root/src" "$root/build"
-trap 'umount "$root/src" "$root/dev/pts" "$root/dev" "$root/proc" 2>/dev/null || true' EXIT
-{ mount --bind "$sources" "$root/src" && mount --bind /dev "$root/dev" && mount --bind /dev/pts "$root/dev/pts" && mount -t proc proc "$root/proc"; } ||
+trap 'umount "$root/src" "$root/dev/pts" "$root/dev" "$root/proc" "$root/sys" 2>/dev/null || true' EXIT
+{ mount --bind "$sources" "$root/src" && mount --bind /dev "$root/dev" && mount --bind /dev/pts "$root/dev/pts" && mount -t proc proc "$root/proc" && mount -t sysfs sys "$root/sys"; } ||
     skip "mounts are not allowed"
 in_root() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
 tests=("$@")
