@@ -51,8 +51,8 @@ if(BOLT_SANITIZE)
     target_link_options(house_options INTERFACE -fsanitize=${BOLT_SANITIZE_LINK})
 endif()
 
-# COLD targets read and write files, run commands or test: they compute little, and -Og compiles twice as fast as -O3. gcc 12 reports
-# initialised variables at this level.
+# COLD targets read and write files, run commands or test: they compute little, and -Og compiles twice as fast as -O3. At this
+# level gcc 12 reports initialised variables as uninitialised.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
     set(BOLT_FLAGS_COLD -Og -Wno-maybe-uninitialized)
 endif()

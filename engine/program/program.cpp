@@ -63,7 +63,7 @@ std::vector<std::string> accepted_words(const CLI::Option& option) {
     return words;
 }
 
-// What follows the name of an option: nothing for a flag, "one|two" for a list of words, else its type.
+// The value that an option takes: empty for a flag, "one|two" for a list of words, else its type.
 std::string value_of(const CLI::Option& option) {
     if (option.get_type_size() == 0) return {};
     const std::vector<std::string> words = accepted_words(option);

@@ -1,4 +1,4 @@
-// What all command-line programs share: their main function, and the texts that are made from their options.
+// The main function of every command-line program, and the texts that are made from its options.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -24,7 +24,7 @@ struct ReplayScene {
 Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonModels& models,
                                       const session::SessionSetup& start, hand::Side hand);
 
-// What a picture shows besides the components in the world.
+// The input of a picture besides the components in the world.
 struct ReplayMoment {
     const servo::Setup& setup;
     const lesson::Lesson& lesson;

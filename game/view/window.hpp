@@ -9,7 +9,7 @@
 
 namespace bolt::view {
 
-// What a window shows. All its GPU objects can be released and created again after a lost GPU.
+// The content of a window. All its GPU objects can be released and created again after a lost GPU.
 class WindowContent {
   public:
     WindowContent() = default;

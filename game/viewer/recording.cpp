@@ -8,7 +8,7 @@ namespace bolt::viewer {
 namespace {
 
 constexpr double shortest_period = 0.02;     // s
-constexpr std::size_t most_states = 50'000;  // about 2 KB each
+constexpr std::size_t most_states = 50'000;  // bounds the memory of a long session
 
 std::vector<Mark> marks_of(const std::vector<lesson::LessonEvent>& events, double dt) {
     std::vector<Mark> marks;
@@ -63,8 +63,6 @@ Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& 
     world::add_haptics(world, replayed.state);
     recording->states.push_back(state_of(world));
     recording->lesson_of.push_back(0);
-    recording->lessons.push_back(
-        lesson::begin(recording->start.assembly, session.header().mode, session.header().task));
     const auto keep_lesson = [&](const lesson::Lesson& lesson) {
         recording->lessons.push_back(lesson);
         recording->lessons.back().assembly = &recording->start.assembly;
@@ -74,12 +72,13 @@ Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& 
     BOLT_TRY_ASSIGN(
         const auto result,
         session::replay(session, std::move(replayed), world, [&](const session::ReplayTick& tick) {
-            for (const lesson::LessonEvent& event : tick.lesson.events)
-                if (event.kind == lesson::EventKind::step_begin ||
-                    event.kind == lesson::EventKind::step_end || event.kind == lesson::EventKind::undo) {
-                    keep_lesson(tick.lesson);
-                    break;
-                }
+            const auto changes_step = [](const lesson::LessonEvent& event) {
+                return event.kind == lesson::EventKind::step_begin ||
+                       event.kind == lesson::EventKind::step_end || event.kind == lesson::EventKind::undo;
+            };
+            const std::vector<lesson::LessonEvent>& events_now = tick.lesson.events;
+            if (recording->lessons.empty() || std::any_of(events_now.begin(), events_now.end(), changes_step))
+                keep_lesson(tick.lesson);
             if (tick.time + 0.5 * dt >= static_cast<double>(recording->states.size()) * recording->period) {
                 recording->states.push_back(state_of(world));
                 recording->lesson_of.push_back(recording->lessons.size() - 1);

@@ -36,7 +36,7 @@ void write_state(const world::WriteHaptics& world, const RecordedState& state);
 struct Recording {
     session::SessionSetup start;  // of the lesson; its tool contact stays at the start
     analysis::SessionData data;
-    double period = 0.02;
+    double period = 0.02;                 // s between two of `states`
     std::vector<RecordedState> states;    // the first one at the start of the lesson
     std::vector<lesson::Lesson> lessons;  // as they were when a step began or ended
     std::vector<std::size_t> lesson_of;   // for each of `states` an index into `lessons`
@@ -44,16 +44,17 @@ struct Recording {
     std::uint64_t mismatches = 0;         // ticks that differ from the recording
 
     [[nodiscard]] double duration() const { return static_cast<double>(states.size() - 1) * period; }
+    // The state nearest to the time.
     [[nodiscard]] std::size_t index_at(double time) const;
-    // The chapters: marks that are no mistakes.
+    // The step of the lesson at the time: the last mark before it that is no mistake. Null before the first.
     [[nodiscard]] const Mark* chapter_at(double time) const;
     // The beginning of the next chapter (`by` 1), or of the one that lasts at `time` (`by` −1; the previous
     // one within its first second). The end or the start of the session if there is none.
     [[nodiscard]] double neighbouring_chapter(double time, int by) const;
 };
 
-// Replays the whole session, which takes about 1/300 of its duration. Not movable, because lessons refer to
-// its assembly. Fails as session::restore_setup, or if the session has no tick.
+// Replays the whole session. The recording must not be moved, because lessons refer to its assembly. Fails as
+// session::restore_setup, or if the session has no tick.
 Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& session);
 
 }  // namespace bolt::viewer

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "engine/gpu/resources.hpp"
 #include "game/lesson/feedback.hpp"
@@ -65,23 +66,51 @@ Status Viewer::start(view::GpuContext& gpu_context) {
 
 void Viewer::release() {
     if (gpu_ && gpu_->context->device) (void)gpu_->context->device->idle();
+    if (picture_ == Picture::drawn) picture_ = Picture::requested;  // a lost GPU has lost the picture
     gpu_.reset();
 }
 
 void Viewer::seek(double time) { time_ = std::clamp(time, 0.0, recording_->duration()); }
 
+// At the end it begins again.
+void Viewer::toggle_playing() {
+    if (!playing_ && time_ >= recording_->duration()) seek(0.0);
+    playing_ = !playing_;
+}
+
+void Viewer::change_speed(int by) {
+    const auto at = std::find(std::begin(speeds), std::end(speeds), speed_);
+    const auto number = std::clamp<std::ptrdiff_t>(at - std::begin(speeds) + by, 0, std::ssize(speeds) - 1);
+    speed_ = speeds[number];
+}
+
+void Viewer::show_view(std::size_t number) {
+    const std::vector<view::Viewpoint>& views = models_.machine.views;
+    if (number >= views.size()) return;
+    follows_ = false;
+    view_name_ = views[number].name;
+    camera_.glide_to(view::orbit_of(views[number]));
+}
+
+void Viewer::start_film() {
+    if (film_.valid() || !options_.make_film) return;
+    film_file_ = options_.session.parent_path() / (options_.session.stem().string() + ".mp4");
+    film_ = std::async(std::launch::async, options_.make_film, film_file_, view_name_);
+}
+
 void Viewer::press(platform::Key key) {
     using platform::Key;
     switch (key) {
         case Key::space:
-            // At the end it begins again.
-            if (!playing_ && time_ >= recording_->duration()) seek(0.0);
-            playing_ = !playing_;
-            return;
+            return toggle_playing();
         case Key::left:
             return seek(time_ - key_step);
         case Key::right:
             return seek(time_ + key_step);
+        case Key::up:
+            return change_speed(1);
+        case Key::down:
+            return change_speed(-1);
         case Key::page_up:
             return seek(recording_->neighbouring_chapter(time_, -1));
         case Key::page_down:
@@ -95,6 +124,11 @@ void Viewer::press(platform::Key key) {
             followed_joint_.reset();
             view_name_.clear();
             return;
+        case Key::p:
+            picture_ = Picture::requested;
+            return;
+        case Key::v:
+            return start_film();
         case Key::f11:
             full_screen_requested_ = true;
             return;
@@ -102,15 +136,9 @@ void Viewer::press(platform::Key key) {
             closed_ = true;
             return;
         default:
-            break;
+            if (key >= Key::digit_1 && key <= Key::digit_9)
+                show_view(static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::digit_1));
     }
-    const std::vector<view::Viewpoint>& views = models_.machine.views;
-    if (key < Key::digit_1 || key > Key::digit_9) return;
-    const auto number = static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::digit_1);
-    if (number >= views.size()) return;
-    follows_ = false;
-    view_name_ = views[number].name;
-    camera_.glide_to(view::orbit_of(views[number]));
 }
 
 void Viewer::handle_events(std::span<const platform::InputEvent> events, VkExtent2D size) {
@@ -157,6 +185,24 @@ void Viewer::follow_work(double aspect) {
     camera_.glide_to(view::find_view(target, visibility_, camera_.goal));
 }
 
+// "F1: Tighten to 72 N·m", as the lesson shows it.
+std::string Viewer::step_text(const Mark& chapter) const {
+    if (chapter.joint < 0) return chapter.event.text;
+    const std::string& id =
+        recording_->start.assembly.joints[static_cast<std::size_t>(chapter.joint)].design.id;
+    using lesson::StepKind;
+    for (const StepKind kind : {StepKind::run_down, StepKind::tighten, StepKind::recheck, StepKind::loosen}) {
+        if (lesson::name(kind) != chapter.event.text) continue;
+        const std::string& what = options_.words[lesson::text_key(kind)];
+        if (kind != StepKind::tighten)
+            return words::format_text(options_.words, "hud.due", {{"joint", id}, {"what", what}});
+        return words::format_text(
+            options_.words, "hud.due_torque",
+            {{"joint", id}, {"what", what}, {"torque", words::torque_number(chapter.event.value)}});
+    }
+    return id + ": " + chapter.event.text;
+}
+
 void Viewer::draw_time_line(float scale) {
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const ImVec2 size(ImGui::GetContentRegionAvail().x, 22.0F * scale);
@@ -183,11 +229,8 @@ void Viewer::draw_time_line(float scale) {
     }
     draw.AddCircleFilled({x_of(time_), middle}, 7.0F * scale, now_color);
     if (ImGui::IsItemHovered() && nearest != nullptr) {
-        const std::string joint =
-            nearest->joint >= 0
-                ? recording_->start.assembly.joints[static_cast<std::size_t>(nearest->joint)].design.id
-                : "";
-        ImGui::SetTooltip("%.1f s  %s  %s", nearest->time, joint.c_str(), nearest->event.text.c_str());
+        const std::string text = nearest->mistake ? nearest->event.text : step_text(*nearest);
+        ImGui::SetTooltip("%.1f s  %s", nearest->time, text.c_str());
     }
 }
 
@@ -202,7 +245,7 @@ void Viewer::draw_bar(const glm::vec2& size, float scale) {
     ImGui::SameLine();
     if (ImGui::Button((playing_ ? words["viewer.pause"] : words["viewer.play"]).c_str(),
                       {90.0F * scale, 0.0F}))
-        press(platform::Key::space);
+        toggle_playing();
     ImGui::SameLine();
     if (ImGui::Button(">|")) press(platform::Key::page_down);
     ImGui::SameLine();
@@ -213,9 +256,7 @@ void Viewer::draw_bar(const glm::vec2& size, float scale) {
     }
     if (const Mark* chapter = recording_->chapter_at(time_); chapter != nullptr && chapter->joint >= 0) {
         ImGui::SameLine(0.0F, 24.0F * scale);
-        draw_text(fmt::format(
-            "{}  {}", recording_->start.assembly.joints[static_cast<std::size_t>(chapter->joint)].design.id,
-            chapter->event.text));
+        draw_text(step_text(*chapter));
     }
     draw_time_line(scale);
     ImGui::End();
@@ -293,15 +334,11 @@ void Viewer::draw_clamps(float scale) {
 
 void Viewer::draw_saving() {
     const words::Words& words = options_.words;
-    const auto beside = [&](const std::string& end) {
-        return options_.session.parent_path() / (options_.session.stem().string() + end);
-    };
     if (ImGui::Button(words["viewer.picture"].c_str(), {-1.0F, 0.0F})) picture_ = Picture::requested;
     if (film_.valid()) {
         draw_text(words["viewer.making"]);
-    } else if (ImGui::Button(words["viewer.film"].c_str(), {-1.0F, 0.0F}) && options_.make_film) {
-        film_file_ = beside(".mp4");
-        film_ = std::async(std::launch::async, options_.make_film, film_file_, view_name_);
+    } else if (ImGui::Button(words["viewer.film"].c_str(), {-1.0F, 0.0F})) {
+        start_film();
     }
     if (!message_.empty()) ImGui::TextWrapped("%s", message_.c_str());
 }
@@ -317,11 +354,7 @@ void Viewer::draw_panel(const glm::vec2& size, float scale) {
     for (std::size_t i = 0; i < models_.machine.views.size(); ++i) {
         const std::string& name = models_.machine.views[i].name;
         if (i % 3 != 0) ImGui::SameLine();
-        if (ImGui::RadioButton(name.c_str(), view_name_ == name)) {
-            follows_ = false;
-            view_name_ = name;
-            camera_.glide_to(view::orbit_of(models_.machine.views[i]));
-        }
+        if (ImGui::RadioButton(name.c_str(), view_name_ == name)) show_view(i);
     }
     ImGui::Separator();
     draw_curve(scale);
@@ -367,6 +400,7 @@ Status Viewer::frame(gpu::FrameContext& frame, std::span<const platform::InputEv
     if (picture_ == Picture::drawn) BOLT_TRY(save_picture());
     finish_film();
     trainer::update_ui_input(input_, events);
+    input_.keys = {};  // all keys are the viewer's: the interface would press its focused button as well
     input_.size = glm::vec2(size.width, size.height);
     input_.scale = scale;
     input_.seconds = seconds;

@@ -40,6 +40,7 @@ class Viewer : public view::WindowContent {
 
     // The state on the screen, for tests.
     [[nodiscard]] double time() const { return time_; }
+    [[nodiscard]] double speed() const { return speed_; }
     [[nodiscard]] bool playing() const { return playing_; }
     [[nodiscard]] const Recording& recording() const { return *recording_; }
     [[nodiscard]] const view::Orbit& camera() const { return camera_.goal; }
@@ -51,7 +52,12 @@ class Viewer : public view::WindowContent {
     struct GpuResources;
     Viewer(std::unique_ptr<Recording> recording, ViewerOptions options, scene::LessonModels models);
     void handle_events(std::span<const platform::InputEvent> events, VkExtent2D size);
+    void toggle_playing();
     void press(platform::Key key);
+    void show_view(std::size_t number);  // a named view
+    void change_speed(int by);           // to the next of the offered speeds
+    void start_film();
+    [[nodiscard]] std::string step_text(const Mark& chapter) const;
     void seek(double time);
     void advance(double seconds);
     void follow_work(double aspect);

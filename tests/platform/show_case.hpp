@@ -7,18 +7,10 @@
 
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/window.hpp"
+#include "tests/support/need.hpp"
 #include "tests/support/screen_picture.hpp"
 
 namespace bolt::test {
-
-template <class T>
-T need(Result<T> result) {
-    if (!result) FAIL(result.error().message());
-    return std::move(*result);
-}
-inline void need(const Status& status) {
-    if (!status) FAIL(status.error().message());
-}
 
 class ShowCase {
   public:

@@ -10,18 +10,14 @@
 #include "engine/gpu/device.hpp"
 #include "tests/platform/window_user.hpp"
 #include "tests/support/eventually.hpp"
+#include "tests/support/need.hpp"
 #include "tests/support/screen_picture.hpp"
 
 using namespace bolt;
 using namespace bolt::author;
+using bolt::test::need;
 
 namespace {
-
-template <class T>
-T need(Result<T> result) {
-    if (!result) FAIL(result.error().message());
-    return std::move(*result);
-}
 
 PreviewOptions options() {
     PreviewOptions o;

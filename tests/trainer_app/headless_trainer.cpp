@@ -1,18 +1,11 @@
 #include "tests/trainer_app/headless_trainer.hpp"
 
 #include "engine/gpu/resources.hpp"
+#include "tests/support/need.hpp"
 
 namespace bolt::test {
 
 using namespace trainer;
-
-namespace {
-
-void need(const Status& status) {
-    if (!status) FAIL(status.error().message());
-}
-
-}  // namespace
 
 HeadlessTrainer::HeadlessTrainer(AppOptions options, Display display)
     : folder_(options.out), display_(display) {

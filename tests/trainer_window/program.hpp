@@ -8,14 +8,9 @@
 
 #include "game/trainer/app.hpp"
 #include "game/view/window.hpp"
+#include "tests/support/need.hpp"
 
 namespace bolt::test {
-
-template <class T>
-T need(Result<T> result) {
-    if (!result) FAIL(result.error().message());
-    return std::move(*result);
-}
 
 // The program's log, which another thread can poll.
 class Log {

@@ -4,21 +4,13 @@
 
 #include "game/trainees/trainee.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/need.hpp"
 
 namespace bolt::test {
 
 using namespace viewer;
 
 namespace {
-
-template <class T>
-T need(Result<T> result) {
-    if (!result) FAIL(result.error().message());
-    return std::move(*result);
-}
-void need(const Status& status) {
-    if (!status) FAIL(status.error().message());
-}
 
 // A lesson of a clumsy trainee, played once for all tests.
 const session::SessionReader& recorded() {
@@ -169,6 +161,11 @@ TEST_CASE("Viewer: keys play, pause, seek and select views") {
     const view::Orbit before = viewer.camera();
     h.key(platform::Key::digit_2);
     CHECK(view::viewpoint_of(viewer.camera()).eye != view::viewpoint_of(before).eye);
+    CHECK(viewer.speed() == 1.0);
+    h.key(platform::Key::up);
+    CHECK(viewer.speed() == 2.0);
+    for (int i = 0; i < 9; ++i) h.key(platform::Key::down);
+    CHECK(viewer.speed() == 0.25);
     h.key(platform::Key::escape);
     CHECK(viewer.closed());
 }
@@ -194,6 +191,24 @@ TEST_CASE("Viewer: dragging on the time line seeks, dragging on the scene turns 
     h.frame({platform::ButtonEvent{platform::Button::left, false, scene + glm::dvec2(20.0, 0.0)}});
     CHECK(viewer.camera().yaw != before.yaw);
     CHECK(viewer.time() == doctest::Approx(0.5 * viewer.recording().duration()).epsilon(0.02));
+}
+
+TEST_CASE("Viewer: P saves the picture beside the session, also after the GPU is lost in between") {
+    for (const bool lost : {false, true}) {
+        CAPTURE(lost);
+        HeadlessViewer h;
+        h.frame();
+        h.key(platform::Key::space);
+        h.key(platform::Key::p);
+        if (lost) {
+            h.lose_gpu();
+            h.frame();
+        }
+        h.frame();
+        const auto file = h.folder / "session-0.0s.png";
+        CHECK(std::filesystem::file_size(file) > 10'000);
+        CHECK(h.viewer->message().find(file.string()) != std::string::npos);
+    }
 }
 
 TEST_CASE("Viewer: goes on after a lost GPU") {
