@@ -340,7 +340,17 @@ void Viewer::draw_saving() {
     } else if (ImGui::Button(words["viewer.film"].c_str(), {-1.0F, 0.0F})) {
         start_film();
     }
-    if (!message_.empty()) ImGui::TextWrapped("%s", message_.c_str());
+}
+
+// In the upper left corner, because a large assembly fills the panel.
+void Viewer::draw_message(float scale) {
+    if (message_.empty()) return;
+    ImGui::SetNextWindowPos({12.0F * scale, 12.0F * scale});
+    ImGui::SetNextWindowBgAlpha(0.82F);
+    ImGui::Begin("##message", nullptr,
+                 panel_flags | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+    draw_text(message_);
+    ImGui::End();
 }
 
 void Viewer::draw_panel(const glm::vec2& size, float scale) {
@@ -432,6 +442,7 @@ Status Viewer::frame(gpu::FrameContext& frame, std::span<const platform::InputEv
     BOLT_TRY(gpu_->ui->begin(frame, input_));
     draw_bar(input_.size, scale);
     draw_panel(input_.size, scale);
+    draw_message(scale);
     const render::Overlay overlay = gpu_->ui->end();
     return renderer.draw_over(frame, overlay, renderer.picture(0));
 }

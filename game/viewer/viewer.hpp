@@ -68,6 +68,7 @@ class Viewer : public view::WindowContent {
     void draw_curve(float scale);
     void draw_clamps(float scale);
     void draw_saving();
+    void draw_message(float scale);
     Status save_picture();
     void finish_film();
 
