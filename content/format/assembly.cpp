@@ -25,31 +25,6 @@ namespace {
 
 constexpr std::size_t max_errors = 200;  // reported per file
 
-bool holds_content(const fs::path& folder) {
-    std::error_code ignored;
-    return fs::is_regular_file(folder / "schema" / "assembly.schema.json", ignored);
-}
-
-// $XDG_DATA_DIRS or its default (XDG Base Directory Specification 0.8).
-std::vector<fs::path> data_folders() {
-    const char* given = std::getenv("XDG_DATA_DIRS");  // NOLINT(concurrency-mt-unsafe): nothing sets it
-    std::istringstream list(given != nullptr && *given != '\0' ? given : "/usr/local/share:/usr/share");
-    std::vector<fs::path> folders;
-    for (std::string folder; std::getline(list, folder, ':');)
-        if (fs::path(folder).is_absolute()) folders.emplace_back(folder);
-    return folders;
-}
-
-std::vector<std::string> assembly_names(const fs::path& content) {
-    std::vector<std::string> names;
-    std::error_code ignored;
-    for (const auto& entry : fs::directory_iterator(content / "assemblies", ignored))
-        if (fs::exists(entry.path() / "assembly.json", ignored))
-            names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 LoadedAssembly failed(std::string file, std::string what, std::string expected) {
     Error error;
     error.code = ErrorCode::bad_content;
@@ -61,15 +36,14 @@ LoadedAssembly failed(std::string file, std::string what, std::string expected) 
     return loaded;
 }
 
-LoadedAssembly unknown_assembly(const std::string& name, const fs::path& content,
-                                const std::vector<std::string>& names) {
+LoadedAssembly unknown_assembly(const std::string& name, const std::vector<std::string>& names) {
     const std::string best = nearest_name(name, names);
     std::string expected_text = fmt::format(
         "{}one of {}", best.empty() ? "" : fmt::format("did you mean {}? expected ", in_quotes(best)),
         fmt::join(names, ", "));
     if (names.empty())
-        expected_text =
-            content.empty() ? "a content folder; BOLTWRIGHT_CONTENT names it" : "an assembly in content/";
+        expected_text = content_folder().empty() ? "a content folder; BOLTWRIGHT_CONTENT names it"
+                                                 : "an assembly in content/";
     return failed(name, "there is no such folder, file or assembly", std::move(expected_text));
 }
 
@@ -159,13 +133,13 @@ LoadedAssembly load_assembly(const fs::path& where, std::string_view variant) {
     const bool folder = fs::is_directory(where, ignored);
     fs::path file = folder ? where / "assembly.json" : where;
     if (!fs::exists(file, ignored)) {
-        const fs::path content = content_folder();
-        const std::vector<std::string> names = assembly_names(content);
+        const std::vector<std::string> names = assembly_names();
         if (std::find(names.begin(), names.end(), where.string()) == names.end())
             return folder
                        ? failed(where.string(), "this folder has no assembly.json", "a folder of an assembly")
-                       : unknown_assembly(where.string(), content, names);
-        file = content / "assemblies" / where / "assembly.json";
+                       : unknown_assembly(where.string(), names);
+        for (const fs::path& assemblies : assembly_folders())
+            if (file = assemblies / where / "assembly.json"; fs::exists(file, ignored)) break;
     }
     if (is_session(file))
         return failed(file.string(), "this is a session, not an assembly",
@@ -177,25 +151,6 @@ LoadedAssembly load_assembly(const fs::path& where, std::string_view variant) {
         return loaded;
     }
     return parse(*text, file.string(), variant, model_folders(file));
-}
-
-fs::path content_folder() {
-    if (const char* given =
-            std::getenv("BOLTWRIGHT_CONTENT")) {  // NOLINT(concurrency-mt-unsafe): nothing sets it
-        if (*given != '\0') return holds_content(given) ? fs::path(given) : fs::path{};
-    }
-    std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    for (fs::path folder = program.parent_path(); !folder.empty(); folder = folder.parent_path()) {
-        if (holds_content(folder / "content")) return folder / "content";
-        if (holds_content(folder / "share" / "boltwright" / "content"))
-            return folder / "share" / "boltwright" / "content";
-        if (folder == folder.root_path()) break;
-    }
-    for (const fs::path& folder : data_folders())
-        if (holds_content(folder / "boltwright" / "content")) return folder / "boltwright" / "content";
-    const fs::path source = BOLT_SOURCE_CONTENT;
-    return holds_content(source) ? source : fs::path{};
 }
 
 namespace {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "content/format/folders.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/joint/design.hpp"
@@ -148,19 +149,13 @@ struct LoadedAssembly {
 // folder; no file is accessed. `variant`: which of the file's "variants" to apply; empty: the file's default.
 LoadedAssembly parse_assembly(std::string_view text, std::string_view file, std::string_view variant = {});
 
-// Loads an assembly. `where` is a folder with an assembly.json, a file, or a name under content/assemblies.
+// Loads an assembly. `where` is a folder with an assembly.json, a file, or one of assembly_names().
 // The files that the assembly refers to must exist within content/ or, for an assembly outside content/,
 // within its own folder.
 LoadedAssembly load_assembly(const std::filesystem::path& where, std::string_view variant = {});
 
 // Selects one of the assembly's tools; empty: the default one. Fails if there is no tool of this name.
 Status choose_tool(Assembly& assembly, std::string_view name);
-
-// The content folder (with schema/ and assemblies/): $BOLTWRIGHT_CONTENT; else content/ or
-// share/boltwright/content/ in the program's folder or a folder above it; else boltwright/content/ in a
-// folder of $XDG_DATA_DIRS; else that of the source tree from which the program was built, if it was not
-// built for a package. Empty if none exists, or if $BOLTWRIGHT_CONTENT is not a content folder.
-std::filesystem::path content_folder();
 
 // Creates a new assembly from the template: makes `folder` (fails if it exists and is not empty) and writes a
 // valid assembly.json with the title `name` and the models that it refers to. Outside content/assemblies the

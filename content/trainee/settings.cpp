@@ -12,17 +12,6 @@ namespace bolt::content {
 
 namespace fs = std::filesystem;
 
-Result<fs::path> data_folder() {
-    // NOLINTBEGIN(concurrency-mt-unsafe): nothing sets them
-    if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && fs::path(data).is_absolute())
-        return fs::path(data) / "boltwright";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return fs::path(home) / ".local" / "share" / "boltwright";
-    // NOLINTEND(concurrency-mt-unsafe)
-    return fail(ErrorCode::usage, "there is no home folder for user data",
-                "the environment variable HOME, or an explicit folder");
-}
-
 std::string file_name_of(std::string_view trainee) {
     std::string name;
     for (const char c : trainee) {

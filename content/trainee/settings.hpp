@@ -1,4 +1,4 @@
-// A trainee's settings, stored as a JSON file, and the folder of user data.
+// A trainee's settings, stored as a JSON file.
 #pragma once
 
 #include <filesystem>
@@ -11,10 +11,6 @@
 #include "engine/base/result.hpp"
 
 namespace bolt::content {
-
-// The folder of user data by the XDG base directory specification; it may not exist yet. Fails if the
-// environment defines none.
-Result<std::filesystem::path> data_folder();
 
 // A file name for a trainee's name: unique for each name, with characters that every file system accepts.
 std::string file_name_of(std::string_view trainee);

@@ -10,6 +10,7 @@
 
 #include "engine/base/file.hpp"
 #include "support.hpp"
+#include "tests/support/environment.hpp"
 #include "tests/support/folder.hpp"
 
 namespace content_load_test {
@@ -19,25 +20,6 @@ namespace fs = std::filesystem;
 using test::Folder;
 
 namespace {
-
-// Sets $BOLTWRIGHT_CONTENT during its lifetime and restores the previous value.
-struct ContentVariable {
-    explicit ContentVariable(const char* value) { set(value); }
-    ContentVariable(const ContentVariable&) = delete;
-    ContentVariable& operator=(const ContentVariable&) = delete;
-    ~ContentVariable() { set(before ? before->c_str() : nullptr); }
-
-    static void set(const char* value) {
-        if (value != nullptr)
-            ::setenv("BOLTWRIGHT_CONTENT", value, 1);
-        else
-            ::unsetenv("BOLTWRIGHT_CONTENT");
-    }
-    std::optional<std::string> before = [] {
-        const char* value = std::getenv("BOLTWRIGHT_CONTENT");
-        return value != nullptr ? std::optional<std::string>(value) : std::nullopt;
-    }();
-};
 
 // Limits the size of written files during its lifetime.
 struct FileSizeLimit {
@@ -118,23 +100,6 @@ TEST_CASE("Load: an unknown variant gives the nearest name or the list") {
     CHECK(only_error("cover-m8", "wood").expected == "none: the file has no variants");
 }
 
-TEST_CASE("Load: BOLTWRIGHT_CONTENT names the content folder") {
-    const fs::path found = content::content_folder();
-    REQUIRE_FALSE(found.empty());
-    {
-        const ContentVariable variable("/nowhere");
-        CHECK(content::content_folder().empty());
-        CHECK(only_error("zq350").expected == "a content folder; BOLTWRIGHT_CONTENT names it");
-    }
-    const ContentVariable variable(found.c_str());
-    CHECK(content::content_folder() == found);
-}
-
-TEST_CASE("Load: without BOLTWRIGHT_CONTENT the content folder is found from the program") {
-    const ContentVariable variable(nullptr);
-    CHECK(fs::exists(content::content_folder() / "schema" / "assembly.schema.json"));
-}
-
 TEST_CASE("Load: a new assembly loads without errors and has its name") {
     const Folder folder;
     for (const char* name : {"pump", "a \"quoted\" pump", "Pumpe für Öl", "broken \xFF name"}) {
@@ -191,7 +156,7 @@ TEST_CASE("Load: a new assembly in the content folder uses the common schema") {
     fs::create_directories(folder / "assemblies");
     fs::copy_file(content::content_folder() / "schema" / "assembly.schema.json",
                   folder.path() / "schema" / "assembly.schema.json");
-    const ContentVariable variable(folder.path().c_str());
+    const test::EnvironmentVariable variable("BOLTWRIGHT_CONTENT", folder.path().c_str());
     REQUIRE(content::create_assembly(folder.path() / "assemblies" / "pump", "pump"));
     const auto loaded = content::load_assembly("pump");
     CHECK(loaded.ok());

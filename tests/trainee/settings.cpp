@@ -4,7 +4,6 @@
 #include <sys/resource.h>
 
 #include <csignal>
-#include <cstdlib>
 
 #include "engine/base/file.hpp"
 #include "engine/base/random.hpp"
@@ -154,18 +153,4 @@ TEST_CASE(
     REQUIRE(!failed);
     CHECK(failed.error().message().find("taken") != std::string::npos);
     CHECK(read_file(folder / "taken", 1000, ErrorCode::failed).value() == "a file, no folder");
-}
-
-TEST_CASE("Settings: the data folder follows the XDG base directory specification") {
-    const char* was = std::getenv("XDG_DATA_HOME");  // NOLINT(concurrency-mt-unsafe): one thread
-    const std::string kept = was != nullptr ? was : "";
-    setenv("XDG_DATA_HOME", "/somewhere", 1);
-    CHECK(data_folder().value() == "/somewhere/boltwright");
-    setenv("XDG_DATA_HOME", "not/absolute", 1);  // the specification requires to ignore it
-    setenv("HOME", "/home/ada", 1);
-    CHECK(data_folder().value() == "/home/ada/.local/share/boltwright");
-    if (was != nullptr)
-        setenv("XDG_DATA_HOME", kept.c_str(), 1);
-    else
-        unsetenv("XDG_DATA_HOME");
 }
