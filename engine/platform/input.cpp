@@ -90,4 +90,25 @@ Key key_named(std::string_view wanted_name) {
     return Key::unknown;
 }
 
+void add_stick(ControllerState& now, const ControllerState& before, float x, float y) {
+    constexpr float press_at = 0.5F, release_at = 0.33F;
+    const auto add = [&](ControllerButton button, float deflection) {
+        const auto index = static_cast<std::size_t>(button);
+        const float threshold = before.down.at(index) ? release_at : press_at;
+        now.down.at(index) = now.down.at(index) || deflection > threshold;
+    };
+    add(ControllerButton::left, -x);
+    add(ControllerButton::right, x);
+    add(ControllerButton::up, -y);
+    add(ControllerButton::down, y);
+}
+
+std::vector<InputEvent> controller_events(const ControllerState& before, const ControllerState& now) {
+    std::vector<InputEvent> events;
+    for (std::size_t i = 0; i < controller_button_count; ++i)
+        if (before.down.at(i) != now.down.at(i))
+            events.emplace_back(ControllerEvent{static_cast<ControllerButton>(i), now.down.at(i)});
+    return events;
+}
+
 }  // namespace bolt::platform

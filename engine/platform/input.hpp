@@ -1,7 +1,8 @@
-// Input of a window as plain values, in the order in which it happened, and the mapping of GLFW's keys to
-// Key.
+// Input of a window as plain values, in the order in which it happened; the mapping of GLFW's keys to Key;
+// events of game controllers.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -62,11 +63,37 @@ struct ResizeEvent {
 struct FocusEvent {
     bool focused = false;
 };
+// The buttons of a game controller that a program with menus needs. The left stick counts as the direction
+// buttons.
+enum class ControllerButton : std::uint8_t {
+    up,
+    down,
+    left,
+    right,
+    confirm,  // the lower one of the four at the right, A on many controllers
+    cancel,   // the right one of these, B on many controllers
+    start,
+};
+inline constexpr std::size_t controller_button_count = 7;
+struct ControllerEvent {
+    ControllerButton button = ControllerButton::start;
+    bool down = false;
+};
 struct RefreshEvent {};  // the contents were lost and must be drawn again
 struct CloseEvent {};    // the user wants to close the window
 
-using InputEvent = std::variant<KeyEvent, TextEvent, ButtonEvent, CursorEvent, WheelEvent, ResizeEvent,
-                                FocusEvent, RefreshEvent, CloseEvent>;
+using InputEvent = std::variant<KeyEvent, TextEvent, ButtonEvent, CursorEvent, WheelEvent, ControllerEvent,
+                                ResizeEvent, FocusEvent, RefreshEvent, CloseEvent>;
+
+// The state of all controllers together.
+struct ControllerState {
+    std::array<bool, controller_button_count> down{};
+};
+// `x`, `y`: left stick, -1 … 1, y towards the user. Sets the direction buttons beyond half its way; keeps a
+// direction down until the stick is back at a third, so that it does not chatter.
+void add_stick(ControllerState& now, const ControllerState& before, float x, float y);
+// An event for each button that differs.
+std::vector<InputEvent> controller_events(const ControllerState& before, const ControllerState& now);
 
 // Maps a GLFW key code. `printed`: the layout's name of the key from glfwGetKeyName; may be null.
 Key key_of(int glfw_key, const char* printed);

@@ -108,6 +108,7 @@ struct Window::State {
     std::shared_ptr<const bool> lost;
     // The cursor position at the time of the event: glfwGetCursorPos would return the current one.
     glm::dvec2 cursor{0.0};
+    ControllerState controllers;
 
     State() = default;
     State(const State&) = delete;
@@ -117,6 +118,7 @@ struct Window::State {
     }
 
     void register_callbacks();
+    void add_controller_events();
     // Converts a position from GLFW's desktop units, which are several pixels on some displays.
     [[nodiscard]] glm::dvec2 pixel(double x, double y) const {
         int width = 0, height = 0, across = 0, down = 0;
@@ -133,7 +135,39 @@ Modifiers modifiers_of(int mods) {
             (mods & GLFW_MOD_SUPER) != 0};
 }
 
+// The buttons of all connected controllers that GLFW has a mapping for.
+ControllerState read_controllers(const ControllerState& before) {
+    constexpr std::pair<int, ControllerButton> buttons[] = {
+        {GLFW_GAMEPAD_BUTTON_DPAD_UP, ControllerButton::up},
+        {GLFW_GAMEPAD_BUTTON_DPAD_DOWN, ControllerButton::down},
+        {GLFW_GAMEPAD_BUTTON_DPAD_LEFT, ControllerButton::left},
+        {GLFW_GAMEPAD_BUTTON_DPAD_RIGHT, ControllerButton::right},
+        {GLFW_GAMEPAD_BUTTON_A, ControllerButton::confirm},
+        {GLFW_GAMEPAD_BUTTON_B, ControllerButton::cancel},
+        {GLFW_GAMEPAD_BUTTON_START, ControllerButton::start}};
+    ControllerState now;
+    for (int joystick = GLFW_JOYSTICK_1; joystick <= GLFW_JOYSTICK_LAST; ++joystick) {
+        GLFWgamepadstate state;
+        if (glfwGetGamepadState(joystick, &state) != GLFW_TRUE) continue;
+        for (const auto& [glfw, button] : buttons) {
+            bool& down = now.down.at(static_cast<std::size_t>(button));
+            down = down || state.buttons[glfw] == GLFW_PRESS;
+        }
+        add_stick(now, before, state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]);
+    }
+    return now;
+}
+
 }  // namespace
+
+// GLFW reports controllers to every program; only the window with the focus takes their input.
+void Window::State::add_controller_events() {
+    const bool focused = glfwGetWindowAttrib(window, GLFW_FOCUSED) == GLFW_TRUE;
+    const ControllerState now = focused ? read_controllers(controllers) : ControllerState{};
+    const std::vector<InputEvent> changes = controller_events(controllers, now);
+    events.insert(events.end(), changes.begin(), changes.end());
+    controllers = now;
+}
 
 void Window::State::register_callbacks() {
     // GLFW accepts plain function pointers; they find their State through the window's user pointer.
@@ -229,6 +263,7 @@ Result<gpu::Surface> Window::make_surface(const gpu::Instance& instance) const {
 
 std::vector<InputEvent> Window::poll_events() {
     glfwPollEvents();
+    if (!*state_->lost) state_->add_controller_events();
     return std::exchange(state_->events, {});
 }
 

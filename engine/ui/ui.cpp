@@ -91,6 +91,10 @@ void set_input(ImGuiIO& io, const UiInput& input) {
     io.MouseWheelH = input.wheel.x;
     io.MouseWheel = input.wheel.y;
     std::copy(input.keys.begin(), input.keys.end(), io.KeysDown);
+    // ImGui presses the marked control with Space. People expect Enter to do so as well.
+    bool& space = io.KeysDown[static_cast<std::size_t>(UiKey::space)];
+    space = space ||
+            (input.keys.at(static_cast<std::size_t>(UiKey::enter)) && io.NavVisible && !io.WantTextInput);
     io.KeyCtrl = input.ctrl;
     io.KeyShift = input.shift;
     io.KeyAlt = input.alt;
@@ -158,13 +162,9 @@ void Ui::add_characters(std::string_view utf8) {
         if (point >= 0x20 && point <= IM_UNICODE_CODEPOINT_MAX) stale_ |= characters_.insert(point).second;
 }
 
-Status Ui::rebuild_font(gpu::FrameContext& frame) {
-    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
-    atlas.Clear();
-    ImFontGlyphRangesBuilder builder;
-    for (const char32_t point : characters_) builder.AddChar(static_cast<ImWchar>(point));
-    ImVector<ImWchar> ranges;
-    builder.BuildRanges(&ranges);
+// Merges all font files into one font of this size. Returns null if a file cannot be read.
+ImFont* Ui::add_font(float text_size, const ImWchar* ranges) {
+    ImFont* added = nullptr;
     for (const Font& font : fonts_) {
         ImFontConfig config;
         config.MergeMode = &font != &fonts_.front();
@@ -172,10 +172,23 @@ Status Ui::rebuild_font(gpu::FrameContext& frame) {
         // between pixels.
         config.OversampleH = config.MergeMode ? 1 : 3;
         config.PixelSnapH = config.MergeMode;
-        const float em = std::round(options_.text_size * scale_);
-        if (atlas.AddFontFromFileTTF(font.file.c_str(), em * font.line, &config, ranges.Data) == nullptr)
-            return fail(ErrorCode::failed, "the font " + font.file + " cannot be read");
+        const float em = std::round(text_size * scale_);
+        added = ImGui::GetIO().Fonts->AddFontFromFileTTF(font.file.c_str(), em * font.line, &config, ranges);
+        if (added == nullptr) return nullptr;
     }
+    return added;
+}
+
+Status Ui::rebuild_font(gpu::FrameContext& frame) {
+    ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+    atlas.Clear();
+    ImFontGlyphRangesBuilder builder;
+    for (const char32_t point : characters_) builder.AddChar(static_cast<ImWchar>(point));
+    ImVector<ImWchar> ranges;
+    builder.BuildRanges(&ranges);
+    if (add_font(options_.text_size, ranges.Data) == nullptr ||
+        (heading_font_ = add_font(options_.heading_size, ranges.Data)) == nullptr)
+        return fail(ErrorCode::failed, "the interface's fonts cannot be read");
     unsigned char* texels = nullptr;
     int width = 0, height = 0;
     atlas.GetTexDataAsAlpha8(&texels, &width, &height);
@@ -233,6 +246,11 @@ bool Ui::wants_pointer() const {
 bool Ui::wants_keys() const {
     ImGui::SetCurrentContext(context_.get());
     return ImGui::GetIO().WantCaptureKeyboard;
+}
+
+bool Ui::navigates_by_keys() const {
+    ImGui::SetCurrentContext(context_.get());
+    return ImGui::GetIO().NavVisible && !ImGui::GetIO().WantTextInput;
 }
 
 }  // namespace bolt::ui

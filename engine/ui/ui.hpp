@@ -15,7 +15,8 @@
 namespace bolt::ui {
 
 struct UiOptions {
-    float text_size = 14.0F;  // em size, points
+    float text_size = 14.0F;     // em size, points
+    float heading_size = 24.0F;  // the same of heading_font()
 };
 
 class Ui {
@@ -39,13 +40,18 @@ class Ui {
     render::Overlay end();
 
     [[nodiscard]] float scale() const { return scale_; }
+    // A larger font with the same characters, for ImGui::PushFont between begin() and end().
+    [[nodiscard]] ImFont* heading_font() const { return heading_font_; }
     // Return whether pointer and keyboard input is for the interface now, not for the scene.
     [[nodiscard]] bool wants_pointer() const;
     [[nodiscard]] bool wants_keys() const;
+    // Returns whether the user moves through the controls with keys: Enter then presses the marked control.
+    [[nodiscard]] bool navigates_by_keys() const;
 
   private:
     Ui() = default;
     Status rebuild_font(gpu::FrameContext& frame);
+    ImFont* add_font(float text_size, const ImWchar* ranges);
 
     struct Destroy {
         void operator()(ImGuiContext* context) const { ImGui::DestroyContext(context); }
@@ -62,6 +68,7 @@ class Ui {
     std::set<char32_t> characters_;
     bool stale_ = true;  // the font image lacks characters or has the wrong size
     float scale_ = 0.0F;
+    ImFont* heading_font_ = nullptr;
     gpu::Image font_image_;
     std::vector<render::OverlayTexture> pictures_;  // in this frame
 };
