@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "content/format/assembly.hpp"
+#include "content/format/folders.hpp"
 #include "content/format/json_document.hpp"
 #include "engine/base/file.hpp"
 

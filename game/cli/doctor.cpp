@@ -4,12 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "content/format/assembly.hpp"
@@ -19,13 +16,11 @@
 #include "engine/platform/pace.hpp"
 #include "engine/platform/window.hpp"
 #include "game/cli/commands.hpp"
-#include "game/session/contact_models.hpp"
-#include "game/session/lesson_session.hpp"
+#include "game/computer/computer.hpp"
 #include "game/station/trial.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/device/virtual_devices.hpp"
 #include "haptics/hand/glove_driver.hpp"
-#include "haptics/servo/thread.hpp"
 
 namespace bolt::cli {
 
@@ -40,63 +35,30 @@ struct TrialOptions {
     [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty(); }
 };
 
-// A load for the servo: a hand that lowers the wrench onto the first nut and lifts it once a second. The
-// wrench is rotated by 8° from a fit and collides with the nut, so that contacts, god-object, guiding and
-// output stage all compute.
-servo::Input working_input(const servo::Setup& setup, const servo::State& state) {
-    const servo::NutGeometry& nut = setup.nuts.front();
-    const double time = static_cast<double>(state.tick) * setup.dt;
-    const Vec3 at = servo::nut_centre(nut, 0.0) + nut.axis * (0.014 + 0.012 * std::cos(2.0 * pi * time));
-    // The handle points away from the casing, beyond the flange's edge.
-    const double handle = setup.wrench.head_angle + to_radians(8.0) + (nut.seat.z > 0.0 ? 0.5 : 1.5) * pi;
-    const double nearest =
-        std::round(handle / (pi / 3.0)) * (pi / 3.0) + setup.wrench.head_angle + to_radians(8.0);
-    const Vec3 x = std::cos(-nearest) * nut.e1 + std::sin(-nearest) * nut.e2;
-    const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(nut.axis, x), nut.axis)));
-    servo::Input input;
-    input.device = servo::sample_of({at, q});
-    input.grip = servo::Grip::wrench;
-    input.enabled = true;
-    input.guide = 0;
-    return input;
-}
-
 // Times the servo of the assembly's lesson at 1 kHz and 4 kHz for `seconds` each. Returns the thread's
 // privileges, the histograms and the assessments as text.
 Result<std::string> examine_servo(double seconds, const std::string& assembly) {
-    const content::LoadedAssembly loaded = content::load_assembly(assembly);
-    if (!loaded.ok()) return fail(loaded.errors.front());
-    std::string text;
-    std::optional<servo::ToolContact> contact;  // loaded once, because it takes seconds
-    for (const double rate : {1000.0, 4000.0}) {
-        const servo::Setup setup =
-            session::make_setup(loaded.assembly, loaded.assembly.law, force::OutputLimits{}, 0, 1.0 / rate);
-        servo::State state = servo::initial_state(setup);
-        if (!contact) {
-            BOLT_TRY_ASSIGN(auto made, session::load_tool_contact(loaded.assembly, setup));
-            contact = std::move(made);
-        }
-        if (contact) servo::set_coupling(setup, *contact);
-        state.tool_contact = std::move(contact);
-        servo::tick(setup, state,
-                    working_input(setup, state));  // the first tick computes all distance bounds
-        servo::ThreadOptions options;
-        options.rate = rate;
-        BOLT_TRY_ASSIGN(auto thread, servo::ServoThread::start(options, [&](const servo::Deadline&) {
-                            servo::tick(setup, state, working_input(setup, state));
-                            return true;
-                        }));
-        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-        thread.stop();
-        if (text.empty()) text = station_setup::describe(thread.privileges());
-        contact = std::move(state.tool_contact);
-        const servo::HostAssessment assessment = servo::assess_host(thread.timing(), rate);
-        text += fmt::format("  at {:.0f} ticks a second this machine is {}\n", rate,
-                            assessment.adequate ? "good enough" : "NOT good enough");
-        for (const std::string& reason : assessment.reasons) text += "    " + reason + "\n";
-        text += servo::describe(thread.timing());
+    BOLT_TRY_ASSIGN(const auto timings, computer::time_servo(assembly, {1000.0, 4000.0}, seconds));
+    std::string text = station_setup::describe(timings.front().privileges);
+    for (const computer::ServoTiming& timed : timings) {
+        text += fmt::format("  at {:.0f} ticks a second this machine is {}\n", timed.rate,
+                            timed.assessment.adequate ? "good enough" : "NOT good enough");
+        for (const std::string& reason : timed.assessment.reasons) text += "    " + reason + "\n";
+        text += servo::describe(timed.timing);
     }
     return text;
+}
+
+// What was found, in the words of the menu.
+Status summarize() {
+    BOLT_TRY_ASSIGN(const auto data, content::data_folder());
+    computer::FactsRequest request;
+    request.gpu = computer::find_gpu();
+    request.sessions = data / "sessions";
+    const words::LoadedWords english = words::load_words(words::words_folder(), "en");
+    if (!english.ok()) return fail(english.errors.front());
+    return print("In short:\n" +
+                 computer::describe(english.words, computer::findings(computer::find_out(request))));
 }
 
 std::string trial_header(const TrialOptions& options, const content::Assembly& assembly,
@@ -255,6 +217,7 @@ void add_doctor(CLI::App& app, int& exit_code) {
         }
         const Status drawing = examine_drawing();
         Status servo = print(devices_line() + suggested_trials());
+        if (servo) servo = summarize();
         const double seconds = options->seconds.value_or(2.0);
         if (servo && seconds > 0.0) {
             const Result<std::string> text = examine_servo(seconds, options->station.assembly);

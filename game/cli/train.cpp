@@ -49,6 +49,7 @@ struct TrainArguments {
     std::uint64_t seed = 1;
     std::string out = "out";
     bool folder_per_lesson = false;  // each lesson of a window gets a folder of its own in `out`
+    bool first_start = false;        // the menu offers the tour first
 };
 
 // Prints the progress to stderr: one line that is overwritten on a terminal, otherwise one line a pass.
@@ -240,6 +241,7 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     if (!options.law.empty()) app_options.choice.law = train.lesson.law;
     app_options.out = out;
     app_options.folder_per_lesson = options.folder_per_lesson;
+    app_options.first_start = options.first_start;
     app_options.settings_file = options.settings;
     // Without a home folder no settings are kept.
     if (const auto data = content::data_folder()) app_options.settings_folder = *data / "settings";
@@ -306,6 +308,7 @@ Status train_from_desktop() {
     BOLT_TRY_ASSIGN(const auto data, content::data_folder());
     options.out = (data / "sessions").string();
     options.folder_per_lesson = true;
+    options.first_start = !std::filesystem::exists(options.out);
     BOLT_TRY_ASSIGN(const auto equipment, equipment_of(options));
     const content::LoadedAssembly loaded = content::load_assembly(options.assembly);
     if (!loaded.ok()) return fail(loaded.errors.front());

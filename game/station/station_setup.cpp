@@ -6,6 +6,7 @@
 #include <array>
 #include <utility>
 
+#include "content/format/folders.hpp"
 #include "content/station/wheel_config_file.hpp"
 #include "content/trainee/settings.hpp"
 #include "engine/base/nearest.hpp"

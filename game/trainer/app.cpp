@@ -15,8 +15,9 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double longest_frame = 0.25;  // s; a slower frame delays the lesson instead of making it jump
-constexpr float text_size = 15.0F;      // points
+constexpr double longest_frame = 0.25;   // s; a slower frame delays the lesson instead of making it jump
+constexpr float text_size = 15.0F;       // points
+constexpr double timing_duration = 1.5;  // s, of the servo in the check of the computer
 
 // Names what the user presses or moves for each control of the current hand.
 lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys, const Equipment& equipment,
@@ -46,10 +47,11 @@ void add_characters(ui::Ui& ui, std::span<const words::Words> languages,
         ui.add_characters(language.name);
         for (const std::string& text : language.texts) ui.add_characters(text);
     }
-    for (const std::string_view sign : {"▼", "●", "▲", "◆", "–"}) ui.add_characters(sign);
+    for (const std::string_view sign : {"▼", "●", "▲", "◆", "▶", "–", "‹", "›"}) ui.add_characters(sign);
     for (const AssemblyEntry& entry : assemblies) {
         for (const auto& [code, title] : entry.title) ui.add_characters(title);
         for (const auto& [code, text] : entry.lesson) ui.add_characters(text);
+        if (entry.error) ui.add_characters(entry.error->message());
         for (const content::AssemblyVariant& variant : entry.variants)
             for (const auto& [code, title] : variant.title) ui.add_characters(title);
         for (const content::Tool& tool : entry.tools)
@@ -77,10 +79,10 @@ std::string describe_event(const content::Assembly& assembly, const lesson::Less
 }
 
 // The folder of the next session, which is created: `out` itself, or "2026-11-25_15-40-12_zq350" in it.
-Result<std::filesystem::path> lesson_folder(const AppOptions& options) {
+Result<std::filesystem::path> lesson_folder(const AppOptions& options, const LessonChoice& choice) {
     std::filesystem::path folder = options.out;
     if (options.folder_per_lesson) {
-        const std::string assembly = std::filesystem::path(options.choice.assembly).filename().string();
+        const std::string assembly = std::filesystem::path(choice.assembly).filename().string();
         const std::string name =
             fmt::format("{:%Y-%m-%d_%H-%M-%S}_{}", fmt::localtime(std::time(nullptr)), assembly);
         folder /= name;
@@ -97,9 +99,10 @@ Result<std::filesystem::path> lesson_folder(const AppOptions& options) {
     return fail(error);
 }
 
-bool pressed_enter(const platform::InputEvent& event) {
-    const auto* key = std::get_if<platform::KeyEvent>(&event);
-    return key != nullptr && key->key == platform::Key::enter && key->down && !key->repeated;
+UserFolders folders_of(const AppOptions& options) {
+    UserFolders folders{options.out, options.folder_per_lesson, options.settings_folder, {}};
+    if (const auto data = content::data_folder()) folders.assemblies = *data / "assemblies";
+    return folders;
 }
 
 }  // namespace
@@ -112,7 +115,12 @@ struct App::GpuResources {
 };
 
 App::App(AppOptions options) : options_(std::move(options)) {
-    if (options_.menu) menu_ = {list_assemblies(), device_options(), std::nullopt};
+    if (options_.menu) {
+        menu_.assemblies = list_assemblies();
+        menu_.devices = device_options();
+        menu_.folders = folders_of(options_);
+        menu_.first_start = options_.first_start;
+    }
     start_requested_ = !options_.menu;
     preferences_.folder = options_.settings_folder;
     preferences_.file = options_.settings_file;
@@ -144,6 +152,8 @@ Status App::start(view::GpuContext& gpu_context) {
     BOLT_TRY_ASSIGN(auto ui, ui::Ui::create(*gpu_context.device, {text_size}));
     gpu_->ui = std::move(ui);
     add_characters(*gpu_->ui, languages_, menu_.assemblies);
+    for (const auto& folder : {menu_.folders.sessions, menu_.folders.settings, menu_.folders.assemblies})
+        gpu_->ui->add_characters(folder.string());
     BOLT_TRY_ASSIGN(auto fonts, text::load_fonts());
     gpu_->fonts.emplace(std::move(fonts));
     return active_ ? upload_lesson() : Status{};
@@ -155,7 +165,7 @@ void App::release() {
         active_->scene = {};
         scene::destroy_drawables(active_->workplace.world);
     }
-    backdrop_.release();
+    pictures_.release();
     gpu_.reset();
 }
 
@@ -173,13 +183,26 @@ Status App::upload_lesson() {
     return {};
 }
 
+// The choice of the menu; for the tour its nut, guided, with the same devices.
+LessonChoice App::lesson_choice() const {
+    LessonChoice choice = options_.choice;
+    if (!tour_requested_) return choice;
+    choice.assembly = tour_assembly;
+    choice.variant.clear();
+    choice.tool.clear();
+    choice.mode = lesson::Mode::guided;
+    choice.task = lesson::Task::tighten;
+    return choice;
+}
+
 Status App::begin_lesson(float aspect) {
     select_trainee();
     save_preferences();
+    const LessonChoice choice = lesson_choice();
     if (active_ && !options_.choice.equipment.uses_mouse()) active_->station.reset();  // it holds the devices
-    BOLT_TRY_ASSIGN(const auto folder, lesson_folder(options_));
-    BOLT_TRY_ASSIGN(auto started, start_lesson({options_.choice, preferences_.settings, options_.lesson,
-                                                folder, options_.start_station}));
+    BOLT_TRY_ASSIGN(const auto folder, lesson_folder(options_, choice));
+    BOLT_TRY_ASSIGN(auto started, start_lesson({choice, preferences_.settings, options_.lesson, folder,
+                                                options_.start_station}));
     folder_ = folder;
     if (active_) {
         BOLT_TRY(gpu_->context->device->idle());
@@ -205,9 +228,18 @@ Status App::begin_lesson(float aspect) {
     apply_preferences();
     active.verdicts.assign(context_->assembly.joints.size(), lesson::Verdict::none);
     outcome_.reset();
+    tour_ = tour_requested_ ? std::optional(Tour{}) : std::nullopt;
     screen_ = ShownScreen::lesson;
     log(fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name, context_->assembly.variant,
                     lesson::name(context_->options.mode), joint::name(context_->options.law)));
+    return {};
+}
+
+// Releases the lesson whose result was shown, with the devices that its station holds.
+Status App::close_lesson() {
+    BOLT_TRY(gpu_->context->device->idle());
+    active_.reset();
+    gpu_->models.reset();
     return {};
 }
 
@@ -280,11 +312,32 @@ void App::apply_preferences() {
         active.sound.captions = settings.captions ? std::optional(Captions{}) : std::nullopt;
 }
 
+// Starts what the first button of the menu, or the button "again" of the result, starts.
+void App::press_start() {
+    if (screen_ == ShownScreen::menu) tour_requested_ = menu_.first_start;
+    start_requested_ = true;
+}
+
+void App::show_page(MenuPage page) {
+    menu_.page = page;
+    if (page != MenuPage::computer) return;
+    const gpu::Device& device = *gpu_->context->device;
+    computer::FactsRequest request;
+    request.gpu =
+        computer::GpuFacts{device.name(), device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
+    request.sessions = options_.out;
+    request.assembly = options_.choice.assembly;
+    request.seconds = timing_duration;
+    menu_.check.start(options_.find_out, request);
+}
+
 void App::perform(ScreenAction action) {
     switch (action) {
         case ScreenAction::none:
             return;
         case ScreenAction::start_lesson:
+        case ScreenAction::start_tour:
+            if (screen_ == ShownScreen::menu) tour_requested_ = action == ScreenAction::start_tour;
             start_requested_ = true;
             return;
         case ScreenAction::resume:
@@ -311,6 +364,12 @@ void App::perform(ScreenAction action) {
             settings_.reset();
             save_preferences();
             return;
+        case ScreenAction::show_computer:
+            return show_page(MenuPage::computer);
+        case ScreenAction::show_files:
+            return show_page(MenuPage::files);
+        case ScreenAction::close_page:
+            return show_page(MenuPage::choices);
         case ScreenAction::select_trainee:
             return select_trainee();
         case ScreenAction::quit:
@@ -344,6 +403,7 @@ Status App::run_systems(std::span<const platform::InputEvent> events, const glm:
     };
     timed("pointer", [&] { handle_input(active.workplace.world, frame); });
     ecs::run(frame_systems, active.workplace.world, frame, timed);
+    if (tour_ && in_lesson) update(*tour_, frame);
 
     const double dt = active.session->setup().dt;
     if (hand_of(active).wrench != had_wrench)
@@ -357,18 +417,12 @@ Status App::run_systems(std::span<const platform::InputEvent> events, const glm:
     return active.clock.finished && in_lesson ? end_lesson() : Status{};
 }
 
-Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
-    render::Renderer& renderer = *gpu_->context->renderer;
-    ui::Ui& ui = *gpu_->ui;
-    const glm::dvec2 extent(size.width, size.height);
-    BOLT_TRY(ui.begin(frame, input_));
-    if (const auto picture = backdrop_.picture(renderer); picture && !active_)
-        ImGui::GetBackgroundDrawList()->AddImage(ui.picture(*picture), {0.0F, 0.0F},
-                                                 {input_.size.x, input_.size.y});
-    buttons_.clear();
+// Draws the screen over the picture, and performs what the user selects on it.
+void App::draw_screen(const ScreenContext& context) {
     const bool in_lesson = screen_ == ShownScreen::lesson;
-    const ScreenContext context{words_, languages_, extent, input_.scale, buttons_, selected_language_};
-    if (in_lesson) draw_hud(*active_, {&words_, &controls_}, extent, input_.scale);
+    const HudText texts{&words_, &controls_};
+    if (in_lesson) draw_hud(*active_, texts, context.size, context.scale);
+    if (in_lesson && tour_) draw_tour(*tour_, *active_, texts, context.size, context.scale);
     if (settings_) {
         const ScreenAction action = settings_->draw(context, preferences_, active_ && in_lesson);
         apply_preferences();
@@ -376,14 +430,44 @@ Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
     } else if (in_lesson && active_->clock.paused) {
         perform(draw_pause(context, preferences_, active_->session->lesson().mode));
     } else if (screen_ == ShownScreen::menu) {
-        perform(draw_menu(context, menu_, options_.choice, preferences_));
+        MenuPictures pictures;
+        for (const AssemblyEntry& entry : menu_.assemblies)
+            if (const auto thumbnail = pictures_.thumbnail(entry.name))
+                pictures.thumbnails.emplace(entry.name, gpu_->ui->picture(*thumbnail));
+        perform(draw_menu(context, menu_, pictures, options_.choice, preferences_));
     } else if (screen_ == ShownScreen::result) {
-        perform(draw_result(context, context_->assembly, outcome_->result, options_.menu));
+        perform(
+            draw_result(context, context_->assembly, outcome_->result, {options_.menu, tour_.has_value()}));
     }
-    if (active_ && in_lesson) BOLT_TRY(draw_close_up({renderer, frame, ui}, *active_, extent, input_.scale));
+}
+
+Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
+    render::Renderer& renderer = *gpu_->context->renderer;
+    ui::Ui& ui = *gpu_->ui;
+    const glm::dvec2 extent(size.width, size.height);
+    BOLT_TRY(ui.begin(frame, input_));
+    if (const auto picture = pictures_.picture(renderer); picture && !active_)
+        ImGui::GetBackgroundDrawList()->AddImage(ui.picture(*picture), {0.0F, 0.0F},
+                                                 {input_.size.x, input_.size.y});
+    buttons_.clear();
+    draw_screen({words_, languages_, extent, input_.scale, ui.heading_font(), buttons_, selected_language_});
+    if (active_ && screen_ == ShownScreen::lesson)
+        BOLT_TRY(draw_close_up({renderer, frame, ui}, *active_, extent, input_.scale));
     if (active_) active_->view.occupied = occupied_areas();
     const render::Overlay overlay = ui.end();
     return renderer.draw_over(frame, overlay, renderer.picture(0));
+}
+
+// Draws the lesson, or the pictures of the menu.
+Status App::draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale) {
+    static const render::Scene empty_scene;
+    const glm::dvec2 extent(size.width, size.height);
+    const render::Eye eye = active_ ? screen_of(*active_, extent).eye : render::Eye{};
+    render::Renderer& renderer = *gpu_->context->renderer;
+    BOLT_TRY(renderer.render(frame, active_ ? active_->scene : empty_scene, std::span(&eye, 1), size));
+    if (active_) return {};
+    return pictures_.draw(*gpu_->context->device, renderer, frame,
+                          picture_request(menu_, options_.choice.assembly, size, scale));
 }
 
 Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events, VkExtent2D size,
@@ -400,7 +484,10 @@ Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent
             log(begun.error().message());
         }
     }
-    const bool settings_shown = settings_.has_value();
+    if (screen_ == ShownScreen::menu && active_) BOLT_TRY(close_lesson());
+    const bool can_start = screen_ != ShownScreen::lesson && !settings_ && menu_.page == MenuPage::choices;
+    // Enter presses the control that the keys have marked, if they have marked one.
+    const bool enter_starts = !gpu_->ui->navigates_by_keys();
     bool close_settings = false;
     update_ui_input(input_, settings_
                                 ? settings_->take_keys(events, words_, preferences_.keys, close_settings)
@@ -412,17 +499,11 @@ Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent
     if (close_settings) perform(ScreenAction::close_settings);
     for (const platform::InputEvent& event : events) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);
-        start_requested_ =
-            start_requested_ || (pressed_enter(event) && screen_ != ShownScreen::lesson && !settings_shown);
+        const bool by_key = std::holds_alternative<platform::KeyEvent>(event);
+        if (can_start && starts(event) && (enter_starts || !by_key)) press_start();
+        if (screen_ == ShownScreen::menu && leaves(event)) show_page(MenuPage::choices);
     }
-    static const render::Scene empty_scene;
-    const render::Eye eye = active_ ? screen_of(*active_, extent).eye : render::Eye{};
-    render::Renderer& renderer = *gpu_->context->renderer;
-    BOLT_TRY(renderer.render(frame, active_ ? active_->scene : empty_scene, std::span(&eye, 1), size));
-    if (!active_) {
-        backdrop_.select(options_.choice.assembly);
-        BOLT_TRY(backdrop_.draw(*gpu_->context->device, renderer, frame, size));
-    }
+    BOLT_TRY(draw_pictures(frame, size, scale));
     BOLT_TRY(draw_interface(frame, size));
     return std::exchange(end_requested_, false) ? end_lesson() : Status{};
 }

@@ -5,8 +5,9 @@
 #include <map>
 
 #include "engine/ui/ui.hpp"
-#include "game/trainer/backdrop.hpp"
+#include "game/trainer/menu.hpp"
 #include "game/trainer/settings_screen.hpp"
+#include "game/trainer/tour.hpp"
 #include "game/view/window.hpp"
 
 namespace bolt::trainer {
@@ -19,6 +20,8 @@ struct AppOptions {
     std::filesystem::path out;                             // folder of the session
     bool folder_per_lesson = false;                        // each lesson gets a folder of its own in `out`
     std::filesystem::path settings_folder, settings_file;  // Preferences::folder and ::file
+    bool first_start = false;                              // the menu offers the tour first
+    ComputerCheck::FindOut find_out = computer::find_out;  // computer::find_out, or a test's
     StartStation start_station = trainer::start_station;
 
     // Called with the folder of a lesson when it starts. Removes the files of an earlier lesson that would
@@ -65,7 +68,11 @@ class App : public view::WindowContent {
     // The state on the screen, for tests.
     [[nodiscard]] ShownScreen screen() const { return screen_; }
     [[nodiscard]] const ActiveLesson* lesson() const { return active_ ? &*active_ : nullptr; }
-    [[nodiscard]] const Backdrop& backdrop() const { return backdrop_; }
+    [[nodiscard]] const AssemblyPictures& pictures() const { return pictures_; }
+    [[nodiscard]] MenuPage menu_page() const { return menu_.page; }
+    [[nodiscard]] const ComputerCheck& computer_check() const { return menu_.check; }
+    [[nodiscard]] const LessonChoice& choice() const { return options_.choice; }
+    [[nodiscard]] const std::optional<Tour>& tour() const { return tour_; }
     [[nodiscard]] std::span<const ButtonPlace> buttons() const { return buttons_; }
     [[nodiscard]] const Preferences& preferences() const { return preferences_; }
     [[nodiscard]] bool shows_settings() const { return settings_.has_value(); }
@@ -74,9 +81,15 @@ class App : public view::WindowContent {
   private:
     struct GpuResources;
     Status begin_lesson(float aspect);
+    Status close_lesson();
+    [[nodiscard]] LessonChoice lesson_choice() const;
     Status upload_lesson();
     Status run_systems(std::span<const platform::InputEvent> events, const glm::dvec2& size, double seconds);
+    Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);
     Status draw_interface(gpu::FrameContext& frame, VkExtent2D size);
+    void draw_screen(const ScreenContext& context);
+    void press_start();
+    void show_page(MenuPage page);
     void perform(ScreenAction action);
     void select_trainee();
     Status select_language(const std::string& code);
@@ -98,15 +111,17 @@ class App : public view::WindowContent {
     ui::UiInput input_;
     bool closed_ = false, full_screen_requested_ = false;
     bool start_requested_ = false, end_requested_ = false;
+    bool tour_requested_ = false;  // the next lesson is the tour
 
     std::optional<LessonContext> context_;  // of the last lesson that started
     std::filesystem::path folder_;          // of its session
     std::optional<ActiveLesson> active_;    // also while its result is shown
+    std::optional<Tour> tour_;              // if that lesson is the tour
     std::optional<session::LessonOutcome> outcome_;
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
 
     std::unique_ptr<GpuResources> gpu_;
-    Backdrop backdrop_;
+    AssemblyPictures pictures_;
 };
 
 }  // namespace bolt::trainer

@@ -40,6 +40,9 @@ FrameInput apply_events(InputState& state, std::span<const InputEvent> events, c
             if (focus.keys) press(state, *key, input);
         } else if (const auto* button = std::get_if<ButtonEvent>(&event)) {
             click(state, *button, focus, input);
+        } else if (const auto* controller = std::get_if<ControllerEvent>(&event)) {
+            if (focus.keys && controller->down && controller->button == ControllerButton::start)
+                input.actions.at(static_cast<std::size_t>(Action::pause)) = true;
         } else if (const auto* cursor = std::get_if<CursorEvent>(&event)) {
             const glm::dvec2 movement = cursor->at - state.pointer;
             state.pointer = cursor->at;
@@ -101,6 +104,19 @@ void update_key(ui::UiInput& input, const platform::KeyEvent& event) {
     if (const auto key = key_of(event.key)) input.key(*key) = event.down;
 }
 
+// A controller moves through the interface as the arrow keys do.
+void update_controller(ui::UiInput& input, const platform::ControllerEvent& event) {
+    using platform::ControllerButton;
+    constexpr std::pair<ControllerButton, ui::UiKey> table[] = {
+        {ControllerButton::up, ui::UiKey::up},
+        {ControllerButton::down, ui::UiKey::down},
+        {ControllerButton::left, ui::UiKey::left},
+        {ControllerButton::right, ui::UiKey::right},
+        {ControllerButton::confirm, ui::UiKey::space}};
+    for (const auto& [button, key] : table)
+        if (button == event.button) input.key(key) = event.down;
+}
+
 void update_button(ui::UiInput& input, const platform::ButtonEvent& event) {
     input.pointer = event.at;
     input.pointer_inside = true;
@@ -115,6 +131,20 @@ void update_button(ui::UiInput& input, const platform::ButtonEvent& event) {
 
 }  // namespace
 
+bool leaves(const platform::InputEvent& event) {
+    if (const auto* controller = std::get_if<platform::ControllerEvent>(&event))
+        return controller->button == platform::ControllerButton::cancel && controller->down;
+    const auto* key = std::get_if<platform::KeyEvent>(&event);
+    return key != nullptr && key->key == PlatformKey::escape && key->down && !key->repeated;
+}
+
+bool starts(const platform::InputEvent& event) {
+    if (const auto* controller = std::get_if<platform::ControllerEvent>(&event))
+        return controller->button == platform::ControllerButton::start && controller->down;
+    const auto* key = std::get_if<platform::KeyEvent>(&event);
+    return key != nullptr && key->key == PlatformKey::enter && key->down && !key->repeated;
+}
+
 void update_ui_input(ui::UiInput& input, std::span<const platform::InputEvent> events) {
     for (ui::UiButton& button : input.buttons) button.pressed = false;
     input.wheel = {};
@@ -126,6 +156,8 @@ void update_ui_input(ui::UiInput& input, std::span<const platform::InputEvent> e
             input.text += text::encode(std::u32string_view(&typed->character, 1));
         } else if (const auto* button = std::get_if<platform::ButtonEvent>(&event)) {
             update_button(input, *button);
+        } else if (const auto* controller = std::get_if<platform::ControllerEvent>(&event)) {
+            update_controller(input, *controller);
         } else if (const auto* cursor = std::get_if<platform::CursorEvent>(&event)) {
             input.pointer = cursor->at;
             input.pointer_inside = true;

@@ -2,7 +2,7 @@
 //
 // Mouse in a lesson: the left button on a nut or the wrench moves the hand; elsewhere it turns the view, as
 // the right button does. The middle button pans, the wheel zooms. Escape always pauses, whatever the key map
-// says.
+// says. A game controller moves through the menus and pauses a lesson; it does not move the hand.
 #pragma once
 
 #include <array>
@@ -80,6 +80,11 @@ FrameInput apply_events(InputState& state, std::span<const platform::InputEvent>
 
 // Updates the interface's input with the events of a frame, except size, scale and time.
 void update_ui_input(ui::UiInput& input, std::span<const platform::InputEvent> events);
+
+// True if the event leaves a page or the settings: Escape, or the controller's button for it.
+bool leaves(const platform::InputEvent& event);
+// True if the event starts what the screen offers first: Enter, or the controller's start button.
+bool starts(const platform::InputEvent& event);
 
 // False for modifiers and Escape, which always pauses a lesson and leaves a menu.
 bool is_bindable(platform::Key key);

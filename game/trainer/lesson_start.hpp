@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "content/format/assembly.hpp"
 #include "content/trainee/settings.hpp"
 #include "game/scene/workplace.hpp"
 #include "game/trainer/active_lesson.hpp"

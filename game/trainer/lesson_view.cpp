@@ -22,10 +22,10 @@ constexpr double show_distance = 0.07, hide_distance = 0.1;
 // Part of the pull during which the eye should see nut and jaw.
 constexpr double considered_swing = to_radians(60.0);
 constexpr double max_rotation = to_radians(70.0);  // of the tool, before another eye is chosen
-constexpr double min_alignment = 0.9;            // cosine of the angle between the tool's normal and the bolt
-constexpr float width = 240.0F, margin = 12.0F;  // points
-constexpr float max_width_share = 0.28F;         // fraction of the picture
-constexpr float effort_width = 290.0F, effort_height = 62.0F;  // points, at the bottom centre (hud.cpp)
+constexpr double min_alignment = 0.9;  // cosine of the angle between the tool's normal and the bolt
+constexpr float close_up_width = 240.0F, close_up_margin = 12.0F;  // points
+constexpr float max_width_share = 0.28F;                           // fraction of the picture
+constexpr float effort_width = 290.0F, effort_height = 62.0F;      // points, at the bottom centre (hud.cpp)
 constexpr const char* window_name = "##close_up";
 
 // The nut that the tool is near.
@@ -108,10 +108,10 @@ void update_close_up(ActiveLesson& active) {
 std::optional<render::Rectangle> close_up_rectangle(const glm::dvec2& picture, float scale,
                                                     std::span<const render::Rectangle> occupied) {
     const glm::vec2 whole(picture);
-    const float wide =
-        std::round(std::min(width * scale, max_width_share * std::min(whole.x, whole.y * 4.0F / 3.0F)));
+    const float wide = std::round(
+        std::min(close_up_width * scale, max_width_share * std::min(whole.x, whole.y * 4.0F / 3.0F)));
     const glm::vec2 size(wide, std::round(0.75F * wide));
-    const float side = std::round(margin * scale);
+    const float side = std::round(close_up_margin * scale);
     const float effort_left = 0.5F * (whole.x - effort_width * scale);
     for (const float above : {0.0F, std::round(effort_height * scale)}) {
         if (above == 0.0F && side + wide > effort_left) continue;

@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 #include <imgui/imgui.h>
 
-#include <algorithm>
-#include <array>
-
 #include "game/lesson/feedback.hpp"
 #include "game/view/labels.hpp"
 
@@ -16,103 +13,8 @@ namespace {
 constexpr ImGuiWindowFlags panel_flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                          ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                          ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar;
-constexpr glm::vec4 warning{1.0F, 0.55F, 0.45F, 1.0F};
 
 ImVec4 to_imgui(const glm::vec4& color) { return {color.r, color.g, color.b, color.a}; }
-
-// The text in `language`, else in English, else `fallback`.
-std::string in_language(const std::map<std::string, std::string>& texts, const std::string& language,
-                        const std::string& fallback) {
-    for (const std::string& code : {language, std::string("en")})
-        if (const auto found = texts.find(code); found != texts.end()) return found->second;
-    return fallback;
-}
-
-template <class Value>
-void radio_button(const char* label, Value& value, Value option) {
-    if (ImGui::RadioButton(label, value == option)) value = option;
-    ImGui::SameLine();
-}
-
-void text_field(const char* label, std::string& value) {
-    std::array<char, 64> buffer{};
-    value.copy(buffer.data(), buffer.size() - 1);
-    if (ImGui::InputText(label, buffer.data(), buffer.size())) value = buffer.data();
-}
-
-// Shown only if there is more than the mouse to choose.
-void draw_devices(const ScreenContext& context, std::span<const DeviceOption> devices, Equipment& equipment) {
-    if (devices.size() < 2) return;
-    for (const DeviceOption& option : devices) {
-        const std::string name = option.name.empty() ? context.words["menu.mouse"] : option.name;
-        Equipment next = option.equipment;
-        next.wheel_config_file = equipment.wheel_config_file;
-        next.glove = equipment.glove;
-        if (ImGui::RadioButton(name.c_str(), equipment.devices == next.devices && !equipment.keyboard))
-            equipment = next;
-    }
-}
-
-// A selection replaces the law of the command line and is saved with the trainee's settings.
-void draw_laws(const ScreenContext& context, joint::Law assembly_law, LessonChoice& choice,
-               content::TraineeSettings& settings) {
-    ImGui::AlignTextToFramePadding();
-    draw_text(context.words["menu.law"]);
-    const joint::Law selected = law_in_force(choice, settings, assembly_law);
-    for (const auto& [key, law] : {std::pair{words::TextKey("menu.law.mechanistic"), joint::Law::mechanistic},
-                                   std::pair{words::TextKey("menu.law.published"), joint::Law::published}}) {
-        ImGui::SameLine();
-        if (ImGui::RadioButton(context.words[key].c_str(), selected == law)) {
-            settings.law = joint::name(law);
-            choice.law.reset();
-        }
-        record_place(context, key);
-    }
-}
-
-void draw_variants_and_tools(const std::string& language, const AssemblyEntry& entry, LessonChoice& choice) {
-    if (entry.variants.size() > 1) {
-        for (const content::AssemblyVariant& variant : entry.variants)
-            radio_button(in_language(variant.title, language, variant.name).c_str(), choice.variant,
-                         variant.name == entry.default_variant ? std::string() : variant.name);
-        ImGui::NewLine();
-    }
-    if (entry.tools.size() > 1) {
-        for (const content::Tool& tool : entry.tools)
-            radio_button(in_language(tool.title, language, tool.name).c_str(), choice.tool,
-                         tool.name == entry.tools.front().name ? std::string() : tool.name);
-        ImGui::NewLine();
-    }
-}
-
-// Draws the list of assemblies and, for the selected one, its variants, tools and lesson. Returns that entry;
-// null if the choice is not in the list.
-const AssemblyEntry* draw_assemblies(const ScreenContext& context, const Menu& menu, LessonChoice& choice) {
-    const std::string& language = context.words.language;
-    for (const AssemblyEntry& entry : menu.assemblies) {
-        const bool selected = entry.name == choice.assembly;
-        if (ImGui::Selectable(in_language(entry.title, language, entry.name).c_str(), selected) &&
-            !selected) {
-            choice.assembly = entry.name;
-            choice.variant.clear();
-            choice.tool.clear();
-        }
-    }
-    ImGui::Separator();
-    const auto entry =
-        std::find_if(menu.assemblies.begin(), menu.assemblies.end(),
-                     [&](const AssemblyEntry& candidate) { return candidate.name == choice.assembly; });
-    if (entry == menu.assemblies.end()) return nullptr;
-    draw_variants_and_tools(language, *entry, choice);
-    ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(muted_text));
-    ImGui::BeginChild("##lesson", {0.0F, 150.0F * context.scale});
-    ImGui::PushTextWrapPos(0.0F);
-    draw_text(in_language(entry->lesson, language, ""));
-    ImGui::PopTextWrapPos();
-    ImGui::EndChild();
-    ImGui::PopStyleColor();
-    return &*entry;
-}
 
 void draw_joint_table(const words::Words& words, std::span<const lesson::JointResult> joints) {
     if (!ImGui::BeginTable("joints", 5, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) return;
@@ -131,25 +33,6 @@ void draw_joint_table(const words::Words& words, std::span<const lesson::JointRe
 }
 
 }  // namespace
-
-std::vector<AssemblyEntry> list_assemblies() {
-    std::vector<std::string> names;
-    std::error_code problem;
-    const auto folder = content::content_folder() / "assemblies";
-    for (auto entry = std::filesystem::directory_iterator(folder, problem);
-         !problem && entry != std::filesystem::directory_iterator(); entry.increment(problem))
-        if (std::filesystem::exists(entry->path() / "assembly.json"))
-            names.push_back(entry->path().filename().string());
-    std::sort(names.begin(), names.end());
-    std::vector<AssemblyEntry> entries;
-    for (const std::string& name : names) {
-        const content::LoadedAssembly loaded = content::load_assembly(name);
-        if (!loaded.ok() || loaded.assembly.models.model.empty()) continue;
-        entries.push_back({name, loaded.assembly.variant, loaded.assembly.title, loaded.assembly.lesson,
-                           loaded.assembly.variants, loaded.assembly.tools, loaded.assembly.law});
-    }
-    return entries;
-}
 
 void record_place(const ScreenContext& context, words::TextKey key) {
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
@@ -195,11 +78,11 @@ void draw_settings_file(const ScreenContext& context, const Preferences& prefere
         case Preferences::Trouble::read_failed:
             return draw_wrapped(
                 words::format_text(context.words, "settings.unread", {{"why", preferences.trouble_message}}),
-                warning);
+                warning_text);
         case Preferences::Trouble::write_failed:
             return draw_wrapped(words::format_text(context.words, "settings.unwritten",
                                                    {{"why", preferences.trouble_message}}),
-                                warning);
+                                warning_text);
         case Preferences::Trouble::none:
             break;
     }
@@ -208,36 +91,6 @@ void draw_settings_file(const ScreenContext& context, const Preferences& prefere
     else if (!preferences.trainee.empty())
         draw_wrapped(words::format_text(context.words, "settings.kept", {{"trainee", preferences.trainee}}),
                      muted_text);
-}
-
-ScreenAction draw_menu(const ScreenContext& context, const Menu& menu, LessonChoice& choice,
-                       Preferences& preferences) {
-    const words::Words& words = context.words;
-    ScreenAction action = ScreenAction::none;
-    begin_panel(context, "##menu", 560.0F * context.scale, 0.94F);
-    draw_text("Boltwright");
-    ImGui::Separator();
-    const AssemblyEntry* entry = draw_assemblies(context, menu, choice);
-    for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment})
-        radio_button(words[lesson::text_key(mode)].c_str(), choice.mode, mode);
-    ImGui::NewLine();
-    for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen})
-        radio_button(words[lesson::text_key(task)].c_str(), choice.task, task);
-    ImGui::NewLine();
-    if (entry != nullptr) draw_laws(context, entry->law, choice, preferences.settings);
-    draw_devices(context, menu.devices, choice.equipment);
-    text_field(words["menu.trainee"].c_str(), choice.trainee);
-    if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
-    draw_languages(context, preferences.settings);
-    ImGui::Separator();
-    if (menu.start_error) draw_wrapped(menu.start_error->message(), warning);
-    if (preferences.trouble != Preferences::Trouble::none) draw_settings_file(context, preferences);
-    if (draw_button(context, "menu.start")) action = ScreenAction::start_lesson;
-    ImGui::SetItemDefaultFocus();
-    if (draw_button(context, "menu.settings")) action = ScreenAction::open_settings;
-    if (draw_button(context, "menu.quit")) action = ScreenAction::quit;
-    ImGui::End();
-    return action;
 }
 
 ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode) {
@@ -259,7 +112,7 @@ ScreenAction draw_pause(const ScreenContext& context, const Preferences& prefere
 }
 
 ScreenAction draw_result(const ScreenContext& context, const content::Assembly& assembly,
-                         const lesson::LessonResult& result, bool has_menu) {
+                         const lesson::LessonResult& result, const ResultOptions& options) {
     const words::Words& words = context.words;
     const float scale = context.scale, height = static_cast<float>(context.size.y);
     ScreenAction action = ScreenAction::none;
@@ -272,8 +125,9 @@ ScreenAction draw_result(const ScreenContext& context, const content::Assembly& 
               fmt::format("   {:.0f} s", result.duration));
     ImGui::Separator();
     // Above the table, which may be longer than the picture, so that the buttons are always visible.
+    if (options.tour) draw_wrapped(words["tour.done"], muted_text);
     if (draw_button(context, "menu.again")) action = ScreenAction::start_lesson;
-    if (has_menu && draw_button(context, "menu.menu")) action = ScreenAction::show_menu;
+    if (options.menu && draw_button(context, "menu.menu")) action = ScreenAction::show_menu;
     if (draw_button(context, "menu.quit")) action = ScreenAction::quit;
     ImGui::Separator();
     draw_joint_table(words, result.joints);

@@ -1,8 +1,8 @@
-// The screens that consist of buttons: menu, pause and result. Each function draws one screen with Dear
-// ImGui, between ui::Ui::begin and end, and returns the action that the user selects; App carries it out.
+// What all screens of buttons share, and the screens of a lesson: pause and result. The menu is in menu.hpp.
+// Each function draws one screen with Dear ImGui, between ui::Ui::begin and end, and returns the action that
+// the user selects; App carries it out.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,8 +10,7 @@
 
 #include "content/format/assembly.hpp"
 #include "content/words/words.hpp"
-#include "game/session/lesson_session.hpp"
-#include "game/trainer/lesson_start.hpp"
+#include "game/lesson/result.hpp"
 #include "game/trainer/preferences.hpp"
 
 namespace bolt::trainer {
@@ -19,6 +18,7 @@ namespace bolt::trainer {
 enum class ScreenAction : std::uint8_t {
     none,
     start_lesson,
+    start_tour,
     resume,
     undo_step,     // begins the previous step again
     restart_step,  // begins the due step again
@@ -26,6 +26,9 @@ enum class ScreenAction : std::uint8_t {
     show_menu,
     open_settings,
     close_settings,
+    show_computer,  // the page of the menu about this computer
+    show_files,     // the page of the menu about the user's files
+    close_page,
     select_trainee,  // LessonChoice::trainee was edited
     quit,
 };
@@ -35,6 +38,7 @@ struct ButtonPlace {
     words::TextKey label;
     glm::vec2 middle{0.0F};  // px
     float width = 0.0F;      // px
+    std::string assembly;    // name, of a card of the menu
 };
 
 // The drawing context that all screens share.
@@ -43,38 +47,21 @@ struct ScreenContext {
     std::span<const words::Words> languages;
     glm::dvec2 size;  // px, of the picture
     float scale;      // px per point
+    ImFont* heading;  // a larger font
 
     std::vector<ButtonPlace>& places;               // receives every control that is drawn
     std::optional<std::string>& selected_language;  // receives the language that the user selects
 };
 
-// An assembly in the menu.
-struct AssemblyEntry {
-    std::string name, default_variant;
-    std::map<std::string, std::string> title, lesson;  // by language
-    std::vector<content::AssemblyVariant> variants;
-    std::vector<content::Tool> tools;
-    joint::Law law = joint::Law::mechanistic;
-};
-
-// All assemblies under content/ that load and have a model.
-std::vector<AssemblyEntry> list_assemblies();
-
-struct Menu {
-    std::vector<AssemblyEntry> assemblies;
-    std::vector<DeviceOption> devices;
-    std::optional<Error> start_error;  // why the last lesson could not start
-};
-
-// The menu edits `choice`, and the law and language in `preferences`.
-ScreenAction draw_menu(const ScreenContext& context, const Menu& menu, LessonChoice& choice,
-                       Preferences& preferences);
 ScreenAction draw_pause(const ScreenContext& context, const Preferences& preferences, lesson::Mode mode);
-// `has_menu`: offers the way back to the menu.
+struct ResultOptions {
+    bool menu = false;  // offers the way back to the menu
+    bool tour = false;  // the lesson was the tour
+};
 ScreenAction draw_result(const ScreenContext& context, const content::Assembly& assembly,
-                         const lesson::LessonResult& result, bool has_menu);
+                         const lesson::LessonResult& result, const ResultOptions& options);
 
-// Widgets that the settings screen uses as well.
+// Widgets that the menu and the settings screen use as well.
 
 // A button across the window. Returns true when it is pressed.
 bool draw_button(const ScreenContext& context, words::TextKey key);
@@ -82,7 +69,8 @@ bool draw_button(const ScreenContext& context, words::TextKey key);
 void record_place(const ScreenContext& context, words::TextKey key);
 void draw_text(const std::string& line);
 void draw_wrapped(const std::string& line, const glm::vec4& color);
-inline constexpr glm::vec4 muted_text{0.75F, 0.8F, 0.85F, 1.0F};  // for explanations
+inline constexpr glm::vec4 muted_text{0.75F, 0.8F, 0.85F, 1.0F};    // for explanations
+inline constexpr glm::vec4 warning_text{1.0F, 0.55F, 0.45F, 1.0F};  // for what is wrong or missing
 void draw_languages(const ScreenContext& context, content::TraineeSettings& settings);
 // Where the settings are saved, or why they are not.
 void draw_settings_file(const ScreenContext& context, const Preferences& preferences);

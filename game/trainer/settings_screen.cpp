@@ -65,7 +65,7 @@ std::vector<platform::InputEvent> SettingsScreen::take_keys(std::span<const plat
         const bool pressed = key != nullptr && key->down && !key->repeated;
         if (closes) {
             remaining.push_back(event);
-        } else if (pressed && key->key == platform::Key::escape) {
+        } else if (leaves(event)) {
             closes = !waiting_;
             waiting_.reset();
         } else if (waiting_ && pressed) {

@@ -32,12 +32,12 @@ began() {
     sleep 2
     grep -q 'lesson begun' log
 }
-check 'Enter begins the lesson' eventually began
+check 'Enter begins the tour at the first start' eventually began
 sleep 1
 kill -INT $player
 check 'an interrupt ends the program with exit code 0' wait $player
 player=
-session=$(echo "$HOME"/.local/share/boltwright/sessions/20??-??-??_??-??-??_zq350/session.boltwright)
+session=$(echo "$HOME"/.local/share/boltwright/sessions/20??-??-??_??-??-??_first-nut/session.boltwright)
 check 'the session is kept in a folder of its own' test -s "$session"
 check 'its report lies beside it' test -s "${session%/*}/report.html"
 check 'its summary lies beside it' test -s "${session%/*}/summary.json"

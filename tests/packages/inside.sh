@@ -47,7 +47,7 @@ kill -INT $player
 wait $player
 # The session opens in the viewer, by the entry for its file type.
 exec=$(sed -n 's/^Exec=//p' /usr/share/applications/boltwright-session.desktop)
-${exec/\%f/$(echo ~/.local/share/boltwright/sessions/*_zq350/session.boltwright)} 2>viewer.log >/dev/null &
+${exec/\%f/$(echo ~/.local/share/boltwright/sessions/*_first-nut/session.boltwright)} 2>viewer.log >/dev/null &
 player=$!
 for _ in $(seq 120); do window=$(xdotool search --pid $player 2>/dev/null | tail -1) && [[ -n $window ]] && break; sleep 0.5; done
 sleep 6
@@ -55,16 +55,16 @@ import -window root viewer.png
 xdotool key --window $window Escape
 wait $player && touch viewed
 P
-check 'the menu entry opens the program, and Enter begins a lesson' as_ada 'bash /tmp/play.sh && grep -q "lesson begun" log'
+check 'the menu entry opens the program, and Enter begins the tour' as_ada 'bash /tmp/play.sh && grep -q "lesson begun" log'
 check 'the session opens in the viewer, and Escape closes it' as_ada 'test -e viewed'
 check 'the file type of a session is known' as_ada 'gio info -a standard::content-type lesson/session.boltwright | grep -q application/vnd.boltwright.session'
-check 'the lesson of the window is kept below the data folder' as_ada 'ls ~/.local/share/boltwright/sessions/*_zq350/session.boltwright'
-check 'the kept session replays' as_ada 'boltwright replay ~/.local/share/boltwright/sessions/*_zq350/session.boltwright'
+check 'the lesson of the window is kept below the data folder' as_ada 'ls ~/.local/share/boltwright/sessions/*_first-nut/session.boltwright'
+check 'the kept session replays' as_ada 'boltwright replay ~/.local/share/boltwright/sessions/*_first-nut/session.boltwright'
 find /usr -newer /tmp/before -type f | sort >/tmp/used
 sort /tmp/installed | comm -13 - /tmp/used | grep -i bolt >/tmp/written || true
 check 'nothing is written to where it was installed' test ! -s /tmp/written
 check 'apt removes the packages' apt-get purge -y -qq boltwright boltwright-content boltwright-author
 find / -xdev -path /packages -prune -o -path /proc -prune -o -path /var/lib/dpkg -prune -o -path /home -prune -o -iname '*boltwright*' -print >/tmp/after
 check 'nothing of them is left' cmp /tmp/before /tmp/after
-check 'the sessions of the user are kept' as_ada 'ls ~/.local/share/boltwright/sessions/*_zq350/session.boltwright lesson/session.boltwright'
+check 'the sessions of the user are kept' as_ada 'ls ~/.local/share/boltwright/sessions/*_first-nut/session.boltwright lesson/session.boltwright'
 exit $failed

@@ -105,21 +105,6 @@ TEST_CASE("Assessment: no close-up and no arrow, whatever key is pressed") {
     CHECK_FALSE(straight_arrow_shown(driver.lesson()));
 }
 
-TEST_CASE("Menu: its backdrop shows the chosen machine and loads in the background") {
-    test::HeadlessTrainer driver(options(lesson::Mode::guided, true, "seen-menu"), big_letters);
-    driver.frame();
-    const render::Picture bare = driver.picture();
-    CHECK(driver.app().screen() == ShownScreen::menu);
-    for (int i = 0; i < 2000 && driver.app().backdrop().loading(); ++i) {
-        driver.frame();
-        std::this_thread::yield();
-    }
-    REQUIRE_FALSE(driver.app().backdrop().loading());
-    driver.frame();
-    const render::Rectangle beside{{0.0F, 0.0F}, {60.0F, 180.0F}};
-    CHECK(share_changed(bare, driver.picture(), beside) > 0.5);
-}
-
 TEST_CASE("Hint panel: it has its full size from its first frame on") {
     test::HeadlessTrainer driver(options(lesson::Mode::guided, false, "seen-hint"), big_letters);
     driver.frame();

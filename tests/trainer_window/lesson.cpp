@@ -47,7 +47,7 @@ void overdo(test::TrainerDriver& driver, test::SimulatedUser& user) {
 }
 
 void play_all(test::TrainerDriver& driver, bool overdoes) {
-    while (driver.app().backdrop().loading()) driver.frame();
+    while (!driver.app().pictures().complete()) driver.frame();
     driver.press_button("menu.start");
     while (driver.app().screen() != trainer::ShownScreen::lesson) driver.frame();
     test::SimulatedUser user(driver);

@@ -1,0 +1,84 @@
+// Checks of the computer that the program runs on: facts that are found out, and findings in words with what
+// to do about them. The menu and `boltwright doctor` show the findings.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "content/format/assembly.hpp"
+#include "content/words/words.hpp"
+#include "engine/audio/sink.hpp"
+#include "engine/gpu/device.hpp"
+#include "haptics/device/hid_devices.hpp"
+#include "haptics/servo/thread.hpp"
+
+namespace bolt::computer {
+
+// The servo of an assembly's lesson at one rate.
+struct ServoTiming {
+    double rate = 1000.0;  // ticks per second
+    servo::Timing timing;
+    servo::ThreadPrivileges privileges;
+    servo::HostAssessment assessment;
+};
+
+// Runs the servo on a thread of its own for `seconds` at each rate (1/s), with a load like that of a lesson:
+// a hand moves the wrench onto a nut and off again. Fails if the assembly cannot be loaded or the thread
+// cannot be started.
+Result<std::vector<ServoTiming>> time_servo(const std::string& assembly, const std::vector<double>& rates,
+                                            double seconds);
+
+struct GpuFacts {
+    std::string name;
+    bool software = false;  // the processor computes the pictures
+};
+// Of the GPU that draws. Fails if nothing can draw.
+Result<GpuFacts> find_gpu();
+
+struct Facts {
+    Result<GpuFacts> gpu;
+    Result<std::string> sound;  // the name of the output, or why there is none
+    std::vector<device::ListedDevice> devices;
+    std::optional<Result<ServoTiming>> timing;  // none: not measured
+    std::filesystem::path sessions;             // folder of the sessions; may not exist yet
+    std::string folder_trouble;                 // why sessions cannot be written there; empty: they can
+    double free_space = 0.0;                    // bytes, where the sessions are kept
+    bool films = false;                         // FFmpeg is installed
+};
+
+struct FactsRequest {
+    Result<GpuFacts> gpu;  // find_gpu(); while a GPU is in use, that one
+    std::filesystem::path sessions;
+    std::string assembly;  // whose servo is timed
+    double seconds = 0.0;  // duration of the timing; 0: none
+    audio::OpenSink open_sound = audio::open_openal;
+};
+
+// Takes as long as the timing, and some tenths of a second. Does not use Vulkan, so that another thread may
+// draw meanwhile. Writes no files.
+Facts find_out(const FactsRequest& request);
+
+enum class Severity : std::uint8_t {
+    good,
+    limited,  // lessons run, with something missing
+    bad,      // lessons cannot run, or are lost
+};
+
+struct Finding {
+    Severity severity = Severity::good;
+    words::TextKey text = "finding.films";
+    std::vector<words::TextArgument> arguments;
+    std::optional<words::TextKey> remedy;
+};
+
+inline constexpr double least_free_space = 1e9;  // bytes; less is a finding of its own
+
+// The findings, the worst first.
+std::vector<Finding> findings(const Facts& facts);
+
+// One line per finding, and one per remedy.
+std::string describe(const words::Words& words, const std::vector<Finding>& findings);
+
+}  // namespace bolt::computer

@@ -1,0 +1,562 @@
+#include "game/trainer/menu.hpp"
+
+#include <fmt/format.h>
+#include <imgui/imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "game/lesson/feedback.hpp"
+#include "game/session/contact_models.hpp"
+#include "game/trainer/tour.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+// Lengths in points.
+constexpr float column_width = 480.0F, menu_margin = 24.0F, label_width = 88.0F;
+constexpr float card_width = 176.0F, thumbnail_height = 92.0F, card_padding = 6.0F;
+// Below this size the menu is one column that scrolls.
+constexpr float least_wide_width = 940.0F, least_wide_height = 690.0F;
+
+const ImVec4 chosen{0.16F, 0.47F, 0.66F, 1.0F}, not_chosen{0.17F, 0.20F, 0.24F, 1.0F};
+const ImVec4 primary{0.13F, 0.55F, 0.36F, 1.0F}, primary_hovered{0.16F, 0.64F, 0.42F, 1.0F};
+constexpr ImU32 column_color = IM_COL32(20, 24, 29, 244), strip_color = IM_COL32(20, 24, 29, 226),
+                picture_frame = IM_COL32(110, 190, 240, 255), no_picture = IM_COL32(40, 46, 54, 255);
+
+constexpr ImGuiWindowFlags menu_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground;
+
+// The text in `language`, else in English, else `fallback`.
+std::string in_language(const std::map<std::string, std::string>& texts, const std::string& language,
+                        const std::string& fallback) {
+    for (const std::string& code : {language, std::string("en")})
+        if (const auto found = texts.find(code); found != texts.end()) return found->second;
+    return fallback;
+}
+
+bool is_wide(const glm::vec2& size, float scale) {
+    return size.x >= least_wide_width * scale && size.y >= least_wide_height * scale;
+}
+
+float wrapped_height(const std::string& text, float width) {
+    return ImGui::CalcTextSize(text.c_str(), text.c_str() + text.size(), false, width).y;
+}
+
+// Text that wraps at `width` px from here.
+void draw_paragraph(const std::string& text, float width, const glm::vec4& color) {
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+    ImGui::PushStyleColor(ImGuiCol_Text, {color.r, color.g, color.b, color.a});
+    draw_text(text);
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+}
+
+// A label with buttons beside it, of which one is chosen. Buttons that do not fit go into another line.
+class ChoiceRow {
+  public:
+    // `width`: px, of label and buttons.
+    ChoiceRow(const ScreenContext& context, const std::string& label, float width)
+        : left_(ImGui::GetCursorPosX() + label_width * context.scale),
+          right_(ImGui::GetCursorPosX() + width) {
+        ImGui::AlignTextToFramePadding();
+        ImGui::PushStyleColor(ImGuiCol_Text, {muted_text.r, muted_text.g, muted_text.b, 1.0F});
+        draw_text(label);
+        ImGui::PopStyleColor();
+        ImGui::SameLine();
+        ImGui::SetCursorPosX(left_);
+    }
+
+    // Returns true when it is pressed.
+    bool button(const std::string& label, bool is_chosen) {
+        const ImGuiStyle& style = ImGui::GetStyle();
+        const float wide = ImGui::CalcTextSize(label.c_str()).x + 2.0F * style.FramePadding.x;
+        if (!first_) {
+            ImGui::SameLine(0.0F, 0.5F * style.ItemSpacing.x);
+            if (ImGui::GetCursorPosX() + wide > right_) {
+                ImGui::NewLine();
+                ImGui::SetCursorPosX(left_);
+            }
+        }
+        first_ = false;
+        ImGui::PushID(static_cast<int>(left_));
+        ImGui::PushStyleColor(ImGuiCol_Button, is_chosen ? chosen : not_chosen);
+        const bool pressed = ImGui::Button(label.c_str());
+        ImGui::PopStyleColor();
+        ImGui::PopID();
+        return pressed;
+    }
+
+  private:
+    float left_, right_;  // px in the window
+    bool first_ = true;
+};
+
+void text_field(const char* id, float width, std::string& value) {
+    std::array<char, 64> buffer{};
+    value.copy(buffer.data(), buffer.size() - 1);
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::InputText(id, buffer.data(), buffer.size())) value = buffer.data();
+}
+
+const AssemblyEntry* selected_entry(const Menu& menu, const LessonChoice& choice) {
+    const auto entry =
+        std::find_if(menu.assemblies.begin(), menu.assemblies.end(),
+                     [&](const AssemblyEntry& candidate) { return candidate.name == choice.assembly; });
+    return entry == menu.assemblies.end() ? nullptr : &*entry;
+}
+
+void select(const AssemblyEntry& entry, LessonChoice& choice) {
+    if (entry.name == choice.assembly) return;
+    choice.assembly = entry.name;
+    choice.variant.clear();
+    choice.tool.clear();
+}
+
+void draw_task_and_mode(const ScreenContext& context, float width, LessonChoice& choice) {
+    const words::Words& words = context.words;
+    ChoiceRow tasks(context, words["menu.task"], width);
+    for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen}) {
+        if (tasks.button(words[lesson::text_key(task)], choice.task == task)) choice.task = task;
+        record_place(context, lesson::text_key(task));
+    }
+    ChoiceRow modes(context, words["menu.mode"], width);
+    for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment}) {
+        if (modes.button(words[lesson::text_key(mode)], choice.mode == mode)) choice.mode = mode;
+        record_place(context, lesson::text_key(mode));
+    }
+    const words::TextKey about = choice.mode == lesson::Mode::guided ? words::TextKey("mode.guided.about")
+                                 : choice.mode == lesson::Mode::practice
+                                     ? words::TextKey("mode.practice.about")
+                                     : words::TextKey("mode.assessment.about");
+    ImGui::Indent(label_width * context.scale);
+    draw_paragraph(words[about], width - label_width * context.scale, muted_text);
+    ImGui::Unindent(label_width * context.scale);
+}
+
+// A selection replaces the law of the command line and is saved with the trainee's settings.
+void draw_laws(const ScreenContext& context, float width, joint::Law assembly_law, LessonChoice& choice,
+               content::TraineeSettings& settings) {
+    const joint::Law selected = law_in_force(choice, settings, assembly_law);
+    ChoiceRow row(context, context.words["menu.law"], width);
+    for (const auto& [key, law] : {std::pair{words::TextKey("menu.law.mechanistic"), joint::Law::mechanistic},
+                                   std::pair{words::TextKey("menu.law.published"), joint::Law::published}}) {
+        if (row.button(context.words[key], selected == law)) {
+            settings.law = joint::name(law);
+            choice.law.reset();
+        }
+        record_place(context, key);
+    }
+    ImGui::Indent(label_width * context.scale);
+    draw_paragraph(
+        context.words[selected == joint::Law::mechanistic ? words::TextKey("menu.law.mechanistic.about")
+                                                          : words::TextKey("menu.law.published.about")],
+        width - label_width * context.scale, muted_text);
+    ImGui::Unindent(label_width * context.scale);
+}
+
+void draw_variants_and_tools(const ScreenContext& context, float width, const AssemblyEntry& entry,
+                             LessonChoice& choice) {
+    const std::string& language = context.words.language;
+    if (entry.variants.size() > 1) {
+        ChoiceRow row(context, context.words["menu.variant"], width);
+        for (const content::AssemblyVariant& variant : entry.variants) {
+            const std::string value = variant.name == entry.default_variant ? std::string() : variant.name;
+            if (row.button(in_language(variant.title, language, variant.name), choice.variant == value))
+                choice.variant = value;
+        }
+    }
+    if (entry.tools.size() > 1) {
+        ChoiceRow row(context, context.words["menu.tool"], width);
+        for (const content::Tool& tool : entry.tools) {
+            const std::string value = tool.name == entry.tools.front().name ? std::string() : tool.name;
+            if (row.button(in_language(tool.title, language, tool.name), choice.tool == value))
+                choice.tool = value;
+        }
+    }
+}
+
+void draw_devices(const ScreenContext& context, float width, std::span<const DeviceOption> devices,
+                  Equipment& equipment) {
+    ChoiceRow row(context, context.words["menu.device"], width);
+    for (const DeviceOption& option : devices) {
+        const std::string name = option.name.empty() ? context.words["menu.mouse"] : option.name;
+        Equipment next = option.equipment;
+        next.wheel_config_file = equipment.wheel_config_file;
+        next.glove = equipment.glove;
+        if (row.button(name, equipment.devices == next.devices && !equipment.keyboard)) equipment = next;
+    }
+}
+
+// What the lesson will lack.
+void draw_missing(const ScreenContext& context, float width, const Menu& menu, const AssemblyEntry& entry,
+                  const LessonChoice& choice) {
+    std::vector<std::string> missing;
+    if (entry.error) {
+        missing.push_back(entry.error->message());
+    } else {
+        if (!entry.contact_model) missing.push_back(context.words["menu.missing.contact"]);
+        const auto tool = std::find_if(entry.tools.begin(), entry.tools.end(), [&](const content::Tool& t) {
+            return t.name == choice.tool || choice.tool.empty();
+        });
+        if (tool != entry.tools.end() && tool->wrench.model.empty())
+            missing.push_back(context.words["menu.missing.tool"]);
+    }
+    for (const std::string& line : missing) draw_paragraph(line, width, warning_text);
+    if (menu.devices.size() < 2 && !choice.equipment.keyboard)
+        draw_paragraph(context.words["menu.missing.force"], width, muted_text);
+}
+
+ScreenAction draw_choices(const ScreenContext& context, float width, const Menu& menu, LessonChoice& choice,
+                          Preferences& preferences) {
+    ScreenAction action = ScreenAction::none;
+    const AssemblyEntry* entry = selected_entry(menu, choice);
+    draw_task_and_mode(context, width, choice);
+    if (entry != nullptr) {
+        draw_variants_and_tools(context, width, *entry, choice);
+        draw_laws(context, width, entry->law, choice, preferences.settings);
+    }
+    draw_devices(context, width, menu.devices, choice.equipment);
+    ChoiceRow row(context, context.words["menu.trainee"], width);
+    text_field("##trainee", width - label_width * context.scale, choice.trainee);
+    record_place(context, "menu.trainee");
+    if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
+    ImGui::Spacing();
+    if (entry != nullptr) draw_missing(context, width, menu, *entry, choice);
+    // An assembly with mistakes has said so already.
+    if (menu.start_error && (entry == nullptr || !entry->error))
+        draw_paragraph(menu.start_error->message(), width, warning_text);
+    if (preferences.trouble != Preferences::Trouble::none) draw_settings_file(context, preferences);
+    return action;
+}
+
+bool draw_wide_button(const ScreenContext& context, words::TextKey key, const ImVec2& size, bool is_primary) {
+    if (is_primary) {
+        ImGui::PushStyleColor(ImGuiCol_Button, primary);
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, primary_hovered);
+    }
+    const bool pressed = ImGui::Button(context.words[key].c_str(), size);
+    if (is_primary) ImGui::PopStyleColor(2);
+    record_place(context, key);
+    return pressed;
+}
+
+// Start and tour; the first one is drawn larger and gets the keyboard's focus.
+ScreenAction draw_start(const ScreenContext& context, float width, const Menu& menu,
+                        const LessonChoice& choice) {
+    ScreenAction action = ScreenAction::none;
+    const float line = ImGui::GetFrameHeight();
+    const AssemblyEntry* entry = selected_entry(menu, choice);
+    if (menu.first_start) draw_paragraph(context.words["menu.tour.about"], width, muted_text);
+    for (const bool tour : {menu.first_start, !menu.first_start}) {
+        const bool first = tour == menu.first_start;
+        const bool disabled = !tour && entry != nullptr && entry->error.has_value();
+        if (disabled) ImGui::BeginDisabled();
+        if (draw_wide_button(context, tour ? words::TextKey("menu.tour") : words::TextKey("menu.start"),
+                             {width, first ? 1.5F * line : line}, first))
+            action = tour ? ScreenAction::start_tour : ScreenAction::start_lesson;
+        if (disabled) ImGui::EndDisabled();
+        if (first) ImGui::SetItemDefaultFocus();
+    }
+    return action;
+}
+
+// The buttons share the width in proportion to their texts.
+ScreenAction draw_pages(const ScreenContext& context, float width) {
+    struct Page {
+        words::TextKey key;
+        ScreenAction opens;
+    };
+    constexpr Page pages[] = {{"menu.settings", ScreenAction::open_settings},
+                              {"menu.computer", ScreenAction::show_computer},
+                              {"menu.files", ScreenAction::show_files},
+                              {"menu.quit", ScreenAction::quit}};
+    ScreenAction action = ScreenAction::none;
+    const float gap = 0.5F * ImGui::GetStyle().ItemSpacing.x;
+    float texts = 0.0F;
+    for (const auto& [key, opens] : pages) texts += ImGui::CalcTextSize(context.words[key].c_str()).x;
+    const float padding = (width - texts) / static_cast<float>(std::size(pages)) - gap;
+    for (const auto& [key, opens] : pages) {
+        if (opens != pages[0].opens) ImGui::SameLine(0.0F, gap);
+        const float text = ImGui::CalcTextSize(context.words[key].c_str()).x;
+        if (draw_wide_button(context, key, {text + padding, 0.0F}, false)) action = opens;
+    }
+    return action;
+}
+
+// A card with picture and title. Returns true when it is pressed.
+bool draw_card(const ScreenContext& context, const AssemblyEntry& entry, bool is_selected,
+               const MenuPictures& pictures) {
+    const float scale = context.scale, padding = card_padding * scale, line = ImGui::GetTextLineHeight();
+    const std::string title = in_language(entry.title, context.words.language, entry.name);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const ImVec2 size(card_width * scale, thumbnail_height * scale + 2.0F * line + 3.0F * padding);
+    ImGui::PushID(entry.name.c_str());
+    const bool pressed = ImGui::Selectable("##card", is_selected, 0, size);
+    ImGui::PopID();
+    record_place(context, "menu.assemblies");
+    context.places.back().assembly = entry.name;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 low(at.x + padding, at.y + padding),
+        high(at.x + size.x - padding, at.y + padding + thumbnail_height * scale);
+    const auto picture = pictures.thumbnails.find(entry.name);
+    if (picture != pictures.thumbnails.end())
+        list.AddImageRounded(picture->second, low, high, {0, 0}, {1, 1}, IM_COL32_WHITE, 4.0F * scale);
+    else
+        list.AddRectFilled(low, high, no_picture, 4.0F * scale);
+    if (is_selected) list.AddRect(low, high, picture_frame, 4.0F * scale, 0, 2.0F * scale);
+    const ImVec4 clip(low.x, high.y, high.x, high.y + padding + 2.0F * line);
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x, high.y + padding},
+                 ImGui::GetColorU32(entry.error ? ImGuiCol_TextDisabled : ImGuiCol_Text), title.c_str(),
+                 title.c_str() + title.size(), high.x - low.x, &clip);
+    return pressed;
+}
+
+// One line of cards around the selected one; arrows select the next assembly where not all fit.
+void draw_cards(const ScreenContext& context, float width, const Menu& menu, const MenuPictures& pictures,
+                LessonChoice& choice) {
+    const float gap = ImGui::GetStyle().ItemSpacing.x, card = card_width * context.scale;
+    const auto count = static_cast<int>(menu.assemblies.size());
+    const float arrow = ImGui::GetFrameHeight();
+    const auto fitting = [&](float room) {
+        return std::max(1, static_cast<int>((room + gap) / (card + gap)));
+    };
+    const bool all = count <= fitting(width);
+    const int shown = all ? count : fitting(width - 2.0F * (arrow + gap));
+    const AssemblyEntry* entry = selected_entry(menu, choice);
+    const int selected = entry == nullptr ? 0 : static_cast<int>(entry - menu.assemblies.data());
+    const int first = std::clamp(selected - shown / 2, 0, count - shown);
+    const auto step = [&](const char* label, int by) {
+        if (ImGui::Button(label, {arrow, 0.0F}))
+            select(menu.assemblies[static_cast<std::size_t>(std::clamp(selected + by, 0, count - 1))],
+                   choice);
+    };
+    if (!all) {
+        step("‹", -1);
+        ImGui::SameLine();
+    }
+    for (int i = first; i < first + shown; ++i) {
+        const AssemblyEntry& listed = menu.assemblies[static_cast<std::size_t>(i)];
+        if (i > first) ImGui::SameLine();
+        if (draw_card(context, listed, i == selected, pictures)) select(listed, choice);
+    }
+    if (!all) {
+        ImGui::SameLine();
+        step("›", 1);
+    }
+}
+
+std::string facts_of(const words::Words& words, const AssemblyEntry& entry) {
+    if (entry.joints == 1) return words::format_text(words, "menu.facts.one", {{"sizes", entry.sizes}});
+    return words::format_text(
+        words, "menu.facts.many",
+        {{"count", words::Number{static_cast<double>(entry.joints), 0}}, {"sizes", entry.sizes}});
+}
+
+void draw_title(const ScreenContext& context, const std::string& title) {
+    ImGui::PushFont(context.heading);
+    draw_text(title);
+    ImGui::PopFont();
+}
+
+void draw_description(const ScreenContext& context, float width, const AssemblyEntry& entry) {
+    draw_title(context, in_language(entry.title, context.words.language, entry.name));
+    if (entry.joints > 0) draw_paragraph(facts_of(context.words, entry), width, muted_text);
+    draw_paragraph(in_language(entry.lesson, context.words.language, ""), width, {0.93F, 0.94F, 0.95F, 1.0F});
+}
+
+// The languages as buttons whose right end is at `right` px.
+void draw_language_buttons(const ScreenContext& context, float right, content::TraineeSettings& settings) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    float width = 0.0F;
+    for (const words::Words& language : context.languages)
+        width += ImGui::CalcTextSize(language.name.c_str()).x + 2.0F * style.FramePadding.x +
+                 0.5F * style.ItemSpacing.x;
+    ImGui::SetCursorPosX(right - width);
+    for (const words::Words& language : context.languages) {
+        const bool current = language.language == context.words.language;
+        ImGui::PushStyleColor(ImGuiCol_Button, current ? chosen : not_chosen);
+        if (ImGui::Button(language.name.c_str()))
+            context.selected_language = settings.language = language.language;
+        ImGui::PopStyleColor();
+        ImGui::SameLine(0.0F, 0.5F * style.ItemSpacing.x);
+    }
+    ImGui::NewLine();
+}
+
+ScreenAction first_of(ScreenAction a, ScreenAction b) { return a != ScreenAction::none ? a : b; }
+
+// The choices on the left; the assembly, its description and the cards on the right.
+ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures& pictures,
+                       LessonChoice& choice, Preferences& preferences) {
+    const float scale = context.scale, edge = menu_margin * scale, column = column_width * scale;
+    const ImVec2 size(static_cast<float>(context.size.x), static_cast<float>(context.size.y));
+    const float inner = column - 2.0F * edge, right_width = size.x - column - 2.0F * edge;
+    const AssemblyEntry* entry = selected_entry(menu, choice);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled({0.0F, 0.0F}, {column, size.y}, column_color);
+
+    ImGui::SetCursorPos({edge, edge});
+    ImGui::BeginGroup();
+    draw_title(context, "Boltwright");
+    draw_paragraph(context.words["menu.tagline"], inner, muted_text);
+    ImGui::Dummy({0.0F, 0.5F * edge});
+    ScreenAction action = draw_choices(context, inner, menu, choice, preferences);
+    const float spacing = ImGui::GetStyle().ItemSpacing.y;
+    const float actions =
+        3.5F * ImGui::GetFrameHeight() + 3.0F * spacing +
+        (menu.first_start ? wrapped_height(context.words["menu.tour.about"], inner) + spacing : 0.0F);
+    ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), size.y - edge - actions));
+    action = first_of(action, draw_start(context, inner, menu, choice));
+    action = first_of(action, draw_pages(context, inner));
+    ImGui::EndGroup();
+
+    ImGui::SetCursorPosY(edge);
+    draw_language_buttons(context, size.x - edge, preferences.settings);
+
+    const float card =
+        thumbnail_height * scale + 2.0F * ImGui::GetTextLineHeight() + 3.0F * card_padding * scale;
+    float height = card + 2.0F * edge + 2.0F * spacing;
+    if (entry != nullptr)
+        height += wrapped_height(in_language(entry->lesson, context.words.language, ""), right_width) +
+                  ImGui::GetTextLineHeight() + context.heading->FontSize + 2.0F * spacing;
+    list.AddRectFilled({column, size.y - height}, size, strip_color);
+    menu.covered = {column, height};
+    ImGui::SetCursorPos({column + edge, size.y - height + edge});
+    ImGui::BeginGroup();
+    if (entry != nullptr) draw_description(context, right_width, *entry);
+    ImGui::SetCursorPosY(size.y - edge - card);
+    draw_cards(context, right_width, menu, pictures, choice);
+    ImGui::EndGroup();
+    return action;
+}
+
+// Everything in one column that scrolls, with the buttons at the top.
+ScreenAction draw_narrow(const ScreenContext& context, const Menu& menu, const MenuPictures& pictures,
+                         LessonChoice& choice, Preferences& preferences) {
+    const float edge = 0.5F * menu_margin * context.scale;
+    const float width = ImGui::GetWindowContentRegionMax().x - 2.0F * edge;
+    ImGui::SetCursorPos({edge, edge});
+    ImGui::BeginGroup();
+    draw_title(context, "Boltwright");
+    ImGui::SameLine();
+    draw_language_buttons(context, edge + width, preferences.settings);
+    ScreenAction action = draw_start(context, width, menu, choice);
+    action = first_of(action, draw_pages(context, width));
+    draw_cards(context, width, menu, pictures, choice);
+    action = first_of(action, draw_choices(context, width, menu, choice, preferences));
+    if (const AssemblyEntry* entry = selected_entry(menu, choice)) {
+        ImGui::Separator();
+        draw_description(context, width, *entry);
+    }
+    ImGui::EndGroup();
+    return action;
+}
+
+std::string sizes_of(const content::Assembly& assembly) {
+    std::vector<std::string> sizes;
+    for (const content::AssemblyJoint& joint : assembly.joints) {
+        const std::string size =
+            fmt::format("{}×{:.0f}", joint.design.thread.size.name, 1e3 * joint.design.bolt_length);
+        if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+    }
+    std::string text;
+    for (const std::string& size : sizes) text += (text.empty() ? "" : ", ") + size;
+    return text;
+}
+
+AssemblyEntry entry_of(const std::string& name) {
+    const content::LoadedAssembly loaded = content::load_assembly(name);
+    const content::Assembly& assembly = loaded.assembly;
+    AssemblyEntry entry{name,
+                        assembly.variant,
+                        assembly.title,
+                        assembly.lesson,
+                        assembly.variants,
+                        assembly.tools,
+                        assembly.law,
+                        assembly.joints.size(),
+                        sizes_of(assembly),
+                        loaded.ok() && !session::missing_contact_model(assembly),
+                        {}};
+    if (!loaded.ok()) {
+        entry.error = loaded.errors.front();
+    } else if (assembly.models.model.empty()) {
+        entry.error.emplace();
+        entry.error->file = assembly.file;
+        entry.error->what = "this assembly has no model to draw";
+        entry.error->expected = "\"model\" with the name of a .glb file";
+    }
+    return entry;
+}
+
+}  // namespace
+
+std::vector<AssemblyEntry> list_assemblies() {
+    std::vector<AssemblyEntry> entries;
+    for (const std::string& name : content::assembly_names())
+        if (name != tour_assembly) entries.push_back(entry_of(name));
+    return entries;
+}
+
+void ComputerCheck::start(FindOut find_out, const computer::FactsRequest& request) {
+    if (running()) return;
+    findings_.clear();
+    find_out_ = std::move(find_out);
+    request_ = request;
+    with_timing_ = false;
+    computer::FactsRequest quick = request;
+    quick.seconds = 0.0;
+    running_ = std::async(std::launch::async, find_out_, quick);
+}
+
+void ComputerCheck::update() {
+    using namespace std::chrono_literals;
+    if (!running() || running_.wait_for(0s) != std::future_status::ready) return;
+    findings_ = computer::findings(running_.get());
+    if (std::exchange(with_timing_, true)) return;
+    running_ = std::async(std::launch::async, find_out_, request_);
+}
+
+AssemblyPictures::Request picture_request(const Menu& menu, const std::string& selected, VkExtent2D size,
+                                          float scale) {
+    AssemblyPictures::Request request;
+    request.selected = selected;
+    for (const AssemblyEntry& entry : menu.assemblies)
+        if (!entry.error) request.listed.push_back(entry.name);
+    request.size = size;
+    request.thumbnail = {static_cast<std::uint32_t>((card_width - 2.0F * card_padding) * scale),
+                         static_cast<std::uint32_t>(thumbnail_height * scale)};
+    const glm::vec2 extent(static_cast<float>(size.width), static_cast<float>(size.height));
+    request.shift = menu.covered / extent;
+    return request;
+}
+
+ScreenAction draw_menu(const ScreenContext& context, Menu& menu, const MenuPictures& pictures,
+                       LessonChoice& choice, Preferences& preferences) {
+    if (menu.page == MenuPage::computer) {
+        menu.check.update();
+        return draw_computer_page(context, menu.check);
+    }
+    if (menu.page == MenuPage::files) return draw_files_page(context, menu.folders);
+    const glm::vec2 size(context.size);
+    const bool wide = is_wide(size, context.scale);
+    ImGui::SetNextWindowPos({0.0F, 0.0F});
+    ImGui::SetNextWindowSize({size.x, size.y});
+    ImGui::SetNextWindowBgAlpha(0.94F);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+    ImGui::Begin(
+        "##menu", nullptr,
+        wide ? menu_flags : menu_flags & ~(ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar));
+    ImGui::PopStyleVar(2);
+    menu.covered = {};
+    const ScreenAction action = wide ? draw_wide(context, menu, pictures, choice, preferences)
+                                     : draw_narrow(context, menu, pictures, choice, preferences);
+    ImGui::End();
+    return action;
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,113 @@
+#include "game/trainer/tour.hpp"
+
+#include <imgui/imgui.h>
+
+#include <algorithm>
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr double enough_turn = 0.25;  // rad, of the view
+
+bool& done(Tour& tour, TourStep step) { return tour.done.at(static_cast<std::size_t>(step)); }
+
+std::string motion(const lesson::ControlNames& controls, lesson::HandMotion motion) {
+    return controls.at(static_cast<std::size_t>(motion));
+}
+
+// The angle by which a drag of this frame turns the view, rad; the speed is that of view::turn.
+double view_drag(const Frame& frame) {
+    const FrameInput& input = frame.input;
+    glm::dvec2 drag = input.right_drag;
+    if (input.left_down && !frame.active.pointer.drags_hand) drag += input.left_drag;
+    return pi * glm::length(drag) / frame.size.y;
+}
+
+}  // namespace
+
+std::size_t Tour::current() const {
+    return static_cast<std::size_t>(std::find(done.begin(), done.end(), false) - done.begin());
+}
+
+void update(Tour& tour, const Frame& frame) {
+    const FrameInput& input = frame.input;
+    const lesson::Lesson& lesson = frame.active.session->lesson();
+    tour.turned += view_drag(frame);
+    const auto tick_off = [&](TourStep step, bool condition) {
+        if (condition) done(tour, step) = true;
+    };
+    tick_off(TourStep::look, tour.turned > enough_turn);
+    tick_off(TourStep::zoom, input.wheel != 0.0);
+    tick_off(TourStep::find, input.triggered(Action::find_view));
+    tick_off(TourStep::run_down, lesson.current > 0);
+    tick_off(TourStep::help, input.triggered(Action::hint));
+    tick_off(TourStep::pause, tour.paused && !frame.active.clock.paused);
+    tick_off(TourStep::take, lesson.current > 0 && hand_of(frame.active).wrench);
+    tick_off(TourStep::tighten, lesson.current > 1);
+    tour.paused = frame.active.clock.paused;
+}
+
+std::string tour_text(const words::Words& words, TourStep step, const ActiveLesson& active,
+                      const lesson::ControlNames& controls) {
+    using lesson::HandMotion;
+    const auto key = [&](Action action) { return key_name(active.input.keys, action); };
+    switch (step) {
+        case TourStep::look:
+            return words["tour.look"];
+        case TourStep::zoom:
+            return words["tour.zoom"];
+        case TourStep::find:
+            return words::format_text(words, "tour.find", {{"key", key(Action::find_view)}});
+        case TourStep::run_down:
+            return words::format_text(words, "tour.run_down",
+                                      {{"grip", motion(controls, HandMotion::grip_nut)},
+                                       {"turn", motion(controls, HandMotion::spin)}});
+        case TourStep::help:
+            return words::format_text(words, "tour.help", {{"key", key(Action::hint)}});
+        case TourStep::pause:
+            return words::format_text(words, "tour.pause", {{"key", key(Action::pause)}});
+        case TourStep::take:
+            return words::format_text(words, "tour.take", {{"control", motion(controls, HandMotion::take)}});
+        case TourStep::tighten:
+            return words::format_text(
+                words, "tour.tighten",
+                {{"torque",
+                  words::torque_number(active.session->assembly().joints.front().spec.torque.target)},
+                 {"set_on", motion(controls, HandMotion::set_on)},
+                 {"pull", motion(controls, HandMotion::pull_on)}});
+    }
+    return {};
+}
+
+void draw_tour(const Tour& tour, const ActiveLesson& active, const HudText& texts, const glm::dvec2& size,
+               float scale) {
+    const float width = std::min(320.0F * scale, 0.4F * static_cast<float>(size.x));
+    ImGui::SetNextWindowPos({12.0F * scale, 0.5F * static_cast<float>(size.y)}, ImGuiCond_Always,
+                            {0.0F, 0.5F});
+    ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, static_cast<float>(size.y)});
+    ImGui::SetNextWindowBgAlpha(0.85F);
+    ImGui::Begin("##tour", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoInputs |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
+    const std::size_t current = tour.current();
+    const float indent = 1.6F * ImGui::GetFontSize();
+    for (std::size_t i = 0; i < tour_step_count; ++i) {
+        const bool is_done = tour.done.at(i);
+        const ImVec4 color = is_done        ? ImVec4(0.5F, 0.75F, 0.55F, 1.0F)
+                             : i == current ? ImVec4(1.0F, 0.85F, 0.4F, 1.0F)
+                                            : ImVec4(0.62F, 0.65F, 0.68F, 1.0F);
+        ImGui::PushStyleColor(ImGuiCol_Text, color);
+        ImGui::TextUnformatted(is_done ? "✓" : i == current ? "▶" : "·");
+        ImGui::SameLine(indent);
+        const std::string text = tour_text(*texts.words, static_cast<TourStep>(i), active, *texts.controls);
+        ImGui::PushTextWrapPos(width - ImGui::GetStyle().WindowPadding.x);
+        ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+        ImGui::PopTextWrapPos();
+        ImGui::PopStyleColor();
+    }
+    ImGui::End();
+}
+
+}  // namespace bolt::trainer

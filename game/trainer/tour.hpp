@@ -1,0 +1,49 @@
+// The tour: a lesson with one nut, with a list of the controls that the trainee ticks off by using them.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "content/words/words.hpp"
+#include "game/lesson/hints.hpp"
+#include "game/trainer/active_lesson.hpp"
+
+namespace bolt::trainer {
+
+// The assembly of the tour, under content/assemblies. The menu does not list it.
+inline constexpr const char* tour_assembly = "first-nut";
+
+// In the order in which they are listed and asked for. They may be done in any order.
+enum class TourStep : std::uint8_t {
+    look,  // turn the view
+    zoom,
+    find,      // let the program show the due nut
+    run_down,  // with the fingers
+    help,
+    pause,
+    take,  // the wrench
+    tighten,
+};
+inline constexpr std::size_t tour_step_count = 8;
+
+struct Tour {
+    std::array<bool, tour_step_count> done{};
+    double turned = 0.0;  // rad, by which the trainee has turned the view
+    bool paused = false;  // the lesson is paused; its end completes TourStep::pause
+
+    // The first step that is not done; `tour_step_count` if all are.
+    [[nodiscard]] std::size_t current() const;
+};
+
+// Call once a frame, after the systems: ticks off the steps that the trainee has done in this frame.
+void update(Tour& tour, const Frame& frame);
+
+// The text of a step, with the controls of the trainee's hand.
+std::string tour_text(const words::Words& words, TourStep step, const ActiveLesson& active,
+                      const lesson::ControlNames& controls);
+
+// Draws the list at the left edge, between ui::Ui::begin and end. `scale`: px per point.
+void draw_tour(const Tour& tour, const ActiveLesson& active, const HudText& texts, const glm::dvec2& size,
+               float scale);
+
+}  // namespace bolt::trainer
