@@ -1,8 +1,9 @@
 # Build settings of all targets: warnings, sanitizers and reproducible floating point.
 
 # The sources of a target are compiled as one file, which takes a third less CPU time (boltwright: 435 s instead of 692 s). So a name
-# in an unnamed namespace must be unique in its target. The debug preset compiles each file by itself, and rebuilds faster. So do
-# SEPARATE libraries in every preset: collision and proxy as one file each make a lesson's frames slower (docs/performance.md).
+# in an unnamed namespace must be unique in its target. The debug preset compiles each file by itself, and rebuilds faster.
+# Libraries marked SEPARATE are compiled file by file in every preset: collision and proxy as one file each make a lesson's frames
+# slower (docs/performance.md).
 option(BOLT_UNITY "Compile the sources of a target as one file" ON)
 set(CMAKE_UNITY_BUILD ${BOLT_UNITY})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 0)
@@ -26,7 +27,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
         target_compile_options(house_options INTERFACE -Wno-dangling-reference)
     endif()
     if(BOLT_UNITY)
-        # gcc takes a .cpp file that another file includes for a header with private names, and reports them.
+        # The one file of a target includes its .cpp files, so gcc treats them as headers. It then warns of types in them that use names
+        # of an unnamed namespace, although no other file includes them.
         target_compile_options(house_options INTERFACE -Wno-subobject-linkage -Wno-attributes)
     endif()
 endif()

@@ -166,7 +166,7 @@ SyntaxError token_mistake(std::string_view text, std::size_t p, const ExpectedTo
                           const FormatPlace& place) {
     const char c = text[p];
     if (c == '/' || c == '#')
-        return {p, "JSON has no comments", "no comment; \"sources\" and the lesson hold notes"};
+        return {p, "JSON has no comments", "no comment; in assembly.json \"sources\" can hold notes"};
     if (c == '\'') return {p, "single quotes", "double quotes (\")"};
     if (c == '"') {
         if (!expected_token.key && !expected_token.value)

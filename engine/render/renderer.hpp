@@ -53,8 +53,8 @@ class Renderer {
     static Result<std::unique_ptr<Renderer>> create(gpu::Device& device, const RendererOptions& options);
 
     // Records the views of a frame that have the same size. Afterwards their images are in
-    // ResourceUse::transfer_from. Views of another size (an inset, the instructor's view) form another group,
-    // which has its own pictures; `group` is any number that identifies it.
+    // ResourceUse::transfer_from. Views of another size, such as an inset or the close-up in a lesson, form
+    // another group, which has its own pictures; `group` is any number that identifies it.
     Status render(gpu::FrameContext& frame, const Scene& scene, std::span<const Eye> eyes, VkExtent2D extent,
                   std::uint32_t group = 0);
 
@@ -102,7 +102,7 @@ class Renderer {
     Statistics statistics_;
 };
 
-// A second view in a corner of the picture, such as the trainee's view in the instructor's picture.
+// A second view in a corner of the picture, as `boltwright render --inset` draws it.
 struct Inset {
     Eye eye;
     Rectangle place;  // in whole pixels; the view is rendered at this size

@@ -1,5 +1,5 @@
-// Motion of a simulated hand: reaches on an arc, physiological tremor, and path planning around the obstacles
-// of the contact simulation.
+// Motion of a simulated hand: reaching movements along an arc, physiological tremor, and path planning around
+// the obstacles of the contact simulation.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,8 @@ namespace bolt::motion {
 
 using bolt::minimum_jerk;
 
-// The pose at fraction s of a reach, on an arc that is `bulge` off the straight line at its middle.
+// The pose at fraction s (0 … 1) of a reaching movement along an arc, whose middle is `bulge` (m) off the
+// straight line.
 inline Pose arc_pose(const Pose& from, const Pose& to, double s, const Vec3& bulge) {
     return {glm::mix(from.position, to.position, s) + bulge * (4.0 * s * (1.0 - s)),
             glm::slerp(from.orientation, to.orientation, s)};

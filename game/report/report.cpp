@@ -177,7 +177,7 @@ void put_order(std::string& out, const analysis::SessionData& s) {
     if (any([](const analysis::OrderDrawing& d) { return d.order.skipped_joints() > 0; }))
         out += "; –: left out";
     if (any_turn(&analysis::OrderEntry::out_of_turn))
-        out += "; ▲: out of turn, the fewest joints that would have to move";
+        out += "; ▲: out of turn (the fewest joints that would have to move to give the planned order)";
     if (any_turn(&analysis::OrderEntry::repeated)) out += "; 2×: taken twice";
     out += ".</p>\n<div class=\"grid small\">\n";
     for (const analysis::OrderDrawing& drawing : drawings) {

@@ -1,5 +1,6 @@
-// The postures of the displayed hand without a glove, and its visible effort, which replaces a force that no
-// device renders. Both depend only on the output of the ticks, so a replay shows the same hand.
+// The postures of the hand on the screen for a trainee without a glove, and the effort of this hand. The hand
+// strains and trembles with the torque on the nut, so that a trainee sees a torque that no device renders.
+// Both depend only on the output of the ticks, so a replay shows the same hand.
 #pragma once
 
 #include <array>

@@ -220,9 +220,10 @@ Status LessonSession::repeat(const world::WriteHaptics& world, const servo::Inpu
     BOLT_TRY_ASSIGN(const auto again, tick(world, input, {}));
     if (same_tick(input, again, output)) return {};
     return fail(ErrorCode::failed,
-                fmt::format("at {:.3f} s the servo and the lesson got different outputs from the same inputs",
+                fmt::format("at {:.3f} s the station and the recording of the lesson computed different "
+                            "results from the same inputs",
                             time()),
-                "equal bits; the recording until then is kept");
+                "equal results; the lesson is saved up to this time");
 }
 
 Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, const servo::Input& input,

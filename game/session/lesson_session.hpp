@@ -121,7 +121,8 @@ class LessonSession {
     // Repeats a tick that a station's servo has computed from the same initial state, and compares the
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::Input& input, const servo::Output& output);
-    // The number of checkpoints that the other servo should have saved since the start.
+    // The number of checkpoints that the servo should have saved since the start: this session's own servo in
+    // step(), the station's servo if its ticks are repeated.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - current_.state.checkpoint_count;
     }
@@ -147,7 +148,7 @@ class LessonSession {
     // Numbered as in servo::Output::touched.
     [[nodiscard]] std::span<const ObstacleName> obstacle_names() const { return current_.obstacle_names; }
 
-    // Records the timing of another servo's thread.
+    // Records the timing of the station's servo thread.
     Status record_timing(const servo::Timing& timing) { return writer_->record_timing(timing); }
 
     [[nodiscard]] LessonOutcome outcome(const world::ReadHaptics& world) const;  // so far

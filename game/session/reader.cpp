@@ -29,7 +29,7 @@ Result<TableChecksum> read_checksum(Database& database, const std::string& file,
     BOLT_TRY_ASSIGN(auto row, statement.bind(1, table).step());
     if (!row)
         return file_error(file, fmt::format("is damaged: table {} has no checksum", table),
-                          "a file that is as it was recorded");
+                          "an unmodified session file");
     return TableChecksum{static_cast<std::uint64_t>(statement.integer(0)),
                          static_cast<std::uint64_t>(statement.integer(1))};
 }
@@ -41,7 +41,7 @@ Status for_each_row(Database& database, const std::string& file, std::string_vie
                     Visit visit) {
     const auto damaged = [&](std::string_view why) {
         return file_error(file, fmt::format("is damaged: table {} {}", table, why),
-                          "a file that is as it was recorded");
+                          "an unmodified session file");
     };
     BOLT_TRY_ASSIGN(const auto expected, read_checksum(database, file, table));
     BOLT_TRY_ASSIGN(auto statement, database.prepare(sql));
@@ -182,7 +182,7 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path) {
     const bool finished = meta[key::finished] == "1";
     if (complete && (!duration || !score))
         return file_error(file, "is damaged: it is marked complete but has no result",
-                          "a file that is as it was recorded");
+                          "an unmodified session file");
     BOLT_TRY_ASSIGN(auto header, header_of(meta, file));
     if (session.format >= 2) {
         BOLT_TRY(read_obstacles(database, file, header.obstacle_names));
@@ -273,7 +273,7 @@ Status SessionReader::for_each_chunk(
         const auto first = row ? static_cast<std::uint64_t>(statement.integer(0)) : 0;
         if (!row || first != next)
             return file_error(state_->file, fmt::format("is damaged: there are no ticks from {} on", next),
-                              "a file that is as it was recorded");
+                              "an unmodified session file");
         auto ticks =
             decoder.decode(first, static_cast<std::size_t>(statement.integer(1)), statement.bytes(2));
         if (!ticks) return file_error(state_->file, ticks.error().what, ticks.error().expected);

@@ -76,12 +76,14 @@ struct Header {
 // "virtual time", or the rate as text.
 std::string servo_text(double rate);
 
-// Determines the kind of trainee without using the trainee's name. A session with the key `trainee` states
-// it; for others the first row that applies decides:
-//   the view help is recorded (only simulated trainees record it)                                 simulated
-//   the operator is "person"                                                                      person
-//   a tool is recorded (since format 4, which records the view help of simulated trainees)        person
-//   otherwise                                                                                     unrecorded
+// Determines the kind of trainee without using the trainee's name. `operator` is a key of the file; a person
+// typed a name there in older programs. The first condition that holds decides:
+//   the session has the key `trainee`    person if `operator` is "person", otherwise simulated
+//   it records the view help             simulated: only simulated trainees record it
+//   `operator` is "person"               person
+//   it records a tool                    person: since format 4, which records the tool, a session of a
+//                                        simulated trainee records the view help too
+//   none of these                        unrecorded
 OperatorKind operator_kind(const Header& header);
 
 // The trainee's name; empty if none is recorded. A simulated trainee has one only if --trainee gave it.

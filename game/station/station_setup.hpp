@@ -104,7 +104,7 @@ Result<PlannedStation> plan_station(const content::Assembly& assembly, const Sta
 
 // The station of a lesson: obstacles, task and seed come from `lesson` and override `request`. `home` is the
 // tool's initial pose. The lesson's own session must be prepared from the same `lesson` and get the station's
-// limits (session::set_device), so that both compute the same ticks.
+// limits (session::set_device_limits), so that both compute the same ticks.
 Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
                                            const session::LessonOptions& lesson,
                                            const StationRequest& request, const Pose& home);

@@ -17,9 +17,9 @@ struct Episode {
 // Receives a message and its time, s.
 using MessageHandler = FunctionRef<void(double time, const std::string& message)>;
 
-// Updates the episodes from Station::troubles() at `time` and reports each problem that begins or ends. If
-// another message replaces one within 0.3 s, both have the same cause, and the first episode is removed from
-// the list again.
+// Updates the episodes from Station::troubles() at `time` and reports each problem that begins or ends. The
+// loss of a device produces several messages in turn. So if a problem is gone less than 0.3 s after it began
+// and a new one has appeared, both are taken for one, and the episode of the first is removed.
 void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
                      MessageHandler on_message);
 

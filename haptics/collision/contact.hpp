@@ -123,13 +123,14 @@ struct KeptContact {
     std::uint32_t index = 0;  // of the contact
 };
 
+// reduce_contacts() selects contacts in rounds, each with a larger merge distance than the last.
 struct ReductionInput {
     std::span<Contact> near;  // `count` contacts, then free room for resolved ones
     std::size_t count = 0;
     // These three are as large as `near`.
     std::span<RankedContact> order;
     std::span<KeptContact> kept;
-    std::span<std::uint8_t> kept_in;  // by contact: the last selection that kept it, from 1; 0: none
+    std::span<std::uint8_t> kept_in;  // for each contact: the last round that kept it, from 1; 0: none
     std::span<DeferredContact> deferred;
     std::span<RankedContact> deferred_order;  // as large as `deferred`
     double clearance = 0.0;                   // m; no contact nearer than this is missing from the input

@@ -166,10 +166,10 @@ void describe_torque(WheelCore& core) {
     for (int i = 0; i < 3; ++i)
         d.renders[static_cast<std::size_t>(3 + i)] =
             d.limits.torque > 0.0 && std::abs(core.config.axis[i]) > 0.01;
-    d.remarks.push_back(fmt::format(
-        "renders at most {:.1f} N·m, assuming that the motor gives {:.1f} N·m at full drive; a rig "
-        "file can change this",
-        d.limits.torque, core.available));
+    d.remarks.push_back(
+        fmt::format("renders at most {:.1f} N·m, assuming that the motor gives {:.1f} N·m at full drive; a "
+                    "wheel configuration file (--rig) can change this",
+                    d.limits.torque, core.available));
 }
 
 class Wheel : public DeviceDriver {

@@ -10,9 +10,14 @@ namespace bolt::force {
 
 // Positions are scaled, rotations are not: a quarter turn of the wrench is a quarter turn of the hand.
 //
-// Forces use the transposed map, so power is preserved up to one factor: for every motion, the power F·v +
-// T·ω at the device is `power` times the power in the assembly, and passivity carries over. `power` 1: forces
-// grow with the scale. `power` 1/scale: forces are unchanged and torques shrink by the scale.
+// With R = turn, s = scale, p = power, motions at the device (v, ω) and forces on the tool (F, T):
+//
+//   on the tool      v' = s R v       ω' = R ω
+//   on the device    F' = p s R⁻¹ F   T' = p R⁻¹ T
+//
+// Forces use the transposed map, so F'·v + T'·ω = p (F·v' + T·ω'): the power at the device is p times the
+// power in the assembly, and passivity carries over. With p = 1 forces grow with the scale, F' = s R⁻¹ F and
+// T' = R⁻¹ T. With p = 1/s forces are unchanged and torques shrink by the scale, F' = R⁻¹ F and T' = R⁻¹ T/s.
 struct Workspace {
     Quat turn{1.0, 0.0, 0.0, 0.0};  // unit, from the device's frame to the assembly's
     double scale = 1.0;             // m of the tool per m of the device

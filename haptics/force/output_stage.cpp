@@ -119,9 +119,10 @@ bool watch(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
 
 namespace {
 
-// The share of the requested wrench that the device can render, common to force and torque: it preserves the
-// line of action of a contact force. Separate clamps would produce a field that is not conservative, in which
-// a hand gains energy on a closed path. A component that the device does not render at all is ignored.
+// The share of the requested force and torque that the device can render. Both are scaled by the same share,
+// which preserves the line of action of a contact force. Separate clamps would produce a field that is not
+// conservative, in which a hand gains energy on a closed path. A component that the device does not render at
+// all is ignored.
 double renderable_share(const OutputLimits& limits, const OutputCommand& request) {
     const double force = glm::length(request.force), torque = glm::length(request.torque);
     double share = 1.0;
@@ -230,8 +231,8 @@ OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortI
         command = control(limits, passivity, motion, request, strength, before, dt);
     } else {
         passivity.balance = passivity.stored_energy = passivity.damping = 0.0;
-        // A request that is not finite is a fault. The limiter counts a command that is not, and outputs none
-        // of it.
+        // A request with a value that is not finite counts as one fault. limit_output() counts a command that
+        // is not finite, and sends none of it; an energy that is not finite is counted here.
         if (!finite_command)
             command = request.command;
         else if (!sound)

@@ -69,8 +69,9 @@ struct NutStep {
 // consistent.
 //
 // `inertia`: kg·m² about the bolt while the spring is wound, see coupling_inertia(); inside the play the
-// nut's own small inertia acts. If the loosening torque falls with the angle faster than inertia/dt² +
-// stiffness (N·m/rad), the step uses about that slope instead, and the nut turns less than it should.
+// nut's own small inertia acts. A slope of the resistance below −(0.9 inertia/dt² + stiffness), in N·m/rad,
+// which occurs while a joint is loosened, would make the step unstable. The step then uses that value as the
+// slope, and the nut turns less than it should.
 NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const DriveHandle& handle,
                  double dt);
 

@@ -8,7 +8,12 @@ namespace bolt::joint {
 
 enum class Law : std::uint8_t { published, mechanistic };
 
-// The four stages of the 2018 paper, derived from the state.
+// The four stages of the 2018 paper, derived from the state of the joint:
+//   navigation  the nut turns on its thread and does not press on its seat
+//   transition  the nut reaches its seat: clamp force and torque begin to grow, and grow ever faster
+//   linearity   clamp force and torque grow in proportion to the angle
+//   yield       the bolt stretches for good: the torque grows at most half as fast, or falls. A nut with a
+//               stripped thread is in this stage too.
 enum class Stage : std::uint8_t { navigation, transition, linearity, yield };
 inline constexpr int stage_count = 4;
 

@@ -24,10 +24,11 @@ using ContactFinder =
 
 inline constexpr std::size_t max_contacts = 32;  // room that the finder gets
 
-// Limits of the change of the rendered force per millisecond that the god-object's own motion causes
-// (slipping, falling off an edge). Each limit is raised by the change that the hand alone would cause if the
-// tool stood still. People notice a step of 7 %. While the tool is pushed out of an obstacle that moved into
-// it, only `maximum` applies.
+// Limits how fast the rendered force may change, per millisecond. The force changes for two reasons: the hand
+// moves, and the god-object itself moves (it slips, or falls off an edge). `of_rendered` and `of_maximum`
+// limit the second change; the first, computed as if the tool stood still, is permitted in addition.
+// `maximum` limits both together. People notice a step of 7 %. While the tool is pushed out of an obstacle
+// that moved into it, only `maximum` applies. The same shares limit the rendered torque.
 struct ForceRateLimits {
     double of_rendered = 0.05;  // share of the rendered force
     double of_maximum = 0.005;  // share of the greatest force; applies where the rendered force is small
@@ -46,7 +47,9 @@ struct GodObjectParameters {
     // m, kept between tool and obstacles. Features between the finder's samples are detected up to 0.19 mm
     // late as measured (bolt-contact-validation, on the ZQ350), so the penetration stays below 0.1 mm.
     double skin = 110e-6;
-    double stride = 0.4e-3;  // m, motion of a point between two queries without a certified clearance
+    // m, how far a point of the tool may move until the next query. It may move further only if the last
+    // query found no obstacle within that distance.
+    double stride = 0.4e-3;
     double reach = 5e-3;     // m, widest band of a query
     double recovery = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
     // Budget per tick: the number of queries, and their work (ContactQueryResult::work). The first query, at
@@ -83,10 +86,11 @@ struct GodObjectStep {
 // The tool must not penetrate anything at `pose`.
 GodObjectState start_god_object(const Pose& pose);
 
-// Advances by one tick of `dt` (s). A motion is accepted in one of two cases: no point of the tool travels
-// further than the nearest obstacle; or no point travels further than `stride`, and the motion did not bring
-// the tool closer to any contact within the skin at its end. A finder may detect features up to 0.25 mm
-// late. Ignores a pose that is not finite. Does not allocate.
+// Advances by one tick of `dt` (s). A motion is accepted in one of two cases. Either no point of the tool
+// travels further than the distance to the nearest obstacle, less the skin. Or no point travels further than
+// `stride`, and a query at the end of the motion finds no contact below a fifth of the skin to which the
+// motion brought the tool closer. A finder may detect features up to 0.25 mm late. Ignores a pose that is not
+// finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
                               const Pose& device, ContactFinder finder, double dt);
 

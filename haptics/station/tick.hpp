@@ -70,10 +70,12 @@ struct StationControls {
     // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open
     // hand.
     std::optional<Pose> wrench_rest{};
-    // Pose of the wrist in the frame of its fingertips, for a gloved hand without a wrench. If set, the
-    // device moves the fingertips; if none, it moves the hand as if the hand held the tool.
+    // Pose of the wrist relative to the fingertips of the same hand, used while a gloved hand holds no
+    // wrench. If set, the pose that the device commands is that of the fingertips. If none, it is that of the
+    // tool that the hand would hold.
     std::optional<Pose> bare_wrist{};
-    // Joint to whose nut a tool moves by itself if its device senses velocity and renders no force; −1: none.
+    // Joint whose nut attracts the tool; −1: none. Applies only to a device that senses velocity and renders
+    // no force: the station then moves the tool to the nut.
     std::int16_t approach_joint = -1;
 };
 

@@ -44,7 +44,7 @@ const SyntaxEdit edits[] = {
     {R"(140
   },)", R"(140 // long
   },)",
-     {R"(18:29: JSON has no comments; expected no comment; "sources" and the lesson hold notes)"}},
+     {R"(18:29: JSON has no comments; expected no comment; in assembly.json "sources" can hold notes)"}},
     {R"("tool")", R"('tool')",
      {R"(14:3: single quotes; expected double quotes ("))"}},
     {R"("tool")", R"(tool)",

@@ -10,13 +10,13 @@ namespace bolt::assets {
 enum class PropertyType : std::uint8_t {
     boolean,
     string,
-    integer,  // not negative, at most the largest int
-    number,   // finite as a float
-    index,    // an index into `section`
-    object,   // with `schema`
-    strings,  // an array, as the next two
-    numbers,
-    indices,
+    integer,    // not negative, at most the largest int
+    number,     // finite as a float
+    index,      // an index into `section`
+    object,     // with `schema`
+    strings,    // an array of strings
+    numbers,    // an array of numbers
+    indices,    // an array of indices
     index_map,  // an object whose values are indices
     list        // an array of objects with `schema`; without a schema, of index maps
 };

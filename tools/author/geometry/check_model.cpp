@@ -32,7 +32,7 @@ constexpr AxisConvention axis_conventions[] = {
          return Vec3{p.x, p.z, -p.y};
      },
      "the model has Y and Z exchanged (its up is -Z)",
-     "Y up, as in glTF: rotate the model by 180 degrees less about X"},
+     "Y up, as in glTF: rotate the model by 90 degrees about X, so that its -Z points up"},
     {[](const Vec3& p) {
          return Vec3{p.x, p.z, p.y};
      },
