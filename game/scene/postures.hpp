@@ -26,7 +26,7 @@ double relative_torque(const servo::Setup& setup, const EffortAccess& world);
 // Call it once a tick.
 void update_effort(Effort& effort, const servo::Setup& setup, const EffortAccess& world);
 
-// Skeletons of the 26 joints in the frame of the tool (servo::DeviceSample). There are four grips of a
+// Skeletons of the 26 joints in the frame of the tool (servo::CommandedTool). There are four grips of a
 // handle: the palm on either face, the thumb towards the jaw or away from it.
 struct Postures {
     std::array<hand::Skeleton, 4> on_handle;

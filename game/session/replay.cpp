@@ -109,15 +109,16 @@ Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
 namespace {
 
 struct RecordedSample {
-    servo::DeviceSample device;
+    servo::CommandedTool device;
     std::uint32_t buttons = 0;
     std::uint64_t tick = 0;
 };
 
-Pose recorded_pose(const servo::DeviceSample& s) {
-    const Quat q(static_cast<double>(s.orientation[0]), static_cast<double>(s.orientation[1]),
-                 static_cast<double>(s.orientation[2]), static_cast<double>(s.orientation[3]));
-    return {Vec3(s.position[0], s.position[1], s.position[2]), glm::normalize(q)};
+Pose recorded_pose(const servo::CommandedTool& commanded) {
+    const Quat q(static_cast<double>(commanded.orientation[0]), static_cast<double>(commanded.orientation[1]),
+                 static_cast<double>(commanded.orientation[2]),
+                 static_cast<double>(commanded.orientation[3]));
+    return {Vec3(commanded.position[0], commanded.position[1], commanded.position[2]), glm::normalize(q)};
 }
 
 }  // namespace

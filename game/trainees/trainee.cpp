@@ -191,7 +191,7 @@ servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State
             if (holds_nut) t.hand = motion::yield_to_wrench(t.hand, wrench);
         }
     }
-    input.device = servo::sample_of(t.hand);
+    input.device = servo::commanded_tool(t.hand);
     report_visibility(t, due);
     return input;
 }

@@ -340,7 +340,7 @@ servo::Input step_hand(MouseHand& hand, const servo::Setup& setup, const servo::
     servo::Input input;
     input.enabled = true;
     input.grip = grip;
-    input.device = servo::sample_of(hand.pose);
+    input.device = servo::commanded_tool(hand.pose);
     return input;
 }
 

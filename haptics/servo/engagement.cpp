@@ -48,14 +48,15 @@ bool fits(const Setup& setup, const NutGeometry& nut, const NutOffset& o, const 
 
 }  // namespace
 
-ToolPose pose_of(const DeviceSample& sample) {
+ToolPose pose_of(const CommandedTool& commanded) {
     ToolPose tool;
     for (int i = 0; i < 3; ++i) {
-        tool.position[i] = static_cast<double>(sample.position[i]);
+        tool.position[i] = static_cast<double>(commanded.position[i]);
         tool.valid = tool.valid && std::abs(tool.position[i]) < 1e3;  // false for NaN too
     }
-    const Quat q(static_cast<double>(sample.orientation[0]), static_cast<double>(sample.orientation[1]),
-                 static_cast<double>(sample.orientation[2]), static_cast<double>(sample.orientation[3]));
+    const Quat q(static_cast<double>(commanded.orientation[0]), static_cast<double>(commanded.orientation[1]),
+                 static_cast<double>(commanded.orientation[2]),
+                 static_cast<double>(commanded.orientation[3]));
     const double norm = std::sqrt(glm::dot(q, q));
     tool.valid = tool.valid && norm > 0.5 && norm < 2.0;
     if (!tool.valid) return {Vec3(0.0), Quat(1, 0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1), false};

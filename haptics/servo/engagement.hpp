@@ -15,11 +15,11 @@ struct ToolPose {
     Quat orientation{1.0, 0.0, 0.0, 0.0};  // unit
     Vec3 handle{1.0, 0.0, 0.0};            // x axis of the tool
     Vec3 normal{0.0, 0.0, 1.0};            // z axis of the tool
-    bool valid = true;                     // false: the sample is not a pose; such a tool engages nothing
+    bool valid = true;                     // false: the command is not a pose; such a tool engages nothing
 };
 
-// `valid` is false if the sample is not finite, is beyond 1 km or has no unit quaternion.
-ToolPose pose_of(const DeviceSample& sample);
+// `valid` is false if the command is not finite, is beyond 1 km or has no unit quaternion.
+ToolPose pose_of(const CommandedTool& commanded);
 ToolPose at_pose(const Pose& pose);
 
 struct Engagement {
@@ -47,7 +47,7 @@ Vec3 nut_centre(const NutGeometry& nut, double nut_angle);
 double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& tool, Grip grip);
 
 // One tick. Releases the nut if the grip changes, the tool moves or tilts away, its angle changes by more
-// than a hand can turn in a tick, or the sample is not a pose. Engages a nut if none was held and the pose
+// than a hand can turn in a tick, or the command is not a pose. Engages a nut if none was held and the pose
 // fits.
 void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool,
                        Grip grip, Engagement& engagement);

@@ -13,22 +13,22 @@ namespace bolt::servo {
 
 enum class Grip : std::uint8_t { none, fingers, wrench };
 
-// Tool pose commanded by the device, in the assembly's frame. Single precision, which exceeds the resolution
-// of devices, so that the recorded sample equals the sample that the tick used. Tool frame: origin at the
-// centre of the jaw (or between the fingertips), x along the handle, z normal to the jaw.
-struct DeviceSample {
+// The pose that the hand commands for the tool, in the assembly's frame. Single precision, which exceeds the
+// resolution of devices, so that the recorded pose equals the pose that the tick used. Tool frame: origin at
+// the centre of the jaw (or between the fingertips), x along the handle, z normal to the jaw.
+struct CommandedTool {
     float position[3] = {0.0F, 0.0F, 0.0F};           // m
     float orientation[4] = {1.0F, 0.0F, 0.0F, 0.0F};  // unit quaternion w, x, y, z: tool to assembly
 };
 
-inline DeviceSample sample_of(const Pose& tool) {
-    DeviceSample sample;
-    for (int i = 0; i < 3; ++i) sample.position[i] = static_cast<float>(tool.position[i]);
-    sample.orientation[0] = static_cast<float>(tool.orientation.w);
-    sample.orientation[1] = static_cast<float>(tool.orientation.x);
-    sample.orientation[2] = static_cast<float>(tool.orientation.y);
-    sample.orientation[3] = static_cast<float>(tool.orientation.z);
-    return sample;
+inline CommandedTool commanded_tool(const Pose& tool) {
+    CommandedTool commanded;
+    for (int i = 0; i < 3; ++i) commanded.position[i] = static_cast<float>(tool.position[i]);
+    commanded.orientation[0] = static_cast<float>(tool.orientation.w);
+    commanded.orientation[1] = static_cast<float>(tool.orientation.x);
+    commanded.orientation[2] = static_cast<float>(tool.orientation.y);
+    commanded.orientation[3] = static_cast<float>(tool.orientation.z);
+    return commanded;
 }
 
 // Values of Input::undo: `save_checkpoint` stores the state of all nuts, and the last `max_checkpoints` are
@@ -36,7 +36,7 @@ inline DeviceSample sample_of(const Pose& tool) {
 inline constexpr std::uint8_t max_checkpoints = 8, save_checkpoint = 255;
 
 struct Input {
-    DeviceSample device;
+    CommandedTool device;
     Grip grip = Grip::none;
     bool enabled = false;     // dead-man switch held; otherwise the output is zero
     std::int16_t guide = -1;  // joint that the guiding force leads to; −1: no guiding force

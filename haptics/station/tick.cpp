@@ -272,7 +272,7 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
     update_wrench_rest(layout, s, grip, controls);
 
     servo::Input input;
-    input.device = servo::sample_of(s.workspace.tool);
+    input.device = servo::commanded_tool(s.workspace.tool);
     input.grip = grip;
     input.undo = next_undo(s);
     input.setting = controls.click_setting;
@@ -319,7 +319,7 @@ void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& 
     tool.position += approach_speed * setup.dt * guiding.force;
     tool.orientation =
         glm::normalize(rotation(approach_turn_speed * setup.dt * guiding.torque) * tool.orientation);
-    input.device = servo::sample_of(tool);
+    input.device = servo::commanded_tool(tool);
     s.input = input;
 }
 

@@ -69,7 +69,7 @@ void withdraw_hand(LessonRun& run, const Vec3& at) {
         const double share = (run.session.time() - begun) / (seconds - 0.3);
         servo::Input input;
         const Pose now{glm::mix(from.position, at, std::clamp(share, 0.0, 1.0)), Quat(1, 0, 0, 0)};
-        input.device = servo::sample_of(now);
+        input.device = servo::commanded_tool(now);
         input.reset = share < 0.1;
         input.enabled = share > 0.2;
         run.player.hand.pose = now;

@@ -16,7 +16,7 @@ LessonRun::LessonRun(session::LessonSession& lesson_session, InvariantChecker& i
     : session(lesson_session), checker(invariant_checker) {
     world::add_haptics(world, session.state());
     player.hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
-    last.device = servo::sample_of(player.hand.pose);
+    last.device = servo::commanded_tool(player.hand.pose);
 }
 
 bool LessonRun::tick(servo::Input input, bool wrench_in_hand, double room, bool hint_key) {

@@ -62,7 +62,7 @@ TEST_CASE(
             REQUIRE(state);
             CHECK(state->tool_contact.has_value());
             servo::Input input;
-            input.device = servo::sample_of(planned->options.home);
+            input.device = servo::commanded_tool(planned->options.home);
             input.enabled = true;
             input.grip = servo::Grip::wrench;
             servo::Output output;
@@ -86,7 +86,7 @@ TEST_CASE("Planned station: without obstacles, and on another nut") {
     Result<servo::State> state = planned->options.state(setup);
     REQUIRE(state);
     servo::Input input;
-    input.device = servo::sample_of(planned->options.home);
+    input.device = servo::commanded_tool(planned->options.home);
     input.grip = servo::Grip::wrench;
     input.enabled = true;
     servo::tick(setup, *state, input);

@@ -20,7 +20,7 @@ TEST_CASE("Engagement: clockwise seen from the nut tightens a right-hand thread,
         const NutGeometry& nut = setup.nuts[0];
         CHECK(glm::length(glm::cross(nut.e1, nut.e2) - nut.axis) < 1e-12);
         // Turn the tool by −10° about the axis (clockwise from outside): tightening is +10°.
-        const DeviceSample before = test::tool_at(nut, Vec3(0.0), 0.3);
+        const CommandedTool before = test::tool_at(nut, Vec3(0.0), 0.3);
         ToolPose tool = pose_of(before);
         const double a = tool_azimuth(setup, nut, tool, Grip::fingers);
         const Quat turn = glm::angleAxis(to_radians(-10.0), nut.axis);
@@ -40,7 +40,7 @@ TEST_CASE("Engagement: the jaw fits every 60 degrees, and flipped 30 degrees bet
     for (int tenth = 0; tenth < 3600; ++tenth) {
         for (const bool flip : {false, true}) {
             Engagement e;
-            const DeviceSample sample = test::tool_at(nut, centre, to_radians(0.1 * tenth), flip);
+            const CommandedTool sample = test::tool_at(nut, centre, to_radians(0.1 * tenth), flip);
             update_engagement(setup, state.joints, pose_of(sample), Grip::wrench, e);
             if (e.joint != 0) continue;
             double& last = flip ? last_flipped : last_upright;

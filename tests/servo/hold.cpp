@@ -22,11 +22,11 @@ force::OutputLimits at_once() {
     return limits;
 }
 
-DeviceSample tilted(const DeviceSample& sample, const Vec3& about, double angle) {
+CommandedTool tilted(const CommandedTool& sample, const Vec3& about, double angle) {
     const Quat q(static_cast<double>(sample.orientation[0]), static_cast<double>(sample.orientation[1]),
                  static_cast<double>(sample.orientation[2]), static_cast<double>(sample.orientation[3]));
     const Quat turned = glm::angleAxis(angle, about) * q;
-    DeviceSample out = sample;
+    CommandedTool out = sample;
     out.orientation[0] = static_cast<float>(turned.w);
     out.orientation[1] = static_cast<float>(turned.x);
     out.orientation[2] = static_cast<float>(turned.y);
@@ -40,14 +40,14 @@ struct Held {
     const NutGeometry& nut = setup.nuts[0];
     Vec3 centre = nut_centre(nut, 0.0);
 
-    Output step(Grip grip, const DeviceSample& sample) {
+    Output step(Grip grip, const CommandedTool& sample) {
         return tick(setup, state, test::holding(grip, sample));
     }
     // Handle angle at which the jaw is aligned with the flats of the nut at angle 0.
     [[nodiscard]] double fits(bool flipped = false) const {
         return flipped ? -setup.wrench.head_angle : setup.wrench.head_angle;
     }
-    [[nodiscard]] DeviceSample at(const Vec3& offset, bool flipped = false) const {
+    [[nodiscard]] CommandedTool at(const Vec3& offset, bool flipped = false) const {
         return test::tool_at(nut, centre + offset, fits(flipped), flipped);
     }
 };
@@ -84,7 +84,7 @@ TEST_CASE("Hold: a tilted wrench is turned square to the bolt, upright and flipp
             CAPTURE(flipped);
             CAPTURE(degrees);
             Held held;
-            const DeviceSample square_on = held.at(Vec3(0.0), flipped);
+            const CommandedTool square_on = held.at(Vec3(0.0), flipped);
             REQUIRE(held.step(Grip::wrench, square_on).joint == 0);
             const Vec3 about = pose_of(square_on).handle;
             const double tilt = to_radians(degrees);
@@ -118,7 +118,7 @@ TEST_CASE(
     "Hold: a wrench tilted by more than 30 degrees is released; fingers when the handle nears the axis") {
     for (const double degrees : {29.0, 31.0}) {
         Held held;
-        const DeviceSample square_on = held.at(Vec3(0.0));
+        const CommandedTool square_on = held.at(Vec3(0.0));
         REQUIRE(held.step(Grip::wrench, square_on).joint == 0);
         const Vec3 about = pose_of(square_on).handle;
         const Output output = held.step(Grip::wrench, tilted(square_on, about, to_radians(degrees)));
@@ -127,7 +127,7 @@ TEST_CASE(
     }
     for (const double degrees : {52.0, 55.0}) {  // the limit is 0.8, the cosine of 36.9 degrees to the axis
         Held held;
-        const DeviceSample square_on = held.at(Vec3(0.0));
+        const CommandedTool square_on = held.at(Vec3(0.0));
         REQUIRE(held.step(Grip::fingers, square_on).joint == 0);
         const ToolPose tool = pose_of(square_on);
         const Vec3 about = glm::cross(tool.handle, tool.normal);
@@ -143,7 +143,7 @@ TEST_CASE("Hold: an angle that changes faster than any hand releases the nut and
             CAPTURE(leap);
             Held held;
             REQUIRE(held.step(grip, held.at(Vec3(0.0))).joint == 0);
-            const DeviceSample there = test::tool_at(held.nut, held.centre, held.fits() + leap);
+            const CommandedTool there = test::tool_at(held.nut, held.centre, held.fits() + leap);
             const Output output = held.step(grip, there);
             CHECK((output.joint == 0) == (leap == 0.33));
             if (leap == 0.33) {
@@ -235,13 +235,13 @@ TEST_CASE("Servo: a NaN pose at 40 kN releases the nut, which stays, and the tor
 TEST_CASE("Servo: an invalid sample is not taken for a hand at the origin") {
     for (const bool engaged_before : {true, false}) {
         Held held;  // the first seat is at the origin, so a default pose would be within reach of the fingers
-        const DeviceSample there = test::tool_at(held.nut, held.centre, 0.0);
+        const CommandedTool there = test::tool_at(held.nut, held.centre, 0.0);
         if (engaged_before) REQUIRE(held.step(Grip::fingers, there).joint == 0);
-        DeviceSample lost = there;
+        CommandedTool lost = there;
         lost.position[0] = std::nanf("");
         CHECK(held.step(Grip::fingers, lost).joint == -1);
         CHECK(held.step(Grip::fingers, lost).joint == -1);
-        DeviceSample without_rotation = there;
+        CommandedTool without_rotation = there;
         for (float& q : without_rotation.orientation) q = 0.0F;
         CHECK(held.step(Grip::fingers, without_rotation).joint == -1);
         CHECK(held.step(Grip::fingers, there).joint == 0);
@@ -260,7 +260,7 @@ TEST_CASE("Servo: a released running nut stops, and a wrench meets it at rest") 
     };
     const double stands_at = run();
     const Vec3 at = nut_centre(held.nut, stands_at);
-    const DeviceSample on_flats = test::tool_at(held.nut, at, stands_at + held.fits());
+    const CommandedTool on_flats = test::tool_at(held.nut, at, stands_at + held.fits());
     held.step(Grip::wrench, on_flats);
     CHECK(held.state.joints[0].nut.speed == 0.0);
     bool held_by_wrench = false;

@@ -22,27 +22,27 @@ inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis
     return servo::make_setup(description);
 }
 
-// Sample of a tool at a position, with its handle at `angle` (rad) about the nut's axis (tightening
+// A command for a tool at a position, with its handle at `angle` (rad) about the nut's axis (tightening
 // positive), upright or flipped.
-inline servo::DeviceSample tool_at(const servo::NutGeometry& nut, const Vec3& position, double angle,
-                                   bool flipped = false) {
+inline servo::CommandedTool tool_at(const servo::NutGeometry& nut, const Vec3& position, double angle,
+                                    bool flipped = false) {
     const Vec3 x = std::cos(-angle) * nut.e1 + std::sin(-angle) * nut.e2;
     const Vec3 z = flipped ? -nut.axis : nut.axis;
     const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
-    servo::DeviceSample sample;
-    for (int i = 0; i < 3; ++i) sample.position[i] = static_cast<float>(position[i]);
-    sample.orientation[0] = static_cast<float>(q.w);
-    sample.orientation[1] = static_cast<float>(q.x);
-    sample.orientation[2] = static_cast<float>(q.y);
-    sample.orientation[3] = static_cast<float>(q.z);
-    return sample;
+    servo::CommandedTool commanded;
+    for (int i = 0; i < 3; ++i) commanded.position[i] = static_cast<float>(position[i]);
+    commanded.orientation[0] = static_cast<float>(q.w);
+    commanded.orientation[1] = static_cast<float>(q.x);
+    commanded.orientation[2] = static_cast<float>(q.y);
+    commanded.orientation[3] = static_cast<float>(q.z);
+    return commanded;
 }
 
-inline servo::Input holding(servo::Grip grip, const servo::DeviceSample& sample) {
+inline servo::Input holding(servo::Grip grip, const servo::CommandedTool& commanded) {
     servo::Input input;
     input.enabled = true;
     input.grip = grip;
-    input.device = sample;
+    input.device = commanded;
     return input;
 }
 

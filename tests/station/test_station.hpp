@@ -61,7 +61,7 @@ struct Rig {
 inline Rig on_nut(station::Layout layout) {
     const servo::Setup setup = two_joints(station::limits_of(layout));
     const servo::NutGeometry& nut = setup.nuts[0];
-    const servo::DeviceSample at = tool_at(nut, servo::nut_centre(nut, 0.0), setup.wrench.head_angle);
+    const servo::CommandedTool at = tool_at(nut, servo::nut_centre(nut, 0.0), setup.wrench.head_angle);
     const servo::ToolPose pose = servo::pose_of(at);
     layout.home = {pose.position, pose.orientation};
     Rig rig(layout);

@@ -36,7 +36,7 @@ servo::Output Workbench::step(const Pose& hand, servo::Grip grip) {
     servo::Input input;
     input.enabled = true;
     input.grip = grip;
-    input.device = servo::sample_of(hand);
+    input.device = servo::commanded_tool(hand);
     return servo::tick(setup, state, input);
 }
 

@@ -86,7 +86,7 @@ TEST_CASE("World: the hand has the input's pose and keeps the wrench's resting p
 TEST_CASE("World: the guiding force is reported until a nut is held") {
     Bench bench;
     bench.input.device =
-        servo::sample_of({bench.setup.nuts[0].seat + Vec3(0.02, 0.03, 0.0), Quat(1, 0, 0, 0)});
+        servo::commanded_tool({bench.setup.nuts[0].seat + Vec3(0.02, 0.03, 0.0), Quat(1, 0, 0, 0)});
     bench.input.guide = 0;
     for (int i = 0; i < 300; ++i) bench.tick();
     const world::GuidingForce& guide = bench.world.only<world::GuidingForce>();

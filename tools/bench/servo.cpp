@@ -179,16 +179,16 @@ class MotionPlanner {
     double high_ = 0.0;
 };
 
-servo::DeviceSample sample_of(const Pose& pose, double encoder) {
-    servo::DeviceSample sample;
+servo::CommandedTool command_of(const Pose& pose, double encoder) {
+    servo::CommandedTool commanded;
     for (int i = 0; i < 3; ++i) {
         const double p = encoder > 0.0 ? encoder * std::round(pose.position[i] / encoder) : pose.position[i];
-        sample.position[i] = static_cast<float>(p);
+        commanded.position[i] = static_cast<float>(p);
     }
     const Quat& q = pose.orientation;
     const std::array<double, 4> wxyz{q.w, q.x, q.y, q.z};
-    for (std::size_t i = 0; i < 4; ++i) sample.orientation[i] = static_cast<float>(wxyz[i]);
-    return sample;
+    for (std::size_t i = 0; i < 4; ++i) commanded.orientation[i] = static_cast<float>(wxyz[i]);
+    return commanded;
 }
 
 Result<ServoFixture> make_servo(const DeviceModel& device) {
@@ -251,9 +251,9 @@ std::vector<servo::Input> make_path(ServoFixture& servo, const DeviceModel& devi
                 input.grip = servo::Grip::wrench;
                 input.guide = leg.guide;
                 input.device =
-                    sample_of(trainees::step_arm(impedance, arm, target, {output.force, output.torque},
-                                                 output.joint >= 0, dt),
-                              device.encoder);
+                    command_of(trainees::step_arm(impedance, arm, target, {output.force, output.torque},
+                                                  output.joint >= 0, dt),
+                               device.encoder);
                 inputs.push_back(input);
                 output = servo::tick(servo.setup, servo.state, input);
             }

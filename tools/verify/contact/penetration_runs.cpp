@@ -45,7 +45,7 @@ class SimulatedHand {
         servo::Input input;
         input.enabled = true;
         input.grip = grip;
-        input.device = servo::sample_of(hand);
+        input.device = servo::commanded_tool(hand);
         const servo::Output output = servo::tick(setup_, state_, input);
         if (grip == servo::Grip::wrench) measure(output.tool);
         return output;
