@@ -25,7 +25,7 @@ std::string sensing_text(const Description& d) {
     switch (d.sensing) {
         case Sensing::pose:
             return "senses the pose of the hand in six degrees of freedom";
-        case Sensing::rate:
+        case Sensing::velocity:
             return "senses a commanded velocity in six degrees of freedom";
         case Sensing::turn:
             return "senses the angle of its one axis";
@@ -59,7 +59,7 @@ std::vector<std::string> summary_lines(const Description& d) {
     std::vector<std::string> lines;
     lines.push_back(fmt::format("{}{}, {:.0f} times a second{}; {} button{}", sensing_text(d),
                                 reach_text(d.reach), d.rate,
-                                d.silent_at_rest || d.sensing == Sensing::rate ? " while it moves" : "",
+                                d.silent_at_rest || d.sensing == Sensing::velocity ? " while it moves" : "",
                                 d.buttons, d.buttons == 1 ? "" : "s"));
     lines.push_back(rendering_text(d));
     lines.insert(lines.end(), d.remarks.begin(), d.remarks.end());

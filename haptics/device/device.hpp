@@ -34,9 +34,9 @@ Timer virtual_timer(VirtualTime& time);  // `time` must outlive the timer
 // Device frame: x to the right, y up, z towards the user, origin in the middle of the reach.
 
 enum class Sensing : std::uint8_t {
-    pose,  // the pose of the hand
-    rate,  // a commanded velocity: a puck that springs back
-    turn,  // the angle of one axis over many turns: a wheel, a wrench handle on a motor
+    pose,      // the pose of the hand
+    velocity,  // a commanded velocity: a puck that springs back
+    turn,      // the angle of one axis over many turns: a wheel, a wrench handle on a motor
 };
 
 struct Description {
@@ -46,7 +46,7 @@ struct Description {
     std::array<bool, 6> renders{};  // force along x, y, z, torque about them; magnitudes in `limits`
     force::OutputLimits limits;     // force 0 and torque 0: input only
     double rate = 1000.0;           // samples per second while the hand moves
-    bool silent_at_rest = false;    // may send nothing while the hand rests; implied by Sensing::rate
+    bool silent_at_rest = false;    // may send nothing while the hand rests; implied by Sensing::velocity
     // m, half the workspace along each axis; 0 for a puck or a wheel
     Vec3 reach{0.0};
     Vec3 axis{0.0, 0.0, 1.0};  // unit, of Sensing::turn
@@ -56,7 +56,7 @@ struct Description {
 
 struct Sample {
     Pose pose;                   // of the grip, device frame; Sensing::pose
-    Vec3 velocity{0.0};          // m/s, Sensing::rate
+    Vec3 velocity{0.0};          // m/s, Sensing::velocity
     Vec3 angular_velocity{0.0};  // rad/s
     double turn = 0.0;           // rad, right-handed about the axis; Sensing::turn
     std::uint32_t buttons = 0;   // bit i: button i is pressed

@@ -40,7 +40,7 @@ DeviceSupervisor::DeviceSupervisor(DeviceFactory open, Timer timer, const Superv
 DeviceSupervisor::~DeviceSupervisor() { close(); }
 
 bool DeviceSupervisor::expects_samples() const {
-    return report_.description->sensing != Sensing::rate && !report_.description->silent_at_rest;
+    return report_.description->sensing != Sensing::velocity && !report_.description->silent_at_rest;
 }
 
 bool DeviceSupervisor::is_valid(const Sample& s) const {
@@ -48,7 +48,7 @@ bool DeviceSupervisor::is_valid(const Sample& s) const {
         case Sensing::pose:
             return finite(s.pose.position) &&
                    std::abs(glm::dot(s.pose.orientation, s.pose.orientation) - 1.0) < 1e-2;
-        case Sensing::rate:
+        case Sensing::velocity:
             return finite(s.velocity) && finite(s.angular_velocity);
         case Sensing::turn:
             return std::isfinite(s.turn);

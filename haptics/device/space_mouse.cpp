@@ -123,7 +123,7 @@ Result<std::unique_ptr<DeviceDriver>> make_space_mouse(std::unique_ptr<HidTransp
     Description description;
     description.name = std::move(name);
     description.id = std::move(id);
-    description.sensing = Sensing::rate;
+    description.sensing = Sensing::velocity;
     description.limits.force = description.limits.torque = 0.0;
     description.rate = puck_rate;
     description.buttons = static_cast<int>(layout.buttons.size());

@@ -31,7 +31,7 @@ Result<SixAxisLayout> six_axis_layout(const ReportDescriptor& descriptor);
 // it has none of these fields or is too short.
 bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> report, SixAxisState& state);
 
-// The driver of a puck: deflection becomes velocity (Sensing::rate). It renders no force. A puck at rest
+// The driver of a puck: deflection becomes velocity (Sensing::velocity). It renders no force. A puck at rest
 // sends nothing, so read() then returns zero velocity. If reports stop while it is deflected, the velocity
 // becomes zero after response.silence.
 Result<std::unique_ptr<DeviceDriver>> make_space_mouse(std::unique_ptr<HidTransport> transport,

@@ -78,7 +78,7 @@ VirtualPuck::VirtualPuck(const VirtualPuckOptions& options, Timer timer)
     Description& d = shared_->description;
     d.name = "mouse and keyboard";
     d.id = "puck";
-    d.sensing = Sensing::rate;
+    d.sensing = Sensing::velocity;
     d.limits.force = d.limits.torque = 0.0;
     d.rate = options.rate;
     d.buttons = 32;

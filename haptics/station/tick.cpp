@@ -88,29 +88,29 @@ void update_link(const Description& d, DeviceLink& link, const DeviceSnapshot& s
     }
 }
 
-// Returns true if the device's data are current. A device that renders nothing and gives rates may be silent
-// at rest.
+// Returns true if the device's data are current. A device that renders nothing and senses velocity may be
+// silent at rest.
 bool has_current_data(const Description& d, const DeviceLink& link) {
     return d.sensing == Sensing::pose || renders(d) ? link.fresh : link.usable;
 }
 
-// Factor on the angular rate of a device that gives rates: above 1 with fingers, and the lower the more
-// torque the wrench transmits, which is the only feedback of torque with such a device.
-double angular_rate_factor(const servo::Setup& setup, const StationState& s) {
+// Factor on the angular velocity that a device senses: above 1 with fingers, and the lower the more torque
+// the wrench transmits, which is the only feedback of torque with such a device.
+double angular_velocity_factor(const servo::Setup& setup, const StationState& s) {
     if (s.output.joint < 0) return 1.0;
-    if (s.input.grip == servo::Grip::fingers) return finger_rate_factor;
+    if (s.input.grip == servo::Grip::fingers) return finger_velocity_factor;
     const double greatest = setup.wrench.stiffness * largest_deflection;
     return 1.0 / (1.0 + torque_slowdown * std::abs(s.output.wrench_torque) / greatest);
 }
 
-// Integrates the device's rates into the tool's pose, at most the permitted lead ahead of the constrained
-// pose.
-void integrate_rates(const Layout& layout, const servo::Setup& setup, StationState& s,
-                     const device::Sample& sample, const Quat& view, double dt) {
+// Integrates the velocity that the device senses into the tool's pose, at most the permitted lead ahead of
+// the constrained pose.
+void integrate_velocity(const Layout& layout, const servo::Setup& setup, StationState& s,
+                        const device::Sample& sample, const Quat& view, double dt) {
     const Quat turn = view * layout.workspace.turn;
     Pose& tool = s.workspace.tool;
     tool.position += turn * sample.velocity * dt;
-    const Vec3 turned_on = angular_rate_factor(setup, s) * (turn * sample.angular_velocity) * dt;
+    const Vec3 turned_on = angular_velocity_factor(setup, s) * (turn * sample.angular_velocity) * dt;
     tool.orientation = glm::normalize(rotation(turned_on) * tool.orientation);
     const Pose& held_back = s.output.tool;
     tool.position = held_back.position + force::clamp_length(tool.position - held_back.position, max_lead);
@@ -122,9 +122,9 @@ void integrate_rates(const Layout& layout, const servo::Setup& setup, StationSta
 
 void move(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
           const Quat& view, bool clutch, double dt) {
-    if (layout.mover->sensing == Sensing::rate) {
-        if (s.mover.usable && s.mover.silence < rate_timeout && !clutch)
-            integrate_rates(layout, setup, s, snapshot.sample, view, dt);
+    if (layout.mover->sensing == Sensing::velocity) {
+        if (s.mover.usable && s.mover.silence < velocity_timeout && !clutch)
+            integrate_velocity(layout, setup, s, snapshot.sample, view, dt);
         return;
     }
     if (s.mover.fresh) {
@@ -296,7 +296,7 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
 
 void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
                  const StationInputs& inputs, servo::Input& input) {
-    if (!layout.mover || layout.mover->sensing != Sensing::rate || renders_force(*layout.mover)) return;
+    if (!layout.mover || layout.mover->sensing != Sensing::velocity || renders_force(*layout.mover)) return;
     Pose& tool = s.workspace.tool;
     const int held = s.output.joint;
     const int joint = held < 0 && s.mover.usable && input.enabled ? inputs.controls.approach_joint : -1;

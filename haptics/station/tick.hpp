@@ -27,7 +27,7 @@ struct Buttons {
 // Which device moves the tool, which one turns the wrench on its bolt, and the transforms between their
 // frames and the assembly's.
 struct Layout {
-    std::optional<device::Description> mover;  // moves the tool: Sensing::pose or rate
+    std::optional<device::Description> mover;  // moves the tool: Sensing::pose or velocity
     Buttons mover_buttons;
     // Turns the wrench on its bolt and renders the torque: Sensing::turn. With a wheel the mover renders
     // forces only.
@@ -180,14 +180,14 @@ inline constexpr double handle_capture_distance = 0.10;  // m from the handle's 
 DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const StationInputs& inputs);
 
-// The following apply to a tool whose device senses velocity (Sensing::rate).
+// The following apply to a tool whose device senses velocity (Sensing::velocity).
 //
 // The commanded pose is at most this far ahead of the constrained pose, so that a reversal acts at once.
 inline constexpr double max_lead = 0.01, max_angular_lead = 0.15;  // m, rad
-// Fingers turn a nut `finger_rate_factor` times faster than the device's rate; at the largest torque a wrench
-// turns 1 + `torque_slowdown` times more slowly. Chosen values.
-inline constexpr double finger_rate_factor = 4.0, torque_slowdown = 15.0;
-// s for which a rate is valid without a new sample.
-inline constexpr double rate_timeout = 0.25;
+// Fingers turn a nut `finger_velocity_factor` times faster than the velocity that the device senses; at the
+// largest torque a wrench turns 1 + `torque_slowdown` times more slowly. Chosen values.
+inline constexpr double finger_velocity_factor = 4.0, torque_slowdown = 15.0;
+// s for which a velocity is valid without a new sample.
+inline constexpr double velocity_timeout = 0.25;
 
 }  // namespace bolt::station

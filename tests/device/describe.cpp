@@ -39,7 +39,7 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
           "senses the angle of its one axis, 1000 times a second while it moves; 1 button\n"
           "renders torque about 1 axis, 12.5 N·m at most\n");
     Description puck;
-    puck.sensing = Sensing::rate;
+    puck.sensing = Sensing::velocity;
     puck.rate = 125;
     CHECK(all(puck) ==
           "senses a commanded velocity in six degrees of freedom, 125 times a second while it moves; 0 "

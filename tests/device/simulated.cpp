@@ -171,7 +171,7 @@ TEST_CASE("VirtualPuck: deflection becomes velocity, quadratically; without inpu
     const VirtualPuckOptions feel;
     VirtualPuck puck(feel, virtual_timer(time));
     const auto device = opened(puck.open());
-    CHECK(device->describe().sensing == Sensing::rate);
+    CHECK(device->describe().sensing == Sensing::velocity);
     CHECK(read_until(*device, time, 0.1).back().velocity == Vec3(0.0));
     puck.set_input({Vec3(1, -0.5, 7), Vec3(0, 0.5, 0), 2});
     const Sample pushed = read_until(*device, time, 0.2).back();

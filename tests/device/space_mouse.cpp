@@ -49,7 +49,7 @@ struct Bench {
 TEST_CASE("SpaceMouse: deflection becomes velocity in the device frame, for every report layout") {
     for (const bool in_one : {true, false}) {
         Bench b({.single_report = in_one});
-        CHECK(b.device->describe().sensing == Sensing::rate);
+        CHECK(b.device->describe().sensing == Sensing::velocity);
         CHECK(b.device->describe().limits.force == 0.0);
         CHECK(b.device->describe().buttons == 2);
         // 3Dconnexion's z points down and its y towards the user; here y points up and z towards the user.

@@ -295,7 +295,7 @@ TEST_CASE(
 }
 
 TEST_CASE("DeviceSupervisor: devices that are silent at rest may rest indefinitely") {
-    for (const Sensing sensing : {Sensing::rate, Sensing::turn}) {
+    for (const Sensing sensing : {Sensing::velocity, Sensing::turn}) {
         Description description = test::arm();
         description.sensing = sensing;
         description.silent_at_rest = sensing == Sensing::turn;

@@ -20,10 +20,10 @@ TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stop
     CHECK(glm::length(rig.tool().position - Vec3(0, 0.1, 0)) < 1e-4);
     CHECK(rotation_vector(rig.tool().orientation).z == doctest::Approx(0.5).epsilon(1e-3));
     CHECK(rig.state.output.fault == force::Fault::none);
-    SUBCASE("a puck that falls silent while pushed moves the tool for rate_timeout") {
+    SUBCASE("a puck that falls silent while pushed moves the tool for velocity_timeout") {
         rig.mover_speaks = false;
         rig.ticks(2000);
-        CHECK(rig.tool().position.y - 0.1 == doctest::Approx(0.1 * rate_timeout).epsilon(0.02));
+        CHECK(rig.tool().position.y - 0.1 == doctest::Approx(0.1 * velocity_timeout).epsilon(0.02));
     }
     SUBCASE("a puck that is lost while pushed stops the tool") {
         rig.inputs.mover.usable = false;
@@ -143,7 +143,7 @@ TEST_CASE("Puck: the tool approaches the nut by itself, descends with it, and le
     // Spun clockwise, seen from above.
     rig.inputs.mover.sample.angular_velocity = Vec3(0.0, -2.0, 0.0);
     rig.ticks(500);
-    CHECK(rig.state.output.nut_angle == doctest::Approx(finger_rate_factor * 1.0).epsilon(0.1));
+    CHECK(rig.state.output.nut_angle == doctest::Approx(finger_velocity_factor * 1.0).epsilon(0.1));
     CHECK(rig.state.output.joint == 0);
     CHECK(glm::length(rig.tool().position - servo::nut_centre(nut, rig.state.output.nut_angle)) < 5e-3);
     rig.inputs.mover.sample.angular_velocity = Vec3(0.0);

@@ -60,7 +60,7 @@ inline device::Description wheel_of(double torque, const Vec3& axis = Vec3(0, 0,
 inline device::Description puck() {
     device::Description puck;
     puck.name = "a puck";
-    puck.sensing = device::Sensing::rate;
+    puck.sensing = device::Sensing::velocity;
     puck.limits.force = puck.limits.torque = 0.0;
     puck.rate = 125.0;
     puck.buttons = 2;
