@@ -80,7 +80,7 @@ int try_station(const TrialOptions& options) {
     station_setup::StationRequest request;
     request.devices = options.devices;
     request.wheel_config_file = options.wheel_config_file;
-    request.fallback_mover = still.open();
+    request.fallback_mover = still.factory();
     request.glove = options.glove;
     request.trainee = options.trainee;
     request.calibrations = options.calibrations;

@@ -92,7 +92,7 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
     station_setup::StationRequest request;
     request.devices = equipment.devices;
     request.wheel_config_file = equipment.wheel_config_file;
-    request.fallback_mover = puck.open();
+    request.fallback_mover = puck.factory();
     request.glove = equipment.glove;
     request.trainee = trainee;
     request.force_scale = equipment.force_scale;

@@ -89,7 +89,7 @@ VirtualPuck::~VirtualPuck() = default;
 
 void VirtualPuck::set_input(const PuckInput& input) { shared_->inputs.write({input, shared_->timer.now()}); }
 
-DeviceFactory VirtualPuck::open() {
+DeviceFactory VirtualPuck::factory() {
     return [shared = shared_]() -> Result<std::unique_ptr<DeviceDriver>> {
         return std::make_unique<VirtualPuckDevice<Shared>>(shared);
     };
@@ -228,7 +228,7 @@ SimulatedDevice::SimulatedDevice(SimulatedDeviceOptions design, Timer timer)
     advance();
 }
 
-DeviceFactory SimulatedDevice::open() {
+DeviceFactory SimulatedDevice::factory() {
     return [this]() -> Result<std::unique_ptr<DeviceDriver>> {
         if (is_unplugged()) return device_lost(options_.description);
         advance();

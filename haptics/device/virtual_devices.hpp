@@ -35,8 +35,8 @@ class VirtualPuck {
     // Call at least once a frame, from one thread. Never waits.
     void set_input(const PuckInput& input);
 
-    // The device may outlive the puck; it then reports rest.
-    [[nodiscard]] DeviceFactory open();
+    // Its devices may outlive the puck; they then report rest.
+    [[nodiscard]] DeviceFactory factory();
 
   private:
     struct Shared;
@@ -82,12 +82,12 @@ struct SimulatedDeviceOptions {
 
 // A simulated device: a script gives the intended motion, an optional hand impedance yields to the rendered
 // force, and faults of real devices can be injected. Works on any clock. Not thread-safe: one thread uses it,
-// or a test without threads in virtual time. It must outlive the connections that open() creates.
+// or a test without threads in virtual time. It must outlive the connections that its factory creates.
 class SimulatedDevice {
   public:
     SimulatedDevice(SimulatedDeviceOptions design, Timer timer);
 
-    [[nodiscard]] DeviceFactory open();
+    [[nodiscard]] DeviceFactory factory();
     void inject(const FaultInterval& trouble);
 
     // For observers: the force at the hand now, and the true pose of the hand.

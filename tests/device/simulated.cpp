@@ -47,7 +47,7 @@ TEST_CASE("SimulatedDevice: the hand follows its script at the device's rate") {
                            std::nullopt,
                            {}},
                           virtual_timer(time));
-    const auto device = opened(thing.open());
+    const auto device = opened(thing.factory());
     const auto samples = read_until(*device, time, 1.0);
     CHECK(samples.size() == doctest::Approx(250).epsilon(0.02));
     for (const Sample& s : samples) CHECK(s.pose.position.x == doctest::Approx(0.1 * s.time));
@@ -59,7 +59,7 @@ TEST_CASE(
     VirtualTime time;
     const HandImpedance hand;
     SimulatedDevice thing(still(hand), virtual_timer(time));
-    const auto device = opened(thing.open());
+    const auto device = opened(thing.factory());
     read_until(*device, time, 0.1);
     REQUIRE(device->write({Vec3(3, 0, -1.5), Vec3(0, 0.2, 0)}));
     read_until(*device, time, 3.0);
@@ -80,7 +80,7 @@ TEST_CASE("SimulatedDevice: a wheel turns against the hand about its own axis") 
     wheel.limits.torque = 10.0;
     const HandImpedance hand;
     SimulatedDevice thing({wheel, [](double) { return Sample{}; }, hand, {}}, virtual_timer(time));
-    const auto device = opened(thing.open());
+    const auto device = opened(thing.factory());
     read_until(*device, time, 0.1);
     REQUIRE(device->write({Vec3(0.0), Vec3(5, 4, 0)}));
     read_until(*device, time, 3.0);
@@ -90,7 +90,7 @@ TEST_CASE("SimulatedDevice: a wheel turns against the hand about its own axis") 
 TEST_CASE("SimulatedDevice: each injected fault behaves as named, for its interval") {
     VirtualTime time;
     SimulatedDevice thing(still(), virtual_timer(time));
-    auto device = opened(thing.open());
+    auto device = opened(thing.factory());
     thing.inject({InjectedFault::silent, 1.0, 2.0});
     CHECK(read_until(*device, time, 1.0).size() > 990);
     REQUIRE(device->write({Vec3(1, 0, 0), Vec3(0.0)}));
@@ -121,10 +121,10 @@ TEST_CASE("SimulatedDevice: each injected fault behaves as named, for its interv
     REQUIRE_FALSE(read);
     CHECK(read.error().lost);
     CHECK_FALSE(device->write({}));
-    CHECK_FALSE(thing.open()());
+    CHECK_FALSE(thing.factory()());
     device.reset();
     time.now = 7.0;
-    CHECK(thing.open()());
+    CHECK(thing.factory()());
 }
 
 TEST_CASE(
@@ -170,7 +170,7 @@ TEST_CASE("VirtualPuck: deflection becomes velocity, quadratically; without inpu
     VirtualTime time;
     const VirtualPuckOptions feel;
     VirtualPuck puck(feel, virtual_timer(time));
-    const auto device = opened(puck.open());
+    const auto device = opened(puck.factory());
     CHECK(device->describe().sensing == Sensing::velocity);
     CHECK(read_until(*device, time, 0.1).back().velocity == Vec3(0.0));
     puck.set_input({Vec3(1, -0.5, 7), Vec3(0, 0.5, 0), 2});
@@ -190,8 +190,8 @@ TEST_CASE("Devices: simulated, recorded and virtual devices keep the driver cont
     VirtualTime time;
     const auto by_itself = [] {};
     SimulatedDevice thing(still(HandImpedance{}), virtual_timer(time));
-    test::check_driver_contract(thing.open(), by_itself);
-    test::check_unplugged(thing.open(), [&] { thing.inject({InjectedFault::unplugged, time.now, 1e9}); });
+    test::check_driver_contract(thing.factory(), by_itself);
+    test::check_unplugged(thing.factory(), [&] { thing.inject({InjectedFault::unplugged, time.now, 1e9}); });
     const auto forever = [](std::size_t i) {
         std::optional<Sample> sample(std::in_place);
         sample->time = 1e-3 * static_cast<double>(i);
@@ -199,5 +199,5 @@ TEST_CASE("Devices: simulated, recorded and virtual devices keep the driver cont
     };
     test::check_driver_contract(recorded(test::arm(), forever, virtual_timer(time)), by_itself);
     VirtualPuck puck({}, virtual_timer(time));
-    test::check_driver_contract(puck.open(), [&] { puck.set_input({Vec3(1, 0, 0), Vec3(0, 1, 0), 1}); });
+    test::check_driver_contract(puck.factory(), [&] { puck.set_input({Vec3(1, 0, 0), Vec3(0, 1, 0), 1}); });
 }

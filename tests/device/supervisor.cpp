@@ -24,7 +24,7 @@ struct SupervisedDevice {
                               const std::vector<FaultInterval>& troubles = {})
         : thing({std::move(description), [](double) { return Sample{}; }, std::nullopt, troubles},
                 virtual_timer(time)),
-          supervisor(thing.open(), virtual_timer(time)) {}
+          supervisor(thing.factory(), virtual_timer(time)) {}
 
     VirtualTime time;
     SimulatedDevice thing;

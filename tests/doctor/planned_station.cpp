@@ -97,7 +97,7 @@ TEST_CASE("Planned station: it can be started; without a selected device the sub
     const content::Assembly what = assembly("cover-m8");
     device::VirtualPuck mouse({}, device::steady_timer());
     StationRequest request;
-    request.fallback_mover = mouse.open();
+    request.fallback_mover = mouse.factory();
     Result<PlannedStation> planned = plan_station(what, request);
     REQUIRE(planned);
     planned->options.device_threads.priority = planned->options.servo.priority = 0;

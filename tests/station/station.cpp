@@ -77,7 +77,7 @@ std::string joined_lines(const std::vector<std::string>& troubles) {
 
 TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in order") {
     device::VirtualPuck puck({}, device::steady_timer());
-    Result<Station> station = Station::start(plan_of(puck.open()));
+    Result<Station> station = Station::start(plan_of(puck.factory()));
     REQUIRE(station);
     CHECK(station->layout().mover->name == "mouse and keyboard");
     CHECK(station->setup().limits.force == 0.0);
@@ -107,7 +107,7 @@ TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in ord
 
 TEST_CASE("Station: every command reaches the servo once and in order; a full queue is an error") {
     device::VirtualPuck puck({}, device::steady_timer());
-    Result<Station> station = Station::start(plan_of(puck.open()));
+    Result<Station> station = Station::start(plan_of(puck.factory()));
     REQUIRE(station);
     constexpr int rounds = 200;
     int saved = 0;
@@ -138,7 +138,7 @@ TEST_CASE("Station: every command reaches the servo once and in order; a full qu
 TEST_CASE("Station: an unplugged device is reported and stops the tool; it resumes when plugged in") {
     device::VirtualPuck puck({}, device::steady_timer());
     const auto cable = std::make_shared<Cable>();
-    Result<Station> station = Station::start(plan_of(on_cable(cable, puck.open())));
+    Result<Station> station = Station::start(plan_of(on_cable(cable, puck.factory())));
     REQUIRE(station);
     StationControls controls;
     controls.dead_man = true;
@@ -167,7 +167,7 @@ TEST_CASE("Station: an unplugged device is reported and stops the tool; it resum
 TEST_CASE("Station: a driver that hangs is reported, although its thread is blocked") {
     device::VirtualPuck puck({}, device::steady_timer());
     const auto cable = std::make_shared<Cable>();
-    Result<Station> station = Station::start(plan_of(on_cable(cable, puck.open())));
+    Result<Station> station = Station::start(plan_of(on_cable(cable, puck.factory())));
     REQUIRE(station);
     REQUIRE(eventually([&] { return station->troubles().empty(); }));
     cable->hangs = true;
@@ -181,7 +181,7 @@ TEST_CASE("Station: the glove has its own thread, and its problems are reported"
     auto line = emulate::SerialGlove::start({.sensors = 22}, 0.5);
     REQUIRE(line);
     device::VirtualPuck puck({}, device::steady_timer());
-    StationOptions plan = plan_of(puck.open());
+    StationOptions plan = plan_of(puck.factory());
     plan.glove = line->port();
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
@@ -204,7 +204,7 @@ TEST_CASE(
     REQUIRE(line);
     line->set_raw(test::raw_open());
     device::VirtualPuck puck({}, device::steady_timer());
-    StationOptions plan = plan_of(puck.open());
+    StationOptions plan = plan_of(puck.factory());
     plan.glove = line->port();
     plan.hand = test::hand_at_bar();
     Result<Station> station = Station::start(std::move(plan));
@@ -250,14 +250,14 @@ TEST_CASE("Station: a glove of the wrong side is reported; a gloved hand without
     auto line = emulate::SerialGlove::start({.hand = hand::Side::left});
     REQUIRE(line);
     device::VirtualPuck puck({}, device::steady_timer());
-    StationOptions plan = plan_of(puck.open());
+    StationOptions plan = plan_of(puck.factory());
     plan.hand = test::hand_at_bar();
     plan.glove = line->port();
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
     REQUIRE(eventually(
         [&] { return joined_lines(station->troubles()).find("is a left one") != std::string::npos; }));
-    StationOptions bare = plan_of(puck.open());
+    StationOptions bare = plan_of(puck.factory());
     bare.hand = test::hand_at_bar();
     CHECK_FALSE(Station::start(std::move(bare)));
 }

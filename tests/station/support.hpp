@@ -15,7 +15,7 @@ class VirtualLine {
   public:
     explicit VirtualLine(device::SimulatedDeviceOptions design)
         : thing(std::move(design), device::virtual_timer(time_)),
-          supervisor_(thing.open(), device::virtual_timer(time_)) {}
+          supervisor_(thing.factory(), device::virtual_timer(time_)) {}
 
     device::SimulatedDevice thing;
 

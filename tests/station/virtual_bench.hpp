@@ -13,7 +13,8 @@ namespace bolt::test {
 class VirtualBench final : public station_setup::LessonStation {
   public:
     VirtualBench(session::SessionSetup prepared, session::LessonOptions options)
-        : puck_({}, device::virtual_timer(time_)), supervisor_(puck_.open(), device::virtual_timer(time_)) {
+        : puck_({}, device::virtual_timer(time_)),
+          supervisor_(puck_.factory(), device::virtual_timer(time_)) {
         while (!supervisor_.report().description) serve();
         layout_.mover = *supervisor_.report().description;
         layout_.mover_buttons = {1, 0, 0, 0};
