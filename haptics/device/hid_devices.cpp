@@ -7,8 +7,8 @@
 #include <map>
 
 #include "haptics/device/hid_transport.hpp"
-#include "haptics/device/pid.hpp"
 #include "haptics/device/space_mouse.hpp"
+#include "haptics/device/usb_force_feedback.hpp"
 #include "haptics/device/wheel.hpp"
 
 namespace bolt::device {
@@ -77,7 +77,7 @@ Status check_driver_support(HidKind kind, const ReportDescriptor& descriptor) {
         BOLT_TRY(six_axis_layout(descriptor));
     } else if (kind != HidKind::other) {
         BOLT_TRY(wheel_axis(descriptor));
-        BOLT_TRY(pid_layout(descriptor));
+        BOLT_TRY(force_feedback_layout(descriptor));
     }
     return {};
 }

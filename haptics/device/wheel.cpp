@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "haptics/device/pid.hpp"
 #include "haptics/device/report_descriptor.hpp"
+#include "haptics/device/usb_force_feedback.hpp"
 
 namespace bolt::device::board {
 
@@ -108,7 +108,7 @@ constexpr int max_wheel_reports = 256;       // reports per read
 struct WheelCore {
     std::unique_ptr<HidTransport> transport;
     WheelAxis axis;
-    PidForce force;
+    UsbForceFeedback force;
     Description description;
     WheelConfig config;
     SecondsClock clock;
@@ -136,10 +136,10 @@ struct WheelCore {
 Result<WheelCore> make_core(std::unique_ptr<HidTransport> transport, const ReportDescriptor& descriptor,
                             std::string name, std::string id, const WheelConfig& config, SecondsClock clock) {
     BOLT_TRY_ASSIGN(auto axis, wheel_axis(descriptor));
-    BOLT_TRY_ASSIGN(auto layout, pid_layout(descriptor));
+    BOLT_TRY_ASSIGN(auto layout, force_feedback_layout(descriptor));
     WheelCore core{std::move(transport),
                    std::move(axis),
-                   PidForce(std::move(layout)),
+                   UsbForceFeedback(std::move(layout)),
                    {},
                    config,
                    std::move(clock),

@@ -8,8 +8,8 @@
 #include <memory>
 #include <optional>
 
-#include "haptics/device/pid.hpp"
 #include "haptics/device/space_mouse.hpp"
+#include "haptics/device/usb_force_feedback.hpp"
 #include "haptics/device/wheel.hpp"
 #include "tools/emulate/wheel.hpp"
 

@@ -1,4 +1,4 @@
-#include "haptics/device/pid.hpp"
+#include "haptics/device/usb_force_feedback.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@ namespace bolt::device {
 
 namespace {
 
+// A usage of the page "Physical Interface Device" (PID).
 constexpr Usage pid(std::uint16_t id) { return {0x0f, id}; }
 
 constexpr Usage set_effect = pid(0x21), block_index = pid(0x22), constant_force = pid(0x26),
@@ -21,7 +22,7 @@ constexpr Usage set_effect = pid(0x21), block_index = pid(0x22), constant_force 
 constexpr ReportKind output_kinds[] = {ReportKind::output, ReportKind::feature};
 
 struct MessageBuilder {
-    PidMessage message;
+    ForceFeedbackMessage message;
     std::span<std::uint8_t> body() { return std::span(message.bytes).subspan(1); }
 };
 
@@ -71,7 +72,7 @@ std::int64_t to_counts(const ReportField& field, double seconds) {
     return std::max<std::int64_t>(std::llround(counts), 1);
 }
 
-PidMessage set_effect_message(const ReportDescriptor& descriptor) {
+ForceFeedbackMessage set_effect_message(const ReportDescriptor& descriptor) {
     std::optional<MessageBuilder> m = selector_message(descriptor, constant_force, set_effect);
     if (!m) return {};
     const auto field = [&](Usage usage) {
@@ -98,8 +99,8 @@ PidMessage set_effect_message(const ReportDescriptor& descriptor) {
 
 }  // namespace
 
-Result<PidLayout> pid_layout(const ReportDescriptor& descriptor) {
-    PidLayout layout;
+Result<ForceFeedbackLayout> force_feedback_layout(const ReportDescriptor& descriptor) {
+    ForceFeedbackLayout layout;
     const ReportField* strength = output_field(descriptor, magnitude, set_constant_force);
     if (strength == nullptr)
         return fail(ErrorCode::no_device, "the device has no constant-force effect",
@@ -125,7 +126,7 @@ Result<PidLayout> pid_layout(const ReportDescriptor& descriptor) {
 
     const auto control = [&](Usage option) {
         std::optional<MessageBuilder> m = selector_message(descriptor, option);
-        return m ? std::move(m->message) : PidMessage{};
+        return m ? std::move(m->message) : ForceFeedbackMessage{};
     };
     layout.reset = control(device_reset);
     layout.stop_all = control(stop_all_effects);
@@ -155,7 +156,7 @@ Result<PidLayout> pid_layout(const ReportDescriptor& descriptor) {
     return layout;
 }
 
-Result<std::optional<std::int64_t>> parse_block_load(const PidLayout& layout,
+Result<std::optional<std::int64_t>> parse_block_load(const ForceFeedbackLayout& layout,
                                                      std::span<const std::uint8_t> reply) {
     if (reply.empty() || !layout.block_load.block) return std::nullopt;
     const auto body = reply.subspan(1);
@@ -172,12 +173,13 @@ Result<std::optional<std::int64_t>> parse_block_load(const PidLayout& layout,
     return block;
 }
 
-void select_block(PidLayout& layout, std::int64_t block) {
-    for (PidMessage* m : {&layout.set_effect, &layout.set_force, &layout.start, &layout.stop, &layout.free})
+void select_block(ForceFeedbackLayout& layout, std::int64_t block) {
+    for (ForceFeedbackMessage* m :
+         {&layout.set_effect, &layout.set_force, &layout.start, &layout.stop, &layout.free})
         if (m->block && !m->bytes.empty()) write_value(*m->block, block, std::span(m->bytes).subspan(1));
 }
 
-void set_magnitude(PidLayout& layout, double share) {
+void set_magnitude(ForceFeedbackLayout& layout, double share) {
     const double s = std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0.0;
     const auto most = static_cast<double>(s < 0.0 ? -layout.magnitude.low : layout.magnitude.high);
     write_value(layout.magnitude, std::llround(s * most), std::span(layout.set_force.bytes).subspan(1));
@@ -189,13 +191,13 @@ constexpr double refresh_interval = 0.1;                 // s
 constexpr double restart_interval = 0.25 * effect_life;  // s
 constexpr int max_polls = 60;  // until an effect is loaded; the number that Linux uses
 
-Status send(HidTransport& transport, const PidMessage& message) {
+Status send(HidTransport& transport, const ForceFeedbackMessage& message) {
     if (message.bytes.empty()) return {};
     return message.kind == ReportKind::feature ? transport.send_feature(message.bytes)
                                                : transport.write(message.bytes);
 }
 
-Result<std::int64_t> load_effect(HidTransport& transport, const PidLayout& layout) {
+Result<std::int64_t> load_effect(HidTransport& transport, const ForceFeedbackLayout& layout) {
     // Devices without a "create" or "block load" report have fixed effect blocks; use the first.
     const std::int64_t first =
         layout.set_force.block ? std::max<std::int64_t>(layout.set_force.block->low, 1) : 1;
@@ -214,22 +216,22 @@ Result<std::int64_t> load_effect(HidTransport& transport, const PidLayout& layou
 
 }  // namespace
 
-Status PidForce::start(HidTransport& transport, double now) {
+Status UsbForceFeedback::start(HidTransport& transport, double now) {
     // Some devices keep a centring spring after a reset.
-    for (const PidMessage* m : {&layout_.reset, &layout_.stop_all, &layout_.enable, &layout_.gain})
+    for (const ForceFeedbackMessage* m : {&layout_.reset, &layout_.stop_all, &layout_.enable, &layout_.gain})
         BOLT_TRY(send(transport, *m));
     BOLT_TRY_ASSIGN(const auto block, load_effect(transport, layout_));
     select_block(layout_, block);
     set_magnitude(layout_, 0.0);
     begun_ = true;
-    for (const PidMessage* m : {&layout_.set_effect, &layout_.set_force, &layout_.start})
+    for (const ForceFeedbackMessage* m : {&layout_.set_effect, &layout_.set_force, &layout_.start})
         BOLT_TRY(send(transport, *m));
     sent_ = layout_.set_force.bytes;
     sent_at_ = started_at_ = now;
     return {};
 }
 
-Status PidForce::update(HidTransport& transport, double share, double now) {
+Status UsbForceFeedback::update(HidTransport& transport, double share, double now) {
     set_magnitude(layout_, share);
     if (now - started_at_ >= restart_interval) {
         BOLT_TRY(send(transport, layout_.start));
@@ -242,12 +244,13 @@ Status PidForce::update(HidTransport& transport, double share, double now) {
     return {};
 }
 
-void PidForce::stop(HidTransport& transport) {
+void UsbForceFeedback::stop(HidTransport& transport) {
     if (!begun_) return;
     begun_ = false;
     set_magnitude(layout_, 0.0);
     // Send all three even if one fails.
-    for (const PidMessage* m : {&layout_.set_force, &layout_.stop, &layout_.free, &layout_.stop_all})
+    for (const ForceFeedbackMessage* m :
+         {&layout_.set_force, &layout_.stop, &layout_.free, &layout_.stop_all})
         static_cast<void>(send(transport, *m));
 }
 

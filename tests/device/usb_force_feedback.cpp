@@ -1,4 +1,4 @@
-#include "haptics/device/pid.hpp"
+#include "haptics/device/usb_force_feedback.hpp"
 
 #include <doctest/doctest.h>
 
@@ -24,8 +24,8 @@ ReportDescriptor parsed(const Bytes& bytes) {
 
 }  // namespace
 
-TEST_CASE("Pid: messages for an OpenFFBoard match its firmware byte for byte") {
-    auto layout = pid_layout(parsed(emulate::board_descriptor()));
+TEST_CASE("UsbForceFeedback: messages for an OpenFFBoard match its firmware byte for byte") {
+    auto layout = force_feedback_layout(parsed(emulate::board_descriptor()));
     REQUIRE(layout);
     CHECK(layout->reset.bytes == Bytes{12, 0x08});
     CHECK(layout->stop_all.bytes == Bytes{12, 0x04});
@@ -58,8 +58,8 @@ TEST_CASE("Pid: messages for an OpenFFBoard match its firmware byte for byte") {
     CHECK(!*parse_block_load(*layout, Bytes{}));
 }
 
-TEST_CASE("Pid: a wheel with missing reports and other numbering works") {
-    auto layout = pid_layout(parsed(emulate::generic_wheel_descriptor()));
+TEST_CASE("UsbForceFeedback: a wheel with missing reports and other numbering works") {
+    auto layout = force_feedback_layout(parsed(emulate::generic_wheel_descriptor()));
     REQUIRE(layout);
     CHECK(layout->reset.bytes == Bytes{0x1c, 1});
     CHECK(layout->stop_all.bytes == Bytes{0x1c, 2});
@@ -75,9 +75,9 @@ TEST_CASE("Pid: a wheel with missing reports and other numbering works") {
     CHECK(layout->set_force.bytes == Bytes{0x15, 0x88, 0x13});
 }
 
-TEST_CASE("Pid: a device without a usable constant force is rejected with the reason") {
+TEST_CASE("UsbForceFeedback: a device without a usable constant force is rejected with the reason") {
     const auto why = [](const Bytes& bytes) {
-        const auto layout = pid_layout(parsed(bytes));
+        const auto layout = force_feedback_layout(parsed(bytes));
         REQUIRE(!layout);
         return layout.error().message();
     };

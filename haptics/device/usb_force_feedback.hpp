@@ -1,5 +1,5 @@
 // USB force feedback (usage page "Physical Interface Device", PID) with one constant force: its messages, and
-// PidForce, which sends them.
+// UsbForceFeedback, which sends them.
 //
 // Source: USB-IF, Device Class Definition for Physical Interface Devices 1.0. Deviations of real devices
 // follow Linux' hid-pidff.c.
@@ -16,43 +16,43 @@ namespace bolt::device {
 // program.
 constexpr double effect_life = 1.0;
 
-struct PidMessage {
+struct ForceFeedbackMessage {
     ReportKind kind = ReportKind::output;
     std::vector<std::uint8_t> bytes;   // begins with the id; empty: the device has no such message
     std::optional<ReportField> block;  // index of the effect
 };
 
-struct PidLayout {
-    PidMessage reset, stop_all, enable;  // device control
-    PidMessage gain;                     // device gain
-    PidMessage create;                   // creates a constant-force effect
-    PidMessage block_load;               // feature to read: block index and status of the new effect
-    PidMessage set_effect;               // effect parameters: duration and direction (from the right)
-    PidMessage set_force;                // magnitude of the constant force
-    PidMessage start, stop, free;        // effect operation
-    ReportField magnitude;               // in `set_force`
-    std::optional<ReportField> status;   // in `block_load`
-    std::int64_t load_success = 0;       // value of `status` after a successful load
+struct ForceFeedbackLayout {
+    ForceFeedbackMessage reset, stop_all, enable;  // device control
+    ForceFeedbackMessage gain;                     // device gain
+    ForceFeedbackMessage create;                   // creates a constant-force effect
+    ForceFeedbackMessage block_load;         // feature to read: block index and status of the new effect
+    ForceFeedbackMessage set_effect;         // effect parameters: duration and direction (from the right)
+    ForceFeedbackMessage set_force;          // magnitude of the constant force
+    ForceFeedbackMessage start, stop, free;  // effect operation
+    ReportField magnitude;                   // in `set_force`
+    std::optional<ReportField> status;       // in `block_load`
+    std::int64_t load_success = 0;           // value of `status` after a successful load
 };
 
 // Fails if the device has no constant force, or one of a single sign.
-Result<PidLayout> pid_layout(const ReportDescriptor& descriptor);
+Result<ForceFeedbackLayout> force_feedback_layout(const ReportDescriptor& descriptor);
 
 // Parses the `block_load` report: the block index, nullopt if loading is not complete, an error if memory is
 // full.
-Result<std::optional<std::int64_t>> parse_block_load(const PidLayout& layout,
+Result<std::optional<std::int64_t>> parse_block_load(const ForceFeedbackLayout& layout,
                                                      std::span<const std::uint8_t> reply);
 
 // Writes the block index into all messages of the effect.
-void select_block(PidLayout& layout, std::int64_t block);
+void select_block(ForceFeedbackLayout& layout, std::int64_t block);
 
 // `share` is −1 … 1 of full scale; positive turns to the left (the force comes from the right).
-void set_magnitude(PidLayout& layout, double share);
+void set_magnitude(ForceFeedbackLayout& layout, double share);
 
 // Runs the constant-force effect of a wheel: creates, updates, restarts and stops it.
-class PidForce {
+class UsbForceFeedback {
   public:
-    explicit PidForce(PidLayout layout) : layout_(std::move(layout)) {}
+    explicit UsbForceFeedback(ForceFeedbackLayout layout) : layout_(std::move(layout)) {}
 
     // Resets the device, stops all effects of earlier users, then creates the effect and starts it at zero.
     Status start(HidTransport& transport, double now);
@@ -63,7 +63,7 @@ class PidForce {
     void stop(HidTransport& transport);
 
   private:
-    PidLayout layout_;
+    ForceFeedbackLayout layout_;
     std::vector<std::uint8_t> sent_;
     double sent_at_ = 0.0, started_at_ = 0.0;
     bool begun_ = false;
