@@ -38,7 +38,7 @@ bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> re
         if (axis.report != *id) continue;
         const auto value = value_of(axis, report);
         if (!value) continue;
-        state.share[i] = normalized_value(axis, *value);
+        state.deflection[i] = normalized_value(axis, *value);
         decoded = true;
     }
     return decode_buttons(layout.buttons, *id, report, state.buttons) || decoded;
@@ -69,14 +69,14 @@ class SpaceMouse : public DeviceDriver {
             if (report.empty()) break;
             if (!decode_report(layout_, report, state_)) continue;
             last_report_ = clock_();
-            const auto moves = [&](double share) { return std::abs(share) > response_.dead_zone; };
-            deflected_ = std::any_of(state_.share.begin(), state_.share.end(), moves);
+            const auto moves = [&](double deflection) { return std::abs(deflection) > response_.dead_zone; };
+            deflected_ = std::any_of(state_.deflection.begin(), state_.deflection.end(), moves);
             has_report_ = true;
         }
         const double now = clock_();
         if (!std::exchange(has_report_, false) && deflected_) {
             if (now < last_report_ + response_.silence) return std::nullopt;
-            state_.share.fill(0.0);
+            state_.deflection.fill(0.0);
             deflected_ = false;
         }
         Sample sample;
@@ -105,10 +105,10 @@ class SpaceMouse : public DeviceDriver {
 
 PuckRates rates_of(const SixAxisState& state, const PuckResponse& response) {
     const auto rate = [&](std::size_t axis, double most) {
-        const double share = std::clamp(state.share[axis], -1.0, 1.0);
+        const double deflection = std::clamp(state.deflection[axis], -1.0, 1.0);
         const double response_share =
-            std::max(std::abs(share) - response.dead_zone, 0.0) / (1.0 - response.dead_zone);
-        return std::copysign(most * response_share * response_share, share);
+            std::max(std::abs(deflection) - response.dead_zone, 0.0) / (1.0 - response.dead_zone);
+        return std::copysign(most * response_share * response_share, deflection);
     };
     // 3Dconnexion: x right, y towards the user, z down.
     const double v = response.speed, w = response.turn_speed;

@@ -20,7 +20,7 @@ struct SixAxisLayout {
 // Deflection, −1 … 1 each, in the puck's own frame (3Dconnexion: x right, y towards the user, z down;
 // rotations right-handed).
 struct SixAxisState {
-    std::array<double, 6> share{};
+    std::array<double, 6> deflection{};
     std::uint32_t buttons = 0;  // bit i: button i is pressed
 };
 

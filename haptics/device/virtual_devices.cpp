@@ -16,10 +16,10 @@ struct TimedInput {
     double time = 0.0;  // s
 };
 
-Vec3 quadratic_response(const Vec3& share, double fastest) {
+Vec3 quadratic_response(const Vec3& deflection, double fastest) {
     Vec3 speed(0.0);
     for (int i = 0; i < 3; ++i) {
-        const double s = std::clamp(share[i], -1.0, 1.0);
+        const double s = std::clamp(deflection[i], -1.0, 1.0);
         speed[i] = fastest * s * std::abs(s);
     }
     return speed;

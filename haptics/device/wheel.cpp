@@ -88,8 +88,8 @@ bool decode_report(const WheelAxis& layout, std::span<const std::uint8_t> report
     if (layout.axis.report != *id) return false;
     const auto value = value_of(layout.axis, report);
     if (!value) return false;
-    const double share = normalized_value(layout.axis, *value);
-    state.share = layout.axis.low < 0 ? share : 2.0 * share - 1.0;
+    const double normalized = normalized_value(layout.axis, *value);
+    state.deflection = layout.axis.low < 0 ? normalized : 2.0 * normalized - 1.0;
     return true;
 }
 
@@ -188,7 +188,7 @@ class Wheel : public DeviceDriver {
             has_angle_ = true;
         }
         if (!has_angle_ || core_.clock() - last_report_ > rest_timeout) return std::nullopt;
-        return core_.sample(core_.state.share * 0.5 * core_.config.range);
+        return core_.sample(core_.state.deflection * 0.5 * core_.config.range);
     }
 
     Status write(const force::OutputCommand& command) override { return core_.write(command); }
@@ -236,7 +236,7 @@ class OpenFfboard : public DeviceDriver {
         }
         if (!has_sample) return std::nullopt;
         return core_.sample(has_counts() ? counts_ / core_.config.counts_per_turn * 2.0 * pi
-                                         : core_.state.share * 0.5 * range_);
+                                         : core_.state.deflection * 0.5 * range_);
     }
 
     Status write(const force::OutputCommand& command) override { return core_.write(command); }

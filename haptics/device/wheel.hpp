@@ -70,7 +70,7 @@ struct WheelAxis {
 };
 
 struct WheelState {
-    double share = 0.0;         // −1 at the left stop, 1 at the right stop
+    double deflection = 0.0;    // −1 at the left stop, 1 at the right stop
     std::uint32_t buttons = 0;  // bit i: button i is pressed
 };
 

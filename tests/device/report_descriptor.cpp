@@ -66,14 +66,14 @@ TEST_CASE("ReportDescriptor: pucks that report in three reports and in one decod
     }
     CHECK(decode_report(one, all, b));
     for (std::size_t i = 0; i < 6; ++i) {
-        CHECK(a.share[i] == doctest::Approx(v[i] / 350.0));
-        CHECK(a.share[i] == b.share[i]);
+        CHECK(a.deflection[i] == doctest::Approx(v[i] / 350.0));
+        CHECK(a.deflection[i] == b.deflection[i]);
     }
     CHECK(decode_report(three, Bytes{3, 2, 0}, a));
     CHECK(a.buttons == 2U);
     CHECK(decode_report(three, Bytes{3, 1, 0}, a));
     CHECK(a.buttons == 1U);
-    CHECK(a.share[0] == 1.0);  // a button report causes no motion
+    CHECK(a.deflection[0] == 1.0);  // a button report causes no motion
 
     CHECK(!decode_report(three, Bytes{}, a));
     CHECK(!decode_report(three, Bytes{1, 2}, a));

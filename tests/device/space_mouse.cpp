@@ -71,14 +71,14 @@ TEST_CASE("SpaceMouse: deflection becomes velocity in the device frame, for ever
 TEST_CASE("SpaceMouse: velocity rises continuously from zero and faster than linearly") {
     const PuckResponse feel;
     double last = -1.0;
-    for (double share = 0.0; share <= 1.0; share += 1.0 / 350.0) {
+    for (double deflection = 0.0; deflection <= 1.0; deflection += 1.0 / 350.0) {
         SixAxisState state;
-        state.share[0] = share;
+        state.deflection[0] = deflection;
         const double v = rates_of(state, feel).velocity.x;
         CHECK(v - std::max(last, 0.0) < 0.01 * feel.speed);
-        if (share > feel.dead_zone + 0.01) CHECK(v > last);
-        if (share < feel.dead_zone) CHECK(v == 0.0);
-        state.share[0] = -share;
+        if (deflection > feel.dead_zone + 0.01) CHECK(v > last);
+        if (deflection < feel.dead_zone) CHECK(v == 0.0);
+        state.deflection[0] = -deflection;
         CHECK(rates_of(state, feel).velocity.x == -v);
         last = v;
     }
@@ -126,7 +126,7 @@ TEST_CASE("SpaceMouse: a late reader gets the latest state") {
     const auto sample = b.read(0.02);
     REQUIRE(sample);
     SixAxisState last;
-    last.share[0] = 40.0 / 350.0;
+    last.deflection[0] = 40.0 / 350.0;
     CHECK(sample->velocity.x == rates_of(last, b.feel).velocity.x);
     CHECK(sample->velocity.x > 0.0);
     CHECK(late.waiting.empty());
