@@ -5,7 +5,7 @@
 
 namespace bolt::force {
 
-WorkspaceState align_workspace(const Workspace& w, const Pose& device, const Pose& tool) {
+WorkspaceState align_workspace(const WorkspaceMap& w, const Pose& device, const Pose& tool) {
     WorkspaceState state;
     state.centre = tool.position - w.scale * (w.turn * device.position);
     state.grip = glm::normalize(glm::conjugate(w.turn * device.orientation) * tool.orientation);
@@ -13,7 +13,7 @@ WorkspaceState align_workspace(const Workspace& w, const Pose& device, const Pos
     return state;
 }
 
-Pose to_assembly(const Workspace& w, WorkspaceState& s, const Pose& device, bool clutch, double dt) {
+Pose to_assembly(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, bool clutch, double dt) {
     // The watchdog rejects a pose that is not finite; it must not enter the state.
     const Vec3& p = device.position;
     const Quat& q = device.orientation;
@@ -31,13 +31,13 @@ Pose to_assembly(const Workspace& w, WorkspaceState& s, const Pose& device, bool
     return s.tool;
 }
 
-OutputCommand to_device(const Workspace& w, const WorkspaceState& s, const OutputCommand& on_tool) {
+OutputCommand to_device(const WorkspaceMap& w, const WorkspaceState& s, const OutputCommand& on_tool) {
     const Quat back = glm::conjugate(w.turn);
     return {back * on_tool.force * (s.share * w.power * w.scale),
             back * on_tool.torque * (s.share * w.power)};
 }
 
-OutputLimits in_assembly(const Workspace& w, const OutputLimits& device) {
+OutputLimits in_assembly(const WorkspaceMap& w, const OutputLimits& device) {
     OutputLimits limits = device;
     const double force = w.power * w.scale, stiffness = force * w.scale, torque = w.power;
     limits.force /= force;

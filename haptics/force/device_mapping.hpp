@@ -18,7 +18,7 @@ namespace bolt::force {
 // Forces use the transposed map, so F'·v + T'·ω = p (F·v' + T·ω'): the power at the device is p times the
 // power in the assembly, and passivity carries over. With p = 1 forces grow with the scale, F' = s R⁻¹ F and
 // T' = R⁻¹ T. With p = 1/s forces are unchanged and torques shrink by the scale, F' = R⁻¹ F and T' = R⁻¹ T/s.
-struct Workspace {
+struct WorkspaceMap {
     Quat turn{1.0, 0.0, 0.0, 0.0};  // unit, from the device's frame to the assembly's
     double scale = 1.0;             // m of the tool per m of the device
     double power = 1.0;
@@ -33,18 +33,18 @@ struct WorkspaceState {
 };
 
 // Returns the state in which the device pose `device` maps to the tool pose `tool`.
-WorkspaceState align_workspace(const Workspace& workspace, const Pose& device, const Pose& tool);
+WorkspaceState align_workspace(const WorkspaceMap& workspace, const Pose& device, const Pose& tool);
 
 // One tick of dt. Returns the tool's pose in the assembly's frame. Releasing the clutch does not move the
 // tool. A device pose that is not finite is returned unchanged for the watchdog to reject.
-Pose to_assembly(const Workspace& workspace, WorkspaceState& state, const Pose& device, bool clutch,
+Pose to_assembly(const WorkspaceMap& workspace, WorkspaceState& state, const Pose& device, bool clutch,
                  double dt);
 
-OutputCommand to_device(const Workspace& workspace, const WorkspaceState& state,
+OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& state,
                         const OutputCommand& on_tool);
 
 // The device's limits in the assembly's units; the output stage works on that side of the map.
-OutputLimits in_assembly(const Workspace& workspace, const OutputLimits& device);
+OutputLimits in_assembly(const WorkspaceMap& workspace, const OutputLimits& device);
 
 // Renders a bolt's torque on a device with a smaller range: scaled so that the largest torque of the lesson
 // stays within it; as a torque if the device has one, otherwise as a force at the wrench's grip.

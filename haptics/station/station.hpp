@@ -35,7 +35,7 @@ struct StationLinkStats {
 struct StationOptions {
     device::DeviceFactory mover, wheel;  // empty: no such device
     Buttons mover_buttons, wheel_buttons;
-    force::Workspace workspace;
+    force::WorkspaceMap workspace;
     Pose home;
     std::filesystem::path glove;    // serial port; empty: no glove
     std::optional<HandSetup> hand;  // wearer of the glove; none: the controls determine the grip

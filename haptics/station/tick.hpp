@@ -33,9 +33,9 @@ struct Layout {
     // forces only.
     std::optional<device::Description> wheel;
     Buttons wheel_buttons;
-    force::Workspace workspace;  // of the mover; for a device that senses velocity only `turn` applies
-    Pose home;                   // initial pose of the tool in the assembly's frame
-    std::optional<Pose> wrist;   // of a gloved hand that holds the tool, in the tool's frame
+    force::WorkspaceMap workspace;  // of the mover; for a device that senses velocity only `turn` applies
+    Pose home;                      // initial pose of the tool in the assembly's frame
+    std::optional<Pose> wrist;      // of a gloved hand that holds the tool, in the tool's frame
 };
 
 // Fails with ErrorCode::no_device if there is no device or a device cannot take its role.

@@ -18,8 +18,8 @@ constexpr double dt = 1e-3;
 
 Vec3 any(Random& random) { return {random.normal(), random.normal(), random.normal()}; }
 
-Workspace any_workspace(Random& random) {
-    Workspace w;
+WorkspaceMap any_workspace(Random& random) {
+    WorkspaceMap w;
     w.turn = rotation(any(random));
     w.scale = random.uniform(0.5, 5.0);
     w.power = random.chance(0.5) ? 1.0 : 1.0 / w.scale;
@@ -33,10 +33,10 @@ double apart(const Pose& a, const Pose& b) {
 }  // namespace
 
 TEST_CASE(
-    "Workspace: the tool starts at the given pose and follows the scaled and rotated motion of the hand") {
+    "WorkspaceMap: the tool starts at the given pose and follows the scaled and rotated motion of the hand") {
     Random random(1);
     for (int i = 0; i < 100; ++i) {
-        const Workspace w = any_workspace(random);
+        const WorkspaceMap w = any_workspace(random);
         const Pose device{any(random), rotation(any(random))}, tool{any(random), rotation(any(random))};
         WorkspaceState s = align_workspace(w, device, tool);
         CHECK(apart(to_assembly(w, s, device, false, dt), tool) < 1e-12);
@@ -48,9 +48,9 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Workspace: the clutch holds the tool, and releasing it moves nothing") {
+TEST_CASE("WorkspaceMap: the clutch holds the tool, and releasing it moves nothing") {
     Random random(2);
-    const Workspace w = any_workspace(random);
+    const WorkspaceMap w = any_workspace(random);
     Pose device{any(random), rotation(any(random))};
     WorkspaceState s = align_workspace(w, device, {any(random), rotation(any(random))});
     Pose last = s.tool;
@@ -75,8 +75,8 @@ TEST_CASE("Workspace: the clutch holds the tool, and releasing it moves nothing"
     CHECK(moved > 1.0);
 }
 
-TEST_CASE("Workspace: an invalid sample is passed on and leaves the state unchanged") {
-    const Workspace w;
+TEST_CASE("WorkspaceMap: an invalid sample is passed on and leaves the state unchanged") {
+    const WorkspaceMap w;
     WorkspaceState s = align_workspace(w, {}, {Vec3(1, 2, 3), rotation(Vec3(0, 1, 0))});
     Pose broken;
     broken.position.y = std::numeric_limits<double>::quiet_NaN();
@@ -86,10 +86,10 @@ TEST_CASE("Workspace: an invalid sample is passed on and leaves the state unchan
     }
 }
 
-TEST_CASE("Workspace: the power at the device is the stated multiple of the power in the assembly") {
+TEST_CASE("WorkspaceMap: the power at the device is the stated multiple of the power in the assembly") {
     Random random(3);
     for (int i = 0; i < 200; ++i) {
-        const Workspace w = any_workspace(random);
+        const WorkspaceMap w = any_workspace(random);
         const Pose device{any(random), rotation(any(random))};
         WorkspaceState s = align_workspace(w, device, {any(random), rotation(any(random))});
         const Vec3 v = any(random), omega = any(random);
@@ -108,8 +108,8 @@ TEST_CASE("Workspace: the power at the device is the stated multiple of the powe
     }
 }
 
-TEST_CASE("Workspace: with power 1/scale forces are unchanged") {
-    Workspace w;
+TEST_CASE("WorkspaceMap: with power 1/scale forces are unchanged") {
+    WorkspaceMap w;
     w.scale = 4.0;
     w.power = 0.25;
     const OutputCommand out = to_device(w, {}, {Vec3(1, 2, 3), Vec3(0, 4, 0)});
@@ -117,8 +117,8 @@ TEST_CASE("Workspace: with power 1/scale forces are unchanged") {
     CHECK(out.torque == Vec3(0, 1, 0));
 }
 
-TEST_CASE("Workspace: forces fade out and in with the clutch") {
-    const Workspace w;
+TEST_CASE("WorkspaceMap: forces fade out and in with the clutch") {
+    const WorkspaceMap w;
     WorkspaceState s;
     const OutputCommand pressed{Vec3(10, 0, 0), Vec3(0, 1, 0)};
     double last = 10.0;
@@ -134,10 +134,10 @@ TEST_CASE("Workspace: forces fade out and in with the clutch") {
     CHECK(to_device(w, s, pressed).torque.y == doctest::Approx(0.5));
 }
 
-TEST_CASE("Workspace: a command at the device's limit is at the mapped limit") {
+TEST_CASE("WorkspaceMap: a command at the device's limit is at the mapped limit") {
     Random random(4);
     for (int i = 0; i < 50; ++i) {
-        const Workspace w = any_workspace(random);
+        const WorkspaceMap w = any_workspace(random);
         const OutputLimits device, limits = in_assembly(w, device);
         const Vec3 way = glm::normalize(any(random));
         const OutputCommand out = to_device(w, {}, {limits.force * way, limits.torque * way});
