@@ -167,7 +167,8 @@ servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State
     const bool grasps = holds_nut && !t.held_nut;
     if (grasps && t.holds_intended_nut()) adopt_wrench_pose(t);
     const force::OutputCommand output{state.output.output.force, state.output.output.torque};
-    const double torque = felt_torque(setup.torque, t.nut(), t.hand.orientation * Vec3(1, 0, 0), output);
+    const double torque =
+        felt_torque(setup.torque_rendering, t.nut(), t.hand.orientation * Vec3(1, 0, 0), output);
     const Percept& felt = t.perception.update(holds_nut ? torque : 0.0, t.handle_angle, t.joint().nut.speed,
                                               holds_nut, holds_nut && state.engagement.swung > 0.0);
     Pose pose = step_phase(t, felt, input.grip);

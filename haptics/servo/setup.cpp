@@ -66,7 +66,7 @@ Setup make_setup(const SetupDescription& d) {
     setup.limits = d.limits;
     // The energy of a spring that the device cannot render must not count as stored.
     if (d.limits.force <= 0.0) setup.hold_stiffness = 0.0;
-    setup.torque = force::make_torque_rendering(d.limits, d.greatest_torque, d.handle_length);
+    setup.torque_rendering = force::make_torque_rendering(d.limits, d.greatest_torque, d.handle_length);
     setup.guiding.greatest = std::min(3.0, 0.2 * d.limits.force);
     setup.guiding.stiffness = std::min(setup.guiding.stiffness, d.limits.stiffness);
     setup.guiding.torque = 0.1 * d.limits.torque;

@@ -52,7 +52,7 @@ struct Setup {
     double finger_force = 65.0;      // N across the flats at which the fingertips slip
     double hold_stiffness = 1000.0;  // N/m between an engaged tool and the nut's centre
     double hold_torsion = 5.0;       // N·m/rad that keeps an engaged wrench square to the bolt
-    force::TorqueRendering torque;
+    force::TorqueRendering torque_rendering;
     force::GuidingParameters guiding;
     force::OutputLimits limits;
 

@@ -72,11 +72,11 @@ force::ForceRequest hold_request(const Setup& setup, State& state, const ToolPos
     const double torque = state.joints[i].torque;
     const Vec3 target = nut_centre(nut, state.joints[i].nut.angle) + state.engagement.offset_at_engagement;
     force::ForceRequest request;
-    request.command = force::render_torque(setup.torque, torque, nut.axis, tool.handle);
+    request.command = force::render_torque(setup.torque_rendering, torque, nut.axis, tool.handle);
     const double stiffness =
         state.engagement.grip == Grip::wrench ? setup.wrench.stiffness : setup.finger_stiffness;
     request.stored_energy =
-        force::stored_torque_energy(setup.torque, torque, stiffness, setup.wrench.handle_length);
+        force::stored_torque_energy(setup.torque_rendering, torque, stiffness, setup.wrench.handle_length);
     if (held_by_contact(state)) return request;
     const Vec3 off = target - tool.position;
     request.command.force += setup.hold_stiffness * off;
@@ -90,7 +90,8 @@ force::ForceRequest hold_request(const Setup& setup, State& state, const ToolPos
     if (state.engagement.grip == Grip::wrench && setup.limits.torque > 0.0) {
         const Vec3 square_to = glm::dot(tool.normal, nut.axis) < 0.0 ? -nut.axis : nut.axis;
         // The joint's torque has priority; the torsion spring gets the range that is left.
-        const double room = std::max(0.0, setup.limits.torque - std::abs(torque * setup.torque.scale));
+        const double room =
+            std::max(0.0, setup.limits.torque - std::abs(torque * setup.torque_rendering.scale));
         const Vec3 torsion =
             force::clamp_length(setup.hold_torsion * glm::cross(tool.normal, square_to), room);
         request.command.torque += torsion;

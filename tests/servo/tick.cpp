@@ -123,9 +123,10 @@ TEST_CASE(
         if (output.wrench_torque < 150.0) angle += to_radians(0.05);
     }
     REQUIRE(output.wrench_torque > 140.0);
-    CHECK(output.torque.y == doctest::Approx(output.wrench_torque * setup.torque.scale).epsilon(0.02));
+    CHECK(output.torque.y ==
+          doctest::Approx(output.wrench_torque * setup.torque_rendering.scale).epsilon(0.02));
     CHECK(output.torque.y < setup.limits.torque);
-    CHECK(setup.torque.scale * 210.0 == doctest::Approx(0.8 * setup.limits.torque));
+    CHECK(setup.torque_rendering.scale * 210.0 == doctest::Approx(0.8 * setup.limits.torque));
 }
 
 TEST_CASE("Servo: a device without torque renders it as a force across the handle") {
@@ -145,7 +146,7 @@ TEST_CASE("Servo: a device without torque renders it as a force across the handl
     const ToolPose tool = pose_of(test::tool_at(nut, Vec3(0.0), angle));
     const Vec3 pull = glm::cross(-nut.axis, tool.handle);  // direction of the grip's motion when tightening
     CHECK(glm::dot(output.force, pull) ==
-          doctest::Approx(-output.wrench_torque * setup.torque.as_force).epsilon(0.05));
+          doctest::Approx(-output.wrench_torque * setup.torque_rendering.as_force).epsilon(0.05));
     CHECK(glm::length(output.torque) == 0.0);
 }
 
@@ -163,7 +164,8 @@ TEST_CASE("Servo: a wheel renders the nut's whole torque, on and off centre") {
         if (output.wrench_torque < 150.0) angle += to_radians(0.05);
     }
     REQUIRE(output.wrench_torque > 140.0);
-    CHECK(output.torque.y == doctest::Approx(output.wrench_torque * setup.torque.scale).epsilon(0.02));
+    CHECK(output.torque.y ==
+          doctest::Approx(output.wrench_torque * setup.torque_rendering.scale).epsilon(0.02));
     CHECK(glm::length(output.force) == 0.0);
 }
 

@@ -69,7 +69,9 @@ TEST_CASE("Wheel: clockwise as the user sees it tightens, whatever the sign of t
         CHECK(rig.state.output.nut_angle > 0.5);
         // The wheel renders the nut's torque, scaled to its motor, against its rotation.
         const double felt = glm::dot(answer.wheel.torque, axis) * -with_clock;
-        CHECK(felt == doctest::Approx(rig.state.output.wrench_torque * rig.setup.torque.scale).epsilon(0.02));
+        CHECK(
+            felt ==
+            doctest::Approx(rig.state.output.wrench_torque * rig.setup.torque_rendering.scale).epsilon(0.02));
         CHECK(glm::length(answer.wheel.torque) <= 10.0);
         CHECK(nothing(answer.mover));
         CHECK(rig.state.output.fault == force::Fault::none);
