@@ -12,7 +12,7 @@
 #include "engine/audio/sink.hpp"
 #include "engine/gpu/device.hpp"
 #include "haptics/device/hid_devices.hpp"
-#include "haptics/servo/thread.hpp"
+#include "haptics/servo/servo_thread.hpp"
 
 namespace bolt::computer {
 

@@ -30,7 +30,7 @@
 #include "haptics/force/output_limits.hpp"
 #include "haptics/hand/kinematics.hpp"
 #include "haptics/joint/stage.hpp"
-#include "haptics/servo/thread.hpp"
+#include "haptics/servo/servo_thread.hpp"
 
 namespace bolt::session {
 

@@ -17,7 +17,7 @@
 #include "game/session/database.hpp"
 #include "game/session/session_file.hpp"
 #include "game/session/tick.hpp"
-#include "haptics/servo/thread.hpp"
+#include "haptics/servo/servo_thread.hpp"
 
 namespace bolt::session {
 

@@ -216,7 +216,7 @@ struct DeviceThread::Shared {
         if (options.priority > 0) {
             sched_param parameters{};
             parameters.sched_priority = options.priority;
-            // Errors are ignored: the servo's thread reports missing permission (servo/thread.hpp).
+            // Errors are ignored: the servo's thread reports missing permission (servo/servo_thread.hpp).
             pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
         }
         DeviceSnapshot snapshot;

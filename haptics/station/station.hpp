@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "haptics/hand/glove_driver.hpp"
-#include "haptics/servo/thread.hpp"
+#include "haptics/servo/servo_thread.hpp"
 #include "haptics/station/gloved_hand.hpp"
 #include "haptics/station/tick.hpp"
 

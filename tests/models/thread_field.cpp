@@ -1,5 +1,5 @@
 // Tests of the thread as a height field: its polygons are closed and follow the profile of ISO 68-1.
-#include "tools/assets/models/thread.hpp"
+#include "tools/assets/models/screw_thread.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // The servo loop on a virtual clock with controlled delays, and the assessment of hosts.
-#include "haptics/servo/thread.hpp"
+#include "haptics/servo/servo_thread.hpp"
 
 #include <doctest/doctest.h>
 

@@ -6,7 +6,7 @@
 
 #include "game/session/session_file.hpp"
 #include "game/session/tables.hpp"
-#include "haptics/servo/thread.hpp"
+#include "haptics/servo/servo_thread.hpp"
 #include "tests/session/support.hpp"
 #include "tests/support/oracle.hpp"
 

@@ -16,8 +16,8 @@
 #include "engine/base/math.hpp"
 #include "haptics/joint/fastener.hpp"
 #include "tools/assets/models/glyphs.hpp"
+#include "tools/assets/models/screw_thread.hpp"
 #include "tools/assets/models/solids.hpp"
-#include "tools/assets/models/thread.hpp"
 
 namespace bolt::models {
 

@@ -1,4 +1,4 @@
-#include "tools/assets/models/thread.hpp"
+#include "tools/assets/models/screw_thread.hpp"
 
 #include <BRepCheck_Analyzer.hxx>
 #include <BRep_Builder.hxx>

@@ -1,6 +1,6 @@
 // The servo thread on the real clock. The tests check only counts, order and restored settings, which do not
 // depend on the speed of the host; `boltwright doctor` checks the timing.
-#include "haptics/servo/thread.hpp"
+#include "haptics/servo/servo_thread.hpp"
 
 #include <doctest/doctest.h>
 #include <pthread.h>

@@ -1,4 +1,4 @@
-#include "haptics/servo/thread.hpp"
+#include "haptics/servo/servo_thread.hpp"
 
 #include <fmt/format.h>
 #include <linux/capability.h>
