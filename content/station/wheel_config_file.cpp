@@ -1,6 +1,6 @@
 #include "content/station/wheel_config_file.hpp"
 
-#include "content/format/members.hpp"
+#include "content/format/json_members.hpp"
 #include "engine/base/file.hpp"
 
 namespace bolt::content {

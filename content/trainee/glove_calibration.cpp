@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "content/format/json_document.hpp"
-#include "content/format/members.hpp"
+#include "content/format/json_members.hpp"
 #include "content/trainee/settings.hpp"
 #include "engine/base/file.hpp"
 

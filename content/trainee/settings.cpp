@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <set>
 
-#include "content/format/members.hpp"
+#include "content/format/json_members.hpp"
 #include "engine/base/file.hpp"
 
 namespace bolt::content {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/author/import/members.hpp"
+#include "tools/author/import/clamped_members.hpp"
 #include "tools/author/import/tree.hpp"
 
 namespace bolt::step_import {

@@ -1,4 +1,4 @@
-#include "tools/author/import/members.hpp"
+#include "tools/author/import/clamped_members.hpp"
 
 #include <algorithm>
 #include <array>
