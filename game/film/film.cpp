@@ -58,7 +58,7 @@ Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonMo
 
 void place(ReplayScene& replay, const ReplayMoment& moment) {
     scene::SceneWorld& world = replay.workplace.world;
-    const std::size_t grip = scene::natural_grip(replay.postures, world.only<world::HeldTool>().pose,
+    const std::size_t grip = scene::natural_grip(replay.postures, world.only<world::ConstrainedTool>().pose,
                                                  Vec3(0, 1, 0), replay.shoulder);
     scene::placement_system(world,
                             {moment.setup, replay.postures, replay.shoulder, grip,

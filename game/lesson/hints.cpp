@@ -96,8 +96,8 @@ std::vector<words::TextArgument> text_arguments(const WorkState& work) {
         {"high", words::torque_number(window.high)},
         {"most", words::torque_number(window.high)},
     };
-    if (work.lesson.held >= 0)
-        arguments.push_back({"held", joints[static_cast<std::size_t>(work.lesson.held)].design.id});
+    if (work.lesson.held_joint >= 0)
+        arguments.push_back({"held", joints[static_cast<std::size_t>(work.lesson.held_joint)].design.id});
     return arguments;
 }
 
@@ -296,14 +296,14 @@ void update_progress(StepProgress& progress, const WorkState& work, Situation no
         progress.moved = true;
         progress.idle = 0.0;
     }
-    if (progress.moved && work.lesson.held < 0) {
+    if (progress.moved && work.lesson.held_joint < 0) {
         progress.moved = false;
         progress.distance = 1e9;
         progress.reached = 0;
     }
     const bool tool = now != Situation::take_wrench && now != Situation::put_wrench_away &&
                       now != Situation::wrong_joint && now != Situation::wrench_needed;
-    const int reached = work.lesson.held == static_cast<int>(due->joint) ? 2 : tool ? 1 : 0;
+    const int reached = work.lesson.held_joint == static_cast<int>(due->joint) ? 2 : tool ? 1 : 0;
     if (reached > progress.reached) {
         progress.reached = reached;
         progress.idle = 0.0;
@@ -403,13 +403,13 @@ const std::optional<Hint>& update(HintState& hints, const WorkState& work, doubl
     // The same situation may concern another joint in the hand or need another motion. A hint that merely
     // outlasts its situation keeps its text.
     other = other || (candidate == hints.situation &&
-                      (work.lesson.held != hints.held || underlying != hints.underlying));
+                      (work.lesson.held_joint != hints.held_joint || underlying != hints.underlying));
     hints.level = level;
     if (level < 0) {
         hints.shown.reset();
     } else if (other || !hints.shown) {
         if (!hints.shown) hints.shown_for = 0.0;
-        hints.held = work.lesson.held;
+        hints.held_joint = work.lesson.held_joint;
         hints.underlying = underlying;
         hints.shown = make_hint(hints.situation, underlying, level, work);
     } else {

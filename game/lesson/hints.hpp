@@ -119,7 +119,7 @@ struct HintState {
     int pass = -1;
     bool new_pass = false;
     int level = -1;  // reached in this situation; −1: none yet
-    int held = -1;
+    int held_joint = -1;
     StepProgress progress;
 };
 

@@ -158,9 +158,9 @@ void report_out_of_turn(Lesson& lesson, std::size_t joint, const world::ReadHapt
 
 void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptics& world) {
     // Spinning a nut needs repeated grips; they are one visit.
-    const bool again = grip == servo::Grip::fingers && lesson.grip == grip && lesson.last_held == joint &&
-                       tick_of(world) - lesson.released_at < regrip_ticks;
-    lesson.held = joint;
+    const bool again = grip == servo::Grip::fingers && lesson.grip == grip &&
+                       lesson.last_held_joint == joint && tick_of(world) - lesson.released_at < regrip_ticks;
+    lesson.held_joint = joint;
     lesson.grip = grip;
     JointTrack& track = lesson.joints[static_cast<std::size_t>(joint)];
     track.worked = again && track.worked;
@@ -171,13 +171,13 @@ void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptic
 }
 
 void release(Lesson& lesson, const world::ReadHaptics& world) {
-    const auto joint = static_cast<std::size_t>(lesson.held);
+    const auto joint = static_cast<std::size_t>(lesson.held_joint);
     JointTrack& track = lesson.joints[joint];
-    add_event(lesson, tick_of(world), EventKind::release, lesson.held, track.peak_torque, {});
+    add_event(lesson, tick_of(world), EventKind::release, lesson.held_joint, track.peak_torque, {});
     track.result.clamp_at_release = joint_at(world, joint).clamp;
     if (track.worked && lesson.grip == servo::Grip::wrench) ++track.result.strokes;
-    lesson.last_held = lesson.held;
-    lesson.held = -1;
+    lesson.last_held_joint = lesson.held_joint;
+    lesson.held_joint = -1;
     lesson.released_at = tick_of(world);
     const LessonStep* due = lesson.due();
     if (due != nullptr && due->joint == joint && step_fulfilled(lesson, world)) end_step(lesson, world);
@@ -286,7 +286,8 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
 
 // An assessment ends when the last joint has been released for some time.
 void end_assessment(Lesson& lesson, const world::ReadHaptics& world) {
-    if (lesson.mode != Mode::assessment || lesson.held >= 0 || lesson.current + 1 != lesson.steps.size())
+    if (lesson.mode != Mode::assessment || lesson.held_joint >= 0 ||
+        lesson.current + 1 != lesson.steps.size())
         return;
     const bool worked = lesson.joints[lesson.due()->joint].peak_torque > working_torque;
     if (worked && tick_of(world) - lesson.released_at > assessment_end_ticks) end_step(lesson, world);
@@ -351,10 +352,10 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
 void observe(Lesson& lesson, const world::ReadHaptics& world) {
     const world::ContactState& contact = world.only<world::ContactState>();
     if (tick_of(world) == 1) begin_step(lesson, world);
-    const bool other_grip = lesson.held >= 0 && contact.grip != lesson.grip;
-    if (lesson.held >= 0 && (contact.joint != lesson.held || other_grip)) release(lesson, world);
-    if (contact.joint >= 0 && lesson.held < 0) engage(lesson, contact.joint, contact.grip, world);
-    if (lesson.held >= 0) observe_work(lesson, static_cast<std::size_t>(lesson.held), world);
+    const bool other_grip = lesson.held_joint >= 0 && contact.grip != lesson.grip;
+    if (lesson.held_joint >= 0 && (contact.joint != lesson.held_joint || other_grip)) release(lesson, world);
+    if (contact.joint >= 0 && lesson.held_joint < 0) engage(lesson, contact.joint, contact.grip, world);
+    if (lesson.held_joint >= 0) observe_work(lesson, static_cast<std::size_t>(lesson.held_joint), world);
     if (contact.slipped >= 0) {
         const auto joint = static_cast<std::size_t>(contact.slipped);
         const double rounded = joint_at(world, joint).rounded;
@@ -366,7 +367,7 @@ void observe(Lesson& lesson, const world::ReadHaptics& world) {
     end_assessment(lesson, world);
     // The step of a broken bolt cannot be done; the lesson continues with the next one.
     const LessonStep* due = lesson.due();
-    if (due != nullptr && lesson.held < 0 &&
+    if (due != nullptr && lesson.held_joint < 0 &&
         lesson.joints[due->joint].result.condition != joint::Condition::sound)
         end_step(lesson, world);
 }
@@ -375,11 +376,11 @@ bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t ste
     if (lesson.mode == Mode::assessment || steps > lesson.current) return false;
     const std::size_t to = lesson.current - steps;
     if (to >= lesson.step_starts.size()) return false;  // all steps are done, or none has begun
-    if (lesson.held >= 0) {
-        const auto joint = static_cast<std::size_t>(lesson.held);
-        add_event(lesson, tick_of(world), EventKind::release, lesson.held, lesson.joints[joint].peak_torque,
-                  {});
-        lesson.held = -1;
+    if (lesson.held_joint >= 0) {
+        const auto joint = static_cast<std::size_t>(lesson.held_joint);
+        add_event(lesson, tick_of(world), EventKind::release, lesson.held_joint,
+                  lesson.joints[joint].peak_torque, {});
+        lesson.held_joint = -1;
         lesson.released_at = tick_of(world);
     }
     std::vector<JointTrack> tracks = lesson.step_starts[to];

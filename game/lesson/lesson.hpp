@@ -87,9 +87,9 @@ struct Lesson {
     std::vector<LessonStep> steps;
     std::size_t current = 0;  // index of the due step
     std::vector<JointTrack> joints;
-    int held = -1;  // joint in the hand at the last tick; −1: none
+    int held_joint = -1;  // in the hand at the last tick; −1: none
     servo::Grip grip = servo::Grip::none;
-    int last_held = -1;                                // joint that was released last
+    int last_held_joint = -1;                          // the joint that was released last
     std::uint64_t released_at = 0;                     // tick
     int announced_pass = -1;                           // latest pass with a pass_begin event
     std::vector<std::vector<JointTrack>> step_starts;  // by step: all tracks at its start, for undo_steps()

@@ -86,7 +86,7 @@ Situation loosening(const WorkState& s, const LessonStep& due, const world::Join
 bool wrench_in_hand(const WorkState& work) { return work.world.only<world::WorkingHand>().wrench; }
 
 HeldItem held_item(const WorkState& work) {
-    if (work.lesson.held >= 0)
+    if (work.lesson.held_joint >= 0)
         return work.lesson.grip == servo::Grip::fingers ? HeldItem::nut_by_fingers : HeldItem::nut_by_wrench;
     return wrench_in_hand(work) ? HeldItem::wrench : HeldItem::nothing;
 }
@@ -95,7 +95,7 @@ double distance_to_due(const WorkState& work) {
     const LessonStep* due = work.lesson.due();
     if (due == nullptr) return std::numeric_limits<double>::infinity();
     const Vec3 nut = world::nut_centre(work.world, work.setup, due->joint);
-    return glm::distance(work.world.only<world::HeldTool>().pose.position, nut);
+    return glm::distance(work.world.only<world::ConstrainedTool>().pose.position, nut);
 }
 
 Situation situation(const WorkState& work) {
@@ -103,8 +103,8 @@ Situation situation(const WorkState& work) {
     if (due == nullptr) return Situation::all_done;
     const servo::NutGeometry& nut = work.setup.nuts[due->joint];
     const bool fingers = uses_fingers(*work.lesson.assembly, *due, work.setup.finger_torque(nut));
-    if (work.lesson.held < 0) return without_nut(work, *due, fingers);
-    if (work.lesson.held != static_cast<int>(due->joint)) return Situation::wrong_joint;
+    if (work.lesson.held_joint < 0) return without_nut(work, *due, fingers);
+    if (work.lesson.held_joint != static_cast<int>(due->joint)) return Situation::wrong_joint;
     const world::Joint& joint = world::joint_at(work.world, due->joint);
     if (joint.condition == joint::Condition::broken) return Situation::leave_broken;
     if (joint.condition == joint::Condition::stripped) return Situation::leave_stripped;

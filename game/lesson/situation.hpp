@@ -61,7 +61,7 @@ inline constexpr std::size_t situation_count = 40;
 struct WorkState {
     const Lesson& lesson;
     const servo::Setup& setup;
-    ecs::Access<const world::Joint, const world::HeldTool, const world::WorkingHand> world;
+    ecs::Access<const world::Joint, const world::ConstrainedTool, const world::WorkingHand> world;
 };
 
 // Also true while the wrench is on a nut.

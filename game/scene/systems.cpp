@@ -121,7 +121,7 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     const world::WorkingHand& hand = hands.components().front();
     const world::GloveHand* glove = world.find<world::GloveHand>(hands.entities().front());
     ToolAndHand held;
-    held.tool = hand.wrench ? world.only<world::HeldTool>().pose : hand.pose;
+    held.tool = hand.wrench ? world.only<world::ConstrainedTool>().pose : hand.pose;
     held.wrench = hand.wrench;
     held.rest = hand.rest;
     held.pinches = hand.pinches;

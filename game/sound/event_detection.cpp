@@ -135,7 +135,7 @@ StruckSurface surface_of(const EventDetector& detector, collision::ObstacleId to
 void detect_contact(EventDetector& detector, const servo::Setup& setup, const Audible& world,
                     SoundCues& cues) {
     const world::ContactState& contact = world.only<world::ContactState>();
-    add_to_history(detector, setup, ends_of(setup, world.only<world::HeldTool>().pose));
+    add_to_history(detector, setup, ends_of(setup, world.only<world::ConstrainedTool>().pose));
     if (!contact.obstacle.is_none()) {
         detector.ticks_since_contact = 0;
         detector.last_surface = surface_of(detector, contact.obstacle);

@@ -81,15 +81,15 @@ void handle_input(const scene::SceneWorld& world, Frame& frame) {
         return;
     }
     MouseCommand command;
-    command.held = input.left_down && active.pointer.drags_hand;
+    command.button_down = input.left_down && active.pointer.drags_hand;
     if (input.pressed_at) {
         active.pointer.press_position = *input.pressed_at;
         press(active, command);
-        command.held = input.left_down && active.pointer.drags_hand;
+        command.button_down = input.left_down && active.pointer.drags_hand;
     }
     if (input.triggered(Action::tool))
         (hand_of(active).wrench ? command.lay_down : command.take_wrench) = true;
-    if (command.held) {
+    if (command.button_down) {
         command.turn = handle_turn(active, screen, input.left_drag);
         command.spin = (input.pointer.x - active.pointer.press_position.x) / full_spin_drag;
     }

@@ -97,8 +97,8 @@ struct ActiveLesson {
 inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::WorkingHand>();
 }
-inline const world::HeldTool& tool_of(const ActiveLesson& active) {
-    return active.workplace.world.only<world::HeldTool>();
+inline const world::ConstrainedTool& tool_of(const ActiveLesson& active) {
+    return active.workplace.world.only<world::ConstrainedTool>();
 }
 inline const world::ContactState& contact_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::ContactState>();

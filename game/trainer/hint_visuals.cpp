@@ -137,7 +137,7 @@ void show_hint_visuals(scene::SceneWorld& world, ActiveLesson& active, const les
         return;
     }
     // A held nut is released where it is, even if another joint is due.
-    const int held = active.session->lesson().held;
+    const int held = active.session->lesson().held_joint;
     const std::size_t joint = held >= 0 ? static_cast<std::size_t>(held) : due->joint;
     scene::show_arrow(world, arrow_of(hint->arrow(), geometry_of(active, *due, joint)));
     show_ghosts(world, active, *hint, *due);

@@ -154,7 +154,7 @@ void arrive(MouseHand& hand, const servo::Setup& setup, const servo::State& stat
             hand.wrench = false;
             break;
         case MouseHand::OnArrival::lower:
-            if (hand.held)
+            if (hand.button_down)
                 start_movement(hand, at_nut(hand, setup, state, 0.0), lowering_time, HandAction::lowering);
             break;
     }
@@ -187,7 +187,7 @@ void hold(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
     const bool on = engaged(hand, state);
     if (!on) hand.stroke_begin = hand.handle_angle;
     hand.elapsed = on ? 0.0 : hand.elapsed + setup.dt;
-    if (!hand.held) {
+    if (!hand.button_down) {
         if (hand.wrench && on) {
             hand.action = HandAction::easing;
             hand.elapsed = 0.0;
@@ -199,7 +199,7 @@ void hold(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
     if (hand.elapsed > engage_timeout) {  // slipped off, or never engaged
         hand.missed = true;
         ++hand.misses;
-        hand.held = false;
+        hand.button_down = false;
         lift(hand, setup, state);
         return;
     }
@@ -256,11 +256,13 @@ WorkingHand hand_of(const MouseHand& mouse) {
 
 void apply_command(MouseHand& hand, const MouseCommand& command, const servo::Setup& setup,
                    const servo::State& state) {
-    hand.held = command.held;
+    hand.button_down = command.button_down;
     hand.spin = std::clamp(command.spin, -1.0, 1.0);
     if (hand.action == HandAction::holding) hand.turn += command.turn;
     const bool free = hand.action == HandAction::resting || hand.action == HandAction::reaching;
-    hand.queued_nut = free || !command.held ? std::nullopt : command.nut ? command.nut : hand.queued_nut;
+    hand.queued_nut = free || !command.button_down ? std::nullopt
+                      : command.nut                ? command.nut
+                                                   : hand.queued_nut;
     if (!free) return;
     const Vec3 up = setup.nuts.empty() ? Vec3(0, 1, 0) : setup.nuts.front().axis;
     if (command.retreat) {
@@ -331,7 +333,7 @@ servo::Input step_hand(MouseHand& hand, const servo::Setup& setup, const servo::
                 withdraw(hand, setup, state);
                 break;
             }
-            if (hand.queued_nut && hand.held) {
+            if (hand.queued_nut && hand.button_down) {
                 hand.nut = std::exchange(hand.queued_nut, std::nullopt);
                 go_to_nut(hand, setup, state);
             }

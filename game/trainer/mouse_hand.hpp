@@ -23,7 +23,7 @@ struct MouseCommand {
     bool take_wrench = false;        // the wrench at rest, or its key, was pressed
     bool lay_down = false;
     bool retreat = false;  // move away from the nuts, with whatever the hand holds
-    bool held = false;     // the mouse button is down
+    bool button_down = false;
     bool loosens = false;  // direction of the next pull; determines on which side the handle needs room
     double turn = 0.0;     // rad by which the handle was dragged since the last frame, tightening positive
     double spin = 0.0;     // −1 … 1 of the fastest twist of the fingers
@@ -43,8 +43,9 @@ struct MouseHand {
 
     double stroke_begin = 0.0;  // rad, handle angle at the start of the pull or twist
     double twist_end = 0.0;     // rad, handle angle at which the fingers start to return
-    // From the command; `turn` is the part that is not yet executed.
-    bool held = false, loosens = false;
+    // From the command; `turn` is the part that is not yet executed. `button_down` also ends when the hand
+    // gives up a nut that it could not engage.
+    bool button_down = false, loosens = false;
     double turn = 0.0, spin = 0.0;
     // Present movement.
     Pose from, to;

@@ -91,7 +91,7 @@ Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& 
 
 RecordedState state_of(const world::ReadHaptics& world) {
     RecordedState state{world.only<world::ServoClock>(),
-                        world.only<world::HeldTool>(),
+                        world.only<world::ConstrainedTool>(),
                         world.only<world::ContactState>(),
                         world.only<world::GuidingForce>(),
                         world.only<world::DeviceForce>(),
@@ -106,7 +106,7 @@ RecordedState state_of(const world::ReadHaptics& world) {
 
 void write_state(const world::WriteHaptics& world, const RecordedState& state) {
     world.only<world::ServoClock>() = state.clock;
-    world.only<world::HeldTool>() = state.tool;
+    world.only<world::ConstrainedTool>() = state.tool;
     world.only<world::ContactState>() = state.contact;
     world.only<world::GuidingForce>() = state.guiding;
     world.only<world::DeviceForce>() = state.force;

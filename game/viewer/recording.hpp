@@ -22,7 +22,7 @@ struct Mark {
 // The components of the simulation at one moment (game/world/world.hpp).
 struct RecordedState {
     world::ServoClock clock;
-    world::HeldTool tool;
+    world::ConstrainedTool tool;
     world::ContactState contact;
     world::GuidingForce guiding;
     world::DeviceForce force;

@@ -46,7 +46,7 @@ void write_haptics(const WriteHaptics& world, const Snapshot& servo) {
     const servo::Output& output = servo.output;
     world.only<ServoClock>().tick = servo.state.tick;
     write_joints(world, servo.state);
-    world.only<HeldTool>().pose = output.tool;
+    world.only<ConstrainedTool>().pose = output.tool;
     world.only<ContactState>() = {output.joint,    servo.state.engagement.grip,
                                   output.slipped,  output.touched,
                                   output.contacts, output.clicked};

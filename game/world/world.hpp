@@ -38,8 +38,8 @@ struct Joint {
     double rounded = 0.0;    // m, wear of each corner of the nut by slipping jaws
 };
 
-// The tool at the pose that the obstacles allow: the wrench in the hand, or the fingertips of an empty hand.
-struct HeldTool {
+// The tool at the pose that the obstacles permit: the wrench in the hand, or the fingertips of an empty hand.
+struct ConstrainedTool {
     Pose pose;
 };
 
@@ -99,15 +99,15 @@ struct GloveHand {
 
 // A world with these components and `More`.
 template <class... More>
-using WorldWith = ecs::Registry<ServoClock, Joint, HeldTool, ContactState, GuidingForce, DeviceForce,
+using WorldWith = ecs::Registry<ServoClock, Joint, ConstrainedTool, ContactState, GuidingForce, DeviceForce,
                                 WorkingHand, GloveHand, More...>;
 using World = WorldWith<>;
 
 using ReadJoints = ecs::Access<const Joint>;
-using ReadHaptics = ecs::Access<const ServoClock, const Joint, const HeldTool, const ContactState,
+using ReadHaptics = ecs::Access<const ServoClock, const Joint, const ConstrainedTool, const ContactState,
                                 const GuidingForce, const DeviceForce, const WorkingHand>;
 using WriteHaptics =
-    ecs::Access<ServoClock, Joint, HeldTool, ContactState, GuidingForce, DeviceForce, WorkingHand>;
+    ecs::Access<ServoClock, Joint, ConstrainedTool, ContactState, GuidingForce, DeviceForce, WorkingHand>;
 
 // The servo after a tick.
 struct Snapshot {
@@ -131,7 +131,7 @@ void add_haptics(Registry& world, const servo::State& state, const Pose& rest = 
     for (std::size_t i = 0; i < state.joints.size(); ++i) world.template add<Joint>(world.create()).index = i;
     const ecs::Entity tool = world.create();
     world.template add<ServoClock>(tool);
-    world.template add<HeldTool>(tool);
+    world.template add<ConstrainedTool>(tool);
     world.template add<ContactState>(tool);
     world.template add<GuidingForce>(tool);
     world.template add<DeviceForce>(tool);

@@ -83,7 +83,7 @@ int finish_at_mouse(LessonRun& run) {
     Patience patient;
     int restarts = 0;
     trainer_test::Player& player = run.player;
-    player.held = false;
+    player.button_down = false;
     while (!run.over() && !run.failed()) {
         std::optional<std::size_t> undo;
         if (patient.over(run.session)) {
@@ -97,7 +97,7 @@ int finish_at_mouse(LessonRun& run) {
         trainer::MouseCommand command;
         const bool waits = undo || run.undo.target;
         if (waits)
-            player.held = false;
+            player.button_down = false;
         else
             command = trainer_test::next_command(player, run.session, frame_seconds);
         run.frame(command, undo);

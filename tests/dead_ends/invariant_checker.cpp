@@ -60,10 +60,10 @@ void InvariantChecker::check_joints() {
 void InvariantChecker::check_lesson(const servo::Output& output) {
     const lesson::Lesson& lesson = session_.lesson();
     if (lesson.current > lesson.steps.size()) report("the current step does not exist");
-    if (lesson.held < -1 || lesson.held >= static_cast<int>(lesson.joints.size()))
+    if (lesson.held_joint < -1 || lesson.held_joint >= static_cast<int>(lesson.joints.size()))
         report("the lesson holds a joint that does not exist");
-    if (lesson.held != output.joint && output.undone == 0)
-        report(fmt::format("the lesson holds joint {}, the servo joint {}", lesson.held, output.joint));
+    if (lesson.held_joint != output.joint && output.undone == 0)
+        report(fmt::format("the lesson holds joint {}, the servo joint {}", lesson.held_joint, output.joint));
     if (lesson.step_starts.size() != std::min(lesson.current + 1, lesson.steps.size()))
         report("the lesson lacks the start of a step");
     if (lesson.current < step_ && output.undone == 0) report("a step was undone without an undo");

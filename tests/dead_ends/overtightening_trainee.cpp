@@ -50,17 +50,17 @@ trainer::MouseCommand next_command(JointAttempt& v, trainer_test::Player& p,
                                    const session::LessonSession& session) {
     trainer::MouseCommand command;
     p.wait_left = std::max(0.0, p.wait_left - frame_seconds);
-    if (!p.held) {
+    if (!p.button_down) {
         if (p.hand.action != trainer::HandAction::resting || p.wait_left > 0.0) return command;
         if (!p.hand.wrench) {
             command.take_wrench = true;
             return command;
         }
         command.nut = v.joint;
-        p.held = true;
+        p.button_down = true;
     }
     command.loosens = v.loosens;
-    command.held = true;
+    command.button_down = true;
     const double sense = v.loosens ? -1.0 : 1.0;
     command.turn = sense * v.rate * frame_seconds;
 
@@ -70,7 +70,7 @@ trainer::MouseCommand next_command(JointAttempt& v, trainer_test::Player& p,
         p.hand.wrench && std::abs(p.hand.handle_angle - p.hand.stroke_begin) > set_back_share * p.hand.room;
     const bool missed = p.hand.missed && p.hand.action == trainer::HandAction::resting;
     if ((p.hand.action == trainer::HandAction::holding && spent) || missed || done(v, session)) {
-        command.held = p.held = false;
+        command.button_down = p.button_down = false;
         p.wait_left = 0.2;
     }
     return command;
@@ -82,7 +82,7 @@ void overtighten_at_mouse(LessonRun& run, std::uint64_t seed, double span) {
     Random random(seed, 9103);
     std::optional<JointAttempt> attempt;
     while (run.session.time() < span && !run.over() && !run.failed()) {
-        if (attempt && done(*attempt, run.session) && !run.player.held) attempt.reset();
+        if (attempt && done(*attempt, run.session) && !run.player.button_down) attempt.reset();
         const lesson::LessonStep* due = run.session.lesson().due();
         // No step is due while a mistake in the last step is being undone.
         if (!attempt && (due == nullptr || due->kind == lesson::StepKind::run_down)) {

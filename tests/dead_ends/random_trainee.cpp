@@ -32,7 +32,7 @@ void press_nut(MouseAction& action, Random& random, const session::LessonSession
     action.command.nut = right ? lesson.due()->joint : any(random, session.setup().nuts.size());
     if (rough) action.command.nut = lesson.steps.back().joint;
     action.command.loosens = lesson.task == lesson::Task::loosen;
-    action.command.held = true;
+    action.command.button_down = true;
     const double sense = random.chance(rough ? 0.97 : 0.7) ? 1.0 : -1.0;
     action.turn = (action.command.loosens ? -sense : sense) * any_size(random, rough ? 2.0 : 0.1, 40.0);
     action.command.spin = random.uniform(-1.5, 2.5);

@@ -110,7 +110,7 @@ TEST_CASE("Undo: mistakes stay counted, and an event reports the undo") {
     CHECK(undo.joint == 0);
     CHECK(undo.value == 3.0);
     CHECK(undo.text == "back to step 1 of 6");
-    CHECK(s.lesson.held == -1);
+    CHECK(s.lesson.held_joint == -1);
     // The hand is still on the nut, which counts as a new visit.
     s.tick(1, servo::Grip::wrench, 5.0);
     CHECK(s.lesson.joints[1].result.order_errors == 2);

@@ -28,17 +28,17 @@ trainer::MouseCommand next_command(Player& p, const session::LessonSession& sess
     const bool on = session.state().engagement.joint == static_cast<int>(due->joint);
     if (on) p.peak = std::max(p.peak, loosens ? -joint.torque : joint.torque);
     p.wait_left = std::max(0.0, p.wait_left - seconds);
-    if (!p.held) {
+    if (!p.button_down) {
         if (p.hand.action != HandAction::resting || p.wait_left > 0.0) return command;
         if (p.hand.wrench == fingers) {
             (fingers ? command.lay_down : command.take_wrench) = true;
             return command;
         }
-        p.held = true;
+        p.button_down = true;
         ++p.presses;
         command.nut = due->joint;
         command.loosens = loosens;
-        command.held = true;
+        command.button_down = true;
         return command;
     }
     // The joint in the hand may be done already.
@@ -57,10 +57,10 @@ trainer::MouseCommand next_command(Player& p, const session::LessonSession& sess
         const double swung = std::abs(p.hand.handle_angle - p.hand.stroke_begin);
         enough = enough || swung > 0.97 * p.hand.room;
     }
-    command.held = p.held =
-        p.hand.held || p.hand.action == HandAction::reaching || p.hand.action == HandAction::lowering;
+    command.button_down = p.button_down =
+        p.hand.button_down || p.hand.action == HandAction::reaching || p.hand.action == HandAction::lowering;
     if (enough || (p.hand.missed && p.hand.action == HandAction::resting)) {
-        command.held = p.held = false;
+        command.button_down = p.button_down = false;
         p.wait_left = 0.1;
     }
     return command;

@@ -10,7 +10,7 @@ using namespace bolt;
 
 struct Player {
     trainer::MouseHand hand;
-    bool held = false;
+    bool button_down = false;
     double wait_left = 0.0;  // s that remain until the next press
     double peak = 0.0;       // N·m, largest torque of this step
     std::size_t step = SIZE_MAX;

@@ -54,7 +54,7 @@ void SimulatedUser::do_step() {
     const std::size_t joint = due()->joint;
     glm::dvec2 pointer = *at;
     dragged_ = now();
-    while (going() && due() != nullptr && lesson().mouse.held && now() - pressed < longest_hold)
+    while (going() && due() != nullptr && lesson().mouse.button_down && now() - pressed < longest_hold)
         if (fingers ? spin(*at, pointer) : pull(joint, pointer)) break;
     driver_.release(pointer);
     wait(0.5);

@@ -98,7 +98,7 @@ TEST_CASE("Recording: its states are those of the replay, to the bit") {
         const RecordedState& state = recording->states[index];
         for (const world::Joint& joint : state.joints)
             CHECK(same_joint(joint, world::joint_at(world::ReadJoints(world), joint.index)));
-        CHECK(state.tool.pose.position == world.only<world::HeldTool>().pose.position);
+        CHECK(state.tool.pose.position == world.only<world::ConstrainedTool>().pose.position);
         CHECK(state.contact.joint == world.only<world::ContactState>().joint);
         ++compared;
         return true;

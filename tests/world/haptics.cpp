@@ -42,7 +42,7 @@ TEST_CASE("World: after each tick the components equal the servo's values bit fo
         const servo::Output output = bench.tick();
         const world::ContactState& contact = bench.world.only<world::ContactState>();
         REQUIRE(contact.joint == output.joint);
-        REQUIRE(bench.world.only<world::HeldTool>().pose.position == output.tool.position);
+        REQUIRE(bench.world.only<world::ConstrainedTool>().pose.position == output.tool.position);
         REQUIRE(bench.world.only<world::DeviceForce>().torque == output.torque);
         for (std::size_t j = 0; j < bench.state.joints.size(); ++j) {
             const world::Joint& joint = world::joint_at(bench.world, j);
@@ -75,7 +75,7 @@ TEST_CASE("World: the hand has the input's pose and keeps the wrench's resting p
     CHECK(hand.action == world::HandAction::holding);
     CHECK(hand.nut == std::size_t{0});
     CHECK(hand.rest.position == Vec3(0.3, 0.0, 0.1));
-    CHECK(glm::distance(hand.pose.position, bench.world.only<world::HeldTool>().pose.position) < 1e-6);
+    CHECK(glm::distance(hand.pose.position, bench.world.only<world::ConstrainedTool>().pose.position) < 1e-6);
     bench.input.grip = servo::Grip::none;
     bench.tick();
     CHECK_FALSE(hand.wrench);
