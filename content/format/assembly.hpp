@@ -116,12 +116,12 @@ struct AssemblyVariant {
 };
 
 struct Assembly {
-    std::string name;                           // folder name
-    std::string file;                           // path of assembly.json
-    std::string text;                           // the file's exact bytes: stored in every session
-    std::map<std::string, std::string> title;   // by language ("en", "de", "zh")
-    std::map<std::string, std::string> lesson;  // text by language
-    std::string sources;                        // source of the file's numbers; may be empty
+    std::string name;                                 // folder name
+    std::string file;                                 // path of assembly.json
+    std::string text;                                 // the file's exact bytes: stored in every session
+    std::map<std::string, std::string> title;         // by language ("en", "de", "zh")
+    std::map<std::string, std::string> instructions;  // by language; the file's key is "lesson"
+    std::string sources;                              // source of the file's numbers; may be empty
     joint::Law law = joint::Law::mechanistic;
     joint::PublishedParameters published;               // used by the published law only
     std::optional<PublishedTargets> published_targets;  // none: derived from the joints' (lesson::apply_law)

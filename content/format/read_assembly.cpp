@@ -172,7 +172,7 @@ Assembly read_assembly(JsonReader& reader, std::string_view variant, const Model
     const JsonNode root = reader.root();
     reader.member(root, "$schema");  // for editors only
     assembly.title = read_texts(reader, reader.member(root, "title"));
-    assembly.lesson = read_texts(reader, reader.member(root, "lesson"));
+    assembly.instructions = read_texts(reader, reader.member(root, "lesson"));
     assembly.sources = reader.text(reader.member(root, "sources")).value_or("");
     const bool published = reader.text(reader.member(root, "law")) == "published";
     assembly.law = published ? joint::Law::published : joint::Law::mechanistic;

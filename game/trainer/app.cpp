@@ -50,7 +50,7 @@ void add_characters(ui::Ui& ui, std::span<const words::Words> languages,
     for (const std::string_view sign : {"▼", "●", "▲", "◆", "▶", "–", "‹", "›"}) ui.add_characters(sign);
     for (const AssemblyEntry& entry : assemblies) {
         for (const auto& [code, title] : entry.title) ui.add_characters(title);
-        for (const auto& [code, text] : entry.lesson) ui.add_characters(text);
+        for (const auto& [code, text] : entry.instructions) ui.add_characters(text);
         if (entry.error) ui.add_characters(entry.error->message());
         for (const content::AssemblyVariant& variant : entry.variants)
             for (const auto& [code, title] : variant.title) ui.add_characters(title);

@@ -364,7 +364,7 @@ void draw_title(const ScreenContext& context, const std::string& title) {
 void draw_description(const ScreenContext& context, float width, const AssemblyEntry& entry) {
     draw_title(context, in_language(entry.title, context.words.language, entry.name));
     if (entry.joints > 0) draw_paragraph(facts_of(context.words, entry), width, muted_text);
-    draw_paragraph(in_language(entry.lesson, context.words.language, ""), width, {0.93F, 0.94F, 0.95F, 1.0F});
+    draw_paragraph(in_language(entry.instructions, context.words.language, ""), width, {0.93F, 0.94F, 0.95F, 1.0F});
 }
 
 // The languages as buttons whose right end is at `right` px.
@@ -420,7 +420,7 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
         thumbnail_height * scale + 2.0F * ImGui::GetTextLineHeight() + 3.0F * card_padding * scale;
     float height = card + 2.0F * edge + 2.0F * spacing;
     if (entry != nullptr)
-        height += wrapped_height(in_language(entry->lesson, context.words.language, ""), right_width) +
+        height += wrapped_height(in_language(entry->instructions, context.words.language, ""), right_width) +
                   ImGui::GetTextLineHeight() + context.heading->FontSize + 2.0F * spacing;
     list.AddRectFilled({column, size.y - height}, size, strip_color);
     menu.covered = {column, height};
@@ -473,7 +473,7 @@ AssemblyEntry entry_of(const std::string& name) {
     AssemblyEntry entry{name,
                         assembly.variant,
                         assembly.title,
-                        assembly.lesson,
+                        assembly.instructions,
                         assembly.variants,
                         assembly.tools,
                         assembly.law,

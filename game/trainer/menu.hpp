@@ -21,7 +21,7 @@ namespace bolt::trainer {
 // An assembly in the menu.
 struct AssemblyEntry {
     std::string name, default_variant;
-    std::map<std::string, std::string> title, lesson;  // by language
+    std::map<std::string, std::string> title, instructions;  // by language
     std::vector<content::AssemblyVariant> variants;
     std::vector<content::Tool> tools;
     joint::Law law = joint::Law::mechanistic;
