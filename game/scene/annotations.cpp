@@ -137,7 +137,7 @@ void add_verdict(render::Label& label, const content::ToleranceWindow& window, d
                  const view::Palette& palette) {
     if (torque < window.low) return;
     const bool too_much = torque > window.high && turned > window.high;
-    label.color = too_much ? palette.wrong : palette.right;
+    label.color = too_much ? palette.high_text : palette.ok_text;
     label.text = fmt::format("{} {}", view::symbol_of(too_much ? lesson::Verdict::high : lesson::Verdict::ok),
                              label.text);
 }

@@ -16,8 +16,8 @@ Palette palette_of(content::PaletteKind kind) {
     if (kind == content::PaletteKind::usual) return palette;
     palette.due = {0.94F, 0.89F, 0.26F, 1.0F};
     palette.low = {0.92F, 0.92F, 0.95F, 1.0F};
-    palette.ok = palette.right = {0.2F, 0.6F, 1.0F, 1.0F};
-    palette.high = palette.wrong = {0.9F, 0.35F, 0.0F, 1.0F};
+    palette.ok = palette.ok_text = {0.2F, 0.6F, 1.0F, 1.0F};
+    palette.high = palette.high_text = {0.9F, 0.35F, 0.0F, 1.0F};
     return palette;
 }
 

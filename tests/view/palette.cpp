@@ -42,7 +42,7 @@ glm::dvec3 perceived(const glm::vec4& color, const glm::dmat3& eyes) {
 // The least CIE 1976 difference between two colours of different meaning.
 double least_difference(const Palette& p, const glm::dmat3& eyes) {
     const std::array colors{p.due, p.low, p.ok, p.high};
-    double least = glm::distance(perceived(p.right, eyes), perceived(p.wrong, eyes));
+    double least = glm::distance(perceived(p.ok_text, eyes), perceived(p.high_text, eyes));
     for (std::size_t i = 0; i < colors.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             least = std::min(least, glm::distance(perceived(colors[i], eyes), perceived(colors[j], eyes)));
