@@ -67,7 +67,7 @@ struct Pass {
 struct WrenchDesign {
     double jaw = 0.0;             // m, opening
     double head_thickness = 0.0;  // m; 0, here and below: not given (defaults in haptics/collision/jaw.hpp)
-    double jaw_depth = 0.0;       // m, from the middle of the jaw to its bottom
+    double jaw_depth = 0.0;       // m, from the middle of the jaw to its throat
     double jaw_tip = 0.0;         // m, from the middle of the jaw to its tips
     double head_angle = 0.0;      // rad, between jaw and handle
     double handle_length = 0.0;   // m, from the middle of the jaw to the grip

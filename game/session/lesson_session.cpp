@@ -29,7 +29,7 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     description.flange = f.coupled ? &plate : nullptr;
     description.jaw = assembly.wrench.jaw;
     description.head_thickness = assembly.wrench.head_thickness;
-    description.jaw_throat = assembly.wrench.jaw_depth;
+    description.jaw_depth = assembly.wrench.jaw_depth;
     description.jaw_tip = assembly.wrench.jaw_tip;
     description.head_angle = assembly.wrench.head_angle;
     description.handle_length = assembly.wrench.handle_length;

@@ -9,7 +9,7 @@ namespace bolt::collision {
 namespace {
 
 // Dimensions divided by the opening, as in tools/assets/models/wrench.cpp.
-constexpr double thickness_share = 0.5, throat_share = 0.6, tip_share = 0.7, bevel_share = 0.025;
+constexpr double thickness_share = 0.5, depth_share = 0.6, tip_share = 0.7, bevel_share = 0.025;
 constexpr double lead_in_share = 0.035, round_share = 0.129;  // chords of the radii 0.06 and 0.22
 constexpr double half_head_at_tip = 0.735;                    // half the width of the head at its tips
 
@@ -41,7 +41,7 @@ Result<Convex> half_jaw(const Jaw& j, double side) {
     std::vector<HalfSpace> planes{{{0, -side, 0}, -flat},
                                   {{0, side, 0}, flat + back},
                                   {{-1, 0, 0}, j.tip},
-                                  {{1, 0, 0}, j.throat + back}};
+                                  {{1, 0, 0}, j.depth + back}};
     add_end_planes(half_thickness, planes);
     for (const double up : {1.0, -1.0})
         planes.push_back(plane_through({0, -side, up}, {0, side * flat, up * (half_thickness - j.bevel)}));
@@ -52,13 +52,13 @@ Result<Convex> half_jaw(const Jaw& j, double side) {
 
 Result<Convex> bottom(const Jaw& j) {
     const double wide = (0.5 + jaw_cover) * j.opening, half_thickness = 0.5 * j.thickness;
-    std::vector<HalfSpace> planes{{{-1, 0, 0}, -j.throat},
-                                  {{1, 0, 0}, j.throat + jaw_cover * j.opening},
+    std::vector<HalfSpace> planes{{{-1, 0, 0}, -j.depth},
+                                  {{1, 0, 0}, j.depth + jaw_cover * j.opening},
                                   {{0, 1, 0}, wide},
                                   {{0, -1, 0}, wide}};
     add_end_planes(half_thickness, planes);
     for (const double up : {1.0, -1.0})
-        planes.push_back(plane_through({-1, 0, up}, {j.throat, 0, up * (half_thickness - j.bevel)}));
+        planes.push_back(plane_through({-1, 0, up}, {j.depth, 0, up * (half_thickness - j.bevel)}));
     return rotated_convex(planes, j.head_angle);
 }
 
@@ -72,11 +72,11 @@ double length_within(double start, double rate, double length, double half) {
 
 }  // namespace
 
-Jaw make_jaw(double opening, double head_angle, double thickness, double throat, double tip) {
+Jaw make_jaw(double opening, double head_angle, double thickness, double depth, double tip) {
     Jaw jaw;
     jaw.opening = opening;
     jaw.head_angle = head_angle;
-    jaw.throat = throat > 0.0 ? throat : throat_share * opening;
+    jaw.depth = depth > 0.0 ? depth : depth_share * opening;
     jaw.tip = tip > 0.0 ? tip : tip_share * opening;
     jaw.thickness = thickness > 0.0 ? thickness : thickness_share * opening;
     jaw.bevel = std::min(bevel_share * opening, 0.25 * jaw.thickness);
@@ -144,7 +144,7 @@ JawSeat seat_of(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
     // m along the flats from the axis to the jaw's middle.
     const double ahead = glm::dot(wrench.position, along);
     seat.toward_mouth = std::min(side, jaw.tip - jaw.lead_in - ahead);
-    seat.toward_throat = std::min(side, jaw.throat + ahead);
+    seat.toward_throat = std::min(side, jaw.depth + ahead);
     return seat;
 }
 

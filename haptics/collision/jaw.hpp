@@ -16,7 +16,7 @@ namespace bolt::collision {
 struct Jaw {
     double opening = 0.0;     // m, between the flats
     double head_angle = 0.0;  // rad
-    double throat = 0.0;      // m, from the middle to the bottom of the slot
+    double depth = 0.0;       // m, from the middle to the throat, the bottom of the slot
     double tip = 0.0;         // m, from the middle to the end of the jaws
     double thickness = 0.0;   // m
     // m, legs of the 45° chamfers:
@@ -28,10 +28,9 @@ struct Jaw {
     [[nodiscard]] double half_flat() const { return 0.5 * thickness - bevel; }
 };
 
-// A jaw with the proportions of our models (tools/assets/models/wrench.cpp). A `thickness`, `throat` or `tip`
+// A jaw with the proportions of our models (tools/assets/models/wrench.cpp). A `thickness`, `depth` or `tip`
 // of 0 takes the models' proportion.
-Jaw make_jaw(double opening, double head_angle, double thickness = 0.0, double throat = 0.0,
-             double tip = 0.0);
+Jaw make_jaw(double opening, double head_angle, double thickness = 0.0, double depth = 0.0, double tip = 0.0);
 
 struct HexagonPrism {
     double across_flats = 0.0;  // s, m

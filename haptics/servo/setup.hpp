@@ -69,8 +69,8 @@ struct SetupDescription {
     const joint::FlangePlate* flange = nullptr;
     double jaw = 0.0;              // m, opening across the flats
     double head_thickness = 0.0;   // m; 0: the default proportion (haptics/collision/jaw.hpp)
-    double jaw_throat = 0.0;       // m from the centre of the jaw to its throat; 0: the default
-    double jaw_tip = 0.0;          // m from the centre of the jaw to its tips; 0: the default
+    double jaw_depth = 0.0;        // m, from the middle of the jaw to its throat; 0: the default
+    double jaw_tip = 0.0;          // m, from the middle of the jaw to its tips; 0: the default
     double head_angle = 0.0;       // rad
     double handle_length = 0.0;    // m
     double greatest_torque = 0.0;  // N·m, the largest torque of the lesson; maps to the device's range

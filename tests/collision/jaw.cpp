@@ -80,7 +80,7 @@ TEST_CASE("Jaw: a centred jaw has half the clearance on each flat and the full c
     CHECK(separation(p.parts[0], p.nut, p.wrench(), 0.1).distance == doctest::Approx(0.1e-3).epsilon(1e-9));
     CHECK(separation(p.parts[1], p.nut, p.wrench(), 0.1).distance == doctest::Approx(0.1e-3).epsilon(1e-9));
     CHECK(separation(p.parts[2], p.nut, p.wrench(), 0.1).distance ==
-          doctest::Approx(p.jaw.throat - flats / std::sqrt(3.0)).epsilon(1e-9));
+          doctest::Approx(p.jaw.depth - flats / std::sqrt(3.0)).epsilon(1e-9));
     const Pose aside = p.wrench({0, 0.06e-3, 0});
     CHECK(separation(p.parts[0], p.nut, aside, 0.1).distance == doctest::Approx(0.16e-3).epsilon(1e-9));
     CHECK(separation(p.parts[1], p.nut, aside, 0.1).distance == doctest::Approx(0.04e-3).epsilon(1e-9));

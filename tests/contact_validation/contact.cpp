@@ -131,14 +131,14 @@ TEST_CASE(
             CHECK(contact_oracle::nearest(wrench.tree, p, 1.0).distance < 20 * um);
             CHECK(collision::covered_by_jaw(contact.jaw, p));
         };
-        check_on_jaw(jaw.throat, 0.0);
+        check_on_jaw(jaw.depth, 0.0);
         for (const double side : {1.0, -1.0}) {
             check_on_jaw(0.0, 0.5 * side * jaw.opening);
             check_on_jaw(-jaw.tip, side * (0.5 * jaw.opening + 1.5 * jaw.lead_in));
         }
         // The closed form does not cover the fillets of the throat.
         const double in = 0.5 * jaw.opening * 0.98;
-        const Vec3 corner = glm::angleAxis(jaw.head_angle, Vec3(0, 0, 1)) * Vec3(0.98 * jaw.throat, in, 0.0);
+        const Vec3 corner = glm::angleAxis(jaw.head_angle, Vec3(0, 0, 1)) * Vec3(0.98 * jaw.depth, in, 0.0);
         CHECK(contact_oracle::winding(wrench, corner) == 1);
         CHECK_FALSE(collision::covered_by_jaw(contact.jaw, corner));
     }

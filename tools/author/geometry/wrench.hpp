@@ -20,7 +20,7 @@ namespace bolt::geometry {
 inline constexpr double head_width_ratio = 2.1;
 inline constexpr double thickness_ratio = 0.45;
 inline constexpr double handle_width_ratio = 0.85;
-inline constexpr double jaw_depth_ratio = 0.6;  // middle of the jaw to its bottom; a hexagon needs 0.577
+inline constexpr double jaw_depth_ratio = 0.6;  // middle of the jaw to its throat; a hexagon needs 0.577
 // Length of the wrench from the middle of the jaw / distance from there to the middle of the grip.
 inline constexpr double handle_beyond_grip = 1.12;
 
