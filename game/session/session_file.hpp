@@ -2,10 +2,10 @@
 // at any moment.
 //
 // Tables: meta(key, value), header and state; obstacle(id, name), the possible obstacles of the wrench;
-// tick_chunk(first_tick, count, data), up to one second of ticks (tick.hpp); event(...); joint_result(...),
-// by joint index; score_reason(...); servo_time(...), the timing of the servo's thread, if one ran;
-// seal(name, rows, sum), the checksum of each table. Each second is one commit, so a killed process loses at
-// most the last second. meta 'state' is 'recording' until finish() sets 'complete'.
+// tick_chunk(first_tick, count, data), up to one second of ticks (recorded_tick.hpp); event(...);
+// joint_result(...), by joint index; score_reason(...); servo_time(...), the timing of the servo's thread, if
+// one ran; seal(name, rows, sum), the checksum of each table. Each second is one commit, so a killed process
+// loses at most the last second. meta 'state' is 'recording' until finish() sets 'complete'.
 //
 // During the recording, and after a kill, the newest part is in a -wal file beside it; finish() leaves one
 // file. A -shm and a .lock file exist during the recording; they are harmless if a kill leaves them.
@@ -26,7 +26,7 @@
 
 #include "engine/base/result.hpp"
 #include "game/lesson/result.hpp"
-#include "game/session/tick.hpp"
+#include "game/session/recorded_tick.hpp"
 #include "haptics/force/output_limits.hpp"
 #include "haptics/hand/kinematics.hpp"
 #include "haptics/joint/stage.hpp"
@@ -36,7 +36,7 @@ namespace bolt::session {
 
 // An obstacle's name, for TickRecord::touched.
 struct ObstacleName {
-    collision::ObstacleId id;  // one that has a file_number (tick.hpp)
+    collision::ObstacleId id;  // one that has a file_number (recorded_tick.hpp)
     std::string name;
 };
 

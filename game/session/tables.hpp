@@ -15,8 +15,8 @@
 
 #include "game/lesson/result.hpp"
 #include "game/session/database.hpp"
+#include "game/session/recorded_tick.hpp"
 #include "game/session/session_file.hpp"
-#include "game/session/tick.hpp"
 #include "haptics/servo/servo_thread.hpp"
 
 namespace bolt::session {

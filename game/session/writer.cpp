@@ -10,9 +10,9 @@
 
 #include "engine/base/result.hpp"
 #include "game/session/database.hpp"
+#include "game/session/recorded_tick.hpp"
 #include "game/session/session_file.hpp"
 #include "game/session/tables.hpp"
-#include "game/session/tick.hpp"
 
 namespace bolt::session {
 

@@ -1,5 +1,5 @@
 // Input and output of a servo tick: small plain values. The session file records the input exactly and most
-// of the output in single precision (game/session/tick.hpp).
+// of the output in single precision (game/session/recorded_tick.hpp).
 #pragma once
 
 #include <cstdint>

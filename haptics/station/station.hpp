@@ -8,7 +8,7 @@
 #include "haptics/hand/glove_driver.hpp"
 #include "haptics/servo/servo_thread.hpp"
 #include "haptics/station/gloved_hand.hpp"
-#include "haptics/station/tick.hpp"
+#include "haptics/station/station_tick.hpp"
 
 namespace bolt::station {
 

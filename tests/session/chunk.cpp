@@ -1,4 +1,4 @@
-#include "game/session/tick.hpp"
+#include "game/session/recorded_tick.hpp"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "game/session/tick.hpp"
+#include "game/session/recorded_tick.hpp"
 
 using namespace bolt::session;
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "haptics/station/tick.hpp"
+#include "haptics/station/station_tick.hpp"
 #include "tests/servo/support.hpp"
 #include "tests/session/support.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "haptics/device/virtual_devices.hpp"
-#include "haptics/station/tick.hpp"
+#include "haptics/station/station_tick.hpp"
 #include "tests/device/support.hpp"
 #include "tests/servo/support.hpp"
 

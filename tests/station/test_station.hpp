@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "haptics/station/tick.hpp"
+#include "haptics/station/station_tick.hpp"
 #include "tests/station/support.hpp"
 
 namespace bolt::test {

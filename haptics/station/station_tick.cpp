@@ -1,4 +1,4 @@
-#include "haptics/station/tick.hpp"
+#include "haptics/station/station_tick.hpp"
 
 #include <algorithm>
 #include <cmath>
