@@ -45,7 +45,7 @@ struct TrainArguments {
     std::string size = "1280x720", gpu;
     bool quiet = false, no_pictures = false, no_guide = false, view_help = false;
     bool obstacles = false, no_obstacles = false;
-    std::string operator_name = "expert";  // of a simulated trainee
+    std::string trainee_profile = "expert";  // of a simulated trainee
     std::uint64_t seed = 1;
     std::string out = "out";
     bool folder_per_lesson = false;  // each lesson of a window gets a folder of its own in `out`
@@ -145,10 +145,10 @@ Result<trainees::TrainOptions> train_options(const TrainArguments& options,
                                                   : session::Obstacles::if_any;
     train.lesson.guide = !options.no_guide;
     if (options.view_help) train.view_help = view::view_help();
-    Result<trainees::TraineeProfile> trainee = trainees::find_profile(options.operator_name);
+    Result<trainees::TraineeProfile> trainee = trainees::find_profile(options.trainee_profile);
     if (!trainee) return fail(trainee.error());
     train.trainee = *trainee;
-    train.lesson.operator_name = train.trainee.name;
+    train.lesson.trainee_profile = train.trainee.name;
     train.lesson.trainee = options.trainee;
     return train;
 }
@@ -206,7 +206,7 @@ int run_headless(const TrainArguments& options, const content::Assembly& assembl
     if (!options.quiet)
         (void)std::fputs(
             fmt::format("{} ({}), law {}, {}, trainee {}, seed {}\n", assembly.name, assembly.variant,
-                        joint::name(train.lesson.law), options.mode, options.operator_name, options.seed)
+                        joint::name(train.lesson.law), options.mode, options.trainee_profile, options.seed)
                 .c_str(),
             stderr);
     remove_stale_files(out);
@@ -237,7 +237,7 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     app_options.sound = !options.silent;
     app_options.menu = !options.start;
     app_options.lesson = train.lesson;
-    app_options.lesson.operator_name = "person";
+    app_options.lesson.trainee_profile = "person";
     if (!options.law.empty()) app_options.choice.law = train.lesson.law;
     app_options.out = out;
     app_options.folder_per_lesson = options.folder_per_lesson;
@@ -382,7 +382,7 @@ void add_train(CLI::App& app, int& exit_code) {
     train->add_flag("--validate", options->validate,
                     "Run under the Vulkan validation layers; any message is an error");
     train
-        ->add_option("--operator", options->operator_name,
+        ->add_option("--operator", options->trainee_profile,
                      fmt::format("Simulated trainee: {}", fmt::join(trainees::profile_names(), ", ")))
         ->capture_default_str();
     train->add_option("--seed", options->seed, "Seed of the trainee and of the joints' scatter")

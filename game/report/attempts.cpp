@@ -27,7 +27,7 @@ std::string percent(double share) {
 std::string trainee_note(std::span<const Attempt> attempts) {
     const auto any = [&](const auto& test) { return std::any_of(attempts.begin(), attempts.end(), test); };
     std::string out;
-    if (any([](const Attempt& a) { return a.operator_kind == session::OperatorKind::unrecorded; }))
+    if (any([](const Attempt& a) { return a.trainee_kind == session::TraineeKind::unrecorded; }))
         out +=
             "<p class=\"note\">Not recorded: an older program wrote the session; it does not record whether "
             "a person or a simulated trainee held the tool.</p>\n";
@@ -83,13 +83,13 @@ std::vector<std::vector<std::size_t>> attempt_groups(std::span<const Attempt> at
 
 std::string trainee_text(const session::Header& header) {
     const std::string name = session::trainee_name(header);
-    switch (session::operator_kind(header)) {
-        case session::OperatorKind::person:
+    switch (session::trainee_kind(header)) {
+        case session::TraineeKind::person:
             return name.empty() ? std::string(unnamed_person) : name;
-        case session::OperatorKind::simulated:
-            return name.empty() ? header.operator_name + " (simulated)"
-                                : fmt::format("{} (simulated {})", name, header.operator_name);
-        case session::OperatorKind::unrecorded:
+        case session::TraineeKind::simulated:
+            return name.empty() ? header.trainee_profile + " (simulated)"
+                                : fmt::format("{} (simulated {})", name, header.trainee_profile);
+        case session::TraineeKind::unrecorded:
             break;
     }
     return name + " (person or simulated: not recorded)";
@@ -99,7 +99,7 @@ Attempt attempt_of(const analysis::SessionData& session) {
     Attempt a;
     a.title = analysis::title_of(session.assembly);
     a.trainee = trainee_text(session.header);
-    a.operator_kind = session::operator_kind(session.header);
+    a.trainee_kind = session::trainee_kind(session.header);
     a.assembly = session.header.assembly;
     a.task = lesson::name(session.header.task);
     a.law = joint::name(session.header.law);
@@ -282,7 +282,7 @@ std::string quartile_text(const analysis::Quartiles& q, int decimals) {
 
 std::string study_part(const AttemptList& with, const AttemptList& without, const StudyFactor& factor) {
     const Attempt& first = *with.front();
-    const bool simulated = first.operator_kind == session::OperatorKind::simulated;
+    const bool simulated = first.trainee_kind == session::TraineeKind::simulated;
     std::string out;
     put(out, "<h2>With and without {}: {}, {}{}</h2>\n", factor.heading, plot::escape(first.title),
         plot::escape(first.trainee), first.obstacles ? "" : ", without obstacles");
@@ -293,7 +293,7 @@ std::string study_part(const AttemptList& with, const AttemptList& without, cons
         simulated
             ? "<strong>These trainees are simulated:</strong> this shows what the program does to a model of "
               "a hand, not what it does to people. "
-        : first.operator_kind == session::OperatorKind::unrecorded
+        : first.trainee_kind == session::TraineeKind::unrecorded
             ? "These sessions do not record whether a person or a simulated trainee held the tool. "
             : "",
         with.size(), factor.with, without.size(), factor.without, finished(with), finished(without),
@@ -318,7 +318,7 @@ std::string study_part(const AttemptList& with, const AttemptList& without, cons
 
 std::string study(std::span<const Attempt> attempts, const StudyFactor& factor, bool Attempt::*equal_in) {
     const auto key = [&](const Attempt& a) {
-        return std::tie(a.assembly, a.title, a.task, a.variant, a.law, a.mode, a.trainee, a.operator_kind,
+        return std::tie(a.assembly, a.title, a.task, a.variant, a.law, a.mode, a.trainee, a.trainee_kind,
                         a.obstacles, a.*equal_in);
     };
     std::string out;

@@ -13,8 +13,8 @@ namespace bolt::report {
 // The values of a session that the overview needs, so that the session itself can be released.
 struct Attempt {
     std::string assembly, title, task, variant, law, mode;
-    std::string trainee;  // result of trainee_text; identifies the trainee together with operator_kind
-    session::OperatorKind operator_kind = session::OperatorKind::unrecorded;
+    std::string trainee;  // result of trainee_text; identifies the trainee together with trainee_kind
+    session::TraineeKind trainee_kind = session::TraineeKind::unrecorded;
     std::uint64_t seed = 0;
     bool complete = true, finished = false;
     double score = 0.0;

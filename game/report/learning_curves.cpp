@@ -56,11 +56,11 @@ double highest_value(const TaskAttempts& task, const LearningMeasure& measure) {
 }
 
 // Median of the n-th attempts (from 0) of all trainees of that kind; NaN below three trainees.
-double median_of_trainees(const TaskAttempts& task, const LearningMeasure& measure,
-                          session::OperatorKind kind, std::size_t n) {
+double median_of_trainees(const TaskAttempts& task, const LearningMeasure& measure, session::TraineeKind kind,
+                          std::size_t n) {
     std::vector<double> values;
     for (const Indices& trainee : task.trainees) {
-        if (task.first_of(trainee).operator_kind != kind || trainee.size() <= n) continue;
+        if (task.first_of(trainee).trainee_kind != kind || trainee.size() <= n) continue;
         const double value = measure.value(task.attempts[trainee[n]]);
         if (std::isfinite(value)) values.push_back(value);
     }
@@ -83,7 +83,7 @@ std::string trainee_plot(const TaskAttempts& task, const Indices& trainee, const
               fmt::format("{}{}", measure.unit, better)};
     plot::PlotLine median{{}, "ln cl"}, curve{{}, "ln p2"};
     for (std::size_t n = 0; n < task.most_attempts; ++n) {
-        const double value = median_of_trainees(task, measure, first.operator_kind, n);
+        const double value = median_of_trainees(task, measure, first.trainee_kind, n);
         if (std::isfinite(value)) median.points.push_back({static_cast<double>(n + 1), value});
     }
     for (std::size_t n = 0; n < trainee.size(); ++n) {
@@ -170,7 +170,7 @@ std::vector<Indices> split_by_trainee(std::span<const Attempt> attempts, std::sp
     for (const std::size_t i : group) {
         const auto found = std::find_if(trainees.begin(), trainees.end(), [&](const Indices& trainee) {
             const Attempt& first = attempts[trainee.front()];
-            return first.operator_kind == attempts[i].operator_kind && first.trainee == attempts[i].trainee;
+            return first.trainee_kind == attempts[i].trainee_kind && first.trainee == attempts[i].trainee;
         });
         if (found == trainees.end())
             trainees.push_back({i});

@@ -35,7 +35,7 @@ std::string summary_json(const content::Assembly& assembly, const LessonOptions&
     json["task"] = lesson::name(options.task);
     json["guide"] = options.guide && options.mode == lesson::Mode::guided;
     json["obstacles"] = outcome.obstacles;
-    json["operator"] = options.operator_name;
+    json["operator"] = options.trainee_profile;  // the key of session files too
     json["trainee"] = options.trainee;
     json["seed"] = options.seed;
     json["duration_s"] = rounded(result.duration, 1e3);

@@ -140,7 +140,7 @@ HeaderTexts texts_of(const Header& header) {
         {key::law, std::string(joint::name(header.law))},
         {key::mode, std::string(lesson::name(header.mode))},
         {key::task, std::string(lesson::name(header.task))},
-        {key::operator_name, header.operator_name},
+        {key::trainee_profile, header.trainee_profile},
         {key::seed, fmt::format("{}", header.seed)},
         {key::dt, fmt::format("{}", header.dt)},
         {key::program, header.program},
@@ -170,7 +170,7 @@ Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
                     [](std::string_view text) { return named<lesson::Mode>(text, 3); });
     parser.required(key::task, header.task, "tighten or loosen",
                     [](std::string_view text) { return named<lesson::Task>(text, 2); });
-    parser.required(key::operator_name, header.operator_name);
+    parser.required(key::trainee_profile, header.trainee_profile);
     parser.required(key::seed, header.seed, "a whole number", number<std::uint64_t>);
     parser.required(key::dt, header.dt, "a tick in s, at least one in a second", [](std::string_view text) {
         const auto dt = number<double>(text);
@@ -191,18 +191,18 @@ Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
     return header;
 }
 
-OperatorKind operator_kind(const Header& header) {
+TraineeKind trainee_kind(const Header& header) {
     if (header.trainee)
-        return header.operator_name == person ? OperatorKind::person : OperatorKind::simulated;
-    if (header.view_help) return OperatorKind::simulated;
-    if (header.operator_name == person || !header.tool.empty()) return OperatorKind::person;
-    return OperatorKind::unrecorded;
+        return header.trainee_profile == person ? TraineeKind::person : TraineeKind::simulated;
+    if (header.view_help) return TraineeKind::simulated;
+    if (header.trainee_profile == person || !header.tool.empty()) return TraineeKind::person;
+    return TraineeKind::unrecorded;
 }
 
 std::string trainee_name(const Header& header) {
     if (header.trainee) return *header.trainee;
-    if (operator_kind(header) == OperatorKind::simulated || header.operator_name == person) return {};
-    return header.operator_name;
+    if (trainee_kind(header) == TraineeKind::simulated || header.trainee_profile == person) return {};
+    return header.trainee_profile;
 }
 
 }  // namespace bolt::session

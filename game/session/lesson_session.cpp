@@ -89,7 +89,7 @@ Header make_header(const SessionSetup& start, const LessonOptions& options) {
     header.law = options.law;
     header.mode = options.mode;
     header.task = options.task;
-    header.operator_name = options.operator_name;
+    header.trainee_profile = options.trainee_profile;
     header.trainee = options.trainee;
     header.hand = options.hand;
 

@@ -44,7 +44,7 @@ struct LessonOptions {
     // Collisions of the wrench with casing, bolts and nuts (contact_models.hpp).
     Obstacles obstacles = Obstacles::none;
     bool guide = true;               // in guided mode a force guides the hand to the nut
-    std::string operator_name;       // "person", or the simulated trainee's profile: "expert", …
+    std::string trainee_profile;     // "person", or the simulated trainee's profile: "expert", …
     std::string trainee;             // the name given with --trainee; may be empty
     std::optional<hand::Side> hand;  // the working hand; none: unknown
 

@@ -41,7 +41,7 @@ struct ObstacleName {
 };
 
 // The kind of trainee. `unrecorded`: the session is from an older program, which did not record it.
-enum class OperatorKind : std::uint8_t { unrecorded, person, simulated };
+enum class TraineeKind : std::uint8_t { unrecorded, person, simulated };
 
 // The properties of a recorded lesson. The file stores them as text (header.cpp).
 struct Header {
@@ -52,7 +52,8 @@ struct Header {
     joint::Law law = joint::Law::mechanistic;
     lesson::Mode mode = lesson::Mode::guided;
     lesson::Task task = lesson::Task::tighten;
-    std::string operator_name;  // "person", or the simulated trainee's profile: "expert", …
+    // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".
+    std::string trainee_profile;
     std::uint64_t seed = 0;
     double dt = 0.001;    // s
     std::string program;  // name and version of the writing program
@@ -69,22 +70,21 @@ struct Header {
     std::optional<hand::Side> hand;  // the working hand; none if unknown
 
     // The name given with --trainee, which may be empty. None in sessions of older programs, which stored a
-    // person's typed name in `operator_name`.
+    // person's typed name in `trainee_profile`.
     std::optional<std::string> trainee;
 };
 
 // "virtual time", or the rate as text.
 std::string servo_text(double rate);
 
-// Determines the kind of trainee without using the trainee's name. `operator` is a key of the file; a person
-// typed a name there in older programs. The first condition that holds decides:
-//   the session has the key `trainee`    person if `operator` is "person", otherwise simulated
-//   it records the view help             simulated: only simulated trainees record it
-//   `operator` is "person"               person
-//   it records a tool                    person: since format 4, which records the tool, a session of a
-//                                        simulated trainee records the view help too
-//   none of these                        unrecorded
-OperatorKind operator_kind(const Header& header);
+// Determines the kind of trainee without using the trainee's name. The first condition that holds decides:
+//   `trainee` is set                  person if `trainee_profile` is "person", otherwise simulated
+//   `view_help` is set                simulated: only sessions of simulated trainees record it
+//   `trainee_profile` is "person"     person
+//   `tool` is not empty               person: since format 4, which records the tool, sessions of simulated
+//                                     trainees record the view help too
+//   none of these                     unrecorded
+TraineeKind trainee_kind(const Header& header);
 
 // The trainee's name; empty if none is recorded. A simulated trainee has one only if --trainee gave it.
 std::string trainee_name(const Header& header);

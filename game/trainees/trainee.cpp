@@ -203,7 +203,7 @@ Result<session::LessonOutcome> train(const content::Assembly& assembly, const Tr
                                      const std::filesystem::path& file,
                                      const std::function<bool(const TrainingProgress&)>& watch) {
     session::LessonOptions lesson_options = options.lesson;
-    lesson_options.operator_name = options.trainee.name;
+    lesson_options.trainee_profile = options.trainee.name;
     lesson_options.view_help = static_cast<bool>(options.view_help);
     Result<std::unique_ptr<session::LessonSession>> started =
         session::LessonSession::begin(assembly, lesson_options, file);

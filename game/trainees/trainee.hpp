@@ -39,7 +39,7 @@ class SimulatedTrainee {
 };
 
 struct TrainOptions {
-    session::LessonOptions lesson;  // operator_name is taken from the trainee
+    session::LessonOptions lesson;  // trainee_profile is taken from the trainee
     TraineeProfile trainee;
     motion::ViewHelper view_help;    // none: the trainee only moves its head
     double time_limit = 14400.0;     // s of virtual time after which the lesson is aborted

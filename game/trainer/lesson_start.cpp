@@ -73,7 +73,7 @@ Result<StartedLesson> start_lesson(const LessonStart& start) {
     options.law = law_in_force(choice, start.settings, loaded.assembly.law);
     options.mode = choice.mode;
     options.task = choice.task;
-    options.operator_name = "person";
+    options.trainee_profile = "person";
     options.trainee = choice.trainee;
     options.device = force::scaled(start.options.device, start.settings.force_scale);
     context.assembly = lesson::apply_law(std::move(loaded.assembly), options.law);

@@ -34,7 +34,7 @@ LifePlan make_life_plan(std::uint64_t seed) {
     p.options.task = random.chance(0.3) ? lesson::Task::loosen : lesson::Task::tighten;
     p.options.law = random.chance(0.15) ? joint::Law::published : joint::Law::mechanistic;
     p.options.seed = seed;
-    p.options.operator_name = "person";
+    p.options.trainee_profile = "person";
     p.at_mouse = random.chance(0.65);
     p.rough = random.chance(0.3);
     p.overtightens = random.chance(0.25);

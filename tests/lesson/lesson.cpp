@@ -243,7 +243,7 @@ TEST_CASE("Lesson: the summary has the documented fields, and the table names ev
         result.joints.push_back(r);
     }
     session::LessonOptions options;
-    options.operator_name = "expert";
+    options.trainee_profile = "expert";
     const std::string json = session::summary_json(zq350(), options, outcome);
     for (const char* field :
          {"\"assembly\": \"zq350\"", "\"law\": \"mechanistic\"", "\"operator\": \"expert\"", "\"seed\": 1",

@@ -242,8 +242,8 @@ TEST_CASE("Studies: compare only attempts that differ in nothing but the aid and
         a.guided = true;
     }
     attempts.front().guided = false;
-    for (Attempt& a : attempts) a.operator_kind = session::OperatorKind::person;
+    for (Attempt& a : attempts) a.trainee_kind = session::TraineeKind::person;
     CHECK(guiding_study(attempts).find("These trainees are simulated") == std::string::npos);
-    for (Attempt& a : attempts) a.operator_kind = session::OperatorKind::unrecorded;
+    for (Attempt& a : attempts) a.trainee_kind = session::TraineeKind::unrecorded;
     CHECK(guiding_study(attempts).find("do not record whether a person") != std::string::npos);
 }

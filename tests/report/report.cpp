@@ -91,7 +91,7 @@ TEST_CASE("Report: names with markup are escaped") {
     const std::string attack = "</title><script>alert(1)</script>\"' onload=\"x";
     SessionData& data = session.data;
     data.assembly.title["en"] = attack;
-    data.header.operator_name = attack;
+    data.header.trainee_profile = attack;
     data.header.variant = attack;
     data.header.program = attack;
     data.file = "/tmp/" + attack;
@@ -321,12 +321,12 @@ TEST_CASE("Learning curves: one for each trainee, with the axes of all") {
     for (int i = 0; i < 10; ++i) {
         Attempt a = attempt_of(synthetic_session({}).data);
         a.trainee = std::vector<std::string>{"Ada", "Bo", "<Cy>", "expert"}[static_cast<std::size_t>(i % 4)];
-        a.operator_kind = session::OperatorKind::person;
+        a.trainee_kind = session::TraineeKind::person;
         a.score = 10.0 * i;
         a.duration = i == 9 ? 3000.0 : 60.0;
         attempts.push_back(a);
     }
-    attempts[7].operator_kind = session::OperatorKind::simulated;  // another "expert"
+    attempts[7].trainee_kind = session::TraineeKind::simulated;  // another "expert"
     const std::vector<std::size_t> all = attempt_groups(attempts).front();
     CHECK(split_by_trainee(attempts, all) ==
           std::vector<std::vector<std::size_t>>{{0, 4, 8}, {1, 5, 9}, {2, 6}, {3}, {7}});
@@ -344,13 +344,13 @@ TEST_CASE("Learning curves: one for each trainee, with the axes of all") {
 
 TEST_CASE("Trainees: the kind of operator follows from the session's record, not from the name") {
     session::Header header;
-    header.operator_name = "person";
+    header.trainee_profile = "person";
     header.trainee = "novice";
-    CHECK(session::operator_kind(header) == session::OperatorKind::person);
+    CHECK(session::trainee_kind(header) == session::TraineeKind::person);
     CHECK(trainee_text(header) == "novice");
     header.trainee = "";
     CHECK(trainee_text(header) == "person without a name");
-    header.operator_name = "novice";
+    header.trainee_profile = "novice";
     CHECK(trainee_text(header) == "novice (simulated)");
     header.trainee = "Ada";
     CHECK(trainee_text(header) == "Ada (simulated novice)");
@@ -361,11 +361,11 @@ TEST_CASE("Trainees: the kind of operator follows from the session's record, not
     CHECK(trainee_text(header) == "novice (simulated)");
     header.view_help.reset();
     header.tool = "ratchet";
-    CHECK(session::operator_kind(header) == session::OperatorKind::person);
+    CHECK(session::trainee_kind(header) == session::TraineeKind::person);
     CHECK(trainee_text(header) == "novice");
     header.tool.clear();
-    header.operator_name = "person";
-    CHECK(session::operator_kind(header) == session::OperatorKind::person);
+    header.trainee_profile = "person";
+    CHECK(session::trainee_kind(header) == session::TraineeKind::person);
     CHECK(trainee_text(header) == "person without a name");
 }
 

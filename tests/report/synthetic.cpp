@@ -136,7 +136,7 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     header.law = joint::Law::mechanistic;
     header.mode = lesson::Mode::practice;
     header.task = lesson::Task::tighten;
-    header.operator_name = "expert";
+    header.trainee_profile = "expert";
     header.trainee = "";
     header.seed = options.seed;
     header.dt = options.dt;

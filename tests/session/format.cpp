@@ -19,7 +19,7 @@ TEST_CASE("Session format: a session of format 1 opens with all its data") {
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     CHECK(reader->complete());
     CHECK(reader->header().assembly == "cover-m8");
-    CHECK(reader->header().operator_name == "novice");
+    CHECK(reader->header().trainee_profile == "novice");
     CHECK_FALSE(reader->header().contact_models.has_value());  // format 1 does not store them
     CHECK_FALSE(reader->header().device);
     CHECK(reader->header().obstacle_names.empty());

@@ -69,8 +69,8 @@ bool same(std::span<const TickRecord> a, std::span<const TickRecord> b) {
 bool same(const Header& a, const Header& b) {
     return a.assembly == b.assembly && a.assembly_file == b.assembly_file &&
            a.assembly_text == b.assembly_text && a.variant == b.variant && a.law == b.law &&
-           a.mode == b.mode && a.task == b.task && a.operator_name == b.operator_name && a.seed == b.seed &&
-           std::bit_cast<std::uint64_t>(a.dt) == std::bit_cast<std::uint64_t>(b.dt) &&
+           a.mode == b.mode && a.task == b.task && a.trainee_profile == b.trainee_profile &&
+           a.seed == b.seed && std::bit_cast<std::uint64_t>(a.dt) == std::bit_cast<std::uint64_t>(b.dt) &&
            a.program == b.program && a.guide == b.guide && a.contact_models == b.contact_models &&
            a.device.has_value() == b.device.has_value() &&
            (!a.device || limits_text(*a.device) == limits_text(*b.device)) && a.servo_rate == b.servo_rate &&
@@ -119,7 +119,7 @@ Header sample_header(double dt) {
     header.law = joint::Law::published;
     header.mode = lesson::Mode::assessment;
     header.task = lesson::Task::loosen;
-    header.operator_name = "novice";
+    header.trainee_profile = "novice";
     header.seed = 0xFFFF'FFFF'FFFF'FFFEULL;
     header.dt = dt;
     header.program = "boltwright 0.1.0";

@@ -90,7 +90,7 @@ TEST_CASE("Captions: a lasting sound has one caption while it lasts; a short bli
 TEST_CASE("Captions: a played lesson shows exactly the captions of the sounds that occur") {
     const content::Assembly cover = trainer_test::assembly("cover-m8");
     session::LessonOptions options;
-    options.operator_name = "player";
+    options.trainee_profile = "player";
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
     auto session = session::LessonSession::begin(cover, options, file);

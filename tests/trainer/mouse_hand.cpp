@@ -25,7 +25,7 @@ struct Outcome {
 Outcome play_through(const char* name, session::LessonOptions options, double longest) {
     const test::Folder folder;
     const auto file = folder / "lesson.boltwright";
-    options.operator_name = "person";
+    options.trainee_profile = "person";
     auto begun = session::LessonSession::begin(assembly(name), options, file);
     REQUIRE(begun);
     session::LessonSession& session = **begun;

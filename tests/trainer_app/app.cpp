@@ -51,7 +51,7 @@ TEST_CASE("Trainer: a lesson is played by mouse from the menu to the result") {
     const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
     REQUIRE(reader);
     CHECK(reader->complete());
-    CHECK(reader->header().operator_name == "person");
+    CHECK(reader->header().trainee_profile == "person");
     // Once more, then back to the menu.
     driver.press_button("menu.again");
     CHECK(driver.app().screen() == ShownScreen::lesson);

@@ -20,7 +20,7 @@ const session::SessionReader& recorded() {
         REQUIRE(loaded.ok());
         trainees::TrainOptions options;
         options.trainee = need(trainees::find_profile("clumsy"));
-        options.lesson.operator_name = options.trainee.name;
+        options.lesson.trainee_profile = options.trainee.name;
         options.lesson.obstacles = session::Obstacles::if_any;
         options.lesson.seed = 3;
         const auto file = folder / "session.boltwright";
