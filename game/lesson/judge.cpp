@@ -60,7 +60,7 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
     result.finished = lesson.due() == nullptr;
     result.score = 100.0;
     const double share = 100.0 / static_cast<double>(std::max<std::size_t>(1, lesson.joints.size()));
-    int rehits = 0, order_errors = 0, wrong_ways = 0, overdone = 0, slips = 0;
+    int done_already = 0, out_of_turn = 0, wrong_ways = 0, overdone = 0, slips = 0;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         JointResult joint = judge_joint(lesson, i, world);
         if (joint.condition != joint::Condition::sound)
@@ -72,8 +72,8 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
                          fmt::format("{}: torque {} ({:.1f} N·m), angle {}", joint.id,
                                      name(joint.torque_verdict), joint.torque, name(joint.angle_verdict)),
                          DeductionKind::not_ok, static_cast<int>(i), 1});
-        rehits += joint.rehits;
-        order_errors += joint.order_errors;
+        done_already += joint.done_already;
+        out_of_turn += joint.out_of_turn;
         wrong_ways += lesson.joints[i].wrong_way_count;
         slips += lesson.joints[i].slip_count;
         const bool still_too_high =
@@ -81,12 +81,12 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
         overdone += std::max(0, lesson.joints[i].over_torque_count - (still_too_high ? 1 : 0));
         result.joints.push_back(std::move(joint));
     }
-    if (order_errors > 0)
-        take_points(result, {2.0 * order_errors, times(order_errors) + " a joint out of turn",
-                             DeductionKind::out_of_turn, -1, order_errors});
-    if (rehits > 0)
-        take_points(result, {1.0 * rehits, times(rehits) + " a joint that was done already",
-                             DeductionKind::done_already, -1, rehits});
+    if (out_of_turn > 0)
+        take_points(result, {2.0 * out_of_turn, times(out_of_turn) + " a joint out of turn",
+                             DeductionKind::out_of_turn, -1, out_of_turn});
+    if (done_already > 0)
+        take_points(result, {1.0 * done_already, times(done_already) + " a joint that was done already",
+                             DeductionKind::done_already, -1, done_already});
     if (wrong_ways > 0)
         take_points(result, {1.0 * wrong_ways, times(wrong_ways) + " a nut was turned the wrong way",
                              DeductionKind::wrong_way, -1, wrong_ways});

@@ -146,12 +146,12 @@ void report_out_of_turn(Lesson& lesson, std::size_t joint, const world::ReadHapt
         (done || joint_at(world, joint).stage != joint::Stage::navigation))
         return;
     if (done) {
-        ++track.result.rehits;
+        ++track.result.done_already;
         add_mistake(lesson, tick_of(world), MistakeKind::done_already, joint, 0.0,
                     fmt::format("{} was done already in this pass", id));
         return;
     }
-    ++track.result.order_errors;
+    ++track.result.out_of_turn;
     add_mistake(lesson, tick_of(world), MistakeKind::out_of_turn, joint, 0.0,
                 fmt::format("{} is not the next joint; {} is", id, lesson.joints[due.joint].result.id));
 }
@@ -385,8 +385,8 @@ bool undo_steps(Lesson& lesson, const world::ReadHaptics& world, std::size_t ste
     }
     std::vector<JointTrack> tracks = lesson.step_starts[to];
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-        tracks[i].result.rehits = lesson.joints[i].result.rehits;
-        tracks[i].result.order_errors = lesson.joints[i].result.order_errors;
+        tracks[i].result.done_already = lesson.joints[i].result.done_already;
+        tracks[i].result.out_of_turn = lesson.joints[i].result.out_of_turn;
         tracks[i].wrong_way_count = lesson.joints[i].wrong_way_count;
         tracks[i].over_torque_count = lesson.joints[i].over_torque_count;
         tracks[i].slip_count = lesson.joints[i].slip_count;

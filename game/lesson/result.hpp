@@ -41,8 +41,8 @@ struct JointResult {
     Verdict overall = Verdict::none;  // OK only if each judged quantity is OK and the joint is sound
     joint::Condition condition = joint::Condition::sound;
     int strokes = 0;
-    int rehits = 0;        // visits to a joint whose step was done already
-    int order_errors = 0;  // visits out of turn
+    int done_already = 0;  // visits after its step was done
+    int out_of_turn = 0;   // visits before its step was due
 };
 
 // The reason for a deduction. A session file stores its text only.

@@ -97,8 +97,8 @@ void put_joint_row(std::string& out, const analysis::SessionData& s, std::size_t
     }
     const auto count = [&](int n) { put(out, "<td class=\"n{}\">{}</td>", n > 0 ? " bad" : "", n); };
     put(out, "<td class=\"n\">{}</td>", r.strokes);
-    count(r.rehits);
-    count(r.order_errors);
+    count(r.done_already);
+    count(r.out_of_turn);
     out += "</tr>\n";
 }
 

@@ -64,8 +64,8 @@ std::string summary_table(const content::Assembly& assembly, const lesson::Lesso
         std::string verdict(lesson::name(joint.overall));
         if (joint.condition != joint::Condition::sound)
             verdict += fmt::format(" ({})", joint::name(joint.condition));
-        if (joint.order_errors > 0) verdict += fmt::format(", {}× out of turn", joint.order_errors);
-        if (joint.rehits > 0) verdict += fmt::format(", {}× again", joint.rehits);
+        if (joint.out_of_turn > 0) verdict += fmt::format(", {}× out of turn", joint.out_of_turn);
+        if (joint.done_already > 0) verdict += fmt::format(", {}× again", joint.done_already);
         table += fmt::format("{:<8} {:<8} {:>8.1f} {:>9.2f} {:>8.1f} {:>8.1f}  {}\n", joint.id,
                              planned.design.thread.size.name, joint.torque, joint.clamp / 1e3,
                              planned.spec.torque.target, to_degrees(joint.angle), verdict);

@@ -113,8 +113,8 @@ std::optional<lesson::JointResult> joint_of(const Statement& row) {
     joint.overall = *overall;
     joint.condition = *condition;
     joint.strokes = static_cast<int>(row.integer(10));
-    joint.rehits = static_cast<int>(row.integer(11));
-    joint.order_errors = static_cast<int>(row.integer(12));
+    joint.done_already = static_cast<int>(row.integer(11));
+    joint.out_of_turn = static_cast<int>(row.integer(12));
     return joint;
 }
 

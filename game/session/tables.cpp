@@ -137,7 +137,7 @@ std::uint64_t row_hash(std::uint64_t ordinal, const lesson::JointResult& result)
     hash.add(result.torque).add(result.angle).add(result.clamp).add(result.clamp_at_release);
     hash.add(static_cast<int>(result.torque_verdict)).add(static_cast<int>(result.angle_verdict));
     hash.add(static_cast<int>(result.overall)).add(static_cast<int>(result.condition));
-    return hash.add(result.strokes).add(result.rehits).add(result.order_errors).value();
+    return hash.add(result.strokes).add(result.done_already).add(result.out_of_turn).value();
 }
 
 std::uint64_t row_hash(std::uint64_t ordinal, const lesson::ScoreReason& reason) {
@@ -216,7 +216,7 @@ Status put_changed(Database& database, std::span<JointRow> joints, TableChecksum
         BOLT_TRY(statement.run_with(i, result.id, result.torque, result.angle, result.clamp,
                                     result.clamp_at_release, name(result.torque_verdict),
                                     name(result.angle_verdict), name(result.overall), name(result.condition),
-                                    result.strokes, result.rehits, result.order_errors));
+                                    result.strokes, result.done_already, result.out_of_turn));
         const std::uint64_t row = row_hash(i, result);
         if (joint.written_hash)
             checksums.joint.change(*joint.written_hash, row);

@@ -27,7 +27,8 @@ inline constexpr std::int64_t application_id = 0x424F4C54;  // "BOLT", in SQLite
 // published law.
 inline constexpr std::int64_t format_version = 5, oldest_format = 1;
 
-// Angles are in radians, as in memory, so that reading returns the written bits.
+// Angles are in radians, as in memory, so that reading returns the written bits. The columns `rehits` and
+// `order_errors` have older names: they hold JointResult::done_already and out_of_turn.
 inline constexpr const char* schema = R"(
 CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 CREATE TABLE tick_chunk(first_tick INTEGER PRIMARY KEY, count INTEGER NOT NULL, data BLOB NOT NULL);

@@ -92,11 +92,11 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and a piece of adv
         {"B1 is off its seat again and holds nothing.", "advice.off_seat",
          [](Outcome& r) { r.state.joints[0].stage = joint::Stage::navigation; }},
         {"Once a joint was worked on out of turn.", "advice.out_of_turn",
-         [](Outcome& r) { r.lesson.joints[2].result.order_errors = 1; }},
+         [](Outcome& r) { r.lesson.joints[2].result.out_of_turn = 1; }},
         {"Finished joints were pulled again 3 times.", "advice.done_already",
          [](Outcome& r) {
-             r.lesson.joints[2].result.rehits = 2;
-             r.lesson.joints[1].result.rehits = 1;
+             r.lesson.joints[2].result.done_already = 2;
+             r.lesson.joints[1].result.done_already = 1;
          }},
         {"2 times a nut was turned the wrong way.", "advice.wrong_way",
          [](Outcome& r) { r.lesson.joints[1].wrong_way_count = 2; }},
@@ -129,8 +129,8 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and a piece of adv
 
 TEST_CASE("Feedback: advice begins with the costliest mistake and has at most three entries") {
     Outcome r;
-    r.lesson.joints[0].result.order_errors = 1;
-    r.lesson.joints[0].result.rehits = 5;
+    r.lesson.joints[0].result.out_of_turn = 1;
+    r.lesson.joints[0].result.done_already = 5;
     r.done(1, 50.0, 30.0);
     r.done(2, 90.0, 30.0);
     r.done(3, 90.0, 30.0);

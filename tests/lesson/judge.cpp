@@ -121,8 +121,8 @@ TEST_CASE("Judge: every deduction has a reason, and the score is at least 0") {
     CHECK(broken.result().score == doctest::Approx(62.5));  // one and a half
 
     Bench untidy;
-    untidy.lesson.joints[0].result.order_errors = 2;
-    untidy.lesson.joints[3].result.rehits = 3;
+    untidy.lesson.joints[0].result.out_of_turn = 2;
+    untidy.lesson.joints[3].result.done_already = 3;
     CHECK(untidy.result().score == doctest::Approx(100.0 - 4.0 - 3.0));
     CHECK(untidy.result().reasons.size() == 2);
 

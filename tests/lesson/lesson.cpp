@@ -89,7 +89,7 @@ TEST_CASE(
         for (const bool stage : felt) CHECK(stage);
         for (const JointResult& joint : run.result.joints) {
             CHECK(joint.torque_verdict == Verdict::ok);
-            CHECK(joint.order_errors == 0);
+            CHECK(joint.out_of_turn == 0);
         }
     }
 }

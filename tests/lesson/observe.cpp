@@ -78,12 +78,12 @@ TEST_CASE(
     s.seat_both();
     s.tick(1, servo::Grip::wrench, 0.2);
     s.idle();
-    CHECK(s.lesson.joints[1].result.order_errors == 0);
+    CHECK(s.lesson.joints[1].result.out_of_turn == 0);
     s.pull(1, 20.0);
-    CHECK(s.lesson.joints[1].result.order_errors == 1);
+    CHECK(s.lesson.joints[1].result.out_of_turn == 1);
     s.pull(0, 35.0);
     s.pull(0, 36.0);
-    CHECK(s.lesson.joints[0].result.rehits == 1);
+    CHECK(s.lesson.joints[0].result.done_already == 1);
     CHECK(s.count(EventKind::mistake) == 2);
 }
 
@@ -97,10 +97,10 @@ TEST_CASE("Lesson: spinning a nut out of turn with several grips is one mistake"
         }
     };
     grips(5);
-    CHECK(s.lesson.joints[1].result.order_errors == 1);
+    CHECK(s.lesson.joints[1].result.out_of_turn == 1);
     s.idle(1000);
     grips(2);
-    CHECK(s.lesson.joints[1].result.order_errors == 2);
+    CHECK(s.lesson.joints[1].result.out_of_turn == 2);
 }
 
 TEST_CASE("Lesson: checking a seated nut with the fingers is no mistake, with the wrench it is") {
@@ -110,9 +110,9 @@ TEST_CASE("Lesson: checking a seated nut with the fingers is no mistake, with th
     s.tick(0, servo::Grip::fingers, 0.6);
     s.idle();
     CHECK(s.count(EventKind::mistake) == 0);
-    CHECK(s.lesson.joints[0].result.rehits == 0);
+    CHECK(s.lesson.joints[0].result.done_already == 0);
     s.pull(0, 5.0);
-    CHECK(s.lesson.joints[0].result.rehits == 1);
+    CHECK(s.lesson.joints[0].result.done_already == 1);
     CHECK(s.lesson.current == 1);
 }
 
@@ -128,7 +128,7 @@ TEST_CASE(
     s.idle(1000);
     s.tick(1, servo::Grip::fingers, 0.1, 1.0);
     s.idle();
-    CHECK(s.lesson.joints[1].result.order_errors == 1);
+    CHECK(s.lesson.joints[1].result.out_of_turn == 1);
 }
 
 TEST_CASE("Lesson: turning a nut back from its seat is reported once a visit, and play is not") {
@@ -237,10 +237,10 @@ TEST_CASE(
     CHECK(s.lesson.current == 2);  // only touched, so the step is still due
     s.pull(0, 20.0);
     CHECK(s.lesson.current == 2);
-    CHECK(s.order_errors() == 1);
+    CHECK(s.out_of_turn() == 1);
     s.pull(1, 35.0);
     CHECK(s.lesson.current == 4);
-    CHECK(s.order_errors() == 1);  // continuing with the next joint is in order
+    CHECK(s.out_of_turn() == 1);  // continuing with the next joint is in order
     s.pull(0, 70.0);
     s.pull(1, 40.0);
     REQUIRE(s.lesson.current == 5);
@@ -319,7 +319,7 @@ TEST_CASE("Lesson: in assessment, leaving the last joint for another one is out 
     s.pull(1, 40.0);
     s.pull(0, 70.0);
     CHECK(s.lesson.current == 5);
-    CHECK(s.lesson.joints[0].result.rehits == 1);
+    CHECK(s.lesson.joints[0].result.done_already == 1);
 }
 
 TEST_CASE("Lesson: excess torque is reported once, and again only after the nut was off its seat") {

@@ -95,9 +95,9 @@ struct Script {
         seat(0);
         seat(1);
     }
-    [[nodiscard]] int order_errors() const {
+    [[nodiscard]] int out_of_turn() const {
         int n = 0;
-        for (const JointTrack& joint : lesson.joints) n += joint.result.order_errors;
+        for (const JointTrack& joint : lesson.joints) n += joint.result.out_of_turn;
         return n;
     }
     [[nodiscard]] int count(EventKind kind) const {

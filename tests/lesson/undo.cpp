@@ -99,8 +99,8 @@ TEST_CASE("Undo: mistakes stay counted, and an event reports the undo") {
     s.lesson.events.clear();
     s.tick(1, servo::Grip::wrench, 5.0);
     REQUIRE(s.undo(3));
-    CHECK(s.lesson.joints[1].result.order_errors == 1);
-    CHECK(s.lesson.joints[0].result.rehits == 1);
+    CHECK(s.lesson.joints[1].result.out_of_turn == 1);
+    CHECK(s.lesson.joints[0].result.done_already == 1);
     std::vector<EventKind> kinds;
     for (const LessonEvent& event : s.lesson.events) kinds.push_back(event.kind);
     // The undo returns to an earlier pass, which is announced again.
@@ -113,7 +113,7 @@ TEST_CASE("Undo: mistakes stay counted, and an event reports the undo") {
     CHECK(s.lesson.held_joint == -1);
     // The hand is still on the nut, which counts as a new visit.
     s.tick(1, servo::Grip::wrench, 5.0);
-    CHECK(s.lesson.joints[1].result.order_errors == 2);
+    CHECK(s.lesson.joints[1].result.out_of_turn == 2);
 }
 
 TEST_CASE("Undo: restarting a step keeps the step, announces no pass and clears its pulls") {

@@ -184,8 +184,8 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
         r.torque_verdict = r.overall = verdict_of(r.torque, data.assembly.joints[j].spec.torque);
     }
     if (options.slips) {
-        data.joints[7].rehits = 1;
-        data.joints[data.assembly.passes[2].order[6]].order_errors = 1;
+        data.joints[7].done_already = 1;
+        data.joints[data.assembly.passes[2].order[6]].out_of_turn = 1;
         data.joints[11].condition = joint::Condition::stripped;
         data.joints[11].overall = lesson::Verdict::high;
         data.reasons = {{100.0, "twelve joints to do"},

@@ -88,7 +88,7 @@ bool same(const lesson::JointResult& a, const lesson::JointResult& b) {
     return a.id == b.id && equal(a.torque, b.torque) && equal(a.angle, b.angle) && equal(a.clamp, b.clamp) &&
            equal(a.clamp_at_release, b.clamp_at_release) && a.torque_verdict == b.torque_verdict &&
            a.angle_verdict == b.angle_verdict && a.overall == b.overall && a.condition == b.condition &&
-           a.strokes == b.strokes && a.rehits == b.rehits && a.order_errors == b.order_errors;
+           a.strokes == b.strokes && a.done_already == b.done_already && a.out_of_turn == b.out_of_turn;
 }
 
 }  // namespace
@@ -155,8 +155,8 @@ lesson::LessonResult sample_result() {
         joint.overall = static_cast<lesson::Verdict>((i + 2) % 4);
         joint.condition = static_cast<joint::Condition>(i % 3);
         joint.strokes = i;
-        joint.rehits = i % 2;
-        joint.order_errors = 2147483647 - i;
+        joint.done_already = i % 2;
+        joint.out_of_turn = 2147483647 - i;
         result.joints.push_back(joint);
     }
     result.reasons = {{-12.5, "visited \"J3\" out of turn"}, {0.0, ""}, {5.0, "naïve but quick"}};

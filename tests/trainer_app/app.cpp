@@ -45,7 +45,7 @@ TEST_CASE("Trainer: a lesson is played by mouse from the menu to the result") {
     CHECK(result.score > 85.0);
     MESSAGE("score " << result.score << " in " << result.duration << " s, " << user.presses
                      << " presses, searched the view " << user.view_searches << " times");
-    for (const lesson::JointResult& joint : result.joints) CHECK(joint.order_errors == 0);
+    for (const lesson::JointResult& joint : result.joints) CHECK(joint.out_of_turn == 0);
     MESSAGE(driver.log().back());
     driver.frame();
     const auto reader = session::SessionReader::open(driver.folder() / "session.boltwright");
@@ -109,7 +109,7 @@ TEST_CASE(
         const bool guided = mode == lesson::Mode::guided;
         CHECK((p.session->state().joints[other].nut.angle == 0.0) == guided);
         CHECK(hand_of(p).nut.has_value() != guided);
-        CHECK(p.session->lesson().joints[other].result.order_errors == 1);
+        CHECK(p.session->lesson().joints[other].result.out_of_turn == 1);
         if (guided) CHECK(p.coaching.mistakes.shown);
     }
 }
