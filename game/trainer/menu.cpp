@@ -364,7 +364,8 @@ void draw_title(const ScreenContext& context, const std::string& title) {
 void draw_description(const ScreenContext& context, float width, const AssemblyEntry& entry) {
     draw_title(context, in_language(entry.title, context.words.language, entry.name));
     if (entry.joints > 0) draw_paragraph(facts_of(context.words, entry), width, muted_text);
-    draw_paragraph(in_language(entry.instructions, context.words.language, ""), width, {0.93F, 0.94F, 0.95F, 1.0F});
+    draw_paragraph(in_language(entry.instructions, context.words.language, ""), width,
+                   {0.93F, 0.94F, 0.95F, 1.0F});
 }
 
 // The languages as buttons whose right end is at `right` px.

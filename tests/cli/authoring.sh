@@ -10,7 +10,9 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 awk '/^```sh$/ { on = 1; next } /^```$/ { on = 0 } on' "$2/content/AUTHORING.md" > "$work/walk.sh"
 [[ $(grep -c . "$work/walk.sh") -ge 12 ]] || { echo "no sh blocks found"; exit 1; }
-mkdir "$work/empty"
+mkdir "$work/empty" "$work/home"
+unset XDG_DATA_HOME
+export HOME="$work/home"
 cd "$work/empty"
 bash -euxo pipefail ../walk.sh > ../log 2>&1 || { cat ../log; exit 1; }
 failed=0
@@ -27,6 +29,11 @@ expect '"model_far": "bracket.far.glb"' bracket/assembly.json
 expect 'assembly.json:[0-9]+:[0-9]+: /joints/1/node: there is no node "joint_J22" in the model; did you mean "joint_J2"\?' mistakes.txt
 expect '/joints/0/position_mm: the joint is \[-50, 27, 9\] mm here, but its node "joint_J1" stands at \[-50, 27, 8\] mm, 1 mm away' mistakes.txt
 [[ $(wc -l < mistakes.txt) -eq 2 ]] || { echo "FAILED: not two mistakes"; cat mistakes.txt; failed=1; }
+
+# The copy in the assemblies of the user is found by its name from any folder.
+(cd / && boltwright train bracket --headless --operator expert --out "$work/by_name") > ../by_name 2>&1 \
+    || { echo "FAILED: train bracket"; cat ../by_name; failed=1; }
+expect '"assembly": "bracket"' "$work/by_name/summary.json"
 
 # The same STEP file gives the same bytes.
 bolt-author import-step bracket.step -o again --name bracket --lod >/dev/null 2>&1
