@@ -239,14 +239,33 @@ Window::Window(Window&&) noexcept = default;
 Window& Window::operator=(Window&&) noexcept = default;
 Window::~Window() = default;
 
+namespace {
+
+// A window that is enlarged by the monitor's scale may exceed what panels of the desktop leave of the
+// monitor.
+void fit_into_work_area(GLFWwindow* window) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) return;
+    int x = 0, y = 0, room_x = 0, room_y = 0, width = 0, height = 0;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &room_x, &room_y);
+    glfwGetWindowSize(window, &width, &height);
+    const int fitting_x = std::min(width, room_x), fitting_y = std::min(height, room_y);
+    if (room_x > 0 && room_y > 0 && (fitting_x != width || fitting_y != height))
+        glfwSetWindowSize(window, fitting_x, fitting_y);
+}
+
+}  // namespace
+
 Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options) {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
     auto state = std::make_unique<State>();
     state->window = glfwCreateWindow(static_cast<int>(options.width), static_cast<int>(options.height),
                                      options.title.c_str(), nullptr, nullptr);
     if (state->window == nullptr) return desktop_error("the window cannot be opened", "");
+    fit_into_work_area(state->window);
     state->lost = desktop.lost_;
     state->register_callbacks();
     Window window(std::move(state));

@@ -38,7 +38,9 @@ class Desktop {
 
 struct WindowOptions {
     std::string title = "Boltwright";
-    std::uint32_t width = 1280, height = 720;  // in desktop units
+    // At a scale of 1. On X11 the window gets as many pixels times content_scale(), but no more than the
+    // monitor's work area.
+    std::uint32_t width = 1280, height = 720;
     bool full_screen = false;
     bool hidden = false;  // to query the display without showing a window
 };

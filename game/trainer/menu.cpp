@@ -194,9 +194,7 @@ void draw_devices(const ScreenContext& context, float width, std::span<const Dev
 void draw_missing(const ScreenContext& context, float width, const Menu& menu, const AssemblyEntry& entry,
                   const LessonChoice& choice) {
     std::vector<std::string> missing;
-    if (entry.error) {
-        missing.push_back(entry.error->message());
-    } else {
+    if (!entry.error) {
         if (!entry.contact_model) missing.push_back(context.words["menu.missing.contact"]);
         const auto tool = std::find_if(entry.tools.begin(), entry.tools.end(), [&](const content::Tool& t) {
             return t.name == choice.tool || choice.tool.empty();
@@ -207,6 +205,12 @@ void draw_missing(const ScreenContext& context, float width, const Menu& menu, c
     for (const std::string& line : missing) draw_paragraph(line, width, warning_text);
     if (menu.devices.size() < 2 && !choice.equipment.keyboard)
         draw_paragraph(context.words["menu.missing.force"], width, muted_text);
+}
+
+// Why no lesson can start, or why the last one could not; empty: one can.
+std::string start_problem(const Menu& menu, const AssemblyEntry* entry) {
+    if (entry != nullptr && entry->error) return entry->error->message();
+    return menu.start_error ? menu.start_error->message() : std::string();
 }
 
 ScreenAction draw_choices(const ScreenContext& context, float width, const Menu& menu, LessonChoice& choice,
@@ -225,9 +229,6 @@ ScreenAction draw_choices(const ScreenContext& context, float width, const Menu&
     if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
     ImGui::Spacing();
     if (entry != nullptr) draw_missing(context, width, menu, *entry, choice);
-    // An assembly with mistakes has said so already.
-    if (menu.start_error && (entry == nullptr || !entry->error))
-        draw_paragraph(menu.start_error->message(), width, warning_text);
     if (preferences.trouble != Preferences::Trouble::none) draw_settings_file(context, preferences);
     return action;
 }
@@ -423,10 +424,13 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
     if (entry != nullptr)
         height += wrapped_height(in_language(entry->instructions, context.words.language, ""), right_width) +
                   ImGui::GetTextLineHeight() + context.heading->FontSize + 2.0F * spacing;
+    const std::string problem = start_problem(menu, entry);
+    if (!problem.empty()) height += wrapped_height(problem, right_width) + spacing;
     list.AddRectFilled({column, size.y - height}, size, strip_color);
     menu.covered = {column, height};
     ImGui::SetCursorPos({column + edge, size.y - height + edge});
     ImGui::BeginGroup();
+    if (!problem.empty()) draw_paragraph(problem, right_width, warning_text);
     if (entry != nullptr) draw_description(context, right_width, *entry);
     ImGui::SetCursorPosY(size.y - edge - card);
     draw_cards(context, right_width, menu, pictures, choice);
@@ -446,6 +450,8 @@ ScreenAction draw_narrow(const ScreenContext& context, const Menu& menu, const M
     draw_language_buttons(context, edge + width, preferences.settings);
     ScreenAction action = draw_start(context, width, menu, choice);
     action = first_of(action, draw_pages(context, width));
+    const std::string problem = start_problem(menu, selected_entry(menu, choice));
+    if (!problem.empty()) draw_paragraph(problem, width, warning_text);
     draw_cards(context, width, menu, pictures, choice);
     action = first_of(action, draw_choices(context, width, menu, choice, preferences));
     if (const AssemblyEntry* entry = selected_entry(menu, choice)) {

@@ -31,8 +31,8 @@ expect '/joints/0/position_mm: the joint is \[-50, 27, 9\] mm here, but its node
 [[ $(wc -l < mistakes.txt) -eq 2 ]] || { echo "FAILED: not two mistakes"; cat mistakes.txt; failed=1; }
 
 # The copy in the assemblies of the user is found by its name from any folder.
-(cd / && boltwright train bracket --headless --operator expert --out "$work/by_name") > ../by_name 2>&1 \
-    || { echo "FAILED: train bracket"; cat ../by_name; failed=1; }
+(cd / && boltwright train bracket --headless --operator expert --out "$work/by_name") > ../by_name_log 2>&1 \
+    || { echo "FAILED: train bracket"; cat ../by_name_log; failed=1; }
 expect '"assembly": "bracket"' "$work/by_name/summary.json"
 
 # The same STEP file gives the same bytes.

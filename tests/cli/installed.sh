@@ -9,7 +9,7 @@ export HOME=$work/home
 unset XDG_DATA_HOME
 mkdir "$HOME"
 # An assembly that exists only where it was installed.
-mv "$prefix/share/boltwright/content/assemblies/cover-m8" "$prefix/share/boltwright/content/assemblies/installed-m8"
+cp -r "$prefix/share/boltwright/content/assemblies/cover-m8" "$prefix/share/boltwright/content/assemblies/installed-m8"
 listing() { find "$prefix" -printf '%p %s %T@\n' | sort; }
 listing >before
 

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
+#include <variant>
+#include <vector>
 
 #include "engine/platform/input.hpp"
 

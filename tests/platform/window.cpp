@@ -165,6 +165,20 @@ TEST_CASE("Window: can start in full screen or hidden") {
     CHECK(Window::open(*open.desktop, options).has_value());
 }
 
+TEST_CASE("Window: has twice the pixels on a display with doubled text size, but no more than the screen") {
+    const test::DesktopScale doubled(2);
+    Open open("doubled");
+    CHECK(open.window->content_scale() == 2.0F);
+    CHECK(open.until([&] { return open.window->pixels().width == 600; }));
+    CHECK(open.window->pixels().height == 400);
+    const auto screen = test::read_screen();
+    REQUIRE(screen.has_value());
+    const Result<Window> large = Window::open(*open.desktop, {});
+    REQUIRE(large.has_value());
+    CHECK(open.until([&] { return large->pixels().width == screen->width; }));
+    CHECK(large->pixels().height == screen->height);
+}
+
 TEST_CASE("Desktop: without a display the error names DISPLAY") {
     const std::string display = std::getenv("DISPLAY");
     unsetenv("DISPLAY");

@@ -1,5 +1,6 @@
 #include "tests/platform/window_user.hpp"
 
+#include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 // Xlib's macros collide with our names.
@@ -103,5 +104,21 @@ WindowUser::WindowRectangle WindowUser::rectangle() const {
     XTranslateCoordinates(x_->display, x_->window, about.root, 0, 0, &place.x, &place.y, &child);
     return place;
 }
+
+namespace {
+
+void announce_resources(const std::string& resources) {
+    Display* display = XOpenDisplay(nullptr);
+    REQUIRE(display != nullptr);
+    XChangeProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER, XA_STRING, 8, PropModeReplace,
+                    reinterpret_cast<const unsigned char*>(resources.data()),
+                    static_cast<int>(resources.size()));
+    XCloseDisplay(display);
+}
+
+}  // namespace
+
+DesktopScale::DesktopScale(int scale) { announce_resources("Xft.dpi: " + std::to_string(96 * scale) + "\n"); }
+DesktopScale::~DesktopScale() { announce_resources(""); }
 
 }  // namespace bolt::test

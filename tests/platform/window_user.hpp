@@ -31,4 +31,14 @@ class WindowUser {
     std::unique_ptr<X> x_;
 };
 
+// The text size that the desktop announces while this exists: `scale` times the usual one. A Desktop reads it
+// when it opens.
+class DesktopScale {
+  public:
+    explicit DesktopScale(int scale);
+    ~DesktopScale();
+    DesktopScale(const DesktopScale&) = delete;
+    DesktopScale& operator=(const DesktopScale&) = delete;
+};
+
 }  // namespace bolt::test
