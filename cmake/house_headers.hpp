@@ -1,5 +1,5 @@
-// Headers that almost every file includes, precompiled if there is no compiler cache (house.cmake). No file may
-// rely on them.
+// Headers that almost every file includes, precompiled if there is no compiler cache (house.cmake). No file
+// may rely on them.
 #pragma once
 
 #include <algorithm>

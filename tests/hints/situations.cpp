@@ -348,7 +348,8 @@ TEST_CASE("Hints: texts have the numbers of the step") {
     Bench start;
     start.seat_both();
     start.frame();
-    CHECK(hint_text(en, *start.hints.shown) == "This round: tighten all nuts to 50 % of their torque. Begin with A.");
+    CHECK(hint_text(en, *start.hints.shown) ==
+          "This round: tighten all nuts to 50 % of their torque. Begin with A.");
     start.wait(4.0);
     CHECK(hint_text(en, *start.hints.shown) == "Take the 24 mm wrench.");
     start.wait(12.0);
