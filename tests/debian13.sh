@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Builds Boltwright in a Debian 13 root and runs its release tests there: tests/debian13.sh [FOLDER]. FOLDER (default:
+# Builds Boltwright for release in a Debian 13 root and runs every test there: tests/debian13.sh [FOLDER]. FOLDER (default:
 # build/debian13) keeps the root and the build, so that a second run is fast. Needs root, mmdebstrap and the package archive;
-# exits with 77 and the reason where one of them is missing. Arguments after the folder go to ctest.
+# exits with 77 and the reason where one of them is missing. Arguments after the folder go to ctest. With
+# BOLT_GOLDEN_UPDATE set it redraws the golden pictures of Debian 13's driver instead.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 sources=$PWD
@@ -23,9 +24,11 @@ trap 'umount "$root/src" "$root/dev/pts" "$root/dev" "$root/proc" "$root/sys" 2>
 { mount --bind "$sources" "$root/src" && mount --bind /dev "$root/dev" && mount --bind /dev/pts "$root/dev/pts" && mount -t proc proc "$root/proc" && mount -t sysfs sys "$root/sys"; } ||
     skip "mounts are not allowed"
 in_root() { chroot "$root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
-tests=("$@")
-[[ $# -gt 0 ]] || tests=(-L '^check$')
 in_root /src/tools/install-packages.sh build test bench
 in_root cmake -S /src -B /build -G Ninja -DCMAKE_BUILD_TYPE=Release >"$folder/log" 2>&1 || { cat "$folder/log"; exit 1; }
-in_root ninja -C /build --quiet checks
-in_root ctest --test-dir /build -j2 --no-tests=error --output-on-failure "${tests[@]}"
+if [[ -n ${BOLT_GOLDEN_UPDATE:-} ]]; then
+    in_root /src/tests/golden/update.sh /build
+    exit
+fi
+in_root ninja -C /build --quiet
+in_root ctest --test-dir /build -j2 --no-tests=error --output-on-failure "$@"

@@ -4,6 +4,9 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <set>
+#include <string>
 
 #include "engine/base/random.hpp"
 #include "tests/golden/stage.hpp"
@@ -83,11 +86,35 @@ TEST_CASE("Golden: a missing reference fails and is not created; another size fa
     CHECK_FALSE(test::hold(gallery, "noise", taller).passes);
 }
 
-TEST_CASE("Golden: the references belong to the pinned driver, and the current driver is known") {
+TEST_CASE("Golden: a driver has the references of its version, a new version those of the first") {
+    const Folder folder;
+    const std::string older = "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)",
+                      newer = "llvmpipe Mesa 25.0.7 (LLVM 19.1.7)";
+    const auto of_older = folder / "llvmpipe-Mesa-22.3.6-LLVM-15.0.6";
+    const auto of_newer = folder / "llvmpipe-Mesa-25.0.7-LLVM-19.1.7";
+    CHECK(test::references_for(folder / ".", older, true).filename() == of_older.filename());
+    std::filesystem::create_directories(of_newer);
+    std::filesystem::create_directories(of_older);
+    CHECK(test::references_for(folder / ".", older, false).filename() == of_older.filename());
+    CHECK(test::references_for(folder / ".", newer, false).filename() == of_newer.filename());
+    CHECK(test::references_for(folder / ".", "radv Mesa 26.1.0", false).filename() == of_older.filename());
+    CHECK(test::references_for(folder / ".", "radv Mesa 26.1.0", true).filename() == "radv-Mesa-26.1.0");
+}
+
+TEST_CASE("Golden: every version of a driver has the same pictures, and the current driver is known") {
     const test::Stage stage;
     CHECK_FALSE(stage.pictures.driver.empty());
-    CHECK(stage.pictures.pinned_driver.find("llvmpipe (LLVM 15.0.6, 256 bits)") == 0);
-    CHECK(stage.pictures.pinned_driver.find("Mesa 22.3.6") != std::string::npos);
+    std::map<std::string, std::set<std::string>> names;  // of pictures, by folder
+    const auto pictures = stage.pictures.references.parent_path();
+    for (const auto& file : std::filesystem::recursive_directory_iterator(pictures))
+        if (file.is_regular_file())
+            names[file.path().parent_path().filename()].insert(file.path().filename());
+    REQUIRE(names.size() >= 2);
+    for (const auto& [folder, in_folder] : names) {
+        CAPTURE(folder);
+        CHECK(in_folder.contains("driver.txt"));
+        CHECK(in_folder == names.begin()->second);
+    }
     if (stage.pictures.driver != stage.pictures.pinned_driver)
         test::skip_part("pictures are compared within a tolerance, not exactly: this driver is " +
                         stage.pictures.driver + "; expected " + stage.pictures.pinned_driver);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
+#include <vector>
 
 #include "engine/assets/image.hpp"
 #include "engine/base/file.hpp"
@@ -101,11 +102,31 @@ std::string driver_of(const gpu::Device& device) {
     return device.name() + ", " + device.driver() + "," + processor();
 }
 
+fs::path references_for(const fs::path& pictures, const std::string& driver, bool update) {
+    std::string folder;
+    for (const char c : driver) {
+        const bool kept =
+            (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.';
+        if (kept)
+            folder += c;
+        else if (!folder.empty() && folder.back() != '-')
+            folder += '-';
+    }
+    if (!folder.empty() && folder.back() == '-') folder.pop_back();
+    if (update || fs::exists(pictures / folder)) return pictures / folder;
+    std::vector<fs::path> others;
+    std::error_code ignored;  // no folder: the checker reports the missing reference
+    for (const fs::directory_entry& entry : fs::directory_iterator(pictures, ignored))
+        if (entry.is_directory()) others.push_back(entry.path());
+    return others.empty() ? pictures / folder : *std::min_element(others.begin(), others.end());
+}
+
 Gallery gallery(const gpu::Device& device) {
-    Gallery here{fs::path(BOLT_GOLDEN) / "pictures", BOLT_GOLDEN_FAILURES, driver_of(device), "", false};
+    const bool update = std::getenv("BOLT_GOLDEN_UPDATE") != nullptr;
+    Gallery here{references_for(fs::path(BOLT_GOLDEN) / "pictures", device.driver(), update),
+                 BOLT_GOLDEN_FAILURES, driver_of(device), "", update};
     here.pinned_driver = first_line(here.references / "driver.txt");
     if (const char* failures = std::getenv("BOLT_GOLDEN_FAILURES")) here.failures = failures;
-    here.update = std::getenv("BOLT_GOLDEN_UPDATE") != nullptr;
     return here;
 }
 

@@ -1,5 +1,6 @@
-// Compares pictures with the references in tests/golden/pictures: exactly on the driver that made them,
-// within a tolerance on others. A missing reference fails. Only tests/golden/update.sh updates references.
+// Compares pictures with the references in tests/golden/pictures, which has a folder for each version of a
+// driver: exactly on the driver and processor that made them, within a tolerance on others. A missing
+// reference fails. Only tests/golden/update.sh updates references.
 #pragma once
 
 #include <filesystem>
@@ -28,6 +29,13 @@ struct Gallery {
 // Returns this project's checker for pictures of the device.
 Gallery gallery(const gpu::Device& device);
 
+// The folder in `pictures` with the references of this version of a driver: "llvmpipe Mesa 22.3.6 (LLVM
+// 15.0.6)" has "llvmpipe-Mesa-22.3.6-LLVM-15.0.6". A version without a folder gets the first of the others,
+// or, to `update` references, a new one.
+std::filesystem::path references_for(const std::filesystem::path& pictures, const std::string& driver,
+                                     bool update);
+
+// Name, version and processor.
 std::string driver_of(const gpu::Device& device);
 
 struct Verdict {
