@@ -18,7 +18,11 @@ constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
 VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                        VkDebugUtilsMessageTypeFlagsEXT,
                                        const VkDebugUtilsMessengerCallbackDataEXT* data, void* log) {
-    static_cast<ValidationLog*>(log)->messages.emplace_back(data->pMessage != nullptr ? data->pMessage : "");
+    std::string message = data->pMessage != nullptr ? data->pMessage : "";
+    // Newer layers name the rule beside the message, not in it.
+    if (data->pMessageIdName != nullptr && message.find(data->pMessageIdName) == std::string::npos)
+        message = fmt::format("[ {} ] {}", data->pMessageIdName, message);
+    static_cast<ValidationLog*>(log)->messages.push_back(std::move(message));
     return VK_FALSE;
 }
 

@@ -172,8 +172,9 @@ ImFont* Ui::add_font(float text_size, const ImWchar* ranges) {
         // between pixels.
         config.OversampleH = config.MergeMode ? 1 : 3;
         config.PixelSnapH = config.MergeMode;
-        const float em = std::round(text_size * scale_);
-        added = ImGui::GetIO().Fonts->AddFontFromFileTTF(font.file.c_str(), em * font.line, &config, ranges);
+        // ImGui 1.90 rounds sizes down.
+        const float size = std::round(text_size * scale_ * font.line);
+        added = ImGui::GetIO().Fonts->AddFontFromFileTTF(font.file.c_str(), size, &config, ranges);
         if (added == nullptr) return nullptr;
     }
     return added;

@@ -4,6 +4,7 @@
 
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
+#include <Standard_Version.hxx>
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -11,6 +12,7 @@
 #include <string>
 
 #include "support.hpp"
+#include "tests/support/skip.hpp"
 
 using namespace import_test;
 
@@ -107,9 +109,12 @@ TEST_CASE("Import: a STEP file that crashes OpenCASCADE is bad content and leave
     std::ofstream(folder / "damaged.step", std::ios::binary) << text;
     const CommandOutput output = run_import(folder, "damaged.step -o out");
     CHECK(output.code == 3);
-    CHECK(contains(
-        output.err,
-        "damaged.step: OpenCASCADE ended by signal 11 while reading damaged.step; expected a STEP file"));
+    if (OCC_VERSION_HEX < 0x070800)
+        CHECK(contains(
+            output.err,
+            "damaged.step: OpenCASCADE ended by signal 11 while reading damaged.step; expected a STEP file"));
+    else
+        test::skip_part("a crash: this OpenCASCADE refuses the damaged file without one");
     CHECK(output.out.empty());
     CHECK_FALSE(std::filesystem::exists(folder / "out"));
     CHECK(entries(folder) ==

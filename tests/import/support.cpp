@@ -49,6 +49,8 @@ StepMaker::StepMaker() : document_(new TDocStd_Document("MDTV-XCAF")) {
     XCAFDoc_ShapeTool::SetAutoNaming(false);
     shapes_ = XCAFDoc_DocumentTool::ShapeTool(document_->Main());
     colours_ = XCAFDoc_DocumentTool::ColorTool(document_->Main());
+    // OpenCASCADE 7.8 takes the unit of the shapes from the document when it writes.
+    XCAFDoc_DocumentTool::SetLengthUnit(document_, 1.0, UnitsMethods_LengthUnit_Millimeter);
 }
 
 TDF_Label StepMaker::part(const std::string& name, const TopoDS_Shape& shape, const std::string& colour) {

@@ -20,6 +20,7 @@
 #include "haptics/joint/fastener.hpp"
 #include "support.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/skip.hpp"
 #include "tools/assets/models/shipped.hpp"
 #include "tools/assets/models/solids.hpp"
 
@@ -168,7 +169,10 @@ TEST_CASE("Models: the shipped file is reproduced byte for byte and contains no 
         const auto then = read_file(shipped_file(model.name), limit, ErrorCode::failed);
         REQUIRE(now);
         REQUIRE(then);
-        CHECK(*now == *then);
+        if (const std::string other_libraries = BOLT_OTHER_LIBRARIES; other_libraries.empty())
+            CHECK(*now == *then);
+        else
+            test::skip_part("equal bytes: " + other_libraries);
         CHECK(now->find("2020-01-01T00:00:00") != std::string::npos);
         CHECK(now->find(folder.path().string()) == std::string::npos);
     }

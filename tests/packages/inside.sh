@@ -63,6 +63,24 @@ check 'the kept session replays' as_ada 'boltwright replay ~/.local/share/boltwr
 find /usr -newer /tmp/before -type f | sort >/tmp/used
 sort /tmp/installed | comm -13 - /tmp/used | grep -i bolt >/tmp/written || true
 check 'nothing is written to where it was installed' test ! -s /tmp/written
+# A later version, made of the same files, replaces the packages; what is the user's stays as it was.
+as_ada 'mkdir -p ~/.local/share/boltwright/assemblies && cp -r /usr/share/boltwright/content/assemblies/cover-m8 ~/.local/share/boltwright/assemblies/mine'
+users_files() { as_ada 'find ~/.local/share/boltwright lesson -type f -exec sha256sum {} + | sort'; }
+users_files >/tmp/users_before
+mkdir /tmp/later
+for package in ./boltwright_*.deb ./boltwright-content_*.deb ./boltwright-author_*.deb; do
+    rm -rf /tmp/unpacked
+    dpkg-deb -R "$package" /tmp/unpacked
+    sed -i -E 's/^Version: (.*)/Version: \1+later/; s/(boltwright[a-z-]* \(= [^)]*)\)/\1+later)/g' /tmp/unpacked/DEBIAN/control
+    dpkg-deb -b --root-owner-group /tmp/unpacked /tmp/later >/dev/null
+done
+check 'apt upgrades the packages' apt-get install -y -qq /tmp/later/*.deb
+check 'the later version is installed' bash -c "dpkg-query -W -f '\${Version}' boltwright | grep -q '+later\$'"
+users_files >/tmp/users_after
+check 'an upgrade keeps the files of the user' cmp /tmp/users_before /tmp/users_after
+check 'there are files of the user' test -s /tmp/users_before
+check 'the later version replays the kept session' as_ada 'boltwright replay ~/.local/share/boltwright/sessions/*_first-nut/session.boltwright'
+check 'an assembly of the user is found by its name' as_ada 'boltwright train mine --headless --quiet --no-pictures --out mine && grep -q "\"assembly\": \"mine\"" mine/summary.json'
 check 'apt removes the packages' apt-get purge -y -qq boltwright boltwright-content boltwright-author
 find / -xdev -path /packages -prune -o -path /proc -prune -o -path /var/lib/dpkg -prune -o -path /home -prune -o -iname '*boltwright*' -print >/tmp/after
 check 'nothing of them is left' cmp /tmp/before /tmp/after

@@ -186,8 +186,7 @@ TEST_CASE("Desktop: without a display the error names DISPLAY") {
     setenv("DISPLAY", display.c_str(), 1);
     REQUIRE_FALSE(none.has_value());
     CHECK(none.error().code == ErrorCode::no_device);
-    CHECK(none.error().what.find("DISPLAY") != std::string::npos);
-    CHECK(none.error().expected.find("display") != std::string::npos);
+    CHECK(none.error().expected.find("a display named by DISPLAY") != std::string::npos);
     CHECK(Desktop::open().has_value());  // with a display it opens again
 }
 

@@ -8,6 +8,8 @@
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
 #include "tests/support/folder.hpp"
+#include "tests/support/near_model.hpp"
+#include "tests/support/skip.hpp"
 
 namespace sculpt_content_test {
 
@@ -26,7 +28,12 @@ void check_same(const std::filesystem::path& made, const std::filesystem::path& 
     const Result<std::string> kept = read_file(content() / name, std::size_t{16} << 20U, ErrorCode::failed);
     REQUIRE(now.has_value());
     REQUIRE(kept.has_value());
+    const std::string_view other_libraries = BOLT_OTHER_LIBRARIES;
     const bool same = *now == *kept;
+    if (!same && !other_libraries.empty() && name.extension() == ".glb") {
+        CHECK(test::model_difference(made / name, content() / name) == "");
+        return test::skip_part("equal bytes: " + std::string(other_libraries));
+    }
     CHECK_MESSAGE(same, "not what bolt-sculpt makes: run bolt-sculpt all -o content");
     CHECK(now->size() <= (std::size_t{8} << 20U));
 }
