@@ -30,22 +30,22 @@ check 'a killed session is replayed' replays killed
 check 'a killed session is reported' reports killed
 check 'the report states that the session was cut short' grep -q 'cut short' killed.complaint
 
-# The file size limit allows some more seconds of recording. It is set when the lesson runs, because a software driver keeps its
-# memory in files too.
-(play full) &
-victim=$!
-check 'a lesson begins' eventually logged full step_begin
-check 'it records' eventually test -s full/session.boltwright-wal
-prlimit --pid $victim --fsize=$(($(stat -c %s full/session.boltwright-wal) + 122880))
-wait $victim
-status=$?
-check "a full disk gives exit code 1, not $status" [ $status = 1 ]
-check 'a full disk is reported, with the time that is kept' grep -Eq 'full/session.boltwright: cannot be written: .*the recording up to [0-9.]+ s is kept' full.log
-up_to=$(sed -n 's/.*recording up to \([0-9.]*\) s is kept.*/\1/p' full.log)
-kept=$(ticks full)
-check "the recording has $kept ticks, for the reported $up_to s" awk -v s="${up_to:-0}" -v kept="$kept" 'BEGIN { exit !(s >= 1 && kept == 1000 * s) }'
-check 'the session of the full disk is replayed' replays full
-check 'the session of the full disk is reported' reports full
+# The file size limit of 120 KB allows some seconds of recording. Newer software drivers keep their memory in files too, and end
+# the program with SIGBUS (135) when these cannot grow.
+(ulimit -f 120 && exec "$bin/boltwright" render cover-m8 --size 1920x1080 --png limited.png >/dev/null 2>&1)
+if [ $? = 135 ]; then
+    skip_part 'a full disk during a lesson in a window: this driver ends the program where a file may not grow'
+else
+    (ulimit -f 120 && play full)
+    status=$?
+    check "a full disk gives exit code 1, not $status" [ $status = 1 ]
+    check 'a full disk is reported, with the time that is kept' grep -Eq 'full/session.boltwright: cannot be written: .*the recording up to [0-9.]+ s is kept' full.log
+    up_to=$(sed -n 's/.*recording up to \([0-9.]*\) s is kept.*/\1/p' full.log)
+    kept=$(ticks full)
+    check "the recording has $kept ticks, for the reported $up_to s" awk -v s="${up_to:-0}" -v kept="$kept" 'BEGIN { exit !(s >= 1 && kept == 1000 * s) }'
+    check 'the session of the full disk is replayed' replays full
+    check 'the session of the full disk is reported' reports full
+fi
 
 # The display is lost: its X server, started by with_screen.sh, is killed.
 BIN=$bin BOLTWRIGHT_CONTENT=$BOLTWRIGHT_CONTENT "$sources/tests/with_screen.sh" bash -c '

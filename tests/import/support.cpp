@@ -15,6 +15,8 @@
 #include <Quantity_Color.hxx>
 #include <STEPCAFControl_Controller.hxx>
 #include <STEPCAFControl_Writer.hxx>
+#include <Standard_Version.hxx>
+#include <StepData_StepModel.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDataStd_Name.hxx>
 #include <TopExp_Explorer.hxx>
@@ -102,6 +104,11 @@ void StepMaker::write(const fs::path& path, const char* unit) {
     STEPCAFControl_Writer writer;
     writer.SetColorMode(true);
     writer.SetNameMode(true);
+#if OCC_VERSION_HEX >= 0x070800
+    // This version names the unit in the file but takes the values from here.
+    const std::string_view name = unit;
+    writer.ChangeWriter().Model()->SetWriteLengthUnit(name == "INCH" ? 25.4 : name == "M" ? 1000.0 : 1.0);
+#endif
     REQUIRE(writer.Transfer(document_, STEPControl_AsIs));
     REQUIRE(writer.Write(path.c_str()) == IFSelect_RetDone);
 }
