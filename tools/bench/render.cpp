@@ -171,9 +171,7 @@ struct RenderContext {
     std::unique_ptr<gpu::Frames> frames = unwrap(gpu::Frames::create(*device));
     std::unique_ptr<render::Renderer> renderer;
 
-    explicit RenderContext(float level_error_px = 0.0F) {
-        render::RendererOptions options;
-        options.level_error_px = level_error_px;
+    explicit RenderContext(const render::RendererOptions& options = {}) {
         renderer = unwrap(render::Renderer::create(*device, options));
     }
 };
@@ -213,7 +211,9 @@ struct FrameSettings {
 
 void draw_frames(benchmark::State& state, const assets::Model& model, const glm::vec3& from,
                  const glm::vec3& to, const FrameSettings& settings) {
-    RenderContext context(settings.level_error_px);
+    render::RendererOptions options;
+    options.level_error_px = settings.level_error_px;
+    RenderContext context(options);
     BenchScene target(*context.device, model, from, to, settings.level_error_px > 0.0F);
     if (!settings.occlusion) target.scene.occlusion_radius = 0.0F;
     auto bare = unwrap(bench::BareRenderer::create(*context.device, extent));
@@ -305,6 +305,44 @@ BENCHMARK_CAPTURE(frame_zq350, every_triangle, FrameSettings{})
 BENCHMARK_CAPTURE(frame_zq350, levels_within_a_pixel, FrameSettings{false, true, 1.0F})
     ->UseManualTime()
     ->Unit(benchmark::kMillisecond);
+
+// Both eyes of the ZQ350 in one pass (multiview). Baseline: one pass for each eye.
+void stereo_zq350(benchmark::State& state) {
+    run_or_skip(state, [&] {
+        const assets::Model model = unwrap(assets::read_gltf(model_of("zq350")));
+        using Multiview = render::RendererOptions::Multiview;
+        RenderContext together({.multiview = Multiview::always}), separate({.multiview = Multiview::never});
+        const glm::vec3 from(0.175F, 0.62F, 0.9F), to(0.175F, 0.04F, 0.0F), right(0.032F, 0.0F, 0.0F);
+        const auto milliseconds = [&](RenderContext& context, BenchScene& target) {
+            render::Perspective lens;
+            lens.fov = 0.6108652F;
+            lens.aspect = static_cast<float>(extent.width) / static_cast<float>(extent.height);
+            const std::array<render::Eye, 2> eyes{render::make_eye(from - right, to, lens),
+                                                  render::make_eye(from + right, to, lens)};
+            const WallClock::time_point start = WallClock::now();
+            gpu::FrameContext& frame = *unwrap(context.frames->begin());
+            unwrap(context.renderer->render(frame, target.scene, eyes, extent));
+            unwrap(context.frames->submit(frame));
+            unwrap(context.frames->finish());
+            return milliseconds_since(start);
+        };
+        BenchScene scene_together(*together.device, model, from, to);
+        BenchScene scene_separate(*separate.device, model, from, to);
+        milliseconds(together, scene_together);  // compiles the shaders
+        milliseconds(separate, scene_separate);
+        double ours = 0.0, baseline = 0.0;
+        for (auto _ : state) {
+            baseline += milliseconds(separate, scene_separate);
+            const double now = milliseconds(together, scene_together);
+            state.SetIterationTime(1e-3 * now);
+            ours += now;
+        }
+        state.counters["separate_ms"] = baseline / static_cast<double>(state.iterations());
+        state.counters["x_separate"] = ours / baseline;
+        state.SetLabel(together.device->name());
+    });
+}
+BENCHMARK(stereo_zq350)->UseManualTime()->Unit(benchmark::kMillisecond);
 
 // From the start of loading to the first image of the ZQ350. Baseline: the second image.
 void first_picture(benchmark::State& state) {
