@@ -9,6 +9,7 @@
 
 #include "engine/gpu/resources.hpp"
 #include "engine/render/gpu_layout.hpp"
+#include "engine/render/passes/multiview_check.hpp"
 
 namespace bolt::render {
 
@@ -90,21 +91,28 @@ Status Renderer::make_passes() {
     return assign(overlay_, OverlayPass::create(setup));
 }
 
-bool Renderer::multiview() const {
+Result<bool> Renderer::draws_views_together() {
     using Multiview = RendererOptions::Multiview;
     if (options_.multiview != Multiview::where_it_works) return options_.multiview == Multiview::always;
-    return device_->properties().deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
+    if (!multiview_works_) {
+        BOLT_TRY_ASSIGN(const bool works, multiview_works(*device_, cache_));
+        multiview_works_ = works;
+    }
+    return *multiview_works_;
 }
 
-Status Renderer::resize(gpu::FrameContext& frame, ViewGroup& group, VkExtent2D extent,
-                        std::uint32_t views) const {
+Status Renderer::resize(gpu::FrameContext& frame, ViewGroup& group, VkExtent2D extent, std::uint32_t views) {
     if (group.extent.width == extent.width && group.extent.height == extent.height && group.views == views)
         return {};
     for (RenderTargets& targets : group.targets)
         each_image(targets, [&](gpu::Image& image) { frame.retire(std::move(image)); });
     group.targets.clear();
     group.views = 0;  // so that a failure below leaves no valid group
-    group.views_per_pass = multiview() ? views : 1;
+    group.views_per_pass = 1;
+    if (views > 1) {
+        BOLT_TRY_ASSIGN(const bool together, draws_views_together());
+        if (together) group.views_per_pass = views;
+    }
     for (std::uint32_t first = 0; first < views; first += group.views_per_pass) {
         BOLT_TRY_ASSIGN(auto targets, make_targets(*device_, extent, group.views_per_pass));
         if (options_.keep_depth) BOLT_TRY(add_kept_depth(*device_, targets));

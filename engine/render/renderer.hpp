@@ -16,10 +16,12 @@
 // shades: with forward lighting the same picture of the reducer took nearly three times as long on lavapipe.
 //
 // Each pass is a class in passes/ with its pipelines. With multiview, one pass draws several views, one layer
-// each. Software rasterisers draw the views one after the other into separate images, because lavapipe
-// (Mesa 22.3) draws clipped triangles into the layer of the previous view, and always resolves into layer 0,
-// even if the image view begins with another layer.
+// each. Where the driver draws this wrong (multiview_works), the views are drawn one after the other into
+// separate images, because lavapipe of Mesa 22.3 also resolves always into layer 0, even if the image view
+// begins with another layer.
 #pragma once
+
+#include <optional>
 
 #include "engine/render/hot_shaders.hpp"
 #include "engine/render/passes/annotations.hpp"
@@ -79,8 +81,8 @@ class Renderer {
   private:
     Status prepare();
     Status make_passes();
-    Status resize(gpu::FrameContext& frame, ViewGroup& group, VkExtent2D extent, std::uint32_t views) const;
-    [[nodiscard]] bool multiview() const;
+    Status resize(gpu::FrameContext& frame, ViewGroup& group, VkExtent2D extent, std::uint32_t views);
+    Result<bool> draws_views_together();
 
     gpu::Device* device_ = nullptr;
     RendererOptions options_;
@@ -99,6 +101,7 @@ class Renderer {
     GpuTexture white_;
     gpu::ImageView white_array_;
     std::map<std::uint32_t, ViewGroup> groups_;
+    std::optional<bool> multiview_works_;  // unknown until several views are drawn
     Statistics statistics_;
 };
 

@@ -1,0 +1,7 @@
+#version 460
+#extension GL_EXT_multiview : require
+
+layout(location = 0) out float value;
+
+// Another value in each view.
+void main() { value = gl_ViewIndex == 0 ? 1.0 : 0.5; }
