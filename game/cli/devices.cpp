@@ -21,36 +21,41 @@ namespace bolt::cli {
 
 namespace {
 
-constexpr double open_timeout = 3.0;  // s
+constexpr double open_timeout = 3.0;       // s
+constexpr double movement_timeout = 90.0;  // s, for an arm that moves to find its position
 
 struct DevicesOptions {
     std::string device, glove, wheel_config_file;
-    bool others = false;
+    bool others = false, may_move = false;
     double seconds = 1.0;
 };
 
-const char* description_of(device::HidKind kind) {
+const char* description_of(device::DeviceKind kind) {
     switch (kind) {
-        case device::HidKind::puck:
+        case device::DeviceKind::arm:
+            return "a force-feedback arm; moves the tool and renders its forces";
+        case device::DeviceKind::puck:
             return "six axes that spring back; moves the tool, renders no force";
-        case device::HidKind::board:
+        case device::DeviceKind::board:
             return "OpenFFBoard: one axis with a torque; turns the wrench on its bolt";
-        case device::HidKind::wheel:
+        case device::DeviceKind::wheel:
             return "a wheel with force feedback: one axis with a torque; turns the wrench on its bolt";
-        case device::HidKind::other:
+        case device::DeviceKind::other:
             break;
     }
     return "cannot be used for training";
 }
 
 std::string device_list(const std::vector<device::ListedDevice>& found) {
-    std::string text = "USB devices:\n";
+    std::string text = "Devices:\n";
     for (const device::ListedDevice& l : found) {
         text += fmt::format("  {}  {}  {}\n    {}\n", l.id, l.name, l.path, description_of(l.kind));
         if (l.trouble) text += fmt::format("    cannot be used: {}\n", l.trouble->message());
     }
     if (found.empty())
-        text += "  none by USB; connect a SpaceMouse, an OpenFFBoard or a wheel with force feedback\n";
+        text +=
+            "  none; connect a force-feedback arm, a SpaceMouse, an OpenFFBoard or a wheel with force "
+            "feedback\n";
     else
         text += "  boltwright devices --device ID opens one and shows its capabilities\n";
     return text;
@@ -77,9 +82,10 @@ Result<std::string> examine_device(const DevicesOptions& options) {
         BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(options.wheel_config_file));
         wheel_config = read;
     }
-    BOLT_TRY_ASSIGN(auto thread,
-                    device::DeviceThread::start(device::factory_for(options.device, wheel_config)));
-    BOLT_TRY_ASSIGN(const auto description, thread.wait_until_open(open_timeout));
+    BOLT_TRY_ASSIGN(auto thread, device::DeviceThread::start(device::factory_for(
+                                     options.device, {wheel_config, {}, options.may_move})));
+    BOLT_TRY_ASSIGN(const auto description,
+                    thread.wait_until_open(options.may_move ? movement_timeout : open_timeout));
     const device::Timer timer = device::steady_timer();
     const std::uint64_t before = thread.snapshot().number;
     timer.wait(options.seconds);
@@ -142,7 +148,7 @@ std::string devices_line() {
     std::size_t usable = 0, unusable = 0;
     for (const device::ListedDevice& l : device::list_devices()) ++(l.trouble ? unusable : usable);
     const std::size_t found = hand::serial_ports().size();
-    std::string text = fmt::format("Devices: {} by USB", usable + unusable);
+    std::string text = fmt::format("Devices: {}", usable + unusable);
     if (unusable > 0) text += fmt::format(", {} of them cannot be used", unusable);
     return text +
            fmt::format(", {} serial port{}; details: boltwright devices\n", found, found == 1 ? "" : "s");
@@ -156,6 +162,10 @@ void add_devices(CLI::App& app, int& exit_code) {
     devices
         ->add_option("--rig", options->wheel_config_file,
                      "Configuration file of the wheel: its motor, its encoder")
+        ->needs("--device");
+    devices
+        ->add_flag("--may-move", options->may_move,
+                   "The arm may move by itself to find its position: keep the room around it free")
         ->needs("--device");
     devices->add_option("--glove", options->glove, "Serial port of a glove to query");
     devices->add_flag("--all", options->others, "List devices of other kinds too, such as keyboards");

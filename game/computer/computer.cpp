@@ -75,7 +75,7 @@ Finding sound_finding(const Facts& facts) {
 void add_devices(const Facts& facts, std::vector<Finding>& all) {
     bool force = false;
     for (const device::ListedDevice& listed : facts.devices) {
-        if (listed.kind == device::HidKind::other) continue;
+        if (listed.kind == device::DeviceKind::other) continue;
         if (listed.trouble) {
             // The error says what to do.
             all.push_back({Severity::limited,
@@ -85,7 +85,7 @@ void add_devices(const Facts& facts, std::vector<Finding>& all) {
             continue;
         }
         all.push_back({Severity::good, "finding.device", {{"name", listed.name}}, {}});
-        force = force || listed.kind != device::HidKind::puck;
+        force = force || listed.kind != device::DeviceKind::puck;
     }
     if (!force)
         all.push_back({Severity::limited, "finding.no_device", {}, words::TextKey("finding.no_device.do")});

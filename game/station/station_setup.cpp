@@ -20,14 +20,15 @@
 
 namespace bolt::station_setup {
 
-std::optional<DeviceRole> role_of(device::HidKind kind) {
+std::optional<DeviceRole> role_of(device::DeviceKind kind) {
     switch (kind) {
-        case device::HidKind::puck:
+        case device::DeviceKind::arm:
+        case device::DeviceKind::puck:
             return DeviceRole::mover;
-        case device::HidKind::board:
-        case device::HidKind::wheel:
+        case device::DeviceKind::board:
+        case device::DeviceKind::wheel:
             return DeviceRole::wheel;
-        case device::HidKind::other:
+        case device::DeviceKind::other:
             break;
     }
     return std::nullopt;
@@ -59,7 +60,7 @@ Result<DeviceSelection> select_devices(std::span<const device::ListedDevice> con
         const std::optional<DeviceRole> role = role_of(found.kind);
         if (!role)
             return fail(ErrorCode::usage, fmt::format("{} ({}) cannot be used for training", id, found.name),
-                        "a SpaceMouse, an OpenFFBoard or a wheel with force feedback");
+                        "a force-feedback arm, a SpaceMouse, an OpenFFBoard or a wheel with force feedback");
         std::optional<device::ListedDevice>& slot =
             *role == DeviceRole::mover ? selection.mover : selection.wheel;
         if (slot)
@@ -258,8 +259,8 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
     const Result<DeviceSelection> selection = select_devices(device::list_devices(true), request.devices);
     if (!selection) return fail(selection.error());
     planned.devices = *selection;
-    if (selection->mover) planned.options.mover = device::factory_for(selection->mover->id, wheel_config);
-    if (selection->wheel) planned.options.wheel = device::factory_for(selection->wheel->id, wheel_config);
+    if (selection->mover) planned.options.mover = device::factory_for(selection->mover->id, {wheel_config});
+    if (selection->wheel) planned.options.wheel = device::factory_for(selection->wheel->id, {wheel_config});
     if (!selection->mover) planned.options.mover = request.fallback_mover;
     return {};
 }

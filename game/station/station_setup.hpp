@@ -24,7 +24,7 @@ enum class DeviceRole : std::uint8_t {
     wheel,  // turns the wrench on its bolt and renders its torque
 };
 // The role of a kind of device; none: a station cannot use it.
-std::optional<DeviceRole> role_of(device::HidKind kind);
+std::optional<DeviceRole> role_of(device::DeviceKind kind);
 const char* describe(DeviceRole role);
 
 // In the following, `connected` is the result of device::list_devices().

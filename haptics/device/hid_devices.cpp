@@ -4,8 +4,10 @@
 #include <hidapi.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 
+#include "haptics/device/force_dimension.hpp"
 #include "haptics/device/hid_transport.hpp"
 #include "haptics/device/space_mouse.hpp"
 #include "haptics/device/usb_force_feedback.hpp"
@@ -65,17 +67,17 @@ std::vector<HidNode> enumerate_nodes() {
 
 // Identifies pucks by vendor and product if the descriptor cannot be read: 3Dconnexion, also under Logitech's
 // name.
-HidKind kind_by_number(const HidIdentity& identity) {
-    if (identity.vendor == board_vendor && identity.product == board_product) return HidKind::board;
+DeviceKind kind_by_number(const HidIdentity& identity) {
+    if (identity.vendor == board_vendor && identity.product == board_product) return DeviceKind::board;
     const bool logitech =
         identity.vendor == 0x046d && identity.product >= 0xc603 && identity.product <= 0xc62b;
-    return identity.vendor == 0x256f || logitech ? HidKind::puck : HidKind::other;
+    return identity.vendor == 0x256f || logitech ? DeviceKind::puck : DeviceKind::other;
 }
 
-Status check_driver_support(HidKind kind, const ReportDescriptor& descriptor) {
-    if (kind == HidKind::puck) {
+Status check_driver_support(DeviceKind kind, const ReportDescriptor& descriptor) {
+    if (kind == DeviceKind::puck) {
         BOLT_TRY(six_axis_layout(descriptor));
-    } else if (kind != HidKind::other) {
+    } else if (kind == DeviceKind::board || kind == DeviceKind::wheel) {
         BOLT_TRY(wheel_axis(descriptor));
         BOLT_TRY(force_feedback_layout(descriptor));
     }
@@ -99,27 +101,54 @@ ListedDevice listed(const HidNode& one) {
         return device;
     }
     device.kind = kind_of(one.identity, *descriptor);
-    if (device.kind == HidKind::other) return device;
+    if (device.kind == DeviceKind::other) return device;
     if (Status support = check_driver_support(device.kind, *descriptor); !support) {
         device.trouble = support.error();
     } else if (Status access = can_open_hid(one.path); !access) {
         device.trouble = access.error();
-        if (device.kind == HidKind::wheel && !device.trouble->lost)
+        if (device.kind == DeviceKind::wheel && !device.trouble->lost)
             device.trouble->expected +=
                 fmt::format(", with the additional line {} for this wheel", udev_rule(one.identity));
     }
     return device;
 }
 
+// None if the vendor's library is absent, because a computer without an arm needs none.
+std::vector<ListedDevice> list_arms() {
+    std::vector<ListedDevice> arms;
+    const Result<ForceDimensionApi> api = load_force_dimension(force_dimension_libraries());
+    if (!api && api.error().code == ErrorCode::no_device) return arms;
+    const int count = api ? std::clamp(api->get_device_count(), 0, 16) : 1;
+    for (int i = 0; i < count; ++i) {
+        ListedDevice arm{api ? api->library.string() : std::string(),
+                         fmt::format("force-dimension:{}", i),
+                         "Force Dimension arm",
+                         DeviceKind::arm,
+                         {}};
+        if (!api) {
+            arm.trouble = api.error();
+            arm.trouble->code = ErrorCode::no_device;
+        }
+        arms.push_back(std::move(arm));
+    }
+    return arms;
+}
+
+Result<std::unique_ptr<DeviceDriver>> open_arm(const ListedDevice& listed, const OpenOptions& options) {
+    BOLT_TRY_ASSIGN(auto api, load_force_dimension({listed.path}));
+    const int index = std::atoi(listed.id.c_str() + listed.id.find(':') + 1);
+    return open_force_dimension(api, {index, options.arm_may_move}, steady_timer());
+}
+
 }  // namespace
 
-HidKind kind_of(const HidIdentity& identity, const ReportDescriptor& descriptor) {
-    if (identity.vendor == board_vendor && identity.product == board_product) return HidKind::board;
+DeviceKind kind_of(const HidIdentity& identity, const ReportDescriptor& descriptor) {
+    if (identity.vendor == board_vendor && identity.product == board_product) return DeviceKind::board;
     for (const Collection& c : descriptor.collections)
-        if (c.usage == multi_axis_controller) return HidKind::puck;
+        if (c.usage == multi_axis_controller) return DeviceKind::puck;
     for (const ReportField& f : descriptor.fields)
-        if (f.usage.page == force_page && f.kind != ReportKind::input) return HidKind::wheel;
-    return HidKind::other;
+        if (f.usage.page == force_page && f.kind != ReportKind::input) return DeviceKind::wheel;
+    return DeviceKind::other;
 }
 
 std::string id_of(const HidIdentity& identity) {
@@ -134,13 +163,13 @@ std::string udev_rule(const HidIdentity& identity) {
 }
 
 std::vector<ListedDevice> list_devices(bool others) {
-    std::vector<ListedDevice> out;
+    std::vector<ListedDevice> out = list_arms();
     for (const HidNode& one : enumerate_nodes()) out.push_back(listed(one));
     // Disconnected in the meantime.
     std::erase_if(out, [](const ListedDevice& device) { return device.trouble && device.trouble->lost; });
     // Supported devices first, so that their ids do not depend on `others`: a puck's receiver is also a
     // keyboard.
-    const auto is_other = [](const ListedDevice& device) { return device.kind == HidKind::other; };
+    const auto is_other = [](const ListedDevice& device) { return device.kind == DeviceKind::other; };
     std::stable_partition(out.begin(), out.end(),
                           [&](const ListedDevice& device) { return !is_other(device); });
     if (!others) std::erase_if(out, is_other);
@@ -150,30 +179,31 @@ std::vector<ListedDevice> list_devices(bool others) {
     return out;
 }
 
-Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const WheelConfig& config,
-                                           const PuckResponse& response) {
+Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const OpenOptions& options) {
     if (listed.trouble) return fail(*listed.trouble);
+    if (listed.kind == DeviceKind::arm) return open_arm(listed, options);
     BOLT_TRY_ASSIGN(const auto bytes, descriptor_of(listed.path));
     BOLT_TRY_ASSIGN(const auto descriptor, parse_report_descriptor(bytes));
     BOLT_TRY_ASSIGN(auto transport, open_hid(listed.path));
     switch (listed.kind) {
-        case HidKind::puck:
-            return make_space_mouse(std::move(transport), descriptor, listed.name, listed.id, response);
-        case HidKind::board:
-            return make_open_ffboard(std::move(transport), descriptor, listed.name, listed.id, config);
-        case HidKind::wheel:
-            return make_wheel(std::move(transport), descriptor, listed.name, listed.id, config);
-        case HidKind::other:
+        case DeviceKind::puck:
+            return make_space_mouse(std::move(transport), descriptor, listed.name, listed.id, options.puck);
+        case DeviceKind::board:
+            return make_open_ffboard(std::move(transport), descriptor, listed.name, listed.id, options.wheel);
+        case DeviceKind::wheel:
+            return make_wheel(std::move(transport), descriptor, listed.name, listed.id, options.wheel);
+        case DeviceKind::arm:
+        case DeviceKind::other:
             break;
     }
     return fail(ErrorCode::no_device, fmt::format("{} is not a supported device", listed.name),
                 "a SpaceMouse or a wheel with force feedback");
 }
 
-DeviceFactory factory_for(std::string id, const WheelConfig& config, const PuckResponse& response) {
-    return [id = std::move(id), config, response]() -> Result<std::unique_ptr<DeviceDriver>> {
+DeviceFactory factory_for(std::string id, const OpenOptions& options) {
+    return [id = std::move(id), options]() -> Result<std::unique_ptr<DeviceDriver>> {
         for (const ListedDevice& device : list_devices())
-            if (device.id == id) return open(device, config, response);
+            if (device.id == id) return open(device, options);
         Error error;
         error.code = ErrorCode::no_device;
         error.what = fmt::format("there is no device {}", id);

@@ -1,5 +1,5 @@
-// Lists the connected HID devices and opens them (hidapi). The thread that opens a device must be the one
-// that uses it.
+// Lists the connected devices and opens them: HID devices (hidapi), and arms through their vendors'
+// libraries. The thread that opens a device must be the one that uses it.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,8 @@
 
 namespace bolt::device {
 
-enum class HidKind : std::uint8_t {
+enum class DeviceKind : std::uint8_t {
+    arm,    // Force Dimension; renders forces
     puck,   // six axes that spring back; SpaceMouse class
     board,  // OpenFFBoard
     wheel,  // any other device with USB force feedback
@@ -24,25 +25,32 @@ struct HidIdentity {
 };
 
 struct ListedDevice {
-    std::string path;  // for example /dev/hidraw3; changes when the device is replugged
-    // VENDOR:PRODUCT[:SERIAL], for example 256f:c62e; #2 is appended for a second identical device.
+    std::string
+        path;  // for example /dev/hidraw3; changes when the device is replugged; of an arm: the library
+    // An arm: VENDOR:INDEX, for example force-dimension:0. Others: VENDOR:PRODUCT[:SERIAL], for example
+    // 256f:c62e; #2 is appended for a second identical device.
     std::string id;
     std::string name;
-    HidKind kind = HidKind::other;
+    DeviceKind kind = DeviceKind::other;
     std::optional<Error> trouble;  // why it cannot be used, with a remedy
 };
 
 // The devices connected now; with `others` also unsupported ones such as keyboards.
 std::vector<ListedDevice> list_devices(bool others = false);
 
-Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const WheelConfig& config = {},
-                                           const PuckResponse& response = {});
+struct OpenOptions {
+    WheelConfig wheel{};
+    PuckResponse puck{};
+    bool arm_may_move = false;  // an arm may move by itself to find its position, if it has not done so yet
+};
+
+Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const OpenOptions& options = {});
 
 // The factory searches for the id each time it opens.
-DeviceFactory factory_for(std::string id, const WheelConfig& config = {}, const PuckResponse& response = {});
+DeviceFactory factory_for(std::string id, const OpenOptions& options = {});
 
 // The decisions of list_devices() and open(), from the arguments alone.
-HidKind kind_of(const HidIdentity& identity, const ReportDescriptor& descriptor);
+DeviceKind kind_of(const HidIdentity& identity, const ReportDescriptor& descriptor);
 std::string id_of(const HidIdentity& identity);
 // A udev rule for a device that tools/udev does not cover.
 std::string udev_rule(const HidIdentity& identity);

@@ -160,7 +160,7 @@ expect 0 ': used' "${draw[@]}" doctor --seconds 0
 expect 0 'at 4000 ticks a second this machine is NOT good enough' bash -c "$(printf '%q ' "${draw[@]}") doctor --seconds 0.05 | tee host.txt"
 check "too few ticks are reported" grep -qE 'only [0-9]+ ticks were timed' host.txt
 expect 2 '' "${draw[@]}" doctor --seconds -1
-expect 0 '^Devices: [0-9]+ by USB' "${draw[@]}" doctor --seconds 0
+expect 0 '^Devices: [0-9]+, [0-9]+ serial port' "${draw[@]}" doctor --seconds 0
 expect 0 'its button is held' "$bin/boltwright" doctor --help
 
 # The trial of a station: errors before it begins.

@@ -19,7 +19,7 @@ Error error_of(const char* what) {
     return error;
 }
 
-device::ListedDevice device_of(const char* name, device::HidKind kind, const char* trouble = nullptr) {
+device::ListedDevice device_of(const char* name, device::DeviceKind kind, const char* trouble = nullptr) {
     device::ListedDevice listed;
     listed.name = name;
     listed.kind = kind;
@@ -39,8 +39,9 @@ Facts good_facts() {
     Facts facts;
     facts.gpu = GpuFacts{"a graphics card", false};
     facts.sound = "a sound card";
-    facts.devices = {device_of("a puck", device::HidKind::puck), device_of("a wheel", device::HidKind::wheel),
-                     device_of("a keyboard", device::HidKind::other)};
+    facts.devices = {device_of("a puck", device::DeviceKind::puck),
+                     device_of("a wheel", device::DeviceKind::wheel),
+                     device_of("a keyboard", device::DeviceKind::other)};
     facts.timing = Result<ServoTiming>(timing_of(true));
     facts.sessions = "/sessions";
     facts.free_space = 5e9;
@@ -91,7 +92,7 @@ TEST_CASE("Findings: each fault is found, alone") {
         CHECK(severity_of(facts, "finding.no_device") == Severity::limited);
     }
     SUBCASE("a device may not be opened") {
-        facts.devices.push_back(device_of("another wheel", device::HidKind::wheel, "no permission"));
+        facts.devices.push_back(device_of("another wheel", device::DeviceKind::wheel, "no permission"));
         CHECK(severity_of(facts, "finding.device_refused") == Severity::limited);
     }
     SUBCASE("ticks are late") {

@@ -122,10 +122,11 @@ TEST_CASE("BoardRequest: OpenFFBoard queries and replies encode and decode") {
 }
 
 TEST_CASE("HidDevices: kind_of recognises pucks, boards and wheels among all HID devices") {
-    CHECK(kind_of({0x1209, 0xffb0, "", ""}, parsed(emulate::board_descriptor())) == HidKind::board);
-    CHECK(kind_of({0x1234, 0x5678, "", ""}, parsed(emulate::generic_wheel_descriptor())) == HidKind::wheel);
-    CHECK(kind_of({0x256f, 0xc62e, "", ""}, parsed(puck_in_one())) == HidKind::puck);
-    CHECK(kind_of({0x046d, 0xc077, "", ""}, parsed(mouse())) == HidKind::other);
+    CHECK(kind_of({0x1209, 0xffb0, "", ""}, parsed(emulate::board_descriptor())) == DeviceKind::board);
+    CHECK(kind_of({0x1234, 0x5678, "", ""}, parsed(emulate::generic_wheel_descriptor())) ==
+          DeviceKind::wheel);
+    CHECK(kind_of({0x256f, 0xc62e, "", ""}, parsed(puck_in_one())) == DeviceKind::puck);
+    CHECK(kind_of({0x046d, 0xc077, "", ""}, parsed(mouse())) == DeviceKind::other);
     CHECK(id_of({0x46d, 0xc626, "SpaceNavigator", ""}) == "046d:c626");
     CHECK(id_of({0x1209, 0xffb0, "OpenFFBoard", "AB12"}) == "1209:ffb0:AB12");
     CHECK(udev_rule({0x46d, 0xc626, "", ""}) ==

@@ -4,12 +4,12 @@
 
 using namespace bolt;
 using namespace bolt::station_setup;
-using device::HidKind;
+using device::DeviceKind;
 using device::ListedDevice;
 
 namespace {
 
-ListedDevice device_of(const std::string& id, HidKind kind, const char* trouble = nullptr) {
+ListedDevice device_of(const std::string& id, DeviceKind kind, const char* trouble = nullptr) {
     ListedDevice l{"/dev/hidraw0", id, "a " + id, kind, std::nullopt};
     if (trouble != nullptr) {
         l.trouble.emplace();
@@ -20,9 +20,9 @@ ListedDevice device_of(const std::string& id, HidKind kind, const char* trouble 
 }
 
 const std::vector<ListedDevice> connected{
-    device_of("256f:c62e", HidKind::puck, "may not be opened"), device_of("046d:c626", HidKind::puck),
-    device_of("1234:5678", HidKind::wheel), device_of("1209:ffb0", HidKind::board),
-    device_of("0000:0001", HidKind::other)};
+    device_of("256f:c62e", DeviceKind::puck, "may not be opened"), device_of("046d:c626", DeviceKind::puck),
+    device_of("1234:5678", DeviceKind::wheel), device_of("1209:ffb0", DeviceKind::board),
+    device_of("0000:0001", DeviceKind::other)};
 
 Result<DeviceSelection> selected(const std::vector<std::string>& ids) {
     return select_devices(connected, ids);

@@ -17,7 +17,7 @@ namespace {
 const Vec3 to_the_right{0.0, 0.0, -1.0};
 
 DeviceThread started(const std::string& id, const WheelConfig& rig = {}) {
-    auto thread = DeviceThread::start(factory_for(id, rig));
+    auto thread = DeviceThread::start(factory_for(id, {rig}));
     REQUIRE(thread);
     return std::move(*thread);
 }

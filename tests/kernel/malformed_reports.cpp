@@ -64,13 +64,13 @@ TEST_CASE("Kernel: a keyboard in the same receiver does not change the puck's id
     const auto keyboard = attach(std::make_unique<InertDevice>(keys.out, 0x256f, 0xc62e));
     REQUIRE(holds_within([] { return list_devices(true).size() == 1; }));
     CHECK(list_devices().empty());
-    CHECK(list_devices(true).front().kind == HidKind::other);
+    CHECK(list_devices(true).front().kind == DeviceKind::other);
     CHECK(!factory_for("256f:c62e")());
     const auto puck = attach(std::make_unique<emulate::EmulatedPuck>());
-    CHECK(wait_for_device("256f:c62e").kind == HidKind::puck);
+    CHECK(wait_for_device("256f:c62e").kind == DeviceKind::puck);
     const auto all = list_devices(true);
     REQUIRE(all.size() == 2);
-    CHECK(all[0].kind == HidKind::puck);
+    CHECK(all[0].kind == DeviceKind::puck);
     CHECK(all[0].id == "256f:c62e");
     CHECK(all[1].id == "256f:c62e#2");
 }
@@ -87,7 +87,7 @@ TEST_CASE("Kernel: an unusable descriptor of a known device is reported") {
     CHECK(list_devices().empty());
     const auto known = attach(std::make_unique<InertDevice>(wide(), 0x256f, 0xc699));
     const ListedDevice l = wait_for_device("256f:c699");
-    CHECK(l.kind == HidKind::puck);
+    CHECK(l.kind == DeviceKind::puck);
     REQUIRE(l.trouble);
     CHECK(l.trouble->message().find("4104 fields") != std::string::npos);
     CHECK(!factory_for(l.id)());
@@ -100,7 +100,7 @@ TEST_CASE("Kernel: malformed descriptors are rejected by the kernel or reported"
         for (auto& byte : garbage) byte = static_cast<std::uint8_t>(random.bits());
         const auto plug = attach(std::make_unique<InertDevice>(garbage));
         static_cast<void>(holds_within([] { return !list_devices(true).empty(); }, 0.02));
-        for (const ListedDevice& l : list_devices(true)) CHECK((l.kind == HidKind::other || l.trouble));
+        for (const ListedDevice& l : list_devices(true)) CHECK((l.kind == DeviceKind::other || l.trouble));
     }
     emulate::DescriptorBuilder one_way;
     one_way.page(1).usage(4).begin(1).id(1).usage(0x30).range(-127, 127).fields(1, 8).input(2);

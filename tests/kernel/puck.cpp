@@ -32,7 +32,7 @@ TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
     const auto plug =
         attach(std::make_unique<emulate::EmulatedPuck>(emulate::EmulatedPuckOptions{.serial = "S1"}));
     const ListedDevice l = wait_for_device("256f:c62e:S1");
-    CHECK(l.kind == HidKind::puck);
+    CHECK(l.kind == DeviceKind::puck);
     CHECK(l.name == "Emulated SpaceMouse");
     CHECK(l.path.starts_with("/dev/hidraw"));
     REQUIRE_MESSAGE(!l.trouble, (l.trouble ? l.trouble->message() : ""));

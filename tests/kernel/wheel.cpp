@@ -21,7 +21,7 @@ struct WheelFixture {
         WheelConfig config;
         config.full_torque = design.full_torque;
         config.range = to_radians(design.degrees);
-        auto opened = factory_for(found.id, config)();
+        auto opened = factory_for(found.id, {config})();
         REQUIRE_MESSAGE(opened, (opened ? "" : opened.error().message()));
         device = std::move(*opened);
     }
@@ -55,7 +55,7 @@ TEST_CASE("Kernel: a wheel is found and renders the written torque") {
     for (const bool board : {true, false}) {
         CAPTURE(board);
         WheelFixture b({.board = board});
-        CHECK(b.found.kind == (board ? HidKind::board : HidKind::wheel));
+        CHECK(b.found.kind == (board ? DeviceKind::board : DeviceKind::wheel));
         CHECK(b.device->describe().limits.torque == doctest::Approx(2.0));
         with<emulate::EmulatedWheel>(b.plug, [](emulate::EmulatedWheel& w) { w.hand_stiffness = 10.0; });
         for (const double torque : {1.0, -1.5}) {

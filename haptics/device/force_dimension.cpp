@@ -1,0 +1,235 @@
+#include "haptics/device/force_dimension.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "haptics/device/vendor_library.hpp"
+
+namespace bolt::device {
+
+namespace {
+
+// dhdc.h: error codes of a device that cannot be reached, and positions in the array of dhdGetStatus.
+constexpr int error_communication = 2, error_no_device = 5, error_timeout = 7, error_not_ready = 12,
+              error_in_use = 20;
+constexpr std::size_t status_force = 5, status_cause = 14, status_room = 32;
+constexpr std::array brake_causes{"",
+                                  "its button was pressed",
+                                  "it moved too fast",
+                                  "its watchdog received no force in time",
+                                  "the program asked for it",
+                                  "the USB cable was unplugged",
+                                  "the dead-man switch was released"};
+
+constexpr double period = 1e-3;      // s between two samples
+constexpr int status_interval = 20;  // samples between two queries of the status
+
+// The vendor's frame has x to the user, y to the right and z up.
+Vec3 ours(const Vec3& theirs) { return {theirs.y, theirs.z, theirs.x}; }
+Vec3 theirs(const Vec3& ours) { return {ours.z, ours.x, ours.y}; }
+
+Quat ours(const double rotation[3][3]) {
+    glm::dmat3 matrix(1.0);  // columns are our axes of the grip, in our frame
+    for (int column = 0; column < 3; ++column) {
+        Vec3 unit(0.0);
+        unit[column] = 1.0;
+        const Vec3 axis = theirs(unit);
+        Vec3 turned(0.0);
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) turned[i] += rotation[i][j] * axis[j];
+        matrix[column] = ours(turned);
+    }
+    return glm::normalize(glm::quat_cast(matrix));
+}
+
+Error arm_error(const ForceDimensionApi& api, const std::string& name, const char* doing) {
+    const int code = api.get_error();
+    const char* text = api.get_error_text();
+    Error error;
+    error.code = ErrorCode::no_device;
+    error.what = fmt::format("{}: {}: {}", name, doing, text != nullptr ? text : "no reason given");
+    error.expected = code == error_in_use ? "an arm that no other program uses"
+                                          : "an arm that is switched on and connected by USB";
+    error.lost = code == error_communication || code == error_no_device || code == error_timeout ||
+                 code == error_not_ready;
+    return error;
+}
+
+// The limits are the smallest of the arms with these joints: CHAI3D 3.2, cDeltaDevices.
+Description describe_arm(const ForceDimensionApi& api, char id, int index) {
+    Description d;
+    const bool wrist = api.has_wrist(id), active = api.has_active_wrist(id);
+    d.name = active  ? "Force Dimension arm, 6 joints with motors (sigma or lambda)"
+             : wrist ? "Force Dimension arm with a wrist (omega.6 or omega.7)"
+                     : "Force Dimension arm (delta.3, omega.3 or Falcon)";
+    d.id = fmt::format("force-dimension:{}", index);
+    d.renders = {true, true, true, active, active, active};
+    d.limits.force = 12.0;
+    d.limits.torque = active ? 0.2 : 0.0;
+    d.limits.stiffness = active ? 4000.0 : 5000.0;
+    d.limits.torsion = active ? 2.0 : 0.0;
+    d.limits.damping = 15.0;
+    d.limits.angular_damping = active ? 0.01 : 0.0;
+    d.rate = 1.0 / period;
+    d.reach = Vec3(0.075);
+    d.buttons = 8;
+    if (!wrist) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
+    if (!active) d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+    return d;
+}
+
+class ForceDimensionArm final : public DeviceDriver {
+  public:
+    ForceDimensionArm(const ForceDimensionApi& api, char id, int index, Timer timer)
+        : api_(api),
+          id_(id),
+          timer_(std::move(timer)),
+          description_(describe_arm(api, id, index)),
+          next_(timer_.now()) {}
+    ForceDimensionArm(const ForceDimensionArm&) = delete;
+    ForceDimensionArm& operator=(const ForceDimensionArm&) = delete;
+    ~ForceDimensionArm() override {
+        api_.set_forces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, id_);
+        api_.brake(id_);
+        api_.close(id_);
+    }
+
+    // Call once after the arm was opened.
+    Status enable(bool may_move) {
+        if (!api_.is_initialized(id_)) {
+            if (!may_move)
+                return fail(
+                    ErrorCode::no_device,
+                    description_.name + " has to move by itself to find its position, and may not",
+                    fmt::format("free room around it, then `boltwright devices --device {} --may-move`",
+                                description_.id));
+            if (api_.auto_init(id_) < 0) return failure("it does not find its position");
+        }
+        // Ends the regulation of the position; the forces stay on.
+        if (api_.stop_regulation(true, id_) < 0) return failure("its regulation does not end");
+        if (api_.set_max_force(description_.limits.force, id_) < 0 ||
+            (description_.limits.torque > 0.0 && api_.set_max_torque(description_.limits.torque, id_) < 0))
+            return failure("its force cannot be limited");
+        if (api_.enable_force(1, id_) < 0) return failure("its motors cannot be switched on");
+        return {};
+    }
+
+    [[nodiscard]] const Description& describe() const override { return description_; }
+
+    Result<std::optional<Sample>> read(double timeout) override {
+        const double now = timer_.now();
+        if (next_ > now + timeout) {
+            timer_.wait(timeout);
+            return std::optional<Sample>{};
+        }
+        if (next_ > now) timer_.wait(next_ - now);
+        next_ = std::max(next_ + period, timer_.now());  // late samples are left out
+        if (++since_status_ >= status_interval) BOLT_TRY(check_status());
+        Vec3 position(0.0);
+        double rotation[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        if (api_.get_frame(&position.x, &position.y, &position.z, rotation, id_) < 0)
+            return fail(arm_error(api_, description_.name, "its position cannot be read"));
+        Sample sample;
+        sample.pose = {ours(position), ours(rotation)};
+        sample.buttons = api_.get_button_mask(id_);
+        sample.time = timer_.now();
+        return std::optional<Sample>(sample);
+    }
+
+    Status write(const force::OutputCommand& command) override {
+        const Vec3 force = theirs(command.force);
+        const Vec3 torque = description_.limits.torque > 0.0 ? theirs(command.torque) : Vec3(0.0);
+        if (api_.set_forces(force.x, force.y, force.z, torque.x, torque.y, torque.z, 0.0, id_) < 0)
+            return failure("its force cannot be set");
+        return {};
+    }
+
+  private:
+    [[nodiscard]] Status failure(const char* doing) const {
+        return fail(arm_error(api_, description_.name, doing));
+    }
+
+    // An arm that has braked must be opened again, so that its force grows slowly from zero.
+    Status check_status() {
+        since_status_ = 0;
+        std::array<int, status_room> status{};
+        if (api_.get_status(status.data(), id_) < 0) return failure("its status cannot be read");
+        if (status[status_force] != 0) return {};
+        const auto cause = static_cast<std::size_t>(std::max(status[status_cause], 0));
+        Error error;
+        error.code = ErrorCode::no_device;
+        error.what = fmt::format("{} has braked{}{}", description_.name, cause > 0 ? ": " : "",
+                                 cause < brake_causes.size() ? brake_causes[cause] : "unknown cause");
+        error.expected = "a hand that moves it slowly";
+        error.lost = true;
+        return fail(std::move(error));
+    }
+
+    ForceDimensionApi api_;
+    char id_;
+    Timer timer_;
+    Description description_;
+    double next_;  // s, time of the next sample
+    int since_status_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::filesystem::path> force_dimension_libraries() {
+    constexpr const char* name = "libdrd.so.3";
+    std::vector<std::filesystem::path> candidates;
+    if (const char* sdk = std::getenv("FDSDK"); sdk != nullptr && *sdk != '\0')
+        candidates.push_back(std::filesystem::path(sdk) / "lib/release/lin-x86_64-gcc" / name);
+    candidates.push_back(std::filesystem::path("/usr/local/lib") / name);
+    candidates.emplace_back(name);
+    return candidates;
+}
+
+Result<ForceDimensionApi> load_force_dimension(const std::vector<std::filesystem::path>& candidates) {
+    Result<VendorLibrary> library = VendorLibrary::open(candidates);
+    if (!library) {
+        Error error = library.error();
+        if (error.code == ErrorCode::no_device)
+            error.expected =
+                "the Force Dimension SDK, with its folder in FDSDK or libdrd.so.3 in /usr/local/lib";
+        return fail(std::move(error));
+    }
+    ForceDimensionApi api;
+    api.library = library->path();
+    library->find("dhdGetDeviceCount", api.get_device_count);
+    library->find("drdOpenID", api.open_id);
+    library->find("drdClose", api.close);
+    library->find("drdIsInitialized", api.is_initialized);
+    library->find("drdAutoInit", api.auto_init);
+    library->find("drdStop", api.stop_regulation);
+    library->find("dhdHasWrist", api.has_wrist);
+    library->find("dhdHasActiveWrist", api.has_active_wrist);
+    library->find("dhdSetMaxForce", api.set_max_force);
+    library->find("dhdSetMaxTorque", api.set_max_torque);
+    library->find("dhdEnableForce", api.enable_force);
+    library->find("dhdStop", api.brake);
+    library->find("dhdGetStatus", api.get_status);
+    library->find("dhdGetPositionAndOrientationFrame", api.get_frame);
+    library->find("dhdGetButtonMask", api.get_button_mask);
+    library->find("dhdSetForceAndTorqueAndGripperForce", api.set_forces);
+    library->find("dhdErrorGetLast", api.get_error);
+    library->find("dhdErrorGetLastStr", api.get_error_text);
+    BOLT_TRY(library->check());
+    return api;
+}
+
+Result<std::unique_ptr<DeviceDriver>> open_force_dimension(const ForceDimensionApi& api,
+                                                           const ForceDimensionOptions& options,
+                                                           Timer timer) {
+    const int id = api.open_id(static_cast<char>(options.index));
+    if (id < 0) return fail(arm_error(api, "Force Dimension arm", "it cannot be opened"));
+    auto arm =
+        std::make_unique<ForceDimensionArm>(api, static_cast<char>(id), options.index, std::move(timer));
+    BOLT_TRY(arm->enable(options.may_move));
+    return std::unique_ptr<DeviceDriver>(std::move(arm));
+}
+
+}  // namespace bolt::device

@@ -1,0 +1,228 @@
+// The driver of Force Dimension's arms, on an emulated library.
+#include "haptics/device/force_dimension.hpp"
+
+#include <doctest/doctest.h>
+
+#include "haptics/device/vendor_library.hpp"
+#include "tests/device/driver_contract.hpp"
+#include "tools/emulate/arms/force_dimension.h"
+
+namespace device_force_dimension_test {
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+
+namespace {
+
+struct Controls {
+    decltype(emu_reset)* reset = nullptr;
+    decltype(emu_advance)* advance = nullptr;
+    decltype(emu_intend)* intend = nullptr;
+    decltype(emu_turn)* turn = nullptr;
+    decltype(emu_initialized)* initialized = nullptr;
+    decltype(emu_active_wrist)* active_wrist = nullptr;
+    decltype(emu_buttons)* buttons = nullptr;
+    decltype(emu_unplug)* unplug = nullptr;
+    decltype(emu_in_use)* in_use = nullptr;
+    decltype(emu_speed_limit)* speed_limit = nullptr;
+    decltype(emu_position)* position = nullptr;
+    decltype(emu_force)* force = nullptr;
+    decltype(emu_moved_by_itself)* moved_by_itself = nullptr;
+    decltype(emu_braked)* braked = nullptr;
+    decltype(emu_open)* open = nullptr;
+};
+
+// An emulated arm whose clock is the driver's.
+struct Bench {
+    ForceDimensionApi api;
+    Controls arm;
+    double now = 0.0;
+    Timer timer{[this] { return now; },
+                [this](double seconds) {
+                    now += std::max(seconds, 0.0);
+                    arm.advance(std::max(seconds, 0.0));
+                }};
+
+    Bench() {
+        const std::vector<std::filesystem::path> path{BOLT_EMULATED_FORCE_DIMENSION};
+        const auto loaded = load_force_dimension(path);
+        REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message()));
+        api = *loaded;
+        auto library = VendorLibrary::open(path);
+        REQUIRE(library);
+        library->find("emu_reset", arm.reset);
+        library->find("emu_advance", arm.advance);
+        library->find("emu_intend", arm.intend);
+        library->find("emu_turn", arm.turn);
+        library->find("emu_initialized", arm.initialized);
+        library->find("emu_active_wrist", arm.active_wrist);
+        library->find("emu_buttons", arm.buttons);
+        library->find("emu_unplug", arm.unplug);
+        library->find("emu_in_use", arm.in_use);
+        library->find("emu_speed_limit", arm.speed_limit);
+        library->find("emu_position", arm.position);
+        library->find("emu_force", arm.force);
+        library->find("emu_moved_by_itself", arm.moved_by_itself);
+        library->find("emu_braked", arm.braked);
+        library->find("emu_open", arm.open);
+        REQUIRE(library->check());
+        arm.reset();
+        arm.initialized(1);
+    }
+    Result<std::unique_ptr<DeviceDriver>> open(bool may_move = false) {
+        return open_force_dimension(api, {0, may_move}, timer);
+    }
+    // Reads for `seconds`, and returns the last sample.
+    Sample read(DeviceDriver& device, double seconds) {
+        Sample last;
+        for (const double until = now + seconds; now < until;) {
+            const auto sample = device.read(0.005);
+            REQUIRE_MESSAGE(sample, (sample ? "" : sample.error().message()));
+            if (*sample) last = **sample;
+        }
+        return last;
+    }
+    [[nodiscard]] double force_now() const {
+        std::array<double, 6> force{};
+        arm.force(force.data());
+        return glm::length(Vec3(force[0], force[1], force[2]));
+    }
+};
+
+}  // namespace
+
+TEST_CASE("Force Dimension: an absent library and a missing function are errors with a remedy") {
+    const auto absent = load_force_dimension({"/nowhere/libdrd.so.3", "libdrd-that-is-nowhere.so.3"});
+    REQUIRE_FALSE(absent);
+    CHECK(absent.error().code == ErrorCode::no_device);
+    CHECK(
+        absent.error().message() ==
+        "libdrd-that-is-nowhere.so.3 is not installed; expected the Force Dimension SDK, with its folder in "
+        "FDSDK or libdrd.so.3 in /usr/local/lib");
+    const auto other = load_force_dimension({"libm.so.6"});
+    REQUIRE_FALSE(other);
+    CHECK(other.error().what.find("libm.so.6 has no dhdGetDeviceCount, drdOpenID") == 0);
+    // A file that is no library for this computer.
+    const auto broken = load_force_dimension({"/etc/passwd"});
+    REQUIRE_FALSE(broken);
+    CHECK(broken.error().what.find("invalid ELF header") != std::string::npos);
+    CHECK(broken.error().expected == "the vendor's library for this kind of computer");
+    CHECK(broken.error().code != ErrorCode::no_device);
+}
+
+TEST_CASE("Force Dimension: the library is searched in the SDK, in /usr/local and in the loader's path") {
+    const auto candidates = force_dimension_libraries();
+    REQUIRE(candidates.size() >= 2);
+    CHECK(candidates.back() == "libdrd.so.3");
+}
+
+TEST_CASE("Force Dimension: keeps the contract of drivers, with and without motors in the wrist") {
+    for (const bool active : {false, true}) {
+        CAPTURE(active);
+        Bench bench;
+        bench.arm.active_wrist(active ? 1 : 0);
+        check_driver_contract([&] { return bench.open(); }, [] {});
+        check_unplugged([&] { return bench.open(); }, [&] { bench.arm.unplug(1); });
+    }
+}
+
+TEST_CASE("Force Dimension: the vendor's frame has x to the user, y to the right and z up") {
+    Bench bench;
+    auto opened = bench.open();
+    REQUIRE(opened);
+    const std::array<std::pair<Vec3, Vec3>, 3> axes{{{{0.05, 0, 0}, {0, 0, 0.05}},    // to the user
+                                                     {{0, 0.05, 0}, {0.05, 0, 0}},    // to the right
+                                                     {{0, 0, 0.05}, {0, 0.05, 0}}}};  // up
+    for (const auto& [theirs, ours] : axes) {
+        bench.arm.intend(theirs.x, theirs.y, theirs.z);
+        const Sample sample = bench.read(**opened, 2.0);
+        CHECK(glm::distance(sample.pose.position, ours) < 2e-5);
+    }
+    // A quarter turn about the vendor's x axis, which is ours z.
+    const double quarter[3][3] = {{1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+    bench.arm.turn(quarter);
+    const Sample turned = bench.read(**opened, 0.01);
+    CHECK(glm::distance(turned.pose.orientation * Vec3(1, 0, 0), Vec3(0, 1, 0)) < 1e-9);
+    // A force moves the hand in its direction: 3 N against 300 N/m.
+    bench.arm.intend(0, 0, 0);
+    bench.read(**opened, 2.0);
+    for (const Vec3 force : {Vec3(3, 0, 0), Vec3(0, 3, 0), Vec3(0, 0, 3)}) {
+        Sample sample;
+        for (int i = 0; i < 2000; ++i) {
+            REQUIRE((*opened)->write({force, {}}));
+            sample = bench.read(**opened, 1e-3);
+        }
+        CHECK(glm::distance(sample.pose.position, force / 300.0) < 2e-5);
+    }
+}
+
+TEST_CASE("Force Dimension: an arm that does not know its position moves only if it may") {
+    Bench bench;
+    bench.arm.initialized(0);
+    const auto refused = bench.open();
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().message().find(
+              "has to move by itself to find its position, and may not; expected free room around it, then "
+              "`boltwright devices --device force-dimension:0 --may-move`") != std::string::npos);
+    CHECK(bench.arm.moved_by_itself() == 0);
+    CHECK(bench.arm.open() == 0);
+    CHECK(bench.open(true));
+    CHECK(bench.arm.moved_by_itself() == 1);
+    CHECK(bench.open());
+    CHECK(bench.arm.moved_by_itself() == 1);
+}
+
+TEST_CASE("Force Dimension: the arm itself limits the force, and closing it releases the force and brakes") {
+    Bench bench;
+    auto opened = bench.open();
+    REQUIRE(opened);
+    CHECK(bench.arm.braked() == 0);
+    REQUIRE((*opened)->write({Vec3(100, 0, 0), {}}));
+    CHECK(bench.force_now() == doctest::Approx((*opened)->describe().limits.force));
+    opened->reset();
+    CHECK(bench.force_now() == 0.0);
+    CHECK(bench.arm.braked() == 1);
+    CHECK(bench.arm.open() == 0);
+}
+
+TEST_CASE(
+    "Force Dimension: an arm that brakes because it was too fast is lost at once, and can be opened again") {
+    Bench bench;
+    bench.arm.speed_limit(0.5);
+    auto opened = bench.open();
+    REQUIRE(opened);
+    bench.arm.intend(0.2, 0, 0);  // pulled away with 60 N
+    const double begun = bench.now;
+    Result<std::optional<Sample>> sample = std::optional<Sample>{};
+    while (sample && bench.now < begun + 1.0) {
+        REQUIRE((*opened)->write({Vec3(0, 0, 2), {}}));
+        sample = (*opened)->read(0.005);
+    }
+    REQUIRE_FALSE(sample);
+    CHECK(sample.error().lost);
+    CHECK(sample.error().message().find(
+              "has braked: it moved too fast; expected a hand that moves it slowly") != std::string::npos);
+    CHECK(bench.force_now() == 0.0);
+    opened->reset();
+    bench.arm.intend(0, 0, 0);
+    CHECK(bench.open());
+}
+
+TEST_CASE("Force Dimension: an arm that another program uses names that") {
+    Bench bench;
+    bench.arm.in_use(1);
+    const auto refused = bench.open();
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().expected == "an arm that no other program uses");
+}
+
+TEST_CASE("Force Dimension: buttons") {
+    Bench bench;
+    auto opened = bench.open();
+    REQUIRE(opened);
+    bench.arm.buttons(5);
+    CHECK(bench.read(**opened, 0.01).buttons == 5);
+}
+
+}  // namespace device_force_dimension_test

@@ -1,0 +1,229 @@
+// An emulated libdrd.so.3 (see force_dimension.h). It refuses what the vendor's library refuses: an arm that
+// is not open, forces before the arm knows its position. Forces have no effect before dhdEnableForce.
+// Signatures, order of calls and errors: dhdc.h and drdc.h of the Force Dimension SDK 3.17.
+#include "tools/emulate/arms/force_dimension.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+constexpr int no_error = 0, error_no_device = 5, error_not_ready = 12, error_in_use = 20;
+constexpr int motor_saturated = 2, cause_speed = 2, cause_software = 4;
+constexpr double encoder_step = 10e-6;  // m
+constexpr double dt = 25e-6;            // s
+constexpr char arm_id = 0;
+
+struct Arm {
+    EmulatedArmHand hand{0.5, 300.0, 12.0};
+    Vector intention{}, position{}, velocity{}, force{}, torque{};
+    std::array<Vector, 3> rotation{Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}};  // rows
+    double time = 0.0, max_force = 1e9, max_torque = 1e9, speed_limit = 2.0;
+    bool open = false, initialized = false, enabled = false, braked = true, unplugged = false, in_use = false,
+         active_wrist = false;
+    int cause = 0, searches = 0;
+    unsigned buttons = 0;
+};
+
+Arm arm{.initialized = std::getenv("EMULATED_ARM_INITIALIZED") != nullptr};
+bool has_own_clock = true;
+thread_local int last_error = no_error;
+
+int refuse(int error) {
+    last_error = error;
+    return -1;
+}
+
+void follow_clock();
+
+// Whether a call for this arm is possible.
+bool reaches(char id) {
+    follow_clock();
+    if (arm.open && !arm.unplugged && id == arm_id) return true;
+    refuse(error_no_device);
+    return false;
+}
+
+bool renders() { return arm.open && arm.enabled && !arm.braked && !arm.unplugged; }
+
+double length(const Vector& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+// Shortens `v` to `most`. Returns whether it was longer.
+bool shorten(Vector& v, double most) {
+    const double long_ = length(v);
+    if (long_ <= most) return false;
+    for (double& c : v) c *= most / long_;
+    return true;
+}
+
+void brake(int cause) {
+    arm.braked = true;
+    arm.enabled = false;
+    arm.cause = cause;
+}
+
+void step() {
+    const double braking = arm.braked && !arm.unplugged ? 60.0 : 0.0;  // N·s/m, of short-circuited motors
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double spring = arm.hand.stiffness * (arm.intention[i] - arm.position[i]);
+        const double acting = renders() ? arm.force[i] : 0.0;
+        const double damping = arm.hand.damping + braking;
+        // Implicit in the damping.
+        arm.velocity[i] =
+            (arm.velocity[i] + dt / arm.hand.mass * (spring + acting)) / (1.0 + dt / arm.hand.mass * damping);
+        arm.position[i] += dt * arm.velocity[i];
+    }
+    if (renders() && length(arm.velocity) > arm.speed_limit) brake(cause_speed);
+}
+
+void advance(double seconds) {
+    const double until = arm.time + seconds;
+    for (; arm.time + 0.5 * dt < until; arm.time += dt) step();
+}
+
+void follow_clock() {
+    using Clock = std::chrono::steady_clock;
+    static Clock::time_point before = Clock::now();
+    if (!has_own_clock) return;
+    const Clock::time_point now = Clock::now();
+    const double elapsed = std::chrono::duration<double>(now - before).count();
+    if (elapsed < dt) return;
+    before = now;
+    advance(std::min(elapsed, 0.1));
+}
+
+}  // namespace
+
+extern "C" {
+
+void emu_reset(void) {
+    arm = {};
+    has_own_clock = false;
+}
+void emu_advance(double seconds) { advance(seconds); }
+void emu_hand(EmulatedArmHand hand) { arm.hand = hand; }
+void emu_intend(double x, double y, double z) { arm.intention = {x, y, z}; }
+void emu_turn(const double rotation[3][3]) {
+    for (std::size_t i = 0; i < 3; ++i) std::copy(rotation[i], rotation[i] + 3, arm.rotation[i].begin());
+}
+void emu_initialized(int on) { arm.initialized = on != 0; }
+void emu_active_wrist(int on) { arm.active_wrist = on != 0; }
+void emu_buttons(unsigned mask) { arm.buttons = mask; }
+void emu_unplug(int on) {
+    arm.unplugged = on != 0;
+    if (on != 0) arm.open = arm.enabled = false;
+}
+void emu_in_use(int on) { arm.in_use = on != 0; }
+void emu_speed_limit(double v) { arm.speed_limit = v; }
+void emu_position(double xyz[3]) { std::copy(arm.position.begin(), arm.position.end(), xyz); }
+void emu_force(double force[6]) {
+    const Arm none{};
+    const Arm& acting = renders() ? arm : none;
+    std::copy(acting.force.begin(), acting.force.end(), force);
+    std::copy(acting.torque.begin(), acting.torque.end(), force + 3);
+}
+int emu_moved_by_itself(void) { return arm.searches; }
+int emu_braked(void) { return arm.braked ? 1 : 0; }
+int emu_open(void) { return arm.open ? 1 : 0; }
+
+int dhdGetDeviceCount(void) { return arm.unplugged ? 0 : 1; }
+int drdOpenID(char index) {
+    if (index != 0 || arm.unplugged) return refuse(error_no_device);
+    if (arm.in_use || arm.open) return refuse(error_in_use);
+    arm.open = true;
+    arm.braked = true;
+    arm.enabled = false;
+    arm.force = arm.torque = {};
+    return arm_id;
+}
+int drdClose(char id) {
+    if (!reaches(id)) return -1;
+    arm.open = arm.enabled = false;
+    return 0;
+}
+bool drdIsInitialized(char id) { return reaches(id) && arm.initialized; }
+int drdAutoInit(char id) {
+    if (!reaches(id)) return -1;
+    ++arm.searches;
+    arm.position = arm.velocity = {};
+    arm.initialized = true;
+    return 0;
+}
+int drdStop(bool, char id) {
+    if (!reaches(id)) return -1;
+    return arm.initialized ? 0 : refuse(error_not_ready);
+}
+bool dhdHasWrist(char id) { return reaches(id); }
+bool dhdHasActiveWrist(char id) { return reaches(id) && arm.active_wrist; }
+int dhdSetMaxForce(double newton, char id) {
+    if (!reaches(id)) return -1;
+    arm.max_force = newton;
+    return 0;
+}
+int dhdSetMaxTorque(double newton_metre, char id) {
+    if (!reaches(id)) return -1;
+    arm.max_torque = newton_metre;
+    return 0;
+}
+int dhdEnableForce(unsigned char on, char id) {
+    if (!reaches(id)) return -1;
+    arm.enabled = on != 0;
+    arm.braked = on == 0;
+    arm.cause = 0;
+    arm.force = arm.torque = {};
+    return 0;
+}
+int dhdStop(char id) {
+    if (!reaches(id)) return -1;
+    brake(cause_software);
+    return 0;
+}
+int dhdGetStatus(int* status, char id) {
+    if (!reaches(id)) return -1;
+    std::fill(status, status + 17, 0);
+    status[0] = status[1] = 1;  // powered, connected
+    status[3] = arm.initialized ? 1 : 0;
+    status[4] = arm.braked ? 1 : 0;
+    status[5] = arm.enabled ? 1 : 0;
+    status[14] = arm.cause;
+    return 0;
+}
+int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double rotation[3][3], char id) {
+    if (!reaches(id)) return -1;
+    double* const out[] = {x, y, z};
+    for (std::size_t i = 0; i < 3; ++i) *out[i] = encoder_step * std::round(arm.position[i] / encoder_step);
+    for (std::size_t i = 0; i < 3; ++i)
+        std::copy(arm.rotation[i].begin(), arm.rotation[i].end(), rotation[i]);
+    return 0;
+}
+unsigned dhdGetButtonMask(char id) { return reaches(id) ? arm.buttons : 0U; }
+int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,
+                                        double, char id) {
+    if (!reaches(id)) return -1;
+    if (!arm.initialized) return refuse(error_not_ready);
+    Vector force{fx, fy, fz}, torque{tx, ty, tz};
+    const bool saturated =
+        shorten(force, arm.max_force) | shorten(torque, arm.active_wrist ? arm.max_torque : 0.0);
+    arm.force = force;
+    arm.torque = torque;
+    return saturated ? motor_saturated : 0;
+}
+int dhdErrorGetLast(void) { return last_error; }
+const char* dhdErrorGetLastStr(void) {
+    switch (last_error) {
+        case error_no_device:
+            return "no device found";
+        case error_not_ready:
+            return "device not ready";
+        case error_in_use:
+            return "device already in use";
+        default:
+            return "no error";
+    }
+}
+}

@@ -1,0 +1,35 @@
+// Controls of the emulated libdrd.so.3, which has the functions of Force Dimension's library that we use. One
+// arm with a wrist, which a hand holds: mass, spring and damper to an intended position. SI units, the
+// vendor's frame (x to the user, y to the right, z up).
+#pragma once
+
+extern "C" {
+
+struct EmulatedArmHand {
+    double mass;       // kg, of hand and arm
+    double stiffness;  // N/m, of the spring to the intended position
+    double damping;    // N·s/m
+};
+
+// An arm that is switched on and connected, has not found its position and rests at the origin, at time 0. From
+// here on its clock is emu_advance(). Without a call of emu_reset() its clock is the computer's, and it knows its
+// position from the start if EMULATED_ARM_INITIALIZED is set.
+void emu_reset(void);
+void emu_advance(double seconds);
+void emu_hand(struct EmulatedArmHand hand);
+void emu_intend(double x, double y, double z);  // where the hand wants to be
+void emu_turn(const double rotation[3][3]);     // orientation of the grip
+void emu_initialized(int on);                   // whether the arm knows its position
+void emu_active_wrist(int on);                  // whether it renders torque
+void emu_buttons(unsigned mask);
+void emu_unplug(int on);
+void emu_in_use(int on);         // another program has opened the arm
+void emu_speed_limit(double v);  // m/s above which it brakes; 2 by default
+
+// What an observer sees.
+void emu_position(double xyz[3]);  // m
+void emu_force(double force[6]);   // N and N·m that act on the hand now
+int emu_moved_by_itself(void);     // times that it searched its position
+int emu_braked(void);
+int emu_open(void);
+}
