@@ -77,13 +77,13 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and a piece of adv
         void (*spoil)(Outcome&);
     };
     const Case cases[] = {
-        {"B1 has 59.9 N·m; 60 N·m are the least.", "advice.torque_low",
+        {"B1 has 59.9 N·m; at least 60 N·m are needed.", "advice.torque_low",
          [](Outcome& r) { r.done(0, 59.9, 30.0); }},
-        {"B1 has had 81.2 N·m; 80 N·m are the most.", "advice.torque_high",
+        {"B1 reached 81.2 N·m; at most 80 N·m are allowed.", "advice.torque_high",
          [](Outcome& r) { r.done(0, 81.2, 30.0); }},
-        {"B1 was turned by 12° from snug; 20° are the least.", "advice.angle_low",
+        {"B1 was turned by 12° from the snug torque; at least 20° are needed.", "advice.angle_low",
          [](Outcome& r) { r.done(0, 70.0, 12.0); }},
-        {"B1 was turned by 55° from snug; 40° are the most.", "advice.angle_high",
+        {"B1 was turned by 55° from the snug torque; at most 40° are allowed.", "advice.angle_high",
          [](Outcome& r) { r.done(0, 70.0, 55.0); }},
         {"The bolt of B1 broke.", "advice.broken",
          [](Outcome& r) { r.state.joints[0].condition = joint::Condition::broken; }},
@@ -91,18 +91,18 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and a piece of adv
          [](Outcome& r) { r.state.joints[0].condition = joint::Condition::stripped; }},
         {"B1 is off its seat again and holds nothing.", "advice.off_seat",
          [](Outcome& r) { r.state.joints[0].stage = joint::Stage::navigation; }},
-        {"Once a joint was worked on out of turn.", "advice.out_of_turn",
+        {"A joint was worked on out of turn once.", "advice.out_of_turn",
          [](Outcome& r) { r.lesson.joints[2].result.out_of_turn = 1; }},
-        {"Finished joints were pulled again 3 times.", "advice.done_already",
+        {"Finished joints were worked on again 3 times.", "advice.done_already",
          [](Outcome& r) {
              r.lesson.joints[2].result.done_already = 2;
              r.lesson.joints[1].result.done_already = 1;
          }},
         {"2 times a nut was turned the wrong way.", "advice.wrong_way",
          [](Outcome& r) { r.lesson.joints[1].wrong_way_count = 2; }},
-        {"Once there was too much torque on a nut; this was corrected.", "advice.torque_high",
+        {"A nut got too much torque once; this was corrected.", "advice.torque_high",
          [](Outcome& r) { r.lesson.joints[1].over_torque_count = 1; }},
-        {"B1 has had 81.2 N·m; 80 N·m are the most.", "advice.torque_high",
+        {"B1 reached 81.2 N·m; at most 80 N·m are allowed.", "advice.torque_high",
          [](Outcome& r) {
              r.done(0, 81.2, 30.0);
              r.lesson.joints[0].over_torque_count = 1;

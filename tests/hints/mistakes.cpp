@@ -57,7 +57,7 @@ TEST_CASE("Mistakes: each mistake has its complete text and remedy in every lang
              b.turn(0, 20.0, 2.0);
          }},
         {MistakeKind::over_torque, "A was turned with more than 77 N·m.", [](Bench& b) { b.turn(0, 80.0); }},
-        {MistakeKind::slipped, "The wrench slipped off A; its corners have lost 0.25 mm.",
+        {MistakeKind::slipped, "The wrench slipped off A; the nut's corners have lost 0.25 mm.",
          [](Bench& b) {
              b.turn(0, 30.0);
              servo::Output output;

@@ -339,7 +339,7 @@ TEST_CASE("Hints: texts have the numbers of the step") {
     CHECK(hint_text(en, *b.hints.shown) == "Pull clockwise, smoothly, until A has 35 N·m.");
     b.turn(0, 45.0);
     b.frame();
-    CHECK(hint_text(en, *b.hints.shown) == "Stop. A was to get 38.5 N·m at most.");
+    CHECK(hint_text(en, *b.hints.shown) == "Stop. A should get 38.5 N·m at most.");
     Bench wrong;
     wrong.seat_both();
     wrong.tick(1, Grip::wrench, 0.2);

@@ -119,7 +119,7 @@ TEST_CASE("Words: placeholders are filled in, and numbers follow the language") 
     CHECK(format_text(de, "hint.next", {{"joint", "B7"}}) == "Als Nächstes kommt B7.");
     const TextArgument arguments[] = {
         {"joint", "B1"}, {"torque", torque_number(17.46)}, {"low", torque_number(18.0)}};
-    CHECK(format_text(en, "reason.torque_low", arguments) == "B1 has 17.5 N·m; 18 N·m are the least.");
+    CHECK(format_text(en, "reason.torque_low", arguments) == "B1 has 17.5 N·m; at least 18 N·m are needed.");
     CHECK(format_text(de, "reason.torque_low", arguments) ==
           "B1 hat 17,5 N·m; mindestens 18 N·m sind nötig.");
     // A placeholder without a value stays in the text.
