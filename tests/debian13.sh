@@ -4,6 +4,11 @@
 # exits with 77 and the reason where one of them is missing. Arguments after the folder go to ctest. With
 # BOLT_GOLDEN_UPDATE set it redraws the golden pictures of Debian 13's driver instead.
 set -euo pipefail
+# In a mount namespace of its own, so that nothing stays mounted below the root whatever happens to this script.
+if [[ -z ${BOLT_OWN_MOUNTS:-} ]]; then
+    unshare --mount --propagation private true 2>/dev/null || { echo "skipped: a mount namespace is not allowed" >&2; exit 77; }
+    BOLT_OWN_MOUNTS=1 exec unshare --mount --propagation private bash "$0" "$@"
+fi
 cd "$(dirname "$0")/.."
 sources=$PWD
 folder=$(realpath -m "${1:-build/debian13}")
@@ -13,7 +18,7 @@ skip() { echo "skipped: $1" >&2; exit 77; }
 command -v mmdebstrap >/dev/null || skip "mmdebstrap is not installed"
 root=$folder/root
 if [[ ! -e $root/made ]]; then
-    rm -rf "$root"
+    rm -rf --one-file-system "$root"
     mkdir -p "$folder"
     mmdebstrap --variant=apt --aptopt='APT::Install-Recommends "false"' trixie "$root" >"$folder/log" 2>&1 ||
         skip "mmdebstrap failed: $(tail -1 "$folder/log")"

@@ -241,6 +241,8 @@ inline constexpr KeyRow key_rows[] = {
     {"finding.device_refused", "name why"},
     {"finding.no_device", ""},
     {"finding.no_device.do", ""},
+    {"finding.no_force", ""},
+    {"finding.no_force.do", ""},
     {"finding.timing", ""},
     {"finding.timing_bad", "why"},
     {"finding.timing_bad.do", ""},

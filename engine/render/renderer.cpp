@@ -95,8 +95,9 @@ Result<bool> Renderer::draws_views_together() {
     using Multiview = RendererOptions::Multiview;
     if (options_.multiview != Multiview::where_it_works) return options_.multiview == Multiview::always;
     if (!multiview_works_) {
-        BOLT_TRY_ASSIGN(const bool works, multiview_works(*device_, cache_));
-        multiview_works_ = works;
+        const Result<bool> works = multiview_works(*device_, cache_);
+        if (!works && works.error().lost) return fail(works.error());
+        multiview_works_ = works && *works;  // one pass for each view needs less of the driver
     }
     return *multiview_works_;
 }

@@ -254,4 +254,9 @@ bool Ui::navigates_by_keys() const {
     return ImGui::GetIO().NavVisible && !ImGui::GetIO().WantTextInput;
 }
 
+bool Ui::edits_text() const {
+    ImGui::SetCurrentContext(context_.get());
+    return ImGui::GetIO().WantTextInput;
+}
+
 }  // namespace bolt::ui

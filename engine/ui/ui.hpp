@@ -47,6 +47,7 @@ class Ui {
     [[nodiscard]] bool wants_keys() const;
     // Returns whether the user moves through the controls with keys: Enter then presses the marked control.
     [[nodiscard]] bool navigates_by_keys() const;
+    [[nodiscard]] bool edits_text() const;  // a text field has the keys
 
   private:
     Ui() = default;

@@ -73,9 +73,11 @@ Finding sound_finding(const Facts& facts) {
 }
 
 void add_devices(const Facts& facts, std::vector<Finding>& all) {
-    bool force = false;
+    bool any = false, force = false;
     for (const device::ListedDevice& listed : facts.devices) {
         if (listed.kind == device::DeviceKind::other) continue;
+        any = true;
+        force = force || listed.kind != device::DeviceKind::puck;
         if (listed.trouble) {
             // The error says what to do.
             all.push_back({Severity::limited,
@@ -85,10 +87,11 @@ void add_devices(const Facts& facts, std::vector<Finding>& all) {
             continue;
         }
         all.push_back({Severity::good, "finding.device", {{"name", listed.name}}, {}});
-        force = force || listed.kind != device::DeviceKind::puck;
     }
-    if (!force)
+    if (!any)
         all.push_back({Severity::limited, "finding.no_device", {}, words::TextKey("finding.no_device.do")});
+    else if (!force)
+        all.push_back({Severity::limited, "finding.no_force", {}, words::TextKey("finding.no_force.do")});
 }
 
 void add_timing(const Facts& facts, std::vector<Finding>& all) {

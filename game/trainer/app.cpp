@@ -86,7 +86,8 @@ Result<std::filesystem::path> lesson_folder(const AppOptions& options, const Les
         const std::string name =
             fmt::format("{:%Y-%m-%d_%H-%M-%S}_{}", fmt::localtime(std::time(nullptr)), assembly);
         folder /= name;
-        for (int i = 2; std::filesystem::exists(folder); ++i)
+        std::error_code ignored;
+        for (int i = 2; std::filesystem::exists(folder, ignored); ++i)
             folder = options.out / fmt::format("{}_{}", name, i);
     }
     std::error_code problem;
@@ -201,16 +202,21 @@ Status App::begin_lesson(float aspect) {
     const LessonChoice choice = lesson_choice();
     if (active_ && !options_.choice.equipment.uses_mouse()) active_->station.reset();  // it holds the devices
     BOLT_TRY_ASSIGN(const auto folder, lesson_folder(options_, choice));
-    BOLT_TRY_ASSIGN(auto started, start_lesson({choice, preferences_.settings, options_.lesson, folder,
-                                                options_.start_station}));
+    auto started =
+        start_lesson({choice, preferences_.settings, options_.lesson, folder, options_.start_station});
+    if (!started) {
+        std::error_code ignored;
+        if (options_.folder_per_lesson) std::filesystem::remove(folder, ignored);  // if it is still empty
+        return fail(started.error());
+    }
     folder_ = folder;
     if (active_) {
         BOLT_TRY(gpu_->context->device->idle());
         active_.reset();
     }
     if (options_.on_start) options_.on_start(folder_);
-    context_ = std::move(started.context);
-    active_.emplace(std::move(started.active));
+    context_ = std::move(started->context);
+    active_.emplace(std::move(started->active));
     ActiveLesson& active = *active_;
     for (const std::string& missing : context_->models.missing) log("not drawn: " + missing);
     world::add_haptics(active.workplace.world, active.session->state());
@@ -480,14 +486,16 @@ Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent
             if (begun.error().lost || !options_.menu) return begun;
             menu_.start_error = begun.error();
             screen_ = ShownScreen::menu;
-            active_.reset();
             log(begun.error().message());
+        } else {
+            menu_.first_start = false;
         }
     }
     if (screen_ == ShownScreen::menu && active_) BOLT_TRY(close_lesson());
     const bool can_start = screen_ != ShownScreen::lesson && !settings_ && menu_.page == MenuPage::choices;
-    // Enter presses the control that the keys have marked, if they have marked one.
-    const bool enter_starts = !gpu_->ui->navigates_by_keys();
+    // Enter presses the control that the keys have marked, if they have marked one, and ends the input of a
+    // name.
+    const bool enter_starts = !gpu_->ui->navigates_by_keys() && !gpu_->ui->edits_text();
     bool close_settings = false;
     update_ui_input(input_, settings_
                                 ? settings_->take_keys(events, words_, preferences_.keys, close_settings)

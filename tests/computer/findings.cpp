@@ -89,6 +89,10 @@ TEST_CASE("Findings: each fault is found, alone") {
     }
     SUBCASE("a puck renders no force") {
         facts.devices.erase(facts.devices.begin() + 1);
+        CHECK(severity_of(facts, "finding.no_force") == Severity::limited);
+    }
+    SUBCASE("no device") {
+        facts.devices.clear();
         CHECK(severity_of(facts, "finding.no_device") == Severity::limited);
     }
     SUBCASE("a device may not be opened") {

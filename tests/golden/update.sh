@@ -10,5 +10,6 @@ begun=$(mktemp)
 trap 'rm "$begun"' EXIT
 BOLTWRIGHT_CONTENT=$PWD/content BOLT_GOLDEN_UPDATE=1 "$build/bin/test_golden" --source-file='*/tests/golden/scenes_*'
 folder=$(dirname "$(find tests/golden/pictures -name driver.txt -newer "$begun")")
+[[ -f $folder/driver.txt ]]
 find "$folder" -name '*.png' ! -newer "$begun" -delete # of scenes that are gone
 if command -v git >/dev/null; then git status --short "$folder"; fi

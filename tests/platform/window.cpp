@@ -202,6 +202,7 @@ TEST_CASE("Keys: letters follow the layout, and other keys follow their position
     CHECK(key_of(256, nullptr) == Key::escape);
     CHECK(key_of(59, "ö") == Key::unknown);
     CHECK(key_of(59, "m") == Key::m);
+    CHECK(key_of(77, ",") == Key::unknown);  // a French keyboard has M elsewhere
     CHECK(key_of(-1, nullptr) == Key::unknown);
     CHECK(name(Key::f11) == "F11");
     CHECK(name(Key::z) == "Z");

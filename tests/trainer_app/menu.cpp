@@ -330,7 +330,20 @@ TEST_CASE("Tour: it is offered at the first start, and each control is ticked of
     driver.frame();
     CHECK(driver.app().screen() == ShownScreen::menu);
     CHECK(driver.app().lesson() == nullptr);  // the pictures of the menu are shown again
-    driver.press_button("menu.start");
+    driver.key(Key::enter);                   // the tour is offered first only once
     driver.frame();
+    REQUIRE(driver.app().screen() == ShownScreen::lesson);
     CHECK_FALSE(driver.app().tour());
+}
+
+TEST_CASE("Menu: Enter ends the input of the trainee's name and starts nothing") {
+    HeadlessTrainer driver(options("cover-m8", true), small);
+    driver.press_button("menu.trainee");
+    driver.frame();
+    driver.frame({platform::TextEvent{U'A'}, platform::TextEvent{U'd'}, platform::TextEvent{U'a'}});
+    driver.frame();
+    driver.key(Key::enter);
+    driver.frame();
+    CHECK(driver.app().screen() == ShownScreen::menu);
+    CHECK(driver.app().choice().trainee == "Ada");
 }
