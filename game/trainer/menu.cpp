@@ -81,7 +81,7 @@ class ChoiceRow {
             }
         }
         first_ = false;
-        ImGui::PushID(static_cast<int>(left_));
+        ImGui::PushID(row_);  // two rows may have buttons of the same name
         ImGui::PushStyleColor(ImGuiCol_Button, is_chosen ? chosen : not_chosen);
         const bool pressed = ImGui::Button(label.c_str());
         ImGui::PopStyleColor();
@@ -90,6 +90,7 @@ class ChoiceRow {
     }
 
   private:
+    int row_ = static_cast<int>(ImGui::GetCursorPosY());
     float left_, right_;  // px in the window
     bool first_ = true;
 };
@@ -327,7 +328,8 @@ void draw_cards(const ScreenContext& context, float width, const Menu& menu, con
     const bool all = count <= fitting(width);
     const int shown = all ? count : fitting(width - 2.0F * (arrow + gap));
     const AssemblyEntry* entry = selected_entry(menu, choice);
-    const int selected = entry == nullptr ? 0 : static_cast<int>(entry - menu.assemblies.data());
+    // −1: an assembly that the menu does not list, from the command line.
+    const int selected = entry == nullptr ? -1 : static_cast<int>(entry - menu.assemblies.data());
     const int first = std::clamp(selected - shown / 2, 0, count - shown);
     const auto step = [&](const char* label, int by) {
         if (ImGui::Button(label, {arrow, 0.0F}))
