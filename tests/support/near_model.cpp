@@ -41,7 +41,7 @@ bool is_near(double a, double b, double share) { return std::abs(a - b) <= share
 
 std::string mesh_difference(const assets::Mesh& made, const assets::Mesh& kept) {
     const Measures a = measures_of(made), b = measures_of(kept);
-    const float tolerance = std::max(1e-4F, 0.01F * glm::length(b.high - b.low));
+    const float tolerance = std::max(1e-4F, 0.05F * glm::length(b.high - b.low));
     if (glm::length(a.low - b.low) > tolerance || glm::length(a.high - b.high) > tolerance)
         return "another box";
     if (!is_near(a.area, b.area, 0.05))
