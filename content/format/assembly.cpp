@@ -138,8 +138,7 @@ LoadedAssembly load_assembly(const fs::path& where, std::string_view variant) {
             return folder
                        ? failed(where.string(), "this folder has no assembly.json", "a folder of an assembly")
                        : unknown_assembly(where.string(), names);
-        for (const fs::path& assemblies : assembly_folders())
-            if (file = assemblies / where / "assembly.json"; fs::exists(file, ignored)) break;
+        file = assembly_folder(where.string()) / "assembly.json";
     }
     if (is_session(file))
         return failed(file.string(), "this is a session, not an assembly",

@@ -16,7 +16,7 @@ bool holds_content(const fs::path& folder) {
 }
 
 // $XDG_DATA_DIRS or its default (XDG Base Directory Specification 0.8).
-std::vector<fs::path> data_folders() {
+std::vector<fs::path> system_data_folders() {
     const char* given = std::getenv("XDG_DATA_DIRS");  // NOLINT(concurrency-mt-unsafe): nothing sets it
     std::istringstream list(given != nullptr && *given != '\0' ? given : "/usr/local/share:/usr/share");
     std::vector<fs::path> folders;
@@ -40,13 +40,13 @@ fs::path content_folder() {
             return folder / "share" / "boltwright" / "content";
         if (folder == folder.root_path()) break;
     }
-    for (const fs::path& folder : data_folders())
+    for (const fs::path& folder : system_data_folders())
         if (holds_content(folder / "boltwright" / "content")) return folder / "boltwright" / "content";
     const fs::path source = BOLT_SOURCE_CONTENT;
     return holds_content(source) ? source : fs::path{};
 }
 
-Result<fs::path> data_folder() {
+Result<fs::path> user_data_folder() {
     // NOLINTBEGIN(concurrency-mt-unsafe): nothing sets them
     if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && fs::path(data).is_absolute())
         return fs::path(data) / "boltwright";
@@ -59,7 +59,7 @@ Result<fs::path> data_folder() {
 
 std::vector<fs::path> assembly_folders() {
     std::vector<fs::path> folders;
-    if (const auto data = data_folder()) folders.push_back(*data / "assemblies");
+    if (const auto data = user_data_folder()) folders.push_back(*data / "assemblies");
     if (const fs::path content = content_folder(); !content.empty())
         folders.push_back(content / "assemblies");
     return folders;
@@ -79,6 +79,13 @@ std::vector<std::string> assembly_names() {
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;
+}
+
+fs::path assembly_folder(const std::string& name) {
+    std::error_code ignored;
+    for (const fs::path& folder : assembly_folders())
+        if (fs::exists(folder / name / "assembly.json", ignored)) return folder / name;
+    return name;
 }
 
 }  // namespace bolt::content

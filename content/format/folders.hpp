@@ -15,15 +15,18 @@ namespace bolt::content {
 // built for a package. Empty if none exists, or if $BOLTWRIGHT_CONTENT is not a content folder.
 std::filesystem::path content_folder();
 
-// The folder of user data by the XDG base directory specification; it may not exist yet. Fails if the
+// The folder of the user's data by the XDG base directory specification; it may not exist yet. Fails if the
 // environment defines none.
-Result<std::filesystem::path> data_folder();
+Result<std::filesystem::path> user_data_folder();
 
-// The folders whose subfolders are assemblies: assemblies/ in data_folder(), then in content_folder(). An
-// assembly in the first hides one of the same name in the second. They may not exist.
+// The folders whose subfolders are assemblies: assemblies/ in user_data_folder(), then in content_folder().
+// An assembly in the first hides one of the same name in the second. They may not exist.
 std::vector<std::filesystem::path> assembly_folders();
 
 // The names of all assemblies in these folders, sorted. An assembly is a folder with an assembly.json.
 std::vector<std::string> assembly_names();
+
+// The folder of the assembly with this name in assembly_folders(); `name` itself if there is none.
+std::filesystem::path assembly_folder(const std::string& name);
 
 }  // namespace bolt::content

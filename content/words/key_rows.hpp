@@ -228,7 +228,7 @@ inline constexpr KeyRow key_rows[] = {
     {"files.assemblies", "folder"},
     {"files.import", ""},
     {"files.no_home", ""},
-    // What was found about this computer, and what to do (game/computer).
+    // Findings about this computer, and their remedies (game/computer).
     {"finding.gpu", "gpu"},
     {"finding.gpu_software", "gpu"},
     {"finding.gpu_software.do", ""},

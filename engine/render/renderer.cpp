@@ -9,7 +9,6 @@
 
 #include "engine/gpu/resources.hpp"
 #include "engine/render/gpu_layout.hpp"
-#include "engine/render/passes/multiview_check.hpp"
 
 namespace bolt::render {
 

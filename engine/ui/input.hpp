@@ -34,9 +34,15 @@ enum class UiKey : std::uint8_t {
 };
 inline constexpr std::size_t key_count = 21;
 
+// A mouse button or a key.
 struct UiButton {
     bool down = false;
     bool pressed = false;  // went down since the last frame, even if it has been released
+
+    void set(bool is_down) {
+        down = is_down;
+        pressed = pressed || is_down;
+    }
 };
 
 struct UiInput {
@@ -47,11 +53,11 @@ struct UiInput {
     glm::vec2 pointer{0.0F};            // pixels from the upper left corner
     std::array<UiButton, 3> buttons{};  // left, right, middle
     glm::vec2 wheel{0.0F};              // notches since the last frame; y: away from the user
-    std::array<bool, key_count> keys{};
+    std::array<UiButton, key_count> keys{};
     bool ctrl = false, shift = false, alt = false;
     std::string text;  // UTF-8, typed since the last frame
 
-    bool& key(UiKey k) { return keys.at(static_cast<std::size_t>(k)); }
+    UiButton& key(UiKey k) { return keys.at(static_cast<std::size_t>(k)); }
 };
 
 }  // namespace bolt::ui

@@ -86,15 +86,15 @@ void set_input(ImGuiIO& io, const UiInput& input) {
     io.MousePos = input.pointer_inside
                       ? ImVec2(input.pointer.x, input.pointer.y)
                       : ImVec2(-std::numeric_limits<float>::max(), -std::numeric_limits<float>::max());
-    for (std::size_t i = 0; i < input.buttons.size(); ++i)
-        io.MouseDown[i] = input.buttons.at(i).down || input.buttons.at(i).pressed;
+    const auto is_down = [](const UiButton& button) { return button.down || button.pressed; };
+    std::transform(input.buttons.begin(), input.buttons.end(), io.MouseDown, is_down);
     io.MouseWheelH = input.wheel.x;
     io.MouseWheel = input.wheel.y;
-    std::copy(input.keys.begin(), input.keys.end(), io.KeysDown);
+    std::transform(input.keys.begin(), input.keys.end(), io.KeysDown, is_down);
     // ImGui presses the marked control with Space. People expect Enter to do so as well.
     bool& space = io.KeysDown[static_cast<std::size_t>(UiKey::space)];
-    space = space ||
-            (input.keys.at(static_cast<std::size_t>(UiKey::enter)) && io.NavVisible && !io.WantTextInput);
+    space =
+        space || (io.KeysDown[static_cast<std::size_t>(UiKey::enter)] && io.NavVisible && !io.WantTextInput);
     io.KeyCtrl = input.ctrl;
     io.KeyShift = input.shift;
     io.KeyAlt = input.alt;

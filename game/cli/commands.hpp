@@ -24,7 +24,7 @@ void add_glove(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
 
 // Opens the menu in a window, as the desktop's entry does. Each lesson gets a folder in
-// data_folder()/sessions.
+// user_data_folder()/sessions.
 Status train_from_desktop();
 
 // Prints the error. Without a terminal it also shows it in a window, if the desktop has a program for that

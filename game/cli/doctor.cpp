@@ -49,9 +49,9 @@ Result<std::string> examine_servo(double seconds, const std::string& assembly) {
     return text;
 }
 
-// What was found, in the words of the menu.
+// The findings, in the words of the menu.
 Status summarize() {
-    BOLT_TRY_ASSIGN(const auto data, content::data_folder());
+    BOLT_TRY_ASSIGN(const auto data, content::user_data_folder());
     computer::FactsRequest request;
     request.gpu = computer::find_gpu();
     request.sessions = data / "sessions";

@@ -244,7 +244,7 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     app_options.first_start = options.first_start;
     app_options.settings_file = options.settings;
     // Without a home folder no settings are kept.
-    if (const auto data = content::data_folder()) app_options.settings_folder = *data / "settings";
+    if (const auto data = content::user_data_folder()) app_options.settings_folder = *data / "settings";
     app_options.on_start = remove_stale_files;
     app_options.on_end = [](const content::Assembly& assembly, const session::LessonOptions& lesson,
                             const session::LessonOutcome& outcome, const std::filesystem::path& folder) {
@@ -297,7 +297,12 @@ int run_train(const TrainArguments& options) {
             (void)std::fputs((desktop.error().what + ": a simulated trainee plays.\n").c_str(), stderr);
         return run_headless(options, loaded.assembly, *train);
     }
-    const Status done = run_window(options, *train, *equipment, *desktop);
+    // A folder here is not the assembly of the same name in the menu.
+    TrainArguments named = options;
+    std::error_code ignored;
+    if (std::filesystem::exists(options.assembly, ignored))
+        named.assembly = std::filesystem::absolute(options.assembly).lexically_normal().string();
+    const Status done = run_window(named, *train, *equipment, *desktop);
     return done ? 0 : print_error(done.error());
 }
 
@@ -305,12 +310,12 @@ int run_train(const TrainArguments& options) {
 
 Status train_from_desktop() {
     TrainArguments options;
-    BOLT_TRY_ASSIGN(const auto data, content::data_folder());
+    BOLT_TRY_ASSIGN(const auto data, content::user_data_folder());
     options.out = (data / "sessions").string();
     options.folder_per_lesson = true;
     options.first_start = !std::filesystem::exists(options.out);
     BOLT_TRY_ASSIGN(const auto equipment, equipment_of(options));
-    const content::LoadedAssembly loaded = content::load_assembly(options.assembly);
+    const content::LoadedAssembly loaded = content::load_assembly(content::assembly_folder(options.assembly));
     if (!loaded.ok()) return fail(loaded.errors.front());
     BOLT_TRY_ASSIGN(const auto train, train_options(options, loaded.assembly));
     BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());

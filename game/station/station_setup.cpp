@@ -130,7 +130,7 @@ const char* name(hand::Side hand) { return hand == hand::Side::left ? "left" : "
 }  // namespace
 
 Result<fs::path> calibrations_folder() {
-    BOLT_TRY_ASSIGN(const auto data, content::data_folder());
+    BOLT_TRY_ASSIGN(const auto data, content::user_data_folder());
     return data / "gloves";
 }
 

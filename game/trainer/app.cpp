@@ -47,7 +47,8 @@ void add_characters(ui::Ui& ui, std::span<const words::Words> languages,
         ui.add_characters(language.name);
         for (const std::string& text : language.texts) ui.add_characters(text);
     }
-    for (const std::string_view sign : {"▼", "●", "▲", "◆", "▶", "–", "‹", "›"}) ui.add_characters(sign);
+    for (const std::string_view sign : {"▼", "●", "▲", "◆", "▶", "✓", "✗", "–", "‹", "›"})
+        ui.add_characters(sign);
     for (const AssemblyEntry& entry : assemblies) {
         for (const auto& [code, title] : entry.title) ui.add_characters(title);
         for (const auto& [code, text] : entry.instructions) ui.add_characters(text);
@@ -57,6 +58,16 @@ void add_characters(ui::Ui& ui, std::span<const words::Words> languages,
         for (const content::Tool& tool : entry.tools)
             for (const auto& [code, title] : tool.title) ui.add_characters(title);
     }
+}
+
+// Adds the characters of the menu's texts that are not known at the start: names that the trainee types or
+// that devices have, and the reasons in findings and errors.
+void add_characters(ui::Ui& ui, const words::Words& words, const Menu& menu, const LessonChoice& choice) {
+    ui.add_characters(choice.trainee);
+    for (const DeviceOption& option : menu.devices) ui.add_characters(option.name);
+    for (const computer::Finding& finding : menu.check.findings())
+        ui.add_characters(words::format_text(words, finding.text, finding.arguments));
+    if (menu.start_error) ui.add_characters(menu.start_error->message());
 }
 
 // One line with the median and 99th percentile of each system; sorts the times.
@@ -102,7 +113,7 @@ Result<std::filesystem::path> lesson_folder(const AppOptions& options, const Les
 
 UserFolders folders_of(const AppOptions& options) {
     UserFolders folders{options.out, options.folder_per_lesson, options.settings_folder, {}};
-    if (const auto data = content::data_folder()) folders.assemblies = *data / "assemblies";
+    if (const auto data = content::user_data_folder()) folders.assemblies = *data / "assemblies";
     return folders;
 }
 
@@ -187,8 +198,9 @@ Status App::upload_lesson() {
 // The choice of the menu; for the tour its nut, guided, with the same devices.
 LessonChoice App::lesson_choice() const {
     LessonChoice choice = options_.choice;
+    if (options_.menu) choice.assembly = content::assembly_folder(choice.assembly).string();
     if (!tour_requested_) return choice;
-    choice.assembly = tour_assembly;
+    choice.assembly = content::assembly_folder(tour_assembly).string();
     choice.variant.clear();
     choice.tool.clear();
     choice.mode = lesson::Mode::guided;
@@ -332,7 +344,7 @@ void App::show_page(MenuPage page) {
     request.gpu =
         computer::GpuFacts{device.name(), device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
     request.sessions = options_.out;
-    request.assembly = options_.choice.assembly;
+    request.assembly = lesson_choice().assembly;
     request.seconds = timing_duration;
     menu_.check.start(options_.find_out, request);
 }
@@ -451,6 +463,8 @@ Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
     render::Renderer& renderer = *gpu_->context->renderer;
     ui::Ui& ui = *gpu_->ui;
     const glm::dvec2 extent(size.width, size.height);
+    ui.add_characters(input_.text);
+    if (screen_ == ShownScreen::menu) add_characters(ui, words_, menu_, options_.choice);
     BOLT_TRY(ui.begin(frame, input_));
     if (const auto picture = pictures_.picture(renderer); picture && !active_)
         ImGui::GetBackgroundDrawList()->AddImage(ui.picture(*picture), {0.0F, 0.0F},

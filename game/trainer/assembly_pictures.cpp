@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
+#include "content/format/folders.hpp"
 #include "game/view/camera.hpp"
 
 namespace bolt::trainer {
@@ -18,8 +18,9 @@ constexpr std::uint32_t light_size = 32;    // texels; small, because the user w
 
 // Prefers the coarse model.
 view::ModelLoadResult load(const std::string& assembly) {
-    view::ModelLoadResult far = view::load_model(assembly, view::DetailLevel::far);
-    return far.ok() ? std::move(far) : view::load_model(assembly);
+    const std::string source = content::assembly_folder(assembly).string();
+    view::ModelLoadResult far = view::load_model(source, view::DetailLevel::far);
+    return far.ok() ? std::move(far) : view::load_model(source);
 }
 
 bool same_size(const VkExtent2D& a, const VkExtent2D& b) {
@@ -31,14 +32,10 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
 }
 
 // Shows the whole box from the direction of the assembly's first view, else from the default one.
-view::Viewpoint viewpoint_for(const view::Viewpoint& first, const render::BoundingBox& box, float aspect) {
+view::Orbit orbit_for(const view::Viewpoint& first, const render::BoundingBox& box, float aspect) {
     const view::Viewpoint from =
         first.fov > 0.0F ? first : view::default_viewpoint(box, view::default_fov, aspect);
-    return view::viewpoint_of(view::frame_all(view::orbit_of(from), box, aspect));
-}
-
-render::Eye eye_at(const view::Viewpoint& at, const render::BoundingBox& box, float aspect) {
-    return render::make_eye(at.eye, at.target, view::lens(box, at.eye, at.target, at.fov, aspect));
+    return view::frame_all(view::orbit_of(from), box, aspect);
 }
 
 }  // namespace
@@ -75,33 +72,28 @@ Status AssemblyPictures::upload(gpu::Device& device, const view::LoadedModel& mo
 Status AssemblyPictures::draw_backdrop(render::Renderer& renderer, gpu::FrameContext& frame) {
     const VkExtent2D size = request_.size;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    view::Viewpoint at = viewpoint_for(viewpoint_, model_->box, aspect);
-    // Farther than the plain view by the share of the picture that the menu leaves free, and then moved
-    // there.
+    view::Orbit orbit = orbit_for(viewpoint_, model_->box, aspect);
+    // The menu covers part of the picture: the distance is divided by the free share, so that the box fits
+    // into the free area, and the target is moved, so that the box is in its middle.
     const glm::vec2 free = glm::vec2(1.0F) - glm::abs(request_.shift);
-    const glm::vec3 away = (at.eye - at.target) / std::max(std::min(free.x, free.y), 0.3F);
-    const float half_height = glm::length(away) * std::tan(0.5F * at.fov);
-    const glm::vec3 right = glm::normalize(glm::cross(-away, glm::vec3(0.0F, 1.0F, 0.0F)));
-    const glm::vec3 up = glm::normalize(glm::cross(right, -away));
-    at.target -= half_height * (request_.shift.x * aspect * right + request_.shift.y * up);
-    at.eye = at.target + away;
+    orbit.distance /= static_cast<double>(std::max(std::min(free.x, free.y), 0.3F));
+    view::pan(orbit, 0.5 * glm::dvec2(request_.shift.x * aspect, request_.shift.y));
     model_->scene.background = backdrop_color;
     model_->scene.exposure = backdrop_exposure;
-    const render::Eye eye = eye_at(at, model_->box, aspect);
+    const render::Eye eye = view::eye_of(orbit, model_->box, aspect);
     BOLT_TRY(renderer.render(frame, model_->scene, {&eye, 1}, size, backdrop_group));
     drawn_ = Backdrop{uploaded_, size, request_.shift};
     return {};
 }
 
-// The renderer's picture is drawn again for the next assembly, so that each thumbnail is a copy.
+// The renderer uses this picture for the next assembly too, so each thumbnail is a copy of it.
 Status AssemblyPictures::draw_thumbnail(gpu::Device& device, render::Renderer& renderer,
                                         gpu::FrameContext& frame) {
     const VkExtent2D size = request_.thumbnail;
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
-    const view::Viewpoint at = viewpoint_for(viewpoint_, model_->box, aspect);
     model_->scene.background = thumbnail_color;
     model_->scene.exposure = 1.0F;
-    const render::Eye eye = eye_at(at, model_->box, aspect);
+    const render::Eye eye = view::eye_of(orbit_for(viewpoint_, model_->box, aspect), model_->box, aspect);
     BOLT_TRY(renderer.render(frame, model_->scene, {&eye, 1}, size, thumbnail_group));
     const render::ImageLayer drawn = renderer.picture(0, thumbnail_group);
     gpu::ImageInfo info;

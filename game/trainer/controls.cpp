@@ -101,7 +101,7 @@ void update_key(ui::UiInput& input, const platform::KeyEvent& event) {
     input.ctrl = event.modifiers.control;
     input.shift = event.modifiers.shift;
     input.alt = event.modifiers.alt;
-    if (const auto key = key_of(event.key)) input.key(*key) = event.down;
+    if (const auto key = key_of(event.key)) input.key(*key).set(event.down);
 }
 
 // A controller moves through the interface as the arrow keys do.
@@ -114,7 +114,7 @@ void update_controller(ui::UiInput& input, const platform::ControllerEvent& even
         {ControllerButton::right, ui::UiKey::right},
         {ControllerButton::confirm, ui::UiKey::space}};
     for (const auto& [button, key] : table)
-        if (button == event.button) input.key(key) = event.down;
+        if (button == event.button) input.key(key).set(event.down);
 }
 
 void update_button(ui::UiInput& input, const platform::ButtonEvent& event) {
@@ -125,8 +125,7 @@ void update_button(ui::UiInput& input, const platform::ButtonEvent& event) {
                        : event.button == platform::Button::middle ? 2U
                                                                   : 3U;
     if (index >= input.buttons.size()) return;
-    input.buttons.at(index).down = event.down;
-    input.buttons.at(index).pressed = input.buttons.at(index).pressed || event.down;
+    input.buttons.at(index).set(event.down);
 }
 
 }  // namespace
@@ -147,6 +146,7 @@ bool starts(const platform::InputEvent& event) {
 
 void update_ui_input(ui::UiInput& input, std::span<const platform::InputEvent> events) {
     for (ui::UiButton& button : input.buttons) button.pressed = false;
+    for (ui::UiButton& key : input.keys) key.pressed = false;
     input.wheel = {};
     input.text.clear();
     for (const platform::InputEvent& event : events) {

@@ -191,7 +191,7 @@ void draw_devices(const ScreenContext& context, float width, std::span<const Dev
     }
 }
 
-// What the lesson will lack.
+// Names each model that the lesson needs and does not have.
 void draw_missing(const ScreenContext& context, float width, const Menu& menu, const AssemblyEntry& entry,
                   const LessonChoice& choice) {
     std::vector<std::string> missing;
@@ -477,7 +477,7 @@ std::string sizes_of(const content::Assembly& assembly) {
 }
 
 AssemblyEntry entry_of(const std::string& name) {
-    const content::LoadedAssembly loaded = content::load_assembly(name);
+    const content::LoadedAssembly loaded = content::load_assembly(content::assembly_folder(name));
     const content::Assembly& assembly = loaded.assembly;
     AssemblyEntry entry{name,
                         assembly.variant,
@@ -508,25 +508,6 @@ std::vector<AssemblyEntry> list_assemblies() {
     for (const std::string& name : content::assembly_names())
         if (name != tour_assembly) entries.push_back(entry_of(name));
     return entries;
-}
-
-void ComputerCheck::start(FindOut find_out, const computer::FactsRequest& request) {
-    if (running()) return;
-    findings_.clear();
-    find_out_ = std::move(find_out);
-    request_ = request;
-    with_timing_ = false;
-    computer::FactsRequest quick = request;
-    quick.seconds = 0.0;
-    running_ = std::async(std::launch::async, find_out_, quick);
-}
-
-void ComputerCheck::update() {
-    using namespace std::chrono_literals;
-    if (!running() || running_.wait_for(0s) != std::future_status::ready) return;
-    findings_ = computer::findings(running_.get());
-    if (std::exchange(with_timing_, true)) return;
-    running_ = std::async(std::launch::async, find_out_, request_);
 }
 
 AssemblyPictures::Request picture_request(const Menu& menu, const std::string& selected, VkExtent2D size,

@@ -80,7 +80,7 @@ struct MenuPictures {
     std::map<std::string, ImTextureID> thumbnails;  // by name of the assembly
 };
 
-// What the menu of this size (px) needs of AssemblyPictures. `scale`: px per point.
+// The pictures that a menu of this size (px) shows. `scale`: px per point.
 AssemblyPictures::Request picture_request(const Menu& menu, const std::string& selected, VkExtent2D size,
                                           float scale);
 

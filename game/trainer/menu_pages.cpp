@@ -43,6 +43,25 @@ ScreenAction end_page(const ScreenContext& context) {
 
 }  // namespace
 
+void ComputerCheck::start(FindOut find_out, const computer::FactsRequest& request) {
+    if (running()) return;
+    findings_.clear();
+    find_out_ = std::move(find_out);
+    request_ = request;
+    with_timing_ = false;
+    computer::FactsRequest quick = request;
+    quick.seconds = 0.0;
+    running_ = std::async(std::launch::async, find_out_, quick);
+}
+
+void ComputerCheck::update() {
+    using namespace std::chrono_literals;
+    if (!running() || running_.wait_for(0s) != std::future_status::ready) return;
+    findings_ = computer::findings(running_.get());
+    if (std::exchange(with_timing_, true)) return;
+    running_ = std::async(std::launch::async, find_out_, request_);
+}
+
 ScreenAction draw_computer_page(const ScreenContext& context, const ComputerCheck& check) {
     begin_page(context, "##computer", "menu.computer");
     for (const computer::Finding& finding : check.findings()) draw_finding(context.words, finding);

@@ -1,6 +1,6 @@
-// What all screens of buttons share, and the screens of a lesson: pause and result. The menu is in menu.hpp.
-// Each function draws one screen with Dear ImGui, between ui::Ui::begin and end, and returns the action that
-// the user selects; App carries it out.
+// Types that all screens of buttons share, and the screens of a lesson: pause and result. menu.hpp has the
+// menu. Each function draws one screen with Dear ImGui, between ui::Ui::begin and end, and returns the action
+// that the user selects; App carries it out.
 #pragma once
 
 #include <optional>

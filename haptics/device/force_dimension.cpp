@@ -58,7 +58,8 @@ Error arm_error(const ForceDimensionApi& api, const std::string& name, const cha
     return error;
 }
 
-// The limits are the smallest of the arms with these joints: CHAI3D 3.2, cDeltaDevices.
+// Force, torque, stiffness and reach are the smallest of the arms with these joints in CHAI3D
+// (CDeltaDevices). Torsion and damping are not published; these are low values of ours, not measured on arms.
 Description describe_arm(const ForceDimensionApi& api, char id, int index) {
     Description d;
     const bool wrist = api.has_wrist(id), active = api.has_active_wrist(id);

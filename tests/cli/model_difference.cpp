@@ -1,7 +1,7 @@
 // test_model_difference MADE KEPT: prints the difference of two models and exits with 1 if there is one.
 #include <cstdio>
 
-#include "tests/support/near_model.hpp"
+#include "tests/support/model_difference.hpp"
 
 int main(int argc, char** argv) {
     if (argc != 3) return 2;

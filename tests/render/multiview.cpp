@@ -1,7 +1,7 @@
 // Multiview: each layer equals a single picture of its view.
 #include <doctest/doctest.h>
 
-#include "engine/render/passes/multiview_check.hpp"
+#include "engine/render/passes/pass.hpp"
 #include "tests/render/support.hpp"
 #include "tests/support/skip.hpp"
 

@@ -8,7 +8,7 @@
 #include "engine/assets/gltf.hpp"
 #include "engine/base/file.hpp"
 #include "tests/support/folder.hpp"
-#include "tests/support/near_model.hpp"
+#include "tests/support/model_difference.hpp"
 #include "tests/support/skip.hpp"
 
 namespace sculpt_content_test {

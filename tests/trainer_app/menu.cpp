@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "content/format/folders.hpp"
@@ -52,7 +53,7 @@ void press_card(HeadlessTrainer& driver, const std::string& assembly) {
     driver.frame();
 }
 
-// Mean difference of the channels from `color` (0 … 255) in a square about `at`, px.
+// Mean difference of the channels (0 … 255) from the first texel of a square about `middle`, px.
 double difference_from_first_texel(const render::Picture& picture, const glm::vec2& middle, int radius) {
     const auto texel = [&](int x, int y, int channel) {
         return static_cast<double>(
@@ -72,7 +73,7 @@ void controller(HeadlessTrainer& driver, platform::ControllerButton button) {
     driver.frame({platform::ControllerEvent{button, false}});
 }
 
-// A copy of a shipped assembly in the user's own folder.
+// Writes `text` as the assembly.json of an assembly of the user; if it is empty, copies cover-m8.
 void add_user_assembly(const std::filesystem::path& data, const std::string& name, const std::string& text) {
     const auto folder = data / "boltwright" / "assemblies" / name;
     std::filesystem::create_directories(folder);
@@ -147,6 +148,50 @@ TEST_CASE("Menu: keys alone choose, open pages and start; Enter presses the mark
             break;
     }
     CHECK(driver.app().choice().task == lesson::Task::loosen);
+}
+
+TEST_CASE("Menu: a key that is pressed and released within one frame is not lost") {
+    HeadlessTrainer driver(options("cover-m8", true), small);
+    driver.frame();
+    const auto tap = [&](Key key) {
+        driver.frame({platform::KeyEvent{key, true}, platform::KeyEvent{key, false}});
+        driver.frame();
+    };
+    for (const Key key : {Key::down, Key::down, Key::right, Key::right, Key::enter}) tap(key);
+    CHECK(driver.app().menu_page() == MenuPage::files);
+}
+
+TEST_CASE("Menu: an assembly of the menu is not the folder of its name in the current folder") {
+    const test::Folder here;
+    std::filesystem::create_directories(here / "cover-m8");
+    std::ofstream(here / "cover-m8" / "assembly.json") << R"({"title": 3})";
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(here.path());
+    HeadlessTrainer driver(options("cover-m8", true), small);
+    wait_for_pictures(driver);
+    driver.press_button("menu.start");
+    driver.frame();
+    std::filesystem::current_path(before);
+    REQUIRE(driver.app().screen() == ShownScreen::lesson);
+    CHECK(driver.lesson().session->assembly().joints.size() == 4);
+}
+
+TEST_CASE("Menu: an assembly whose first view is from straight above is shown behind the menu") {
+    const test::Folder data;
+    const test::EnvironmentVariable home("XDG_DATA_HOME", data.path().c_str());
+    std::ifstream shipped(content::content_folder() / "assemblies/cover-m8/assembly.json");
+    std::string text(std::istreambuf_iterator<char>(shipped), {});
+    add_user_assembly(data.path(), "above", "");
+    const std::size_t views = text.find("\"views\"");
+    REQUIRE(views != std::string::npos);
+    const std::size_t open = text.find('{', views), close = text.find('}', open);
+    text.replace(open, close + 1 - open,
+                 R"({ "name": "above", "eye_mm": [0, 600, 0], "target_mm": [0, 0, 0] })");
+    std::ofstream(data / "boltwright/assemblies/above/assembly.json") << text;
+    HeadlessTrainer driver(options("above", true), small);
+    wait_for_pictures(driver);
+    const glm::vec2 size(driver.size());
+    CHECK(difference_from_first_texel(driver.picture(), {0.7F * size.x, 0.25F * size.y}, 40) > 2.0);
 }
 
 TEST_CASE("Menu: without a marked control Enter starts the lesson") {

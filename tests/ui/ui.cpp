@@ -230,9 +230,9 @@ TEST_CASE("Input: a click between two frames counts, and text can be typed in ev
     screen.input.text = "Größe 预x";
     (void)screen.show(panel);
     screen.input.text.clear();
-    screen.input.key(ui::UiKey::backspace) = true;
+    screen.input.key(ui::UiKey::backspace).down = true;
     (void)screen.show(panel);
-    screen.input.key(ui::UiKey::backspace) = false;
+    screen.input.key(ui::UiKey::backspace).down = false;
     (void)screen.show(panel);
     CHECK(std::string(typed) == "Größe 预");
     screen.input.pointer = {400, 140};

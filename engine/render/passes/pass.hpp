@@ -125,6 +125,11 @@ Status assign(T& to, Result<T> created) {
 std::uint32_t view_mask(std::uint32_t views);
 // Configures a pipeline for this number of views.
 void set_views(gpu::GraphicsInfo& info, std::uint32_t views);
+// Draws a triangle that extends beyond the picture, so that the driver must clip it, into a small image with
+// two layers; each view writes its own value. Returns true if each layer has the value of its view. Waits for
+// the GPU. lavapipe of Mesa 22.3 draws the clipped triangle of the second view into the first layer
+// (gallium/auxiliary/draw/draw_pipe_vbuf.c); Mesa 25 does not.
+Result<bool> multiview_works(gpu::Device& device, const gpu::PipelineCache& cache);
 
 // Sets viewport and scissor to the whole extent.
 void set_area(VkCommandBuffer commands, VkExtent2D extent);

@@ -41,7 +41,7 @@ int refuse(int error) {
 
 void follow_clock();
 
-// Whether a call for this arm is possible.
+// Returns true if the arm is open and connected; otherwise sets the error of the call.
 bool reaches(char id) {
     follow_clock();
     if (arm.open && !arm.unplugged && id == arm_id) return true;

@@ -1,4 +1,4 @@
-#include "tests/support/near_model.hpp"
+#include "tests/support/model_difference.hpp"
 
 #include <fmt/format.h>
 
