@@ -392,9 +392,10 @@ void draw_language_buttons(const ScreenContext& context, float right, content::T
 
 ScreenAction first_of(ScreenAction a, ScreenAction b) { return a != ScreenAction::none ? a : b; }
 
-// The choices on the left; the assembly, its description and the cards on the right.
+// The choices on the left; the assembly, its description and the cards on the right. Clears `fits` if the
+// window is not high enough.
 ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures& pictures,
-                       LessonChoice& choice, Preferences& preferences) {
+                       LessonChoice& choice, Preferences& preferences, bool& fits) {
     const float scale = context.scale, edge = menu_margin * scale, column = column_width * scale;
     const ImVec2 size(static_cast<float>(context.size.x), static_cast<float>(context.size.y));
     const float inner = column - 2.0F * edge, right_width = size.x - column - 2.0F * edge;
@@ -412,6 +413,7 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
     const float actions =
         3.5F * ImGui::GetFrameHeight() + 3.0F * spacing +
         (menu.first_start ? wrapped_height(context.words["menu.tour.about"], inner) + spacing : 0.0F);
+    fits = ImGui::GetCursorPosY() <= size.y - edge - actions;
     ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), size.y - edge - actions));
     action = first_of(action, draw_start(context, inner, menu, choice));
     action = first_of(action, draw_pages(context, inner));
@@ -428,6 +430,7 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
                   ImGui::GetTextLineHeight() + context.heading->FontSize + 2.0F * spacing;
     const std::string problem = start_problem(menu, entry);
     if (!problem.empty()) height += wrapped_height(problem, right_width) + spacing;
+    fits = fits && height < size.y - edge - ImGui::GetFrameHeight();
     list.AddRectFilled({column, size.y - height}, size, strip_color);
     menu.covered = {column, height};
     ImGui::SetCursorPos({column + edge, size.y - height + edge});
@@ -532,7 +535,9 @@ ScreenAction draw_menu(const ScreenContext& context, Menu& menu, const MenuPictu
     }
     if (menu.page == MenuPage::files) return draw_files_page(context, menu.folders);
     const glm::vec2 size(context.size);
-    const bool wide = is_wide(size, context.scale);
+    const std::string shown =
+        fmt::format("{} {} {}x{} {}", choice.assembly, context.words.language, size.x, size.y, context.scale);
+    const bool wide = is_wide(size, context.scale) && menu.too_tall != shown;
     ImGui::SetNextWindowPos({0.0F, 0.0F});
     ImGui::SetNextWindowSize({size.x, size.y});
     ImGui::SetNextWindowBgAlpha(0.94F);
@@ -543,9 +548,11 @@ ScreenAction draw_menu(const ScreenContext& context, Menu& menu, const MenuPictu
         wide ? menu_flags : menu_flags & ~(ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar));
     ImGui::PopStyleVar(2);
     menu.covered = {};
-    const ScreenAction action = wide ? draw_wide(context, menu, pictures, choice, preferences)
+    bool fits = true;
+    const ScreenAction action = wide ? draw_wide(context, menu, pictures, choice, preferences, fits)
                                      : draw_narrow(context, menu, pictures, choice, preferences);
     ImGui::End();
+    if (!fits) menu.too_tall = shown;
     return action;
 }
 

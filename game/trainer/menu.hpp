@@ -71,7 +71,9 @@ struct Menu {
     bool first_start = false;  // the tour is offered first
     MenuPage page = MenuPage::choices;
     ComputerCheck check;
-    glm::vec2 covered{0.0F};           // px, at the left and at the bottom, that the menu covered last
+    glm::vec2 covered{0.0F};  // px, at the left and at the bottom, that the menu covered last
+    // Assembly, language and window for which two columns are too tall; drawn in one that scrolls.
+    std::string too_tall;
     std::optional<Error> start_error;  // why the last lesson could not start
 };
 

@@ -194,6 +194,35 @@ TEST_CASE("Menu: an assembly whose first view is from straight above is shown be
     CHECK(difference_from_first_texel(driver.picture(), {0.7F * size.x, 0.25F * size.y}, 40) > 2.0);
 }
 
+TEST_CASE(
+    "Menu: instructions that are too long for two columns are shown in one, and the buttons stay inside") {
+    const test::Folder data;
+    const test::EnvironmentVariable home("XDG_DATA_HOME", data.path().c_str());
+    std::ifstream shipped(content::content_folder() / "assemblies/cover-m8/assembly.json");
+    std::string text(std::istreambuf_iterator<char>(shipped), {});
+    add_user_assembly(data.path(), "long", "");
+    const std::size_t lesson = text.find("\"lesson\"");
+    REQUIRE(lesson != std::string::npos);
+    std::string sentences;
+    for (int i = 0; i < 200; ++i) sentences += "Tighten every nut in turn. ";
+    text.insert(text.find("\"en\": \"", lesson) + 7, sentences);
+    std::ofstream(data / "boltwright/assemblies/long/assembly.json") << text;
+    HeadlessTrainer driver(options("long", true), small);
+    driver.frame();
+    driver.frame();
+    for (const words::TextKey key : {words::TextKey("menu.start"), words::TextKey("menu.tour"),
+                                     words::TextKey("menu.settings"), words::TextKey("menu.quit")}) {
+        CAPTURE(key.row().name);
+        const ButtonPlace* button = find_button(driver, key);
+        REQUIRE(button != nullptr);
+        CHECK(button->middle.y > 0.0F);
+        CHECK(button->middle.y < static_cast<float>(driver.size().y));
+    }
+    driver.press_button("menu.start");
+    driver.frame();
+    CHECK(driver.app().screen() == ShownScreen::lesson);
+}
+
 TEST_CASE("Menu: without a marked control Enter starts the lesson") {
     HeadlessTrainer driver(options("cover-m8", true), small);
     driver.frame();
