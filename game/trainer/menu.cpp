@@ -16,7 +16,7 @@ namespace bolt::trainer {
 namespace {
 
 // Lengths in points.
-constexpr float column_width = 480.0F, menu_margin = 24.0F, label_width = 88.0F;
+constexpr float column_width = 480.0F, menu_margin = 24.0F, label_gap = 16.0F;
 constexpr float card_width = 176.0F, thumbnail_height = 92.0F, card_padding = 6.0F;
 // Below this size the menu is one column that scrolls.
 constexpr float least_wide_width = 940.0F, least_wide_height = 690.0F;
@@ -54,13 +54,23 @@ void draw_paragraph(const std::string& text, float width, const glm::vec4& color
     ImGui::PopTextWrapPos();
 }
 
+// px, of the longest label of a row and the gap after it.
+float label_width(const ScreenContext& context) {
+    float longest = 0.0F;
+    for (const words::TextKey label :
+         {words::TextKey("menu.task"), words::TextKey("menu.mode"), words::TextKey("menu.variant"),
+          words::TextKey("menu.tool"), words::TextKey("menu.law"), words::TextKey("menu.device"),
+          words::TextKey("menu.trainee")})
+        longest = std::max(longest, ImGui::CalcTextSize(context.words[label].c_str()).x);
+    return longest + label_gap * context.scale;
+}
+
 // A label with buttons beside it, of which one is chosen. Buttons that do not fit go into another line.
 class ChoiceRow {
   public:
     // `width`: px, of label and buttons.
     ChoiceRow(const ScreenContext& context, const std::string& label, float width)
-        : left_(ImGui::GetCursorPosX() + label_width * context.scale),
-          right_(ImGui::GetCursorPosX() + width) {
+        : left_(ImGui::GetCursorPosX() + label_width(context)), right_(ImGui::GetCursorPosX() + width) {
         ImGui::AlignTextToFramePadding();
         ImGui::PushStyleColor(ImGuiCol_Text, {muted_text.r, muted_text.g, muted_text.b, 1.0F});
         draw_text(label);
@@ -132,9 +142,9 @@ void draw_task_and_mode(const ScreenContext& context, float width, LessonChoice&
                                  : choice.mode == lesson::Mode::practice
                                      ? words::TextKey("mode.practice.about")
                                      : words::TextKey("mode.assessment.about");
-    ImGui::Indent(label_width * context.scale);
-    draw_paragraph(words[about], width - label_width * context.scale, muted_text);
-    ImGui::Unindent(label_width * context.scale);
+    ImGui::Indent(label_width(context));
+    draw_paragraph(words[about], width - label_width(context), muted_text);
+    ImGui::Unindent(label_width(context));
 }
 
 // A selection replaces the law of the command line and is saved with the trainee's settings.
@@ -150,12 +160,12 @@ void draw_laws(const ScreenContext& context, float width, joint::Law assembly_la
         }
         record_place(context, key);
     }
-    ImGui::Indent(label_width * context.scale);
+    ImGui::Indent(label_width(context));
     draw_paragraph(
         context.words[selected == joint::Law::mechanistic ? words::TextKey("menu.law.mechanistic.about")
                                                           : words::TextKey("menu.law.published.about")],
-        width - label_width * context.scale, muted_text);
-    ImGui::Unindent(label_width * context.scale);
+        width - label_width(context), muted_text);
+    ImGui::Unindent(label_width(context));
 }
 
 void draw_variants_and_tools(const ScreenContext& context, float width, const AssemblyEntry& entry,
@@ -225,7 +235,7 @@ ScreenAction draw_choices(const ScreenContext& context, float width, const Menu&
     }
     draw_devices(context, width, menu.devices, choice.equipment);
     ChoiceRow row(context, context.words["menu.trainee"], width);
-    text_field("##trainee", width - label_width * context.scale, choice.trainee);
+    text_field("##trainee", width - label_width(context), choice.trainee);
     record_place(context, "menu.trainee");
     if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
     ImGui::Spacing();
