@@ -11,7 +11,7 @@
 #include "content/words/words.hpp"
 #include "engine/audio/sink.hpp"
 #include "engine/gpu/device.hpp"
-#include "haptics/device/hid_devices.hpp"
+#include "haptics/device/connected_devices.hpp"
 #include "haptics/servo/servo_thread.hpp"
 
 namespace bolt::computer {

@@ -11,7 +11,7 @@
 #include "content/format/assembly.hpp"
 #include "content/trainee/glove_calibration.hpp"
 #include "game/session/lesson_session.hpp"
-#include "haptics/device/hid_devices.hpp"
+#include "haptics/device/connected_devices.hpp"
 #include "haptics/device/virtual_devices.hpp"
 #include "haptics/hand/glove_driver.hpp"
 #include "haptics/station/gloved_hand.hpp"

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <regex>
 
-#include "haptics/device/hid_devices.hpp"
+#include "haptics/device/connected_devices.hpp"
 
 using namespace bolt;
 using namespace bolt::device;

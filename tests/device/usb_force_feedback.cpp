@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "haptics/device/hid_devices.hpp"
+#include "haptics/device/connected_devices.hpp"
 #include "haptics/device/wheel.hpp"
 #include "tests/device/descriptors.hpp"
 #include "tools/emulate/puck.hpp"

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "haptics/device/hid_devices.hpp"
+#include "haptics/device/connected_devices.hpp"
 #include "haptics/device/hid_transport.hpp"
 #include "tools/emulate/hid_device.hpp"
 

@@ -1,13 +1,12 @@
-#include "haptics/device/hid_devices.hpp"
+#include "haptics/device/connected_devices.hpp"
 
 #include <fmt/format.h>
 #include <hidapi.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 
-#include "haptics/device/force_dimension.hpp"
+#include "haptics/device/arms.hpp"
 #include "haptics/device/hid_transport.hpp"
 #include "haptics/device/space_mouse.hpp"
 #include "haptics/device/usb_force_feedback.hpp"
@@ -113,31 +112,18 @@ ListedDevice listed(const HidNode& one) {
     return device;
 }
 
-// None if the vendor's library is absent, because a computer without an arm needs none.
 std::vector<ListedDevice> list_arms() {
     std::vector<ListedDevice> arms;
-    const Result<ForceDimensionApi> api = load_force_dimension(force_dimension_libraries());
-    if (!api && api.error().code == ErrorCode::no_device) return arms;
-    const int count = api ? std::clamp(api->get_device_count(), 0, 16) : 1;
-    for (int i = 0; i < count; ++i) {
-        ListedDevice arm{api ? api->library.string() : std::string(),
-                         fmt::format("force-dimension:{}", i),
-                         "Force Dimension arm",
-                         DeviceKind::arm,
-                         {}};
-        if (!api) {
-            arm.trouble = api.error();
-            arm.trouble->code = ErrorCode::no_device;
-        }
-        arms.push_back(std::move(arm));
-    }
+    for (const ArmVendor& vendor : arm_vendors())
+        for (ListedDevice& arm : vendor.list()) arms.push_back(std::move(arm));
     return arms;
 }
 
 Result<std::unique_ptr<DeviceDriver>> open_arm(const ListedDevice& listed, const OpenOptions& options) {
-    BOLT_TRY_ASSIGN(auto api, load_force_dimension({listed.path}));
-    const int index = std::atoi(listed.id.c_str() + listed.id.find(':') + 1);
-    return open_force_dimension(api, {index, options.arm_may_move}, steady_timer());
+    for (const ArmVendor& vendor : arm_vendors())
+        if (listed.id.starts_with(std::string(vendor.name) + ':')) return vendor.open(listed, options);
+    return fail(ErrorCode::no_device, fmt::format("{} is not an arm that can be opened", listed.id),
+                "one that `boltwright devices` lists");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "haptics/device/hid_devices.hpp"
+#include "haptics/device/connected_devices.hpp"
 
 #include <doctest/doctest.h>
 

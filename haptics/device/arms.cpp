@@ -1,0 +1,60 @@
+#include "haptics/device/arms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "haptics/device/force_dimension.hpp"
+
+namespace bolt::device {
+
+namespace {
+
+constexpr int most_arms = 16;  // of one vendor
+
+// The entry of a library that is present and cannot be used.
+ListedDevice unusable_arm(std::string_view vendor, const char* name, Error trouble) {
+    trouble.code = ErrorCode::no_device;
+    return {{}, fmt::format("{}:0", vendor), name, DeviceKind::arm, std::move(trouble)};
+}
+
+std::vector<ListedDevice> list_force_dimension() {
+    std::vector<ListedDevice> arms;
+    const char* const name = "Force Dimension arm";
+    const Result<ForceDimensionApi> api = load_force_dimension(force_dimension_libraries());
+    if (!api) {
+        if (api.error().code != ErrorCode::no_device)
+            arms.push_back(unusable_arm("force-dimension", name, api.error()));
+        return arms;
+    }
+    const int count = std::clamp(api->get_device_count(), 0, most_arms);
+    for (int i = 0; i < count; ++i)
+        arms.push_back(
+            {api->library.string(), fmt::format("force-dimension:{}", i), name, DeviceKind::arm, {}});
+    return arms;
+}
+
+Result<std::unique_ptr<DeviceDriver>> open_listed_force_dimension(const ListedDevice& listed,
+                                                                  const OpenOptions& options) {
+    BOLT_TRY_ASSIGN(auto api, load_force_dimension({listed.path}));
+    return open_force_dimension(api, {arm_index(listed.id), options.arm_may_move}, steady_timer());
+}
+
+constexpr std::array vendors{
+    ArmVendor{"force-dimension", list_force_dimension, open_listed_force_dimension},
+};
+
+}  // namespace
+
+std::span<const ArmVendor> arm_vendors() { return vendors; }
+
+int arm_index(std::string_view id) {
+    int index = 0;
+    const std::string_view digits = id.substr(std::min(id.size(), id.rfind(':') + 1));
+    std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    return index;
+}
+
+}  // namespace bolt::device

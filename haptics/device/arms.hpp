@@ -1,0 +1,27 @@
+// Arms through their vendors' libraries: one row for each vendor, with the functions that list its arms and
+// open one of them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "haptics/device/connected_devices.hpp"
+
+namespace bolt::device {
+
+struct ArmVendor {
+    std::string_view name;  // an arm's id is NAME:INDEX
+    // Returns the arms that are connected now; none if the vendor's library is absent, because a computer
+    // without an arm needs none. A library that cannot be used is listed as an arm with trouble.
+    std::vector<ListedDevice> (*list)();
+    Result<std::unique_ptr<DeviceDriver>> (*open)(const ListedDevice& listed, const OpenOptions& options);
+};
+
+std::span<const ArmVendor> arm_vendors();
+
+// The index in an arm's id: 3 for force-dimension:3.
+int arm_index(std::string_view id);
+
+}  // namespace bolt::device
