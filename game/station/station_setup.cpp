@@ -297,6 +297,7 @@ Result<PlannedStation> plan_station(const content::Assembly& assembly, const Sta
         if (initial->contact && request.tightened) session::seat_nuts(setup, *initial->contact);
     }
     planned.obstacles = initial->contact.has_value();
+    planned.options.handle_length = setup.wrench.handle_length;
     planned.options.home = initial_wrench_pose(setup, initial->contact ? &*initial->contact : nullptr,
                                                request.joint, state.joints[request.joint].nut.angle);
     planned.options.setup = [initial](const force::OutputLimits& limits, double dt) {
@@ -322,6 +323,7 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
     const auto start = std::make_shared<PreparedLesson>(PreparedLesson{lesson, std::move(prepared)});
     planned.obstacles = start->setup.state.tool_contact.has_value();
     planned.options.home = home;
+    planned.options.handle_length = start->setup.setup.wrench.handle_length;
     planned.options.servo.rate = 1.0 / lesson.dt;
     planned.options.setup = [start, scale = request.force_scale](const force::OutputLimits& limits, double) {
         start->options.device = force::scaled(limits, scale);

@@ -5,11 +5,27 @@
 
 namespace bolt::force {
 
+namespace {
+
+constexpr double swing = to_radians(60.0);  // of a wrench between two positions of its jaw on a hexagon
+constexpr double used_reach = 0.9;          // share of the reach: at its edge many arms get soft
+
+Quat to_viewer(const WorkspaceMap& w, const WorkspaceState& s) { return s.heading * w.turn; }
+
+}  // namespace
+
+Vec3 grip_point(const WorkspaceState& s, const Pose& tool) { return tool * Vec3(s.grip_distance, 0.0, 0.0); }
+
+void realign(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, const Pose& tool) {
+    const Quat turn = to_viewer(w, s);
+    s.centre = grip_point(s, tool) - w.scale * (turn * device.position);
+    s.grip = glm::normalize(glm::conjugate(turn * device.orientation) * tool.orientation);
+    s.tool = tool;
+}
+
 WorkspaceState align_workspace(const WorkspaceMap& w, const Pose& device, const Pose& tool) {
     WorkspaceState state;
-    state.centre = tool.position - w.scale * (w.turn * device.position);
-    state.grip = glm::normalize(glm::conjugate(w.turn * device.orientation) * tool.orientation);
-    state.tool = tool;
+    realign(w, state, device, tool);
     return state;
 }
 
@@ -21,18 +37,41 @@ Pose to_assembly(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, b
     const double step = w.fade > 0.0 ? dt / w.fade : 1.0;
     s.share = std::clamp(s.share + (clutch ? -step : step), 0.0, 1.0);
     if (clutch) {
-        const double share = s.share;
-        s = align_workspace(w, device, s.tool);
-        s.share = share;
+        realign(w, s, device, s.tool);
     } else {
-        s.tool.position = s.centre + w.scale * (w.turn * device.position);
-        s.tool.orientation = glm::normalize(w.turn * device.orientation * s.grip);
+        const Quat turn = to_viewer(w, s);
+        s.tool.orientation = glm::normalize(turn * device.orientation * s.grip);
+        s.tool.position = s.centre + w.scale * (turn * device.position) -
+                          s.tool.orientation * Vec3(s.grip_distance, 0.0, 0.0);
     }
     return s.tool;
 }
 
+Pose pivoted(const Pivot& pivot, const Pose& held, double grip_distance, const Vec3& grip_point) {
+    const auto across = [&](const Vec3& v) { return v - glm::dot(v, pivot.axis) * pivot.axis; };
+    const Vec3 from = across(held.orientation * Vec3(1.0, 0.0, 0.0));
+    const Vec3 to = across(grip_point - pivot.centre);
+    Pose tool = held;
+    if (glm::length(from) > 1e-6 && glm::length(to) > 1e-6) {
+        const double angle = std::atan2(glm::dot(pivot.axis, glm::cross(from, to)), glm::dot(from, to));
+        tool.orientation = glm::normalize(glm::angleAxis(angle, pivot.axis) * held.orientation);
+    }
+    tool.position = grip_point - tool.orientation * Vec3(grip_distance, 0.0, 0.0);
+    return tool;
+}
+
+double fitted_scale(const Vec3& reach, double handle_length) {
+    // Half the chord of the arc, along x, and half its height, along z.
+    const double chord = handle_length * std::sin(0.5 * swing);
+    const double height = 0.5 * handle_length * (1.0 - std::cos(0.5 * swing));
+    double scale = 1.0;
+    if (reach.x > 0.0) scale = std::max(scale, chord / (used_reach * reach.x));
+    if (reach.z > 0.0) scale = std::max(scale, height / (used_reach * reach.z));
+    return scale;
+}
+
 OutputCommand to_device(const WorkspaceMap& w, const WorkspaceState& s, const OutputCommand& on_tool) {
-    const Quat back = glm::conjugate(w.turn);
+    const Quat back = glm::conjugate(to_viewer(w, s));
     return {back * on_tool.force * (s.share * w.power * w.scale),
             back * on_tool.torque * (s.share * w.power)};
 }

@@ -26,19 +26,47 @@ struct WorkspaceMap {
 };
 
 struct WorkspaceState {
-    Vec3 centre{0.0};               // m: tool = centre + scale · turn · device
-    Quat grip{1.0, 0.0, 0.0, 0.0};  // tool = turn · device · grip
-    Pose tool;                      // in the assembly's frame, at the last tick
-    double share = 1.0;             // 0 … 1, share of the force that is rendered
+    Vec3 centre{0.0};               // m: point = centre + scale · heading · turn · device
+    Quat grip{1.0, 0.0, 0.0, 0.0};  // tool = heading · turn · device · grip
+    // Unit, about the assembly's y: where the viewer stands, so that right stays right when the view turns.
+    Quat heading{1.0, 0.0, 0.0, 0.0};
+    // m from the tool's origin along its x to the point that follows the device: 0 for fingers and for a
+    // device with torque; the length of the wrench for a device whose force acts at the end of the handle.
+    double grip_distance = 0.0;
+    Pose tool;           // in the assembly's frame, at the last tick
+    double share = 1.0;  // 0 … 1, share of the force that is rendered
 };
 
 // Returns the state in which the device pose `device` maps to the tool pose `tool`.
 WorkspaceState align_workspace(const WorkspaceMap& workspace, const Pose& device, const Pose& tool);
 
+// As align_workspace(), and keeps heading, grip distance and share.
+void realign(const WorkspaceMap& workspace, WorkspaceState& state, const Pose& device, const Pose& tool);
+
+// The point of the tool that follows the device, in the assembly's frame.
+Vec3 grip_point(const WorkspaceState& state, const Pose& tool);
+
 // One tick of dt. Returns the tool's pose in the assembly's frame. Releasing the clutch does not move the
 // tool. A device pose that is not finite is returned unchanged for the watchdog to reject.
 Pose to_assembly(const WorkspaceMap& workspace, WorkspaceState& state, const Pose& device, bool clutch,
                  double dt);
+
+// A bolt that holds a wrench: `centre` of the nut, m, and unit `axis`, in the assembly's frame.
+struct Pivot {
+    Vec3 centre{0.0};
+    Vec3 axis{0.0, 1.0, 0.0};
+};
+
+// The pose of a wrench on a bolt whose handle the hand holds at `grip_point`, `grip_distance` m from the jaw:
+// the pose `held`, turned about the bolt so that the handle points to the grip point, and moved so that it
+// ends there. The wrist may turn freely in the hand, because a device without torque cannot hold it. Only
+// moves `held` if the grip point is on the axis.
+Pose pivoted(const Pivot& pivot, const Pose& held, double grip_distance, const Vec3& grip_point);
+
+// The smallest scale, at least 1, at which the end of a wrench of `handle_length` m that points to the user
+// swings by 60° within the device's reach (m, half the workspace along each axis). A reach of 0 is
+// unknown: 1.
+double fitted_scale(const Vec3& reach, double handle_length);
 
 OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& state,
                         const OutputCommand& on_tool);

@@ -85,6 +85,15 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
     return {};
 }
 
+// With the power 1/scale a force on the tool is as large on the hand.
+force::WorkspaceMap fitted_workspace(const Layout& layout, double handle_length) {
+    force::WorkspaceMap map;
+    if (!layout.mover || layout.mover->sensing != device::Sensing::pose) return map;
+    map.scale = force::fitted_scale(layout.mover->reach, handle_length);
+    map.power = 1.0 / map.scale;
+    return map;
+}
+
 }  // namespace
 
 Result<Station> Station::start(StationOptions options) {
@@ -92,11 +101,12 @@ Result<Station> Station::start(StationOptions options) {
     Shared& s = *shared;
     s.layout.mover_buttons = options.mover_buttons;
     s.layout.wheel_buttons = options.wheel_buttons;
-    s.layout.workspace = options.workspace;
     s.layout.home = options.home;
     BOLT_TRY(open(options.mover, options, s.mover, s.layout.mover));
     BOLT_TRY(open(options.wheel, options, s.wheel, s.layout.wheel));
     BOLT_TRY(check(s.layout));
+    s.layout.workspace = options.workspace.value_or(fitted_workspace(s.layout, options.handle_length));
+    s.layout.grip_distance = grip_distance_of(s.layout, options.handle_length);
     if (options.hand && options.glove.empty())
         return fail(ErrorCode::no_device, "station: the gloved hand has no glove",
                     "the serial port of the glove");

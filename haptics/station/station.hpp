@@ -35,7 +35,9 @@ struct StationLinkStats {
 struct StationOptions {
     device::DeviceFactory mover, wheel;  // empty: no such device
     Buttons mover_buttons, wheel_buttons;
-    force::WorkspaceMap workspace;
+    // None: fitted to the mover's reach, with forces of unchanged magnitude.
+    std::optional<force::WorkspaceMap> workspace;
+    double handle_length = 0.0;  // m, of the wrench
     Pose home;
     std::filesystem::path glove;    // serial port; empty: no glove
     std::optional<HandSetup> hand;  // wearer of the glove; none: the controls determine the grip

@@ -32,6 +32,11 @@ Status check(const Layout& layout) {
     return {};
 }
 
+double grip_distance_of(const Layout& layout, double handle_length) {
+    const bool pose = layout.mover && layout.mover->sensing == Sensing::pose;
+    return pose && limits_of(layout).torque <= 0.0 ? handle_length : 0.0;
+}
+
 force::OutputLimits limits_of(const Layout& layout) {
     force::OutputLimits limits;
     limits.force = limits.torque = 0.0;
@@ -120,6 +125,32 @@ void integrate_velocity(const Layout& layout, const servo::Setup& setup, Station
             glm::normalize(rotation(force::clamp_length(turned, max_angular_lead)) * held_back.orientation);
 }
 
+bool on_bolt(const StationState& s) { return s.output.joint >= 0; }
+
+// The view's rotation about the assembly's vertical. The view's x axis is level whatever its pitch.
+Quat heading_of(const Quat& view) {
+    const Vec3 right = view * Vec3(1.0, 0.0, 0.0);
+    return glm::angleAxis(std::atan2(-right.z, right.x), Vec3(0.0, 1.0, 0.0));
+}
+
+// Changes what the tool's motion follows, without moving the tool.
+void set_heading_and_grip(const Layout& layout, StationState& s, const Quat& heading, double grip_distance) {
+    if (heading == s.workspace.heading && grip_distance == s.workspace.grip_distance) return;
+    s.workspace.heading = heading;
+    s.workspace.grip_distance = grip_distance;
+    force::realign(layout.workspace, s.workspace, s.hand, s.workspace.tool);
+}
+
+// On a bolt the wrench follows the end of its handle; the wrist may turn freely.
+void pivot_on_bolt(const Layout& layout, const servo::Setup& setup, StationState& s) {
+    if (!on_bolt(s) || s.input.grip != servo::Grip::wrench || s.workspace.grip_distance <= 0.0) return;
+    const servo::NutGeometry& nut = setup.nuts[static_cast<std::size_t>(s.output.joint)];
+    const force::Pivot pivot{servo::nut_centre(nut, s.output.nut_angle), nut.axis};
+    const Vec3 grip = force::grip_point(s.workspace, s.workspace.tool);
+    force::realign(layout.workspace, s.workspace, s.hand,
+                   force::pivoted(pivot, s.output.tool, s.workspace.grip_distance, grip));
+}
+
 void move(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
           const Quat& view, bool clutch, double dt) {
     if (layout.mover->sensing == Sensing::velocity) {
@@ -130,22 +161,21 @@ void move(const Layout& layout, const servo::Setup& setup, StationState& s, cons
     if (s.mover.fresh) {
         s.hand = snapshot.sample.pose;
         if (snapshot.opening != s.mover.opening) {
-            const Pose tool = s.workspace.tool;
-            s.workspace = force::align_workspace(layout.workspace, s.hand, tool);
+            force::realign(layout.workspace, s.workspace, s.hand, s.workspace.tool);
             s.workspace.share = 0.0;
         }
         s.mover.opening = snapshot.opening;
     }
     if (s.mover.number == 0) return;
     const bool away = clutch || !s.mover.usable;
+    set_heading_and_grip(layout, s, heading_of(view), s.workspace.grip_distance);
     force::to_assembly(layout.workspace, s.workspace, s.hand, away, dt);
+    if (!away) pivot_on_bolt(layout, setup, s);
 }
 
 // Moves the tool; it follows the hand from there.
 void place_tool(const Layout& layout, StationState& s, const Pose& tool) {
-    const double share = s.workspace.share;
-    s.workspace = force::align_workspace(layout.workspace, s.hand, tool);
-    s.workspace.share = share;
+    force::realign(layout.workspace, s.workspace, s.hand, tool);
 }
 
 // +1 if the wheel's angle counts counter-clockwise as the user sees it, −1 otherwise. The user looks at the
@@ -153,8 +183,6 @@ void place_tool(const Layout& layout, StationState& s, const Pose& tool) {
 double rotation_sense(const Description& wheel) {
     return glm::dot(wheel.axis, Vec3(0.0, 1.0, 1.0)) < 0.0 ? -1.0 : 1.0;
 }
-
-bool on_bolt(const StationState& s) { return s.output.joint >= 0; }
 
 void turn(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
           bool clutch) {
@@ -269,6 +297,8 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
         s.workspace.share = 0.0;
     }
     const servo::Grip grip = grip_of(inputs);
+    set_heading_and_grip(layout, s, s.workspace.heading,
+                         grip == servo::Grip::wrench ? layout.grip_distance : 0.0);
     update_wrench_rest(layout, s, grip, controls);
 
     servo::Input input;

@@ -35,7 +35,10 @@ struct Layout {
     Buttons wheel_buttons;
     force::WorkspaceMap workspace;  // of the mover; for a device that senses velocity only `turn` applies
     Pose home;                      // initial pose of the tool in the assembly's frame
-    std::optional<Pose> wrist;      // of a gloved hand that holds the tool, in the tool's frame
+    // m from the wrench's jaw to the point of its handle that the mover's handle stands for
+    // (grip_distance_of()).
+    double grip_distance = 0.0;
+    std::optional<Pose> wrist;  // of a gloved hand that holds the tool, in the tool's frame
 };
 
 // Fails with ErrorCode::no_device if there is no device or a device cannot take its role.
@@ -44,6 +47,11 @@ Status check(const Layout& layout);
 // s; upper bound of the sum of two delays: from a sample's arrival until the servo reads it, and from a
 // command until the device thread reads it. Subtracted from the time in which forces must be released.
 inline constexpr double transport_delay = 2e-3;
+
+// The length of the wrench, `handle_length` m, if the mover senses the pose of the hand and no device renders
+// torque: its force then acts at the end of the wrench. Otherwise 0: the mover's handle stands for the jaw,
+// and turns about the bolt.
+double grip_distance_of(const Layout& layout, double handle_length);
 
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
 force::OutputLimits limits_of(const Layout& layout);
@@ -64,7 +72,8 @@ struct StationControls {
     bool clutch = false, stop = false, reset = false;
     std::int16_t guide = -1;     // joint that the guiding force leads to; −1: none
     float click_setting = 0.0F;  // N·m, of a click-type torque wrench
-    // Unit, from the viewer's frame to the assembly's; a puck moves the tool in the viewer's frame.
+    // Unit, from the viewer's frame to the assembly's. A puck moves the tool in the viewer's frame, an arm in
+    // the assembly's frame turned to the viewer about the vertical.
     Quat view{1.0, 0.0, 0.0, 0.0};
     bool pause = false;  // no servo tick and no force; the tool stands still while the hand may move
     // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open

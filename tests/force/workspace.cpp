@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <limits>
 
@@ -156,6 +157,87 @@ TEST_CASE("WorkspaceMap: a command at the device's limit is at the mapped limit"
         CHECK(glm::length(turned.torque) == doctest::Approx(0.01 * device.torsion));
         CHECK(limits.force_rate / limits.force == doctest::Approx(device.force_rate / device.force));
         CHECK(limits.torque_rate / limits.torque == doctest::Approx(device.torque_rate / device.torque));
+    }
+}
+
+TEST_CASE(
+    "WorkspaceMap: the grip follows the device and the tool turns about it; a new heading moves nothing") {
+    Random random(7);
+    for (int i = 0; i < 200; ++i) {
+        const WorkspaceMap w = any_workspace(random);
+        const Pose device{any(random), rotation(any(random))}, tool{any(random), rotation(any(random))};
+        WorkspaceState s;
+        s.grip_distance = random.uniform(0.0, 0.4);
+        realign(w, s, device, tool);
+        CHECK(apart(to_assembly(w, s, device, false, dt), tool) < 1e-12);
+        s.heading = glm::angleAxis(random.uniform(-3.0, 3.0), Vec3(0, 1, 0));
+        realign(w, s, device, tool);
+        CHECK(apart(to_assembly(w, s, device, false, dt), tool) < 1e-12);
+
+        const Vec3 grip = grip_point(s, tool), shift = 0.1 * any(random), turn = 0.5 * any(random);
+        const Pose there{device.position + shift, glm::normalize(rotation(turn) * device.orientation)};
+        const Pose now = to_assembly(w, s, there, false, dt);
+        const Vec3 moved = s.heading * (w.turn * shift);
+        CHECK(glm::length(grip_point(s, now) - grip - w.scale * moved) < 1e-12);
+        CHECK(apart({now.position, glm::normalize(rotation(s.heading * (w.turn * turn)) * tool.orientation)},
+                    now) < 1e-12);
+        // Force at the grip: the power at the device is `power` times the power at the grip.
+        const Vec3 force = any(random);
+        CHECK(glm::dot(to_device(w, s, {force, Vec3(0.0)}).force, shift) ==
+              doctest::Approx(w.power * s.share * w.scale * glm::dot(force, moved)));
+    }
+}
+
+TEST_CASE("Pivot: the handle points to the grip, the jaw stays on an arc's centre, and the tilt is kept") {
+    Random random(8);
+    for (int i = 0; i < 200; ++i) {
+        const Pivot pivot{any(random), glm::normalize(any(random))};
+        const double length = random.uniform(0.1, 0.5), angle = random.uniform(-3.0, 3.0);
+        // Square to the bolt, with the jaw on it.
+        const Vec3 across = glm::normalize(glm::cross(pivot.axis, any(random)));
+        const Pose held{
+            pivot.centre,
+            glm::normalize(glm::quat_cast(glm::dmat3(across, glm::cross(pivot.axis, across), pivot.axis)))};
+        const Quat swung = glm::angleAxis(angle, pivot.axis);
+        const Pose on_arc = pivoted(pivot, held, length, pivot.centre + length * (swung * across));
+        CHECK(apart(on_arc, {pivot.centre, glm::normalize(swung * held.orientation)}) < 1e-9);
+        // A grip beside the arc moves the jaw along the handle, one above it along the bolt, and neither
+        // tilts.
+        const double out = random.uniform(-0.02, 0.02), up = random.uniform(-0.02, 0.02);
+        const Pose off =
+            pivoted(pivot, held, length, pivot.centre + (length + out) * (swung * across) + up * pivot.axis);
+        CHECK(glm::length(off.position - pivot.centre - out * (swung * across) - up * pivot.axis) < 1e-9);
+        CHECK(apart({Vec3(0.0), off.orientation}, {Vec3(0.0), on_arc.orientation}) < 1e-9);
+        // On the axis there is no direction to point to.
+        const Pose none = pivoted(pivot, held, length, pivot.centre + 0.1 * pivot.axis);
+        CHECK(apart({Vec3(0.0), none.orientation}, {Vec3(0.0), held.orientation}) < 1e-12);
+    }
+}
+
+TEST_CASE(
+    "fitted_scale: a swing of 60 degrees fits an omega, a Touch and an Inverse3, and no scale is below 1") {
+    const Vec3 omega(0.075), touch(0.080, 0.060, 0.035), inverse3(0.10), large(0.5), unknown(0.0);
+    for (const Vec3& reach : {omega, touch, inverse3, large, unknown}) {
+        for (const double length : {0.14, 0.23, 0.38, 0.4345}) {
+            CAPTURE(reach.x);
+            CAPTURE(length);
+            const double scale = fitted_scale(reach, length);
+            CHECK(scale >= 1.0);
+            if (reach.x <= 0.0 || reach.x >= 0.5) {
+                CHECK(scale == 1.0);
+                continue;
+            }
+            // The arc of the handle's end in the device's frame, in the middle of the reach.
+            const double radius = length / scale, middle = 0.5 * radius * (1.0 + std::cos(pi / 6.0));
+            double widest = 0.0;
+            for (int degrees = -30; degrees <= 30; ++degrees) {
+                const double a = to_radians(degrees);
+                const double x = radius * std::sin(a), z = radius * std::cos(a) - middle;
+                widest = std::max({widest, std::abs(x) / reach.x, std::abs(z) / reach.z});
+            }
+            CHECK(widest <= 0.9 + 1e-12);
+            if (scale > 1.0) CHECK(widest == doctest::Approx(0.9));
+        }
     }
 }
 
