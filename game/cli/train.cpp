@@ -37,6 +37,7 @@ struct TrainArguments {
     std::string task = "tighten";
     std::string law;
     std::vector<std::string> devices;
+    std::string hand = "helped";
     std::string glove = "none", wheel_config_file;
     bool hmd = false;
     bool headless = false;
@@ -96,7 +97,7 @@ class TrainingProgressLine {
 };
 
 bool is_keyword(const std::string& device) {
-    return device == "auto" || device == "mouse" || device == "simulated";
+    return device == "auto" || device == "mouse" || device == "simulated" || device == "simulated-arm";
 }
 
 // The devices of the options. A missing device is an error; there is no silent fallback.
@@ -105,15 +106,24 @@ Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
     trainer::Equipment equipment;
     const std::string first = options.devices.empty() ? "auto" : options.devices.front();
     if (options.devices.size() > 1 && std::any_of(options.devices.begin(), options.devices.end(), is_keyword))
-        return fail(ErrorCode::usage,
-                    "--device: auto, mouse and simulated cannot be combined with other devices",
-                    "only ids of devices");
+        return fail(
+            ErrorCode::usage,
+            "--device: auto, mouse, simulated and simulated-arm cannot be combined with other devices",
+            "only ids of devices");
     if (first == "auto")
         equipment = options.headless ? trainer::Equipment{} : trainer::default_equipment();
     else if (first == "simulated")
-        equipment.keyboard = true;
+        equipment.hand = trainer::HandMode::keyboard;
+    else if (first == "simulated-arm")
+        equipment.hand = trainer::HandMode::simulated_arm;
     else if (first != "mouse")
         equipment.devices = options.devices;
+    if (options.hand == "free") {
+        const bool mouse = first == "mouse" || (first == "auto" && equipment.devices.empty());
+        if (!mouse)
+            return fail(ErrorCode::usage, "--hand free: a device moves the hand", "--device mouse with it");
+        equipment.hand = trainer::HandMode::free;
+    }
     equipment.wheel_config_file = options.wheel_config_file;
     if (options.glove == "auto") {
         const auto ports = hand::serial_ports();
@@ -358,10 +368,19 @@ void add_train(CLI::App& app, int& exit_code) {
         ->capture_default_str();
     train->add_option("--law", options->law, "Torque law; default: the assembly's own")
         ->check(CLI::IsMember({"published", "mechanistic"}));
-    train->add_option("--device", options->devices,
-                      "auto (a connected device, else the mouse), mouse, simulated (keys move the tool of a "
-                      "station without a device), or an id listed by boltwright devices; may be given twice, "
-                      "for a device that moves the tool and for a wheel");
+    train->add_option(
+        "--device", options->devices,
+        "auto (a connected device, else the mouse), mouse, simulated-arm (the mouse moves the hand "
+        "that holds a simulated arm), simulated (keys move the tool of a station without a device), "
+        "or an id listed by boltwright devices; may be given twice, for a device that moves the "
+        "tool and for a wheel");
+    train
+        ->add_option(
+            "--hand", options->hand,
+            "The hand of the mouse: helped (it finds the nut by itself) or free (the mouse moves and "
+            "turns the wrench)")
+        ->check(CLI::IsMember({"helped", "free"}))
+        ->capture_default_str();
     train->add_option("--rig", options->wheel_config_file,
                       "Configuration file of the wheel: its motor, its encoder");
     train

@@ -146,22 +146,22 @@ namespace {
 
 struct ControlRow {
     HandMotion motion;
-    TextKey mouse, device;
+    TextKey mouse, drag, device;
 };
 constexpr ControlRow control_rows[] = {
-    {HandMotion::take, "control.mouse.take", "control.device.take"},
-    {HandMotion::put_away, "control.mouse.put_away", "control.device.put_away"},
-    {HandMotion::approach, "control.mouse.go", "control.device.move"},
-    {HandMotion::reach, "control.mouse.go", "control.device.move"},
-    {HandMotion::set_on, "control.mouse.go", "control.device.move"},
-    {HandMotion::grip_nut, "control.mouse.go", "control.device.grip"},
-    {HandMotion::spin, "control.mouse.spin", "control.device.turn"},
-    {HandMotion::twist_back, "control.mouse.again", "control.device.twist_back"},
-    {HandMotion::let_go, "control.mouse.let_go", "control.device.release"},
-    {HandMotion::pull_on, "control.mouse.pull", "control.device.turn"},
-    {HandMotion::pull_off, "control.mouse.pull", "control.device.turn"},
-    {HandMotion::lift, "control.mouse.let_go", "control.device.move"},
-    {HandMotion::set_back, "control.mouse.again", "control.device.move"},
+    {HandMotion::take, "control.mouse.take", "control.drag.take", "control.device.take"},
+    {HandMotion::put_away, "control.mouse.put_away", "control.mouse.put_away", "control.device.put_away"},
+    {HandMotion::approach, "control.mouse.go", "control.drag.move", "control.device.move"},
+    {HandMotion::reach, "control.mouse.go", "control.drag.move", "control.device.move"},
+    {HandMotion::set_on, "control.mouse.go", "control.drag.move", "control.device.move"},
+    {HandMotion::grip_nut, "control.mouse.go", "control.drag.grip", "control.device.grip"},
+    {HandMotion::spin, "control.mouse.spin", "control.drag.spin", "control.device.turn"},
+    {HandMotion::twist_back, "control.mouse.again", "control.mouse.again", "control.device.twist_back"},
+    {HandMotion::let_go, "control.mouse.let_go", "control.mouse.let_go", "control.device.release"},
+    {HandMotion::pull_on, "control.mouse.pull", "control.mouse.pull", "control.device.turn"},
+    {HandMotion::pull_off, "control.mouse.pull", "control.mouse.pull", "control.device.turn"},
+    {HandMotion::lift, "control.mouse.let_go", "control.drag.lift", "control.device.move"},
+    {HandMotion::set_back, "control.mouse.again", "control.drag.set_back", "control.device.move"},
 };
 static_assert(std::size(control_rows) == motion_count - 1);  // all but `none`
 
@@ -180,6 +180,10 @@ ControlNames controls(const words::Words& words, TextKey ControlRow::*column, co
 
 ControlNames mouse_controls(const words::Words& words, const std::string& tool_key) {
     return controls(words, &ControlRow::mouse, tool_key);
+}
+
+ControlNames drag_controls(const words::Words& words, const std::string& tool_key) {
+    return controls(words, &ControlRow::drag, tool_key);
 }
 
 ControlNames device_controls(const words::Words& words, const std::string& button,

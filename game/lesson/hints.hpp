@@ -63,6 +63,9 @@ std::string motion_text(const words::Words& words, const Hint& hint, const Contr
 // Mouse: press on a nut and hold, drag, release. `tool_key` takes the wrench and puts it down.
 ControlNames mouse_controls(const words::Words& words, const std::string& tool_key);
 
+// A free hand that the mouse drags.
+ControlNames drag_controls(const words::Words& words, const std::string& tool_key);
+
 // Force-feedback device: `button` closes the hand, `tool_key` puts the wrench down.
 ControlNames device_controls(const words::Words& words, const std::string& button,
                              const std::string& tool_key);

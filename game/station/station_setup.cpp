@@ -336,41 +336,4 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
     return planned;
 }
 
-namespace {
-
-class RunningStation final : public LessonStation {
-  public:
-    RunningStation(station::Station station, std::optional<device::VirtualPuck> puck)
-        : puck_(std::move(puck)), station_(std::move(station)) {}
-
-    void set_controls(const station::StationControls& controls) override { station_.set_controls(controls); }
-    Status send(const station::StationCommand& command) override { return station_.send(command); }
-    void set_puck_input(const device::PuckInput& input) override {
-        if (puck_) puck_->set_input(input);
-    }
-    bool next_tick(station::StationTick& tick) override { return station_.next_tick(tick); }
-    const station::StationTick& latest_tick() override { return station_.latest_tick(); }
-    [[nodiscard]] std::uint64_t lost_ticks() const override { return station_.lost_ticks(); }
-    const station::DisplayedHand* hand() override { return station_.hand(); }
-    std::vector<std::string> troubles() override { return station_.troubles(); }
-    [[nodiscard]] const station::Layout& layout() const override { return station_.layout(); }
-    [[nodiscard]] const servo::Setup& setup() const override { return station_.setup(); }
-    const servo::Timing* stop() override {
-        station_.stop();
-        return &station_.servo().timing();
-    }
-
-  private:
-    std::optional<device::VirtualPuck> puck_;
-    station::Station station_;
-};
-
-}  // namespace
-
-Result<std::unique_ptr<LessonStation>> start_lesson_station(station::StationOptions options,
-                                                            std::optional<device::VirtualPuck> puck) {
-    BOLT_TRY_ASSIGN(auto station, station::Station::start(std::move(options)));
-    return std::make_unique<RunningStation>(std::move(station), std::move(puck));
-}
-
 }  // namespace bolt::station_setup

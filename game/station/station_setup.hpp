@@ -6,12 +6,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "content/format/assembly.hpp"
 #include "content/trainee/glove_calibration.hpp"
 #include "game/session/lesson_session.hpp"
 #include "haptics/device/connected_devices.hpp"
+#include "haptics/device/simulated_arm.hpp"
 #include "haptics/device/virtual_devices.hpp"
 #include "haptics/hand/glove_driver.hpp"
 #include "haptics/station/gloved_hand.hpp"
@@ -114,8 +116,8 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
 Pose initial_wrench_pose(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
                          double nut_angle);
 
-// A station as a lesson uses it. start_lesson_station() returns one that runs on its own threads; tests
-// implement one in virtual time.
+// A station as a lesson uses it. start_lesson_station() returns one that runs on its own threads,
+// start_frame_station() one that runs with the frames.
 class LessonStation {
   public:
     LessonStation() = default;
@@ -126,8 +128,12 @@ class LessonStation {
     virtual void set_controls(const station::StationControls& controls) = 0;
     // Fails if the command queue is full (station::Station::send).
     [[nodiscard]] virtual Status send(const station::StationCommand& command) = 0;
-    // Input from mouse and keyboard, used if no device moves the tool; call it every frame.
-    virtual void set_puck_input(const device::PuckInput& input) = 0;
+    // Input from mouse and keyboard, used if no device moves the tool, or a simulated arm does; call it every
+    // frame.
+    virtual void set_puck_input(const device::PuckInput& /*input*/) {}
+    virtual void set_hand_motion(const device::HandMotion& /*motion*/) {}
+    // Call once a frame with the time since the last one. Runs the ticks of a station without threads.
+    virtual void pass(double /*seconds*/) {}
     // Reads the next tick in order; false: there is none yet.
     virtual bool next_tick(station::StationTick& tick) = 0;
     virtual const station::StationTick& latest_tick() = 0;       // is updated in a pause too
@@ -142,8 +148,15 @@ class LessonStation {
     virtual const servo::Timing* stop() = 0;
 };
 
-// Starts the station. `puck` receives set_puck_input() and moves the tool if no device does.
+// What mouse and keyboard move if no device moves the tool: nothing, a puck or a simulated arm.
+using VirtualMover = std::variant<std::monostate, device::VirtualPuck, device::SimulatedArm>;
+
+// Starts the station on its own threads.
 Result<std::unique_ptr<LessonStation>> start_lesson_station(station::StationOptions options,
-                                                            std::optional<device::VirtualPuck> puck);
+                                                            VirtualMover mover);
+
+// Starts a station without threads, whose simulated arm moves in the time of the frames: on any computer,
+// however busy, no tick is missed, and the same input gives the same lesson.
+Result<std::unique_ptr<LessonStation>> start_frame_station(const station::StationOptions& options);
 
 }  // namespace bolt::station_setup

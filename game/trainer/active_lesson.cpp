@@ -45,6 +45,30 @@ double handle_turn(const ActiveLesson& active, const Screen& screen, const glm::
     return drag_angle(lever, drag);
 }
 
+// From the viewer's frame to the assembly's, about the vertical.
+Quat viewer_heading(const ActiveLesson& active) {
+    return glm::angleAxis(active.view.camera.shown.yaw, Vec3(0, 1, 0));
+}
+
+// What a drag of the hand refers to.
+DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active, const Screen& screen) {
+    const StationClient& client = *active.station;
+    const servo::Setup& setup = active.session->setup();
+    DragScene scene;
+    scene.screen = screen;
+    scene.wrench = hand_of(active).wrench;
+    scene.tool = scene.wrench ? tool_of(active).pose : client.latest.tool;
+    scene.near_wrench = client.near_wrench;
+    scene.engaged = client.latest.output.joint >= 0;
+    if (const auto nut = hand_of(active).nut)
+        scene.nut = force::Pivot{world::nut_centre(world, setup, *nut), setup.nuts[*nut].axis};
+    const station::Layout& layout = client.link->layout();
+    scene.handle_length = layout.grip_distance;
+    scene.device = viewer_heading(active) * layout.workspace.turn;
+    scene.scale = layout.workspace.scale;
+    return scene;
+}
+
 void move_camera(ActiveLesson& active, const FrameInput& input, double height, double aspect) {
     const glm::dvec2 turned =
         input.right_drag +
@@ -74,10 +98,17 @@ void handle_input(const scene::SceneWorld& world, Frame& frame) {
     if (input.triggered(Action::restart_step)) request_undo(active.undo, active.session->lesson(), 0);
     if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
     if (active.station) {
+        StationClient& client = *active.station;
         active.pointer.nut.reset();
-        active.pointer.on_wrench = active.station->near_wrench;
-        active.pointer.drags_hand = false;
-        move_camera(active, input, frame.size.y, frame.size.x / frame.size.y);
+        active.pointer.on_wrench = client.near_wrench;
+        active.pointer.drags_hand = client.dragged.has_value();
+        if (client.dragged && !active.clock.paused)
+            drag_hand(*client.dragged,
+                      {input, client.keyboard.input(), client.keyboard.shift_down(), frame.seconds},
+                      drag_scene(world, active, screen));
+        FrameInput of_view = input;
+        if (client.dragged && input.left_down) of_view.wheel = 0.0;
+        move_camera(active, of_view, frame.size.y, frame.size.x / frame.size.y);
         return;
     }
     MouseCommand command;
@@ -177,6 +208,7 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     StationClient& client = *active.station;
     const bool had_wrench = hand_of(active).wrench;
+    client.link->pass(frame.seconds);
     for (station::StationTick tick; continues(active) && frame.status && client.link->next_tick(tick);) {
         const bool free = contact_of(active).joint < 0;
         frame.status = active.session->repeat(world, tick.input, tick.output);
@@ -192,8 +224,7 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
         send_intent(client, *active.session,
                     {active.clock.paused || active.clock.finished || !continues(active),
                      frame.input.triggered(Action::tool), frame.input.triggered(Action::recentre),
-                     steps_to_undo(active.undo, active.session->lesson()),
-                     glm::angleAxis(active.view.camera.shown.yaw, Vec3(0, 1, 0))});
+                     steps_to_undo(active.undo, active.session->lesson()), viewer_heading(active)});
     if (frame.status && !sent) frame.status = sent;
     const WorkingHand hand = write_hand(world, hand_of(client));
     if (hand.wrench && !had_wrench)

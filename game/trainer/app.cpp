@@ -24,6 +24,7 @@ lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys
                                    const StationClient* station) {
     const std::string tool = key_name(keys, Action::tool);
     if (station == nullptr) return lesson::mouse_controls(words, tool);
+    if (station->dragged) return lesson::drag_controls(words, tool);
     const station::Layout& layout = station->link->layout();
     const std::uint32_t held = layout.mover_buttons.dead_man;
     const bool keyboard = equipment.devices.empty();
@@ -212,7 +213,8 @@ Status App::begin_lesson(float aspect) {
     select_trainee();
     save_preferences();
     const LessonChoice choice = lesson_choice();
-    if (active_ && !options_.choice.equipment.uses_mouse()) active_->station.reset();  // it holds the devices
+    if (active_ && options_.choice.equipment.needs_station())
+        active_->station.reset();  // it holds the devices
     BOLT_TRY_ASSIGN(const auto folder, lesson_folder(options_, choice));
     auto started =
         start_lesson({choice, preferences_.settings, options_.lesson, folder, options_.start_station});

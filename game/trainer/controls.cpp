@@ -46,6 +46,7 @@ FrameInput apply_events(InputState& state, std::span<const InputEvent> events, c
         } else if (const auto* cursor = std::get_if<CursorEvent>(&event)) {
             const glm::dvec2 movement = cursor->at - state.pointer;
             state.pointer = cursor->at;
+            if (state.left && state.right) input.turn_drag += movement;
             if (state.left)
                 input.left_drag += movement;
             else if (state.right)

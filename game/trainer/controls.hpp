@@ -60,7 +60,8 @@ struct FrameInput {
     bool close_requested = false;
     glm::dvec2 pointer{0.0};
     glm::dvec2 left_drag{0.0}, right_drag{0.0}, middle_drag{0.0};
-    double wheel = 0.0;  // notches
+    glm::dvec2 turn_drag{0.0};  // the part of left_drag with the right button held too
+    double wheel = 0.0;         // notches
 };
 
 // Kept from frame to frame.

@@ -10,7 +10,7 @@ namespace {
 
 // Starts the station, if the choice needs one, and takes its limits and rate over into the lesson.
 Status start_station_of(const LessonStart& start, StartedLesson& lesson, session::SessionSetup& setup) {
-    if (start.choice.equipment.uses_mouse()) return {};
+    if (!start.choice.equipment.needs_station()) return {};
     session::LessonOptions& options = lesson.context.options;
     Equipment equipment = start.choice.equipment;
     equipment.force_scale = start.settings.force_scale;
@@ -18,6 +18,8 @@ Status start_station_of(const LessonStart& start, StartedLesson& lesson, session
                     start.start_station(lesson.context.assembly, options, equipment, start.choice.trainee));
     lesson.active.station.emplace();
     lesson.active.station->link = std::move(station);
+    const bool dragged = equipment.hand == HandMode::free || equipment.hand == HandMode::simulated_arm;
+    if (dragged) lesson.active.station->dragged.emplace();
     options.device = lesson.active.station->link->setup().limits;
     options.servo_rate = 1.0 / options.dt;
     session::set_device_limits(options, setup);

@@ -193,11 +193,14 @@ void draw_devices(const ScreenContext& context, float width, std::span<const Dev
                   Equipment& equipment) {
     ChoiceRow row(context, context.words["menu.device"], width);
     for (const DeviceOption& option : devices) {
-        const std::string name = option.name.empty() ? context.words["menu.mouse"] : option.name;
+        const words::TextKey mouse =
+            option.equipment.hand == HandMode::free ? words::TextKey("menu.free_hand") : "menu.mouse";
+        const std::string name = option.name.empty() ? context.words[mouse] : option.name;
         Equipment next = option.equipment;
         next.wheel_config_file = equipment.wheel_config_file;
         next.glove = equipment.glove;
-        if (row.button(name, equipment.devices == next.devices && !equipment.keyboard)) equipment = next;
+        if (row.button(name, equipment.devices == next.devices && equipment.hand == next.hand))
+            equipment = next;
     }
 }
 
@@ -214,7 +217,7 @@ void draw_missing(const ScreenContext& context, float width, const Menu& menu, c
             missing.push_back(context.words["menu.missing.tool"]);
     }
     for (const std::string& line : missing) draw_paragraph(line, width, warning_text);
-    if (menu.devices.size() < 2 && !choice.equipment.keyboard)
+    if (menu.devices.size() < 3 && choice.equipment.hand == HandMode::helped)
         draw_paragraph(context.words["menu.missing.force"], width, muted_text);
 }
 

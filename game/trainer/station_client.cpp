@@ -54,6 +54,7 @@ device::PuckInput KeyboardPuck::input() const {
 }
 
 bool KeyboardPuck::button_down() const { return down_.test(static_cast<std::size_t>(Key::space)); }
+bool KeyboardPuck::shift_down() const { return down_.test(static_cast<std::size_t>(Key::shift)); }
 
 namespace {
 
@@ -66,10 +67,14 @@ std::string name_of(const station_setup::DeviceSelection& selection) {
 }  // namespace
 
 std::vector<DeviceOption> device_options() {
-    std::vector<DeviceOption> options{{{}, {}}};
+    Equipment free;
+    free.hand = HandMode::free;
+    std::vector<DeviceOption> options{{{}, {}}, {{}, free}};
     const station_setup::DeviceSelection all = station_setup::select_any_devices(device::list_devices());
     const auto add = [&](const station_setup::DeviceSelection& selection) {
-        options.push_back({name_of(selection), {station_setup::ids_of(selection), {}, {}, 1.0, false}});
+        Equipment equipment;
+        equipment.devices = station_setup::ids_of(selection);
+        options.push_back({name_of(selection), equipment});
     };
     if (all.mover) add({all.mover, std::nullopt});
     if (all.wheel) add({std::nullopt, all.wheel});
@@ -88,11 +93,15 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
                                                                     const session::LessonOptions& options,
                                                                     const Equipment& equipment,
                                                                     const std::string& trainee) {
-    device::VirtualPuck puck({}, device::steady_timer());
+    const device::Timer timer = device::steady_timer();
+    const bool arm = equipment.hand == HandMode::simulated_arm;
+    device::VirtualPuck puck({}, timer);
+    device::SimulatedArm simulated_arm(device::simulated_arm_description(),
+                                       device::simulated_arm_parameters(), timer);
     station_setup::StationRequest request;
     request.devices = equipment.devices;
     request.wheel_config_file = equipment.wheel_config_file;
-    request.fallback_mover = puck.factory();
+    request.fallback_mover = arm ? simulated_arm.factory() : puck.factory();
     request.glove = equipment.glove;
     request.trainee = trainee;
     request.force_scale = equipment.force_scale;
@@ -104,12 +113,12 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
     if (!planned) return fail(planned.error());
     station::StationOptions& station_options = planned->options;
     station_options.controls.pause = true;
-    std::optional<device::VirtualPuck> puck_mover;
-    if (!planned->devices.mover) {
-        puck_mover = std::move(puck);
-        station_options.mover_buttons = {1, 0, 0, 0};
-    }
-    return station_setup::start_lesson_station(std::move(station_options), std::move(puck_mover));
+    station_setup::VirtualMover mover;
+    if (!planned->devices.mover) station_options.mover_buttons = {1, 0, 0, 0};
+    if (equipment.hand == HandMode::free) return station_setup::start_frame_station(station_options);
+    if (!planned->devices.mover && arm) mover = std::move(simulated_arm);
+    if (!planned->devices.mover && !arm) mover = std::move(puck);
+    return station_setup::start_lesson_station(std::move(station_options), std::move(mover));
 }
 
 namespace {
@@ -219,6 +228,7 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
                    const StationIntent& intent) {
     update_client(client, session);
     client.link->set_puck_input(client.keyboard.input());
+    if (client.dragged) client.link->set_hand_motion(client.dragged->motion);
     station::StationControls& controls = client.controls;
     const bool held = client.gloved && client.latest.input.grip == servo::Grip::wrench;
     const bool closes = client.keyboard.button_down() || client.latest.dead_man_pressed ||

@@ -14,6 +14,7 @@
 #include "game/session/lesson_session.hpp"
 #include "game/station/station_setup.hpp"
 #include "game/trainer/controls.hpp"
+#include "game/trainer/dragged_hand.hpp"
 #include "game/trainer/mouse_hand.hpp"
 #include "haptics/device/virtual_devices.hpp"
 
@@ -28,9 +29,18 @@ class KeyboardPuck {
     void handle_events(std::span<const platform::InputEvent> events);
     [[nodiscard]] device::PuckInput input() const;
     [[nodiscard]] bool button_down() const;
+    [[nodiscard]] bool shift_down() const;
 
   private:
     std::bitset<256> down_;
+};
+
+// What moves the hand where no device does.
+enum class HandMode : std::uint8_t {
+    helped,    // the mouse chooses a nut, and the hand goes there by itself
+    free,      // the mouse moves the hand, which feels the forces of a simulated arm; runs with the frames
+    keyboard,  // keys move the tool like a puck
+    simulated_arm,  // as `free`, on the threads of a station like a real arm
 };
 
 // The input of a lesson: mouse and keyboard, or a station with devices.
@@ -39,19 +49,21 @@ struct Equipment {
     std::filesystem::path wheel_config_file;  // empty: the defaults of device::WheelConfig
     std::filesystem::path glove;              // serial port; empty: no glove
     double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force
-    bool keyboard = false;                    // a station without a device; keys move the tool
+    HandMode hand = HandMode::helped;         // if none of the devices moves the hand
 
-    // No station.
-    [[nodiscard]] bool uses_mouse() const { return devices.empty() && glove.empty() && !keyboard; }
+    [[nodiscard]] bool needs_station() const {
+        return !devices.empty() || !glove.empty() || hand != HandMode::helped;
+    }
     bool operator==(const Equipment&) const = default;
 };
 
 // An entry in the menu of devices.
 struct DeviceOption {
-    std::string name;  // names of the devices; empty: mouse and keyboard
+    std::string name;  // names of the devices; empty: mouse and keyboard, as Equipment::hand says
     Equipment equipment;
 };
-// Mouse and keyboard, and the combinations of the devices that are connected now.
+// Mouse and keyboard with a helped and with a free hand, and the combinations of the devices that are connected
+// now.
 std::vector<DeviceOption> device_options();
 // The default: the connected device that moves the tool, together with a wheel if there is one; else the
 // mouse.
@@ -76,6 +88,7 @@ struct StationClient {
     Pose home, rest;                 // initial pose of the tool, and where the wrench lies
     std::optional<Pose> bare_wrist;  // station::StationControls
     KeyboardPuck keyboard;
+    std::optional<DraggedHand> dragged;  // the mouse moves a simulated arm
 
     station::StationTick latest;
     station::StationControls controls;

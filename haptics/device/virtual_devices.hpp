@@ -67,7 +67,7 @@ struct FaultInterval {
 };
 
 // The hand that holds the device: a mass, pulled by a spring and damper to the intended pose and pushed by
-// the device's force. Defaults: a relaxed grip, the middle of the ranges in tests/support/simulated_arm.hpp.
+// the device's force. Defaults: a relaxed grip, the middle of the ranges in tests/support/random_arm.hpp.
 struct HandImpedance {
     double mass = 0.3, stiffness = 300.0, damping = 10.0;          // kg, N/m, N·s/m
     double inertia = 2e-3, torsion = 2.0, angular_damping = 0.05;  // kg·m², N·m/rad, N·m·s/rad

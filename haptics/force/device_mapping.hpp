@@ -51,9 +51,9 @@ Vec3 grip_point(const WorkspaceState& state, const Pose& tool);
 Pose to_assembly(const WorkspaceMap& workspace, WorkspaceState& state, const Pose& device, bool clutch,
                  double dt);
 
-// A bolt that holds a wrench: `centre` of the nut, m, and unit `axis`, in the assembly's frame.
+// A bolt that holds a wrench, in the assembly's frame.
 struct Pivot {
-    Vec3 centre{0.0};
+    Vec3 centre{0.0};  // m, a point on its axis
     Vec3 axis{0.0, 1.0, 0.0};
 };
 

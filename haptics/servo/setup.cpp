@@ -69,7 +69,9 @@ Setup make_setup(const SetupDescription& d) {
     setup.torque_rendering = force::make_torque_rendering(d.limits, d.greatest_torque, d.handle_length);
     setup.guiding.greatest = std::min(3.0, 0.2 * d.limits.force);
     setup.guiding.stiffness = std::min(setup.guiding.stiffness, d.limits.stiffness);
-    setup.guiding.torque = 0.1 * d.limits.torque;
+    // Without torque output the aligning torque is a force at the end of the wrench.
+    setup.guiding.torque =
+        d.limits.torque > 0.0 ? 0.1 * d.limits.torque : 0.2 * d.limits.force * d.handle_length;
     return setup;
 }
 

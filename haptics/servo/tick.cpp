@@ -121,6 +121,14 @@ double relative_work(const force::OutputCommand& help, const Pose& hand_before, 
                                      turn_between(tool_before.orientation, tool.orientation));
 }
 
+// The aligning torque for a device that renders none, as a force at the end of the wrench: a wrench near a
+// bolt turns with the end of its handle.
+force::OutputCommand as_force_at_grip(const Setup& setup, const force::OutputCommand& help,
+                                      const ToolPose& tool) {
+    if (setup.wrench.handle_length <= 0.0) return help;
+    return {help.force + glm::cross(help.torque, tool.handle) / setup.wrench.handle_length, Vec3(0.0)};
+}
+
 constexpr double undo_clearance = 0.12;  // m between tool and nuts; an undo moves the nuts in one tick
 
 // Saves or restores a checkpoint (Input::undo). Returns the number of the restored checkpoint, 0 if none. The
@@ -200,9 +208,11 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
     force::ForceRequest request;
     // The guiding force fades out if a nut is engaged or the sample is not a pose.
     const bool guides = engaged < 0 && tool.valid && input.enabled;
-    const force::ForceRequest help =
+    force::ForceRequest help =
         force::guide(setup.guiding, state.guide, guided_tool(setup, tool),
                      goal_at(setup, state.joints, guides ? input.guide : -1), free, setup.dt);
+    if (setup.limits.torque <= 0.0 && grip == Grip::wrench)
+        help.command = as_force_at_grip(setup, help.command, tool);
     state.guiding_command = help.command;
     if (held_by_spring_before && engaged != engaged_before) state.release_fade = {state.hold_target, 1.0};
     if (!tool.valid || !input.enabled) state.release_fade.share = 0.0;

@@ -96,17 +96,28 @@ force::WorkspaceMap fitted_workspace(const Layout& layout, double handle_length)
 
 }  // namespace
 
+Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
+                           std::optional<device::Description> wheel) {
+    Layout layout;
+    layout.mover = std::move(mover);
+    layout.wheel = std::move(wheel);
+    layout.mover_buttons = options.mover_buttons;
+    layout.wheel_buttons = options.wheel_buttons;
+    layout.home = options.home;
+    BOLT_TRY(check(layout));
+    layout.workspace = options.workspace.value_or(fitted_workspace(layout, options.handle_length));
+    layout.grip_distance = grip_distance_of(layout, options.handle_length);
+    return layout;
+}
+
 Result<Station> Station::start(StationOptions options) {
     auto shared = std::make_unique<Shared>();
     Shared& s = *shared;
-    s.layout.mover_buttons = options.mover_buttons;
-    s.layout.wheel_buttons = options.wheel_buttons;
-    s.layout.home = options.home;
-    BOLT_TRY(open(options.mover, options, s.mover, s.layout.mover));
-    BOLT_TRY(open(options.wheel, options, s.wheel, s.layout.wheel));
-    BOLT_TRY(check(s.layout));
-    s.layout.workspace = options.workspace.value_or(fitted_workspace(s.layout, options.handle_length));
-    s.layout.grip_distance = grip_distance_of(s.layout, options.handle_length);
+    std::optional<device::Description> mover, wheel;
+    BOLT_TRY(open(options.mover, options, s.mover, mover));
+    BOLT_TRY(open(options.wheel, options, s.wheel, wheel));
+    BOLT_TRY_ASSIGN(auto layout, make_layout(options, std::move(mover), std::move(wheel)));
+    s.layout = std::move(layout);
     if (options.hand && options.glove.empty())
         return fail(ErrorCode::no_device, "station: the gloved hand has no glove",
                     "the serial port of the glove");

@@ -50,6 +50,11 @@ struct StationOptions {
     std::function<Result<servo::State>(const servo::Setup& setup)> state;  // empty: servo::initial_state
 };
 
+// The layout of these devices: workspace and grip distance from the options, or fitted to the devices. Fails
+// as check().
+Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
+                           std::optional<device::Description> wheel);
+
 // One tick, for recording.
 struct StationTick {
     std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted

@@ -142,6 +142,7 @@ struct StationState {
     bool restarting = false;          // after a stall or a pause: no force until the output stage is at zero
     // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest.
     std::optional<Pose> wrench_rest;
+    int pivot_joint = -1;  // joint whose bolt the wrench pivots about; −1: none
     force::GuideState approach_guide;
     int carrying_joint = -1;   // joint whose nut moves the tool along (see move_to_nut()); −1: none
     Vec3 carrying_point{0.0};  // m, centre of that nut at the last tick

@@ -9,7 +9,7 @@
 #include "engine/base/random.hpp"
 #include "haptics/force/output_stage.hpp"
 #include "tests/support/forbidden.hpp"
-#include "tests/support/simulated_arm.hpp"
+#include "tests/support/random_arm.hpp"
 
 using namespace bolt;
 using namespace bolt::force;
@@ -334,7 +334,7 @@ TEST_CASE("Guide: the passivity controller does not count guiding work as genera
         const OutputLimits limits;
         for (int i = 0; i < 30'000; ++i) {
             PortInput port;
-            port.pose = test::sample(arm);
+            port.pose = test::encoder_pose(arm);
             port.enabled = true;
             const GuidedTool tool{port.pose.position, port.pose.orientation * Vec3(1, 0, 0),
                                   port.pose.orientation * Vec3(0, 1, 0)};

@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "haptics/force/output_stage.hpp"
+#include "tests/support/random_arm.hpp"
 #include "tests/support/range.hpp"
-#include "tests/support/simulated_arm.hpp"
 
 namespace force_stability_test {
 
@@ -90,7 +90,7 @@ PressResult press_wall(const Scene& scene, const OutputLimits& limits, StoredEne
         if (t > 2.0 && t < 2.5) at += 0.01 * std::sin(2.0 * pi * 6.0 * (t - 2.0));
         arm.intention.position = at * scene.way;
         PortInput input;
-        input.pose = test::sample(arm);
+        input.pose = test::encoder_pose(arm);
         input.enabled = true;
         ForceRequest request = wall_of(scene, input.pose);
         if (energy == StoredEnergy::omitted) request.stored_energy = 0.0;
@@ -152,7 +152,7 @@ TEST_CASE("Stability: a wall of 1 N/mm is rendered with at least 0.8 N/mm for ev
             const int level = k / 3000;
             arm.intention.position = -(level == 0 ? 3.0 : 5.0) / scene.arm.stiffness * n;
             PortInput input;
-            input.pose = test::sample(arm);
+            input.pose = test::encoder_pose(arm);
             input.enabled = true;
             const double depth = std::max(0.0, -glm::dot(input.pose.position, n));
             const ForceRequest request{{1000.0 * depth * n, Vec3(0.0)}, 500.0 * depth * depth};

@@ -7,8 +7,8 @@
 
 #include "haptics/force/output_stage.hpp"
 #include "tests/proxy/scene.hpp"
+#include "tests/support/random_arm.hpp"
 #include "tests/support/range.hpp"
-#include "tests/support/simulated_arm.hpp"
 
 using namespace bolt;
 using namespace bolt::force;
@@ -108,7 +108,7 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
         at += Vec3(0.01, 0.006, 0.004) * shake;
         arm.intention.position = at;
         PortInput input;
-        input.pose = test::sample(arm);
+        input.pose = test::encoder_pose(arm);
         input.enabled = true;
         step_god_object(parameters, tool, input.pose, t.scene, dt);
         const ForceRequest request{tool.felt, stored_energy(parameters.coupling, tool.offset)};
@@ -128,7 +128,7 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
     return outcome;
 }
 
-OutputLimits device() {
+OutputLimits of_arm() {
     OutputLimits limits;
     limits.ramp_up = 1e-3;  // force from the first tick
     return limits;
@@ -147,7 +147,7 @@ TEST_CASE("Stability: forty arms in forty scenes get no net energy and no sustai
         for (std::uint64_t seed = 0; seed < 40; ++seed) {
             CAPTURE(seed);
             CAPTURE(dt);
-            const Outcome o = run(trial(seed), coupled(dt), device(), dt);
+            const Outcome o = run(trial(seed), coupled(dt), of_arm(), dt);
             CHECK(o.energy <= 0.0);
             CHECK(o.greatest_energy <= 1e-3);
             CHECK_FALSE(keeps_oscillating(o));
@@ -161,7 +161,7 @@ TEST_CASE("Stability: forty arms in forty scenes get no net energy and no sustai
 }
 
 TEST_CASE("Stability: without the passivity controller energy is released and oscillation persists") {
-    OutputLimits uncontrolled = device();
+    OutputLimits uncontrolled = of_arm();
     uncontrolled.damping = uncontrolled.angular_damping = 0.0;
     int active = 0, oscillating = 0;
     for (std::uint64_t seed = 0; seed < 40; ++seed) {

@@ -34,7 +34,7 @@ class VirtualBench final : public station_setup::LessonStation {
     }
 
     // Advances the time by `seconds`.
-    void pass(double seconds) {
+    void advance(double seconds) {
         owed_ += seconds;
         for (; owed_ >= setup_.dt; owed_ -= setup_.dt) tick();
     }

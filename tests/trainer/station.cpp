@@ -90,7 +90,7 @@ struct StationLesson {
         bench->hand_->joints.position[hand::index_tip] = Vec3(together ? 0.02 : 0.09, 0.0, 0.0);
     }
     void next_frame() {
-        bench->pass(frame_time);
+        bench->advance(frame_time);
         for (station::StationTick tick;
              status && continues(undo, *session) && client.link->next_tick(tick);) {
             status = session->repeat(world, tick.input, tick.output);

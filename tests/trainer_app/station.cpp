@@ -19,7 +19,7 @@ struct AtBench {
 
     AppOptions options(bool menu) {
         AppOptions o = test::options("cover-m8", menu);
-        o.choice.equipment.keyboard = true;
+        o.choice.equipment.hand = HandMode::keyboard;
         o.start_station = [this](
                               const content::Assembly& assembly, const session::LessonOptions& lesson_options,
                               const Equipment&,
@@ -37,7 +37,7 @@ struct AtBench {
     }
     // Lets time pass until the next frame, then records it.
     void frame(HeadlessTrainer& driver, const std::vector<platform::InputEvent>& events = {}) {
-        bench->pass(0.1);
+        bench->advance(0.1);
         driver.frame(events);
     }
 };
@@ -86,7 +86,7 @@ TEST_CASE("Trainer at a station: a key is sent with its frame, and the next pict
     for (int i = 0; i < 3; ++i) at.frame(driver);
     const Vec3 before = hand_of(driver.lesson()).pose.position;
     driver.frame({down(platform::Key::e)});
-    at.bench->pass(0.02);
+    at.bench->advance(0.02);
     driver.frame();
     CHECK(hand_of(driver.lesson()).pose.position.y > before.y + 1e-3);
 }
@@ -113,7 +113,7 @@ TEST_CASE(
     driver.frame();
     for (int i = 0; i < 5; ++i) at.frame(driver);
     at.bench->lost_ = 3;
-    at.bench->pass(0.1);
+    at.bench->advance(0.1);
     const Status status = driver.try_frame();
     REQUIRE_FALSE(status);
     CHECK(status.error().message().find("3 ticks") != std::string::npos);

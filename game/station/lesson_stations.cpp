@@ -1,0 +1,137 @@
+// The two stations of a lesson: on threads, and with the frames.
+#include <deque>
+
+#include "game/station/station_setup.hpp"
+
+namespace bolt::station_setup {
+
+namespace {
+
+class RunningStation final : public LessonStation {
+  public:
+    RunningStation(station::Station station, VirtualMover mover)
+        : mover_(std::move(mover)), station_(std::move(station)) {}
+
+    void set_controls(const station::StationControls& controls) override { station_.set_controls(controls); }
+    Status send(const station::StationCommand& command) override { return station_.send(command); }
+    void set_puck_input(const device::PuckInput& input) override {
+        if (auto* puck = std::get_if<device::VirtualPuck>(&mover_)) puck->set_input(input);
+    }
+    void set_hand_motion(const device::HandMotion& motion) override {
+        if (auto* arm = std::get_if<device::SimulatedArm>(&mover_)) arm->set_motion(motion);
+    }
+    bool next_tick(station::StationTick& tick) override { return station_.next_tick(tick); }
+    const station::StationTick& latest_tick() override { return station_.latest_tick(); }
+    [[nodiscard]] std::uint64_t lost_ticks() const override { return station_.lost_ticks(); }
+    const station::DisplayedHand* hand() override { return station_.hand(); }
+    std::vector<std::string> troubles() override { return station_.troubles(); }
+    [[nodiscard]] const station::Layout& layout() const override { return station_.layout(); }
+    [[nodiscard]] const servo::Setup& setup() const override { return station_.setup(); }
+    const servo::Timing* stop() override {
+        station_.stop();
+        return &station_.servo().timing();
+    }
+
+  private:
+    VirtualMover mover_;
+    station::Station station_;
+};
+
+class FrameStation final : public LessonStation {
+  public:
+    FrameStation()
+        : arm_(device::simulated_arm_description(), device::simulated_arm_parameters(),
+               device::virtual_timer(time_)) {}
+
+    Status open(const station::StationOptions& options) {
+        BOLT_TRY_ASSIGN(auto driver, arm_.factory()());
+        driver_ = std::move(driver);
+        BOLT_TRY_ASSIGN(auto layout, station::make_layout(options, driver_->describe(), {}));
+        layout_ = std::move(layout);
+        setup_ = options.setup(station::limits_of(layout_), 1.0 / options.servo.rate);
+        BOLT_TRY_ASSIGN(auto state, options.state(setup_));
+        servo_ = std::move(state);
+        state_ = station::initial_state(layout_);
+        controls_ = options.controls;
+        snapshot_.opening = 1;
+        snapshot_.usable = true;
+        return {};
+    }
+
+    void set_controls(const station::StationControls& controls) override { controls_ = controls; }
+    Status send(const station::StationCommand& command) override {
+        commands_.push_back(command);
+        return {};
+    }
+    void set_hand_motion(const device::HandMotion& motion) override { arm_.set_motion(motion); }
+    void pass(double seconds) override {
+        for (owed_ += seconds; owed_ >= setup_.dt; owed_ -= setup_.dt) tick();
+    }
+    bool next_tick(station::StationTick& tick) override {
+        if (ticks_.empty()) return false;
+        tick = ticks_.front();
+        ticks_.pop_front();
+        return true;
+    }
+    const station::StationTick& latest_tick() override { return latest_; }
+    [[nodiscard]] std::uint64_t lost_ticks() const override { return 0; }
+    const station::DisplayedHand* hand() override { return nullptr; }
+    std::vector<std::string> troubles() override { return {}; }
+    [[nodiscard]] const station::Layout& layout() const override { return layout_; }
+    [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
+    const servo::Timing* stop() override { return nullptr; }
+
+  private:
+    void tick() {
+        now_ += setup_.dt;
+        while (time_.now < now_)
+            if (auto sample = driver_->read(now_ - time_.now); sample && *sample) {
+                snapshot_.sample = **sample;
+                ++snapshot_.number;
+            }
+        station::StationInputs inputs;
+        inputs.mover = snapshot_;
+        inputs.controls = controls_;
+        inputs.commands = commands_;
+        const bool works = !controls_.pause;
+        const station::DeviceCommands output = works ? station::tick(layout_, setup_, state_, servo_, inputs)
+                                                     : station::pause_tick(layout_, setup_, state_, inputs);
+        commands_.clear();
+        // The simulated arm takes every command.
+        (void)driver_->write(output.mover);
+        latest_ = {++number_,          state_.input,           state_.output, state_.workspace.tool,
+                   state_.wrench_rest, state_.dead_man_pressed};
+        if (works) ticks_.push_back(latest_);
+    }
+
+    device::VirtualTime time_;
+    device::SimulatedArm arm_;
+    std::unique_ptr<device::DeviceDriver> driver_;
+    device::DeviceSnapshot snapshot_;
+    station::Layout layout_;
+    servo::Setup setup_;
+    servo::State servo_;
+    station::StationState state_;
+    station::StationControls controls_;
+    std::vector<station::StationCommand> commands_;  // of the next tick
+    std::deque<station::StationTick> ticks_;
+    station::StationTick latest_;
+    double now_ = 0.0, owed_ = 0.0;  // s
+    std::uint64_t number_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<LessonStation>> start_lesson_station(station::StationOptions options,
+                                                            VirtualMover mover) {
+    BOLT_TRY_ASSIGN(auto station, station::Station::start(std::move(options)));
+    return std::make_unique<RunningStation>(std::move(station), std::move(mover));
+}
+
+Result<std::unique_ptr<LessonStation>> start_frame_station(const station::StationOptions& options) {
+    auto station = std::make_unique<FrameStation>();
+    BOLT_TRY(station->open(options));
+    return std::unique_ptr<LessonStation>(std::move(station));
+}
+
+}  // namespace bolt::station_setup

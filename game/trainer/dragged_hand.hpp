@@ -1,0 +1,46 @@
+// A hand that the mouse moves freely, for a simulated arm: drags, the wheel and keys change where the hand
+// wants to be; the arm's forces decide where it gets. In the air a drag moves the hand in the plane of the
+// picture and the wheel moves it along the view; with the right button or Shift held too, a drag turns the
+// tool about its own normal. On a bolt a drag swings the handle, and the wheel moves the wrench along the
+// bolt.
+#pragma once
+
+#include <optional>
+
+#include "game/trainer/controls.hpp"
+#include "game/trainer/pointing.hpp"
+#include "haptics/device/simulated_arm.hpp"
+#include "haptics/device/virtual_devices.hpp"
+#include "haptics/force/device_mapping.hpp"
+
+namespace bolt::trainer {
+
+struct DraggedHand {
+    device::HandMotion motion;  // sent to the arm
+    bool grasps = false;        // the left button was pressed beside the wrench or a nut
+};
+
+// What the hand holds or is beside, in the assembly's frame.
+struct DragScene {
+    Screen screen;
+    Pose tool;  // as it is drawn
+    bool wrench = false;
+    bool near_wrench = false;         // the hand is beside the wrench that lies there
+    std::optional<force::Pivot> nut;  // that the hand holds or is beside
+    bool engaged = false;             // it holds the nut
+    double handle_length = 0.0;       // m
+    Quat device{1.0, 0.0, 0.0, 0.0};  // unit, from the arm's frame to the assembly's
+    double scale = 1.0;               // m of the tool per m of the arm
+};
+
+struct DragInput {
+    FrameInput mouse;
+    device::PuckInput keys;  // in the arm's frame
+    bool turns = false;      // Shift is held: drags turn
+    double seconds = 0.0;    // of the frame
+};
+
+// Call once a frame.
+void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene);
+
+}  // namespace bolt::trainer

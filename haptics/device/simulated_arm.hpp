@@ -1,0 +1,82 @@
+// A force-feedback arm and the hand that holds it, as a mass on a spring: for tests, and as a device that
+// anyone has, whose hand a mouse moves.
+//
+// The hand is a mass, a damper and a spring to its intended pose, the model of Hogan (Controlling impedance
+// at the man/machine interface, ICRA 1989). The arm adds mass, dry friction, the steps of its encoders and a
+// delay.
+#pragma once
+
+#include <array>
+
+#include "haptics/device/device.hpp"
+
+namespace bolt::device {
+
+struct ArmParameters {
+    double mass = 0.3;               // kg, hand and device
+    double damping = 5.0;            // N·s/m
+    double stiffness = 300.0;        // N/m
+    double inertia = 2e-3;           // kg·m²
+    double angular_damping = 0.03;   // N·m·s/rad
+    double angular_stiffness = 2.0;  // N·m/rad
+    double friction = 0.05;          // N, of the device
+    double angular_friction = 1e-3;  // N·m
+    double encoder = 10e-6;          // m, one step
+    double angular_encoder = 1e-4;   // rad
+    int delay = 1;                   // ticks from sending to effect, at most 3
+};
+
+struct Arm {
+    ArmParameters parameters;
+    Pose pose;       // of the tool
+    Pose intention;  // intended pose
+    Vec3 velocity{0.0};
+    Vec3 angular_velocity{0.0};
+    double energy_out = 0.0;  // J delivered to the hand: force times motion, integrated every 25 µs
+    std::array<force::OutputCommand, 4> sent{};
+};
+
+// The pose that the encoders measure.
+Pose encoder_pose(const Arm& arm);
+// Moves arm and hand for `dt` s, a multiple of 25 µs, under a command that was sent at the beginning.
+void step(Arm& arm, const force::OutputCommand& command, double dt);
+
+// What a person does with the hand that holds a simulated arm. Totals since the beginning, so that none is
+// lost if the device reads only the latest.
+struct HandMotion {
+    Vec3 moved{0.0};                  // m, along the axes of the device frame
+    Quat turned{1.0, 0.0, 0.0, 0.0};  // unit, in the device frame
+    // m and rad that the intention may lead the arm: a hand pushes no harder against a wall than it wants to.
+    double lead = 0.06, angular_lead = 0.6;
+    // 1/s, rate at which the intention gives way to where the arm is: a relaxed hand lets itself be led.
+    double yielding = 0.0;
+    std::uint32_t buttons = 0;
+};
+
+// The arm that a hand moves in the trainer. A mouse moves in steps of a frame; the intention follows it
+// smoothly.
+class SimulatedArm {
+  public:
+    // `parameters` should damp the hand well, because nobody can see a vibration of the hand to stop it.
+    SimulatedArm(const Description& description, const ArmParameters& parameters, Timer timer);
+    SimulatedArm(SimulatedArm&&) noexcept;
+    SimulatedArm& operator=(SimulatedArm&&) noexcept;
+    ~SimulatedArm();
+
+    // Call once a frame, from one thread. Never waits. After 0.25 s without a call the buttons are released.
+    void set_motion(const HandMotion& motion);
+
+    // Its devices may outlive the arm; their buttons are then released.
+    [[nodiscard]] DeviceFactory factory();
+
+  private:
+    struct Shared;
+    std::shared_ptr<Shared> shared_;
+};
+
+// The arm of `train --device simulated-arm`: force and stiffness of an omega.7 (its published 12 N; the
+// stiffness lower, for the hand is a spring of 300 N/m), without torque, and without an edge of its reach.
+Description simulated_arm_description();
+ArmParameters simulated_arm_parameters();
+
+}  // namespace bolt::device
