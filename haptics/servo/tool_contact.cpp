@@ -176,7 +176,11 @@ void set_coupling(const Setup& setup, ToolContact& contact) {
     range.force = setup.limits.force;
     range.torque = setup.limits.torque;
     range.stiffness = setup.limits.stiffness;
-    range.torsion = setup.limits.torsion;
+    // A device without torque has no limit of its own, but the god-object needs a spring to choose between
+    // turning and moving the tool.
+    const force::OutputLimits usual;
+    range.torsion = setup.limits.torsion > 0.0 ? setup.limits.torsion
+                                               : setup.limits.stiffness * usual.torsion / usual.stiffness;
     range.dt = setup.dt;
     contact.parameters.coupling = proxy::make_coupling(range);
 }
