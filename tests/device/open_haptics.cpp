@@ -400,16 +400,20 @@ TEST_CASE("OpenHaptics: faults of the arm end the force, and the arm is lost") {
         check_lets_go(bench, *device, [&] {
             bench.arm.raise(fault);
             bench.arm.heat(1.0);
+            CHECK_FALSE(bench.drive(*device, two_newton, 0.0025));
+            bench.arm.heat(0.0);
         });
         const auto sample = device->read(0.005);
         REQUIRE_FALSE(sample);
         CHECK(sample.error().lost);
         CHECK(sample.error().code == ErrorCode::no_device);
         CHECK_FALSE(device->write(two_newton));
-        for (int i = 0; i < 1000; ++i) bench.timer.wait(1e-3);
+        for (int i = 0; i < 1000; ++i) {
+            CHECK_FALSE(device->write(two_newton));
+            bench.timer.wait(1e-3);
+        }
         CHECK(bench.force_now() == 0.0);
         device.reset();
-        bench.arm.heat(0.0);
         CHECK(bench.open());  // as the supervisor does
     }
     Bench bench;
