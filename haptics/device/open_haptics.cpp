@@ -25,7 +25,7 @@ constexpr unsigned style_inkwell = 4;
 constexpr unsigned short highest_priority = 0xffff;
 
 constexpr double poll_time = 0.2e-3;      // s between two polls for a new sample
-constexpr double start_timeout = 2.0;     // s until the scheduler runs and the arm is calibrated
+constexpr double start_timeout = 1.0;     // s until the scheduler runs and the arm is calibrated
 constexpr double release_timeout = 0.02;  // s until a frame has ended the force
 constexpr const char* arm_name = "OpenHaptics arm";
 

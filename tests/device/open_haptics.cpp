@@ -175,6 +175,9 @@ TEST_CASE("OpenHaptics: an absent library and a missing function are errors with
     REQUIRE_FALSE(other);
     CHECK(other.error().what.find("libm.so.6 has no hdInitDevice, hdDisableDevice") == 0);
     CHECK(other.error().code != ErrorCode::no_device);
+    const auto broken = load_open_haptics({"/etc/passwd", "libHD-that-is-nowhere.so.3.0"});
+    REQUIRE_FALSE(broken);
+    CHECK(broken.error().what.find("passwd cannot be loaded: ") == 0);
 }
 
 TEST_CASE(

@@ -1,8 +1,8 @@
-// An emulated libHD.so.3.4 (see open_haptics.h). It refuses what the vendor's library refuses: forces outside
-// a frame, before they are enabled or while the scheduler stands; two frames in a tick; a calibration with
-// forces. Errors lie on a stack that all threads share, the newest on top. After an error the last force
-// keeps acting: it is the caller's task to end it. Signatures and values: hd.h and hdDefines.h of
-// OpenHaptics 3.4.
+// An emulated libHD.so.3.4 (see open_haptics.h). It refuses forces outside a frame, before they are enabled
+// and while the scheduler stands, a second frame in a tick, and a calibration while forces are enabled. The
+// order of calls in the vendor's guide excludes these; its library may be less strict. Errors lie on a stack
+// that all threads share, the newest on top. After an error the last force keeps acting: the caller must end
+// it. Signatures and values: hd.h and hdDefines.h of OpenHaptics 3.4.
 #include "tools/emulate/arms/open_haptics.h"
 
 #include <algorithm>
@@ -304,10 +304,6 @@ void emu_hd_corrupt(int on) { arm.corrupt = on != 0; }
 void emu_hd_raise(unsigned error) { arm.raised = error; }
 void emu_hd_late(double seconds) { arm.next_tick += seconds; }
 void emu_hd_switch_off(void) { arm.enabled = false; }
-void emu_hd_position(double xyz[3]) {
-    const std::lock_guard lock(mutex);
-    std::copy(arm.position.begin(), arm.position.end(), xyz);
-}
 void emu_hd_force(double out[6]) {
     const std::lock_guard lock(mutex);
     const Vector on_hand = acts() ? arm.force : Vector{};

@@ -21,8 +21,9 @@ struct EmulatedHdReport {
 };
 
 // A calibrated Touch that is switched on and connected and rests at the origin, at time 0. From here on its
-// clock is emu_hd_advance(). Without a call of emu_hd_reset(), and after emu_hd_own_clock(), the scheduler
-// has a thread; the arm then lies outside its inkwell and needs it if EMULATED_ARM_NEEDS_INKWELL is set.
+// clock is emu_hd_advance(). Without a call of emu_hd_reset(), and again after emu_hd_own_clock(), its
+// scheduler has a thread. If EMULATED_ARM_NEEDS_INKWELL is set, the arm needs its inkwell until
+// emu_hd_reset().
 void emu_hd_reset(void);
 void emu_hd_own_clock(void);
 void emu_hd_advance(double seconds);
@@ -32,9 +33,9 @@ void emu_hd_intend(double x, double y, double z);  // where the hand wants to be
 void emu_hd_turn(const double gimbal[3], const double forearm[3][3]);
 void emu_hd_report(struct EmulatedHdReport report);
 void emu_hd_buttons(int mask);
-void emu_hd_calibration(
-    unsigned status);       // 0x5000 calibrated, 0x5001 needs an update, 0x5002 needs the inkwell
-void emu_hd_inkwell(void);  // the stylus is pushed into the inkwell
+// 0x5000: calibrated, 0x5001: needs an update, 0x5002: needs the inkwell.
+void emu_hd_calibration(unsigned status);
+void emu_hd_inkwell(void);                // the stylus is pushed into the inkwell
 void emu_hd_only_name(const char* name);  // hdInitDevice refuses other names; null: it accepts any
 void emu_hd_unplug(int on);
 void emu_hd_in_use(int on);  // another program has opened the arm
@@ -47,8 +48,7 @@ void emu_hd_late(double seconds);   // delays the next tick
 void emu_hd_switch_off(void);       // the library switches the forces off by itself
 
 // What an observer sees.
-void emu_hd_position(double xyz[3]);  // m
-void emu_hd_force(double force[6]);   // N and N·m that act on the hand now
+void emu_hd_force(double force[6]);  // N and N·m that act on the hand now
 int emu_hd_open(void);
 int emu_hd_running(void);          // whether the scheduler runs
 int emu_hd_initialisations(void);  // calls of hdInitDevice
