@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "haptics/device/force_dimension.hpp"
+#include "haptics/device/open_haptics.hpp"
 
 namespace bolt::device {
 
@@ -42,8 +43,24 @@ Result<std::unique_ptr<DeviceDriver>> open_listed_force_dimension(const ListedDe
     return open_force_dimension(api, {arm_index(listed.id), options.arm_may_move}, steady_timer());
 }
 
+// The vendor's library has to reserve an arm to find it, so the arm is listed where the library is present.
+std::vector<ListedDevice> list_open_haptics() {
+    const char* const name = "OpenHaptics arm";
+    const Result<OpenHapticsApi> api = load_open_haptics(open_haptics_libraries());
+    if (api) return {{api->library.string(), "openhaptics:0", name, DeviceKind::arm, {}}};
+    if (api.error().code == ErrorCode::no_device) return {};
+    return {unusable_arm("openhaptics", name, api.error())};
+}
+
+Result<std::unique_ptr<DeviceDriver>> open_listed_open_haptics(const ListedDevice& listed,
+                                                               const OpenOptions& /*options*/) {
+    BOLT_TRY_ASSIGN(const auto api, load_open_haptics({listed.path}));
+    return open_open_haptics(api, steady_timer());
+}
+
 constexpr std::array vendors{
     ArmVendor{"force-dimension", list_force_dimension, open_listed_force_dimension},
+    ArmVendor{"openhaptics", list_open_haptics, open_listed_open_haptics},
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 namespace bolt::device {
 
 enum class DeviceKind : std::uint8_t {
-    arm,    // Force Dimension; renders forces
+    arm,    // Force Dimension, OpenHaptics; renders forces
     puck,   // six axes that spring back; SpaceMouse class
     board,  // OpenFFBoard
     wheel,  // any other device with USB force feedback

@@ -12,7 +12,7 @@ bool is_name(const std::filesystem::path& candidate) { return !candidate.has_par
 }  // namespace
 
 Result<VendorLibrary> VendorLibrary::open(std::span<const std::filesystem::path> candidates) {
-    std::string broken;  // why a library that exists cannot be loaded
+    std::string broken, why;  // a library that exists and cannot be loaded
     for (const std::filesystem::path& candidate : candidates) {
         std::error_code ignored;
         if (!is_name(candidate) && !std::filesystem::exists(candidate, ignored)) continue;
@@ -24,12 +24,14 @@ Result<VendorLibrary> VendorLibrary::open(std::span<const std::filesystem::path>
             return library;
         }
         const char* error = dlerror();
-        if (!is_name(candidate) && error != nullptr) broken = error;
+        if (is_name(candidate) || error == nullptr) continue;
+        broken = candidate.filename().string();
+        why = error;
     }
-    const std::string name = candidates.empty() ? "library" : candidates.back().filename().string();
     if (!broken.empty())
-        return fail(ErrorCode::failed, fmt::format("{} cannot be loaded: {}", name, broken),
+        return fail(ErrorCode::failed, fmt::format("{} cannot be loaded: {}", broken, why),
                     "the vendor's library for this kind of computer");
+    const std::string name = candidates.empty() ? "library" : candidates.back().filename().string();
     return fail(ErrorCode::no_device, fmt::format("{} is not installed", name));
 }
 

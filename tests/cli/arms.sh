@@ -21,6 +21,21 @@ FDSDK=$work/nowhere expect 4 'there is no device force-dimension:0' "$bin/boltwr
 FDSDK=$work/broken expect 0 'cannot be used: libdrd.so.3 cannot be loaded: .*invalid ELF header; expected the vendor' "$bin/boltwright" devices
 FDSDK=$work/broken expect 4 'invalid ELF header' "$bin/boltwright" devices --device $arm
 
+# An arm whose library has to reserve it to find it: it is listed where the library is present.
+hd=openhaptics:0
+mkdir -p oh/lib oh_old/lib oh_broken/lib
+cp "${bin%/bin}/emulated/open_haptics/libHD.so.3.4" oh/lib
+cp "old/$library" oh_old/lib/libHD.so.3.4
+cp "broken/$library" oh_broken/lib/libHD.so.3.4
+OH_SDK_BASE=$work/oh expect 0 "$hd +OpenHaptics arm" "$bin/boltwright" devices
+OH_SDK_BASE=$work/oh expect 0 'force along 3 axes, 3.3 N at most, as stiff as 0.4 N/mm' "$bin/boltwright" devices --device $hd --seconds 0.2
+OH_SDK_BASE=$work/oh expect 0 'renders 0.88 N without a break' "$bin/boltwright" devices --device $hd --seconds 0.2
+EMULATED_ARM_NEEDS_INKWELL=1 OH_SDK_BASE=$work/oh expect 4 'does not know its position; expected its stylus in the inkwell' "$bin/boltwright" devices --device $hd
+OH_SDK_BASE=$work/oh_old expect 0 'has no hdInitDevice, hdDisableDevice' "$bin/boltwright" devices
+OH_SDK_BASE=$work/oh_old expect 4 'has no hdInitDevice, hdDisableDevice' "$bin/boltwright" devices --device $hd
+OH_SDK_BASE=$work/oh_broken expect 4 'invalid ELF header' "$bin/boltwright" devices --device $hd
+OH_SDK_BASE=$work/nowhere expect 4 'there is no device openhaptics:0' "$bin/boltwright" devices --device $hd
+
 # A lesson with the first device that is found.
 "$bin/boltwright" train cover-m8 --device auto --start --silent --size 320x200 --out lesson 2>log >/dev/null &
 player=$!

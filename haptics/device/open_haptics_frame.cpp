@@ -1,0 +1,153 @@
+#include "haptics/device/open_haptics_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+
+namespace bolt::device::open_haptics {
+
+namespace {
+
+// hdDefines.h. Lengths are in mm, torques in mN·m.
+constexpr unsigned get_buttons = 0x2000, get_transform = 0x2052, get_gimbal_angles = 0x2150,
+                   get_motor_heat = 0x2605, set_force = 0x2700, set_gimbal_torque = 0x2704;
+
+// s; an older command renders no force, because the device thread hangs. With two frames on top the force
+// ends 20 ms after the last command.
+constexpr double max_command_age = 18e-3;
+constexpr double fade_time = 10e-3;  // s from full strength to none after an error of the forces
+constexpr double rest_time = 0.5;    // s without such an error before the force comes back
+constexpr double ramp_time = 0.5;    // s from none to full strength
+constexpr double cool = 0.7;         // heat of the motors, 0 … 1, below which a warm arm renders again
+constexpr double farthest = 2.0;     // m; a position beyond is a faulty one
+constexpr double max_roll_torque = 0.048;  // N·m, of the motor that rolls the stylus
+
+// The pose in the vendor's transform, whose columns follow each other; nullopt if it makes no sense.
+std::optional<Pose> pose_in(const Doubles& m, bool with_rotation) {
+    Pose pose{mm * Vec3(m[12], m[13], m[14]), {1.0, 0.0, 0.0, 0.0}};
+    if (!(glm::length(pose.position) < farthest)) return {};
+    if (!with_rotation) return pose;
+    const glm::dmat3 turned(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+    const glm::dmat3 error = glm::transpose(turned) * turned - glm::dmat3(1.0);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (!(std::abs(error[i][j]) < 1e-2)) return {};
+    if (glm::determinant(turned) < 0.0) return {};
+    pose.orientation = glm::normalize(glm::quat_cast(turned));
+    return pose;
+}
+
+// The torques (N·m) of the motors for yaw, pitch and roll that together exert `torque` on a stylus with this
+// orientation: each is the component along its motor's axis. One factor keeps the roll motor within its
+// limit. From a neutral gimbal the tip to the right, the tip down and clockwise are positive (vendor's
+// example; that the motors pull in the same directions is not confirmed).
+Vec3 motor_torques(const Quat& orientation, const Vec3& gimbal, const Vec3& torque) {
+    const Quat before_roll = orientation * rotation(Vec3(0.0, 0.0, gimbal.z));
+    const Quat before_pitch = before_roll * rotation(Vec3(gimbal.y, 0.0, 0.0));
+    const Vec3 motors{-glm::dot(before_pitch * Vec3(0, 1, 0), torque),
+                      -glm::dot(before_roll * Vec3(1, 0, 0), torque),
+                      -glm::dot(orientation * Vec3(0, 0, 1), torque)};
+    return std::abs(motors.z) > max_roll_torque ? motors * (max_roll_torque / std::abs(motors.z)) : motors;
+}
+
+}  // namespace
+
+Doubles get_doubles(const OpenHapticsApi& api, unsigned what) {
+    Doubles values;
+    values.fill(nan);
+    api.get_doubles(what, values.data());
+    return values;
+}
+
+int get_integer(const OpenHapticsApi& api, unsigned what) {
+    std::array<int, 16> values{};
+    api.get_integers(what, values.data());
+    return values[0];
+}
+
+unsigned FrameCallback::run(void* self) {
+    constexpr unsigned continues = 1;
+    static_cast<FrameCallback*>(self)->run_frame();
+    return continues;
+}
+
+void FrameCallback::run_frame() {
+    const double now = timer_.now();
+    const double elapsed = std::max(now - before_, 0.0);
+    before_ = now;
+    api_.begin_frame(id_);
+    if (report_.calibration == calibrated) {
+        const std::optional<Pose> pose = pose_in(get_doubles(api_, get_transform), arm_.senses_rotation);
+        if (pose) take_sample(*pose, now);
+        render(pose, now, elapsed);
+    } else {
+        calibrate();
+    }
+    api_.end_frame(id_);
+    take_errors(api_, [&](unsigned code) { note_error(code, now); });
+    reports.write(report_);
+}
+
+// The position may jump when it is calibrated, so the forces are off before.
+void FrameCallback::calibrate() {
+    report_.calibration = api_.check_calibration();
+    if (report_.calibration == needs_update) api_.update_calibration(arm_.calibration_style);
+    if (report_.calibration == calibrated) api_.enable(force_output);
+}
+
+void FrameCallback::take_sample(const Pose& pose, double now) {
+    constexpr unsigned known_buttons = (1U << most_buttons) - 1U;
+    report_.sample.pose = {pose.position - arm_.centre, pose.orientation};
+    report_.sample.buttons = static_cast<unsigned>(get_integer(api_, get_buttons)) & known_buttons;
+    report_.sample.time = now;
+    ++report_.number;
+}
+
+// A refused call does not prolong the rest, because calls are refused until the forces are enabled again.
+void FrameCallback::note_error(unsigned code, double now) {
+    if (code >= warm_motors || now >= rests_until_) rests_until_ = now + rest_time;
+    is_warm_ = is_warm_ || code == warm_motors;
+    if (code >= first_fault) report_.fault = std::max(report_.fault, code);
+}
+
+bool FrameCallback::is_resting(double now) {
+    if (is_warm_) {
+        const Doubles heat = get_doubles(api_, get_motor_heat);  // of each motor
+        is_warm_ = std::any_of(heat.begin(), heat.end(), [](double h) { return h >= cool; });
+    }
+    return is_warm_ || now < rests_until_;
+}
+
+void FrameCallback::update_strength(bool renders, double elapsed) {
+    if (!renders) {
+        strength_ = std::max(0.0, strength_ - elapsed / fade_time);
+        return;
+    }
+    // The library may have disabled the forces after an error (not confirmed).
+    if (strength_ == 0.0) api_.enable(force_output);
+    strength_ = std::min(1.0, strength_ + std::min(elapsed, 2.0 * frame_time) / ramp_time);
+}
+
+void FrameCallback::render(const std::optional<Pose>& pose, double now, double elapsed) {
+    if (report_.released) return;  // the device thread may have disabled the forces
+    update_strength(pose && !is_resting(now), elapsed);
+    commands.update();
+    const TimedCommand& command = commands.latest();
+    const bool releases = releases_.load(std::memory_order_relaxed);
+    const bool none = releases || report_.fault != 0 || now - command.time > max_command_age;
+    const double share = none ? 0.0 : strength_;
+    const Vec3 force = share * command.output.force;
+    api_.set_doubles(set_force, &force.x);
+    if (arm_.description.limits.torque > 0.0) set_torque(pose, share * command.output.torque);
+    report_.released = releases;
+}
+
+void FrameCallback::set_torque(const std::optional<Pose>& pose, const Vec3& torque) {
+    const Doubles gimbal = get_doubles(api_, get_gimbal_angles);
+    const Vec3 angles(gimbal[0], gimbal[1], gimbal[2]);
+    const bool known = pose && finite(angles);
+    const Vec3 motors = known ? 1e3 * motor_torques(pose->orientation, angles, torque) : Vec3(0.0);
+    api_.set_doubles(set_gimbal_torque, &motors.x);
+}
+
+}  // namespace bolt::device::open_haptics

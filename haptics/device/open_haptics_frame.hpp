@@ -1,0 +1,97 @@
+// The part of the driver of OpenHaptics' arms that runs on the vendor's thread, and its values of
+// hdDefines.h.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <optional>
+
+#include "engine/base/lock_free.hpp"
+#include "haptics/device/open_haptics.hpp"
+
+namespace bolt::device::open_haptics {
+
+inline constexpr unsigned calibrated = 0x5000, needs_update = 0x5001, force_output = 0x4000;
+// Errors. Those below first_fault end the forces for a while, the others until the arm is opened again.
+inline constexpr unsigned warm_motors = 0x200, first_fault = 0x300, already_initiated = 0x301,
+                          no_licence = 0x600;
+
+inline constexpr double frame_time = 1e-3;  // s, the scheduler's period
+inline constexpr int most_buttons = 4;
+
+using Doubles = std::array<double, 16>;  // room for the longest value, the transform
+
+// Not a number where the library reports nothing.
+Doubles get_doubles(const OpenHapticsApi& api, unsigned what);
+int get_integer(const OpenHapticsApi& api, unsigned what);
+
+// Takes the errors off the stack and passes their codes to `note`, the newest first.
+template <class Note>
+void take_errors(const OpenHapticsApi& api, const Note& note) {
+    constexpr int most = 100;  // a broken library would keep the vendor's thread here
+    for (int i = 0; i < most; ++i) {
+        const unsigned code = api.get_error().code;
+        if (code == 0) return;
+        note(code);
+    }
+}
+
+// What the driver knows of an open arm.
+struct ArmProperties {
+    Description description;
+    Vec3 centre{0.0};  // m, of the reach, in the vendor's frame
+    bool senses_rotation = false;
+    unsigned calibration_style = 0;
+};
+
+struct TimedCommand {
+    force::OutputCommand output;
+    double time = -1e9;  // s, when it was written
+};
+
+struct FrameReport {
+    Sample sample;
+    std::uint64_t number = 0;  // counts the valid samples of a calibrated arm
+    unsigned calibration = 0;  // as the library reports it; 0: not checked yet
+    unsigned fault = 0;        // the error that has ended the forces for good; 0: none
+    bool released = false;     // a frame without force has ended since release()
+};
+
+// One frame at each tick of the vendor's scheduler. The vendor owns the clock, and a late frame delays the
+// control of the motors. So its thread only takes the latest command from a mailbox and leaves a report in
+// another: it never waits for the device thread.
+class FrameCallback {
+  public:
+    FrameCallback(const OpenHapticsApi& api, unsigned id, const ArmProperties& arm, Timer timer)
+        : api_(api), id_(id), arm_(arm), timer_(std::move(timer)), before_(timer_.now()) {}
+
+    static unsigned run(void* self);  // for the scheduler
+
+    // For the device thread.
+    void release() { releases_.store(true, std::memory_order_relaxed); }  // no force from the next frame on
+    TripleBuffer<TimedCommand> commands;
+    TripleBuffer<FrameReport> reports;
+
+  private:
+    void run_frame();
+    void calibrate();
+    void take_sample(const Pose& pose, double now);
+    void note_error(unsigned code, double now);
+    bool is_resting(double now);
+    void update_strength(bool renders, double elapsed);
+    void render(const std::optional<Pose>& pose, double now, double elapsed);
+    void set_torque(const std::optional<Pose>& pose, const Vec3& torque);
+
+    OpenHapticsApi api_;
+    unsigned id_;
+    ArmProperties arm_;
+    Timer timer_;
+    FrameReport report_;
+    double before_;              // s, time of the last frame
+    double strength_ = 1.0;      // share of the command that is rendered
+    double rests_until_ = -1e9;  // s
+    bool is_warm_ = false;
+    std::atomic<bool> releases_ = false;
+};
+
+}  // namespace bolt::device::open_haptics
