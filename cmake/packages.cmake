@@ -3,6 +3,7 @@ find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(Boost 1.74 CONFIG REQUIRED)  # Beast and Asio, which are headers only
 find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(zstd REQUIRED)

@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "haptics/device/force_dimension.hpp"
+#include "haptics/device/haply.hpp"
 
 namespace bolt::device {
 
@@ -42,8 +43,30 @@ Result<std::unique_ptr<DeviceDriver>> open_listed_force_dimension(const ListedDe
     return open_force_dimension(api, {arm_index(listed.id), options.arm_may_move}, steady_timer());
 }
 
+// Every listing of devices calls this, also on computers without a service.
+constexpr double haply_list_timeout = 0.1;  // s
+
+std::vector<ListedDevice> list_haply_arms() {
+    std::vector<ListedDevice> arms;
+    const char* const name = "Haply Inverse3";
+    const Result<HaplyService> service = haply_service();
+    const auto found = service ? list_haply(*service, haply_list_timeout)
+                               : Result<std::vector<HaplyListing>>(fail(service.error()));
+    if (!found) return {unusable_arm("haply", name, found.error())};
+    for (const HaplyListing& arm : *found)
+        arms.push_back({service->states.text(), fmt::format("haply:{}", arms.size()),
+                        fmt::format("{} {}", name, arm.arm), DeviceKind::arm, arm.trouble});
+    return arms;
+}
+
+Result<std::unique_ptr<DeviceDriver>> open_listed_haply(const ListedDevice& listed, const OpenOptions&) {
+    BOLT_TRY_ASSIGN(const HaplyService service, haply_service());
+    return open_haply(service, arm_index(listed.id), steady_timer());
+}
+
 constexpr std::array vendors{
     ArmVendor{"force-dimension", list_force_dimension, open_listed_force_dimension},
+    ArmVendor{"haply", list_haply_arms, open_listed_haply},
 };
 
 }  // namespace
