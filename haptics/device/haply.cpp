@@ -122,7 +122,7 @@ class HaplyArm final : public DeviceDriver {
           description_(describe_arm(connection_.arm, connection_.grip_or_null(), index)) {}
     HaplyArm(const HaplyArm&) = delete;
     HaplyArm& operator=(const HaplyArm&) = delete;
-    ~HaplyArm() override = default;  // the thread ends first; its last message has no force
+    ~HaplyArm() override = default;  // the thread ends first, with a message that has no force
 
     // Call once.
     Status start() {
@@ -182,9 +182,11 @@ class HaplyArm final : public DeviceDriver {
             error_.code = ErrorCode::no_device;
             error_.lost = true;
             lost_.store(true, std::memory_order_release);
-            return;
+            break;
         }
-        (void)send(Vec3(0.0));  // the arm may be gone
+        // Silence lets the force go as well, but only the service's documentation says so. The answer is
+        // awaited, because closing a connection with unread answers may drop what was sent.
+        if (send(Vec3(0.0))) (void)connection_.states.receive(answer_wait);
     }
 
     Vec3 current_force() {
@@ -198,7 +200,7 @@ class HaplyArm final : public DeviceDriver {
                                        answer_timeout);
     }
 
-    // Without an answer nothing more is sent, so the service lets the force go.
+    // Without an answer no other force is sent.
     Status exchange(const Vec3& force, const std::stop_token& stop) {
         BOLT_TRY(send(force));
         const double end = steady_seconds() + answer_timeout;

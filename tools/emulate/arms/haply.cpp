@@ -41,7 +41,6 @@ using Tcp = asio::ip::tcp;
 constexpr double encoder_step = 10e-6;     // m
 constexpr double dt = 25e-6;               // s
 constexpr double longest_advance = 0.1;    // s; a computer that was suspended does not throw the arm
-constexpr double command_lifetime = 5e-3;  // s that one message keeps a force
 constexpr double max_force = 10.0;         // N
 constexpr Vec3 middle{0.0, -0.12, 0.15};   // m, of the reach, from the arm's base
 constexpr const char* arm_id = "049D";
@@ -157,7 +156,7 @@ class HaplyArmModel {
         if (const double length = glm::length(force); length > max_force) force *= max_force / length;
         if (!renders_) return true;
         force_ = force;
-        force_until_ = force == Vec3(0.0) ? std::min(force_until_, time_) : time_ + command_lifetime;
+        force_until_ = force == Vec3(0.0) ? std::min(force_until_, time_) : time_ + options_.command_lifetime;
         return true;
     }
 

@@ -46,6 +46,7 @@ struct EmulatedHaplyOptions {
     bool centred = false;           // positions are from the middle of the reach, not from the base
     std::string type = "inverse3";  // empty: not reported
     std::string basis = "XYZ";
+    double command_lifetime = 5e-3;  // s that one message keeps a force
     // Of the hand with the arm.
     double mass = 0.4;         // kg
     double friction = 12.0;    // N·s/m
