@@ -124,10 +124,10 @@ TEST_CASE("Haply: the service's frame has x to the right, y forward and z up") {
         const auto device = opened(bench);
         const std::array<std::pair<Vec3, Vec3>, 3> axes{
             {{{0.05, 0, 0}, {0.05, 0, 0}}, {{0, 0.05, 0}, {0, 0, -0.05}}, {{0, 0, 0.05}, {0, 0.05, 0}}}};
-        for (const auto& [theirs, ours] : axes) {
-            bench.arm->intend(theirs);
+        for (const auto& axis : axes) {  // theirs, ours
+            bench.arm->intend(axis.first);
             render_until(*device, Vec3(0.0),
-                         [&](const Sample& s) { return glm::distance(s.pose.position, ours) < 1e-4; });
+                         [&](const Sample& s) { return glm::distance(s.pose.position, axis.second) < 1e-4; });
         }
         bench.arm->intend(Vec3(0.0));
         // A force moves the hand in its direction: 3 N against 300 N/m.
@@ -222,7 +222,9 @@ TEST_CASE("Haply: after every fault the device is lost, names it, and no force i
         {HaplyFault::brake, "has braked: its emergency brake was triggered"},
         {HaplyFault::stall, "has braked: a motor stalled"},
     }};
-    for (const auto& [fault, text] : faults) {
+    for (const auto& expected : faults) {
+        const HaplyFault fault = expected.first;
+        const std::string& text = expected.second;
         CAPTURE(text);
         Bench bench;
         auto device = opened(bench);
