@@ -19,11 +19,12 @@ namespace {
 
 constexpr double exchange_period = 1e-3;   // s between two exchanges
 constexpr double answer_wait = 5e-3;       // s until the thread looks whether it should end
-constexpr double answer_timeout = 0.25;    // s without an answer until the service counts as lost
+constexpr double answer_timeout = 0.5;     // s without an answer until the service counts as lost
 constexpr double connect_timeout = 1.0;    // s, of an arm that is opened
 constexpr double version_timeout = 0.2;    // s
 constexpr double command_lifetime = 0.02;  // s after which a force becomes zero
 constexpr double poll_interval = 2e-4;     // s between two looks for a new state
+constexpr int most_events = 16;            // that are read between two exchanges
 constexpr int event_port_offset = 10020 - 10001;
 constexpr int old_http_port_offset = 10000 - 10001;  // of services before 3.5
 
@@ -196,21 +197,30 @@ class HaplyArm final : public DeviceDriver {
     }
 
     Status send(const Vec3& force) {
+        ++unanswered_;
         return connection_.states.send(haply_force_message(connection_.arm, force, connection_.old_messages),
                                        answer_timeout);
     }
 
-    // Without an answer no other force is sent.
+    // Sends a force and waits for the answer. An answer that is late lets the force go.
     Status exchange(const Vec3& force, const std::stop_token& stop) {
         BOLT_TRY(send(force));
-        const double end = steady_seconds() + answer_timeout;
-        while (!stop.stop_requested()) {
+        const double begun = steady_seconds();
+        bool released = false;
+        while (unanswered_ > 0 && !stop.stop_requested()) {
             BOLT_TRY_ASSIGN(const std::optional<std::string> message,
                             connection_.states.receive(answer_wait));
-            if (message) return publish(*message);
-            if (steady_seconds() >= end)
+            const double waited = steady_seconds() - begun;
+            if (message) {
+                --unanswered_;
+                BOLT_TRY(publish(*message));
+            } else if (waited >= answer_timeout) {
                 return fail(lost_arm_or_service("the Haply service no longer answers",
                                                 fmt::format("an answer within {:g} s", answer_timeout)));
+            } else if (waited >= command_lifetime && !released) {
+                released = true;
+                BOLT_TRY(send(Vec3(0.0)));
+            }
         }
         return {};
     }
@@ -226,7 +236,7 @@ class HaplyArm final : public DeviceDriver {
 
     // Fails if an event says that the arm renders no more force.
     Status check_events() {
-        while (connection_.events) {
+        for (int i = 0; i < most_events && connection_.events; ++i) {
             const auto message = connection_.events->receive(0.0);
             if (!message) connection_.events.reset();
             if (!message || !*message) break;
@@ -240,7 +250,9 @@ class HaplyArm final : public DeviceDriver {
     Connection connection_;  // used by the thread only, once it runs
     Timer timer_;
     Description description_;
-    Quat orientation_{1.0, 0.0, 0.0, 0.0};  // the latest one; used by the thread
+    // Used by the thread.
+    Quat orientation_{1.0, 0.0, 0.0, 0.0};  // the latest one
+    int unanswered_ = 0;                    // messages whose answers have not come yet
     TripleBuffer<TimedForce> forces_{{Vec3(0.0), -1e9}};
     TripleBuffer<TimedState> states_;
     Error error_;  // written by the thread before lost_

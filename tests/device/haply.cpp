@@ -194,6 +194,18 @@ TEST_CASE("Haply: a force that is not repeated becomes zero after 20 ms of the d
     CHECK(bench.arm->force() == Vec3(0.0));
 }
 
+TEST_CASE("Haply: a late answer lets the force go, and the device stays open") {
+    Bench bench({.command_lifetime = 1e9, .answer_delay = 0.05});
+    auto device = open_haply(bench.service, 0, {[] { return 0.0; }, steady_timer().wait});
+    REQUIRE(device);
+    REQUIRE((*device)->write({Vec3(2, 0, 0), {}}));  // never too old by this clock
+    for (int i = 0; i < 3; ++i) {
+        CHECK(eventually([&] { return bench.arm->force().x > 1.0; }));
+        CHECK(eventually([&] { return bench.arm->force() == Vec3(0.0); }));
+    }
+    CHECK((*device)->write({}));
+}
+
 TEST_CASE("Haply: closing the device releases the force with its last message") {
     Bench bench({.command_lifetime = 1e9});
     auto device = opened(bench);

@@ -38,11 +38,11 @@ using Json = nlohmann::json;
 using Request = http::request<http::empty_body>;
 using Tcp = asio::ip::tcp;
 
-constexpr double encoder_step = 10e-6;     // m
-constexpr double dt = 25e-6;               // s
-constexpr double longest_advance = 0.1;    // s; a computer that was suspended does not throw the arm
-constexpr double max_force = 10.0;         // N
-constexpr Vec3 middle{0.0, -0.12, 0.15};   // m, of the reach, from the arm's base
+constexpr double encoder_step = 10e-6;    // m
+constexpr double dt = 25e-6;              // s
+constexpr double longest_advance = 0.1;   // s; a computer that was suspended does not throw the arm
+constexpr double max_force = 10.0;        // N
+constexpr Vec3 middle{0.0, -0.12, 0.15};  // m, of the reach, from the arm's base
 constexpr const char* arm_id = "049D";
 constexpr const char* grip_id = "61576";
 constexpr int event_port_offset = 19;
@@ -334,6 +334,8 @@ struct EmulatedHaply::Service {
             const std::string message = beast::buffers_to_string(buffer.data());
             const auto answer = with_model([&](HaplyArmModel& m) { return m.answer(message); });
             if (!answer) return;
+            if (options.answer_delay > 0.0)
+                std::this_thread::sleep_for(std::chrono::duration<double>(options.answer_delay));
             if (!answer->empty()) stream.write(asio::buffer(*answer), error);
         }
     }

@@ -47,6 +47,7 @@ struct EmulatedHaplyOptions {
     std::string type = "inverse3";  // empty: not reported
     std::string basis = "XYZ";
     double command_lifetime = 5e-3;  // s that one message keeps a force
+    double answer_delay = 0.0;       // s from a message to its answer
     // Of the hand with the arm.
     double mass = 0.4;         // kg
     double friction = 12.0;    // N·s/m
