@@ -3,6 +3,9 @@ find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(Boost 1.74 CONFIG REQUIRED)  # Beast and Asio, which are headers only
+# Each io_context has one thread and needs no fences, which ThreadSanitizer does not know.
+set_property(TARGET Boost::headers APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS BOOST_ASIO_DISABLE_FENCED_BLOCK)
 find_package(CLI11 REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(zstd REQUIRED)

@@ -8,6 +8,7 @@
 
 #include "haptics/device/force_dimension.hpp"
 #include "haptics/device/open_haptics.hpp"
+#include "haptics/device/haply.hpp"
 
 namespace bolt::device {
 
@@ -58,9 +59,31 @@ Result<std::unique_ptr<DeviceDriver>> open_listed_open_haptics(const ListedDevic
     return open_open_haptics(api, steady_timer());
 }
 
+// Every listing of devices calls this, also on computers without a service.
+constexpr double haply_list_timeout = 0.1;  // s
+
+std::vector<ListedDevice> list_haply_arms() {
+    std::vector<ListedDevice> arms;
+    const char* const name = "Haply Inverse3";
+    const Result<HaplyService> service = haply_service();
+    const auto found = service ? list_haply(*service, haply_list_timeout)
+                               : Result<std::vector<HaplyListing>>(fail(service.error()));
+    if (!found) return {unusable_arm("haply", name, found.error())};
+    for (const HaplyListing& arm : *found)
+        arms.push_back({service->states.text(), fmt::format("haply:{}", arms.size()),
+                        fmt::format("{} {}", name, arm.arm), DeviceKind::arm, arm.trouble});
+    return arms;
+}
+
+Result<std::unique_ptr<DeviceDriver>> open_listed_haply(const ListedDevice& listed, const OpenOptions&) {
+    BOLT_TRY_ASSIGN(const HaplyService service, haply_service());
+    return open_haply(service, arm_index(listed.id), steady_timer());
+}
+
 constexpr std::array vendors{
     ArmVendor{"force-dimension", list_force_dimension, open_listed_force_dimension},
     ArmVendor{"openhaptics", list_open_haptics, open_listed_open_haptics},
+    ArmVendor{"haply", list_haply_arms, open_listed_haply},
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Arms through their vendors' libraries: one row for each vendor, with the functions that list its arms and
-// open one of them.
+// Arms through their vendors' libraries or services: one row for each vendor, with the functions that list
+// its arms and open one of them.
 #pragma once
 
 #include <memory>

@@ -12,7 +12,7 @@
 namespace bolt::device {
 
 enum class DeviceKind : std::uint8_t {
-    arm,    // Force Dimension, OpenHaptics; renders forces
+    arm,    // through its vendor's library or service (arms.hpp); renders forces
     puck,   // six axes that spring back; SpaceMouse class
     board,  // OpenFFBoard
     wheel,  // any other device with USB force feedback
@@ -25,8 +25,8 @@ struct HidIdentity {
 };
 
 struct ListedDevice {
-    std::string
-        path;  // for example /dev/hidraw3; changes when the device is replugged; of an arm: the library
+    // For example /dev/hidraw3; changes when the device is replugged. Of an arm: the library or service.
+    std::string path;
     // An arm: VENDOR:INDEX, for example force-dimension:0. Others: VENDOR:PRODUCT[:SERIAL], for example
     // 256f:c62e; #2 is appended for a second identical device.
     std::string id;

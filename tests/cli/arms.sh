@@ -35,6 +35,31 @@ OH_SDK_BASE=$work/oh_old expect 0 'has no hdInitDevice, hdDisableDevice' "$bin/b
 OH_SDK_BASE=$work/oh_old expect 4 'has no hdInitDevice, hdDisableDevice' "$bin/boltwright" devices --device $hd
 OH_SDK_BASE=$work/oh_broken expect 4 'invalid ELF header' "$bin/boltwright" devices --device $hd
 OH_SDK_BASE=$work/nowhere expect 4 'there is no device openhaptics:0' "$bin/boltwright" devices --device $hd
+# Haply's service on a free port.
+haply() {  # haply OPTIONS...: starts the service and names it in BOLTWRIGHT_HAPLY
+    : >address
+    "$bin/bolt-emulate" haply --port 0 "$@" >address &
+    player=$!
+    check 'the emulated Haply service starts' eventually grep -q : address
+    BOLTWRIGHT_HAPLY=$(head -1 address)
+    export BOLTWRIGHT_HAPLY
+}
+stop_haply() { kill $player; wait $player; player=; }
+lists() { "$bin/boltwright" devices | grep -qE -- "$1"; }  # a listing waits only briefly for the service
+haply
+check 'the arm of the service is listed' eventually lists 'haply:0 +Haply Inverse3 049D'
+expect 0 'renders force along 3 axes, 10 N at most' "$bin/boltwright" devices --device haply:0 --seconds 0.2
+stop_haply
+haply --grip none --version 3.4.0
+expect 0 'has no VerseGrip, so it senses no rotation' "$bin/boltwright" devices --device haply:0 --seconds 0.2
+stop_haply
+expect 4 'there is no device haply:0' "$bin/boltwright" devices --device haply:0
+haply --uncalibrated
+check 'an arm that is not calibrated is listed with the remedy' eventually lists 'Haply Inverse3 049D is not calibrated; expected an arm that was placed into its inkwell'
+expect 4 'is not calibrated' "$bin/boltwright" devices --device haply:0
+stop_haply
+BOLTWRIGHT_HAPLY=nowhere expect 0 "BOLTWRIGHT_HAPLY is 'nowhere'; expected ADDRESS:PORT" "$bin/boltwright" devices
+unset BOLTWRIGHT_HAPLY
 
 # A lesson with the first device that is found.
 "$bin/boltwright" train cover-m8 --device auto --start --silent --size 320x200 --out lesson 2>log >/dev/null &

@@ -26,6 +26,7 @@ smoke calibration 50000 -dict="$here/calibration.dict" -max_len=8192 "$bin/../co
 smoke settings 50000 -dict="$here/settings.dict" -max_len=4096 "$bin/../corpus/settings"
 smoke report 200000 -max_len=512
 smoke force_device 200000 -max_len=1024 "$bin/../corpus/force_device"
+smoke haply 30000 -max_len=4096 -dict="$here/haply.dict" "$bin/../corpus/haply"
 smoke words 10000 -max_len=32768 "$bin/../corpus/words"
 failed=0
 for i in "${!pids[@]}"; do

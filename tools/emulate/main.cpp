@@ -1,5 +1,5 @@
-// bolt-emulate: emulates a glove on a pseudo-terminal, or a puck or a wheel in the kernel, for users without
-// the hardware. Each device repeats one hand motion until a signal ends the program.
+// bolt-emulate: emulates a glove on a pseudo-terminal, a puck or a wheel in the kernel, or the service of an
+// arm, for users without the hardware. Each device repeats one hand motion until a signal ends the program.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <poll.h>
@@ -13,6 +13,7 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <thread>
 
 #include "engine/base/math.hpp"
@@ -20,6 +21,7 @@
 #include "engine/program/program.hpp"
 #include "haptics/device/hid_transport.hpp"
 #include "haptics/hand/kinematics.hpp"
+#include "tools/emulate/arms/haply.hpp"
 #include "tools/emulate/glove.hpp"
 #include "tools/emulate/hid_device.hpp"
 #include "tools/emulate/puck.hpp"
@@ -35,6 +37,8 @@ constexpr double puck_amplitude = 0.5;     // fraction of the puck's travel
 constexpr double wheel_amplitude = 0.5;    // rad
 constexpr double grip_stiffness = 5.0;     // N·m/rad
 constexpr double torque_threshold = 0.05;  // N·m, smallest change of the torque that is printed
+constexpr double arm_amplitude = 0.02;     // m
+constexpr double force_threshold = 0.2;    // N, smallest change of the force that is printed
 
 volatile std::sig_atomic_t ended = 0;
 
@@ -142,6 +146,42 @@ int play_glove(const emulate::EmulatedGloveOptions& options, double period, bool
     return status ? 0 : print_error(status.error());
 }
 
+// Moves the hand at the arm in circles, and prints the force on it when it changes.
+Status play_haply(const EmulatedHaplyOptions& options) {
+    BOLT_TRY_ASSIGN(const auto service, EmulatedHaply::start(options));
+    Status status = print(fmt::format("127.0.0.1:{}\n", service->port()));
+    Vec3 printed_force(0.0);
+    while (status && ended == 0) {
+        const double phase = 2.0 * pi / motion_period * steady_seconds();
+        service->intend({arm_amplitude * std::cos(phase), 0.0, arm_amplitude * std::sin(phase)});
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        const Vec3 force = service->force();
+        if (glm::distance(force, printed_force) < force_threshold) continue;
+        printed_force = force;
+        status = print(fmt::format("force {:.1f} {:.1f} {:.1f} N\n", force.x, force.y, force.z));
+    }
+    return status;
+}
+
+void add_haply_command(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<EmulatedHaplyOptions>();
+    options->port = 10001;
+    CLI::App* command = app.add_subcommand(
+        "haply", "Haply's service with an Inverse3 and a VerseGrip; prints its address and the force");
+    command->add_option("--port", options->port, "port of the states; 0: any that is free")
+        ->capture_default_str();
+    command->add_option("--grip", options->grip, "wireless, wired or none")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, HaplyGrip>{
+            {"none", HaplyGrip::none}, {"wired", HaplyGrip::wired}, {"wireless", HaplyGrip::wireless}}))
+        ->default_str("wireless");
+    command->add_option("--version", options->version, "of the service")->capture_default_str();
+    command->add_flag_callback(
+        "--uncalibrated", [options] { options->calibrated = false; }, "the arm is not calibrated");
+    command->callback([options, &exit_code] {
+        if (const Status played = play_haply(*options); !played) exit_code = print_error(played.error());
+    });
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -183,6 +223,7 @@ int main(int argc, char** argv) {
     add_hid_device("wheel",
                    "A generic force-feedback wheel, plugged into the kernel (needs root and the module uhid)",
                    [] { return play_wheel(false); });
+    add_haply_command(app, exit_code);
     glove_command->callback([&] {
         options.hand = left ? hand::Side::left : hand::Side::right;
         exit_code = play_glove(options, by_name ? 0.0 : period, by_name, link);

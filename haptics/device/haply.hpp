@@ -1,0 +1,35 @@
+// Haply's Inverse3, with a VerseGrip, through the vendor's service: messages over a WebSocket on this
+// computer (haply_messages.hpp). Not tried on hardware.
+#pragma once
+
+#include <vector>
+
+#include "haptics/device/device.hpp"
+#include "haptics/device/web_socket.hpp"
+
+namespace bolt::device {
+
+struct HaplyService {
+    SocketAddress states{.port = 10001};
+    SocketAddress events{.port = 10020};
+};
+
+// The service that BOLTWRIGHT_HAPLY names as ADDRESS:PORT, or the one on this computer. The port of the
+// events follows from the other one, as the service's own ports do.
+Result<HaplyService> haply_service();
+
+struct HaplyListing {
+    std::string arm;               // its id at the service
+    std::optional<Error> trouble;  // why it cannot be used
+};
+
+// The arms that the service has now; none if no service answers within `timeout` s. An error means that a
+// service answers with something that cannot be used.
+Result<std::vector<HaplyListing>> list_haply(const HaplyService& service, double timeout);
+
+// Opens the service's arm `index`, from 0, with the grip of the same index if there is one. Fails if the arm
+// is not calibrated. A thread exchanges messages with the service: one force, then one state, at most every
+// millisecond. `timer` gives the age of a force: after 20 ms it is zero.
+Result<std::unique_ptr<DeviceDriver>> open_haply(const HaplyService& service, int index, Timer timer);
+
+}  // namespace bolt::device

@@ -1,0 +1,463 @@
+// The driver of Haply's Inverse3, on an emulated service, and the messages of the service.
+#include "haptics/device/haply.hpp"
+
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <thread>
+
+#include "engine/base/steady_seconds.hpp"
+#include "haptics/device/arms.hpp"
+#include "haptics/device/haply_messages.hpp"
+#include "tests/device/driver_contract.hpp"
+#include "tools/emulate/arms/haply.hpp"
+
+namespace device_haply_test {
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+using emulate::EmulatedHaply;
+using emulate::EmulatedHaplyOptions;
+using emulate::HaplyFault;
+using emulate::HaplyGrip;
+
+namespace {
+
+constexpr double patience = 60.0;       // s; only a failure waits so long
+constexpr double longest_force = 0.02;  // s on the hand after a fault has shown
+
+// An emulated service and the driver of its arm, both with threads of their own.
+struct Bench {
+    std::unique_ptr<EmulatedHaply> arm;
+    HaplyService service;
+
+    explicit Bench(const EmulatedHaplyOptions& options = {}) {
+        auto started = EmulatedHaply::start(options);
+        REQUIRE_MESSAGE(started, (started ? "" : started.error().message()));
+        arm = std::move(*started);
+        service.states.port = arm->port();
+        service.events.port = static_cast<std::uint16_t>(arm->port() + 19);
+    }
+    [[nodiscard]] Result<std::unique_ptr<DeviceDriver>> open(int index = 0) const {
+        return open_haply(service, index, steady_timer());
+    }
+    [[nodiscard]] Error trouble_of_opening() const {
+        const auto opened = open();
+        REQUIRE_FALSE(opened);
+        return opened.error();
+    }
+};
+
+std::unique_ptr<DeviceDriver> opened(const Bench& bench) {
+    auto device = bench.open();
+    REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
+    return std::move(*device);
+}
+
+// Renders `force` and reads until `done(sample)`; the last sample.
+template <class Done>
+Sample render_until(DeviceDriver& device, const Vec3& force, const Done& done) {
+    Sample last;
+    bool reached = false;
+    for (const double end = steady_seconds() + patience; !reached && steady_seconds() < end;) {
+        REQUIRE(device.write({force, {}}));
+        const auto sample = device.read(0.005);
+        REQUIRE_MESSAGE(sample, (sample ? "" : sample.error().message()));
+        if (!*sample) continue;
+        last = **sample;
+        reached = done(last);
+    }
+    CHECK(reached);
+    return last;
+}
+
+template <class Done>
+bool eventually(const Done& done) {
+    for (const double end = steady_seconds() + patience; steady_seconds() < end;) {
+        if (done()) return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return false;
+}
+
+// Renders a force until the driver reports that the device is lost.
+Error render_until_lost(DeviceDriver& device) {
+    for (const double end = steady_seconds() + patience; steady_seconds() < end;) {
+        if (const Status written = device.write({Vec3(2, 0, 0), {}}); !written) return written.error();
+        if (const auto sample = device.read(0.005); !sample) return sample.error();
+    }
+    return {};
+}
+
+const HaplyArmEntry entry{"049D", true, Vec3(0.0)};
+const HaplyGripEntry wireless_grip{"61576", true};
+
+std::string state_message(std::string_view position, std::string_view grip = "[]") {
+    return R"({"inverse3":[{"device_id":"049D","state":{"cursor_position":)" + std::string(position) +
+           R"(,"cursor_velocity":{"x":0,"y":0,"z":0}}}],"wireless_verse_grip":)" + std::string(grip) + "}";
+}
+
+}  // namespace
+
+TEST_CASE("Haply: keeps the contract of drivers, with each grip and with messages before 3.5") {
+    EmulatedHaplyOptions options;
+    for (const HaplyGrip grip : {HaplyGrip::wireless, HaplyGrip::wired, HaplyGrip::none}) {
+        for (const std::string version : {"3.5.0.0", "3.4.1.0", ""}) {
+            CAPTURE(version);
+            options.grip = grip;
+            options.version = version;
+            Bench bench(options);
+            check_driver_contract([&] { return bench.open(); }, [] {});
+            CHECK(bench.arm->commands() > 0);
+            CHECK(bench.arm->rejected() == 0);
+            check_unplugged([&] { return bench.open(); }, [&] { bench.arm.reset(); });
+        }
+    }
+}
+
+TEST_CASE("Haply: the service's frame has x to the right, y forward and z up") {
+    for (const bool centred : {false, true}) {
+        CAPTURE(centred);
+        Bench bench({.centred = centred});
+        const auto device = opened(bench);
+        const std::array<std::pair<Vec3, Vec3>, 3> axes{
+            {{{0.05, 0, 0}, {0.05, 0, 0}}, {{0, 0.05, 0}, {0, 0, -0.05}}, {{0, 0, 0.05}, {0, 0.05, 0}}}};
+        for (const auto& axis : axes) {  // theirs, ours
+            bench.arm->intend(axis.first);
+            render_until(*device, Vec3(0.0),
+                         [&](const Sample& s) { return glm::distance(s.pose.position, axis.second) < 1e-4; });
+        }
+        bench.arm->intend(Vec3(0.0));
+        // A force moves the hand in its direction: 3 N against 300 N/m.
+        for (const Vec3 force : {Vec3(3, 0, 0), Vec3(0, 3, 0), Vec3(0, 0, 3)})
+            render_until(*device, force, [&](const Sample& s) {
+                return glm::distance(s.pose.position, force / 300.0) < 1e-3;
+            });
+    }
+}
+
+TEST_CASE("Haply: velocity, orientation and buttons") {
+    Bench bench;
+    const auto device = opened(bench);
+    // A quarter turn about the service's y axis (forward), which is our -z.
+    bench.arm->turn(glm::angleAxis(0.5 * pi, Vec3(0, 1, 0)));
+    bench.arm->press(5);
+    const Sample turned = render_until(*device, Vec3(0.0), [](const Sample& s) { return s.buttons == 5; });
+    CHECK(glm::distance(turned.pose.orientation * Vec3(0, 1, 0), Vec3(1, 0, 0)) < 1e-9);
+    bench.arm->intend({0, 0, 0.08});
+    render_until(*device, Vec3(0.0), [](const Sample& s) { return s.velocity.y > 0.05; });
+    CHECK(device->describe().buttons == 3);
+
+    Bench wired({.grip = HaplyGrip::wired});
+    const auto with_wired = opened(wired);
+    wired.arm->press(1);
+    render_until(*with_wired, Vec3(0.0), [](const Sample& s) { return s.buttons == 1; });
+    CHECK(with_wired->describe().buttons == 1);
+
+    Bench none({.grip = HaplyGrip::none});
+    const auto without = opened(none);
+    CHECK(without->describe().buttons == 0);
+    CHECK(without->describe().remarks.front().find("has no VerseGrip") == 0);
+}
+
+TEST_CASE("Haply: renders 10 N at most, no torque, and no force that is not finite") {
+    Bench bench;
+    const auto device = opened(bench);
+    CHECK(device->describe().limits.force == 10.0);
+    CHECK(device->describe().limits.torque == 0.0);
+    CHECK(device->describe().limits.stiffness == 1000.0);
+    render_until(*device, Vec3(0, 100, 0),
+                 [&](const Sample&) { return glm::distance(bench.arm->force(), Vec3(0, 0, 10)) < 1e-5; });
+    render_until(*device, Vec3(0, NAN, 0), [&](const Sample&) { return bench.arm->force() == Vec3(0.0); });
+}
+
+TEST_CASE("Haply: a force that is not repeated becomes zero after 20 ms of the driver's clock") {
+    Bench bench;
+    // The clock stands still, so the force stays, however slow the computer is.
+    std::atomic<double> now{0.0};
+    auto frozen = open_haply(bench.service, 0, {[&] { return now.load(); }, steady_timer().wait});
+    REQUIRE(frozen);
+    REQUIRE((*frozen)->write({Vec3(2, 0, 0), {}}));
+    const auto renders = [&] { return bench.arm->force().x > 1.0; };
+    now = 0.019;
+    CHECK(eventually(renders));
+    now = 0.021;
+    const auto exchanges = [&](std::uint64_t n) {
+        const std::uint64_t before = bench.arm->commands();
+        return eventually([&] { return bench.arm->commands() >= before + n; });
+    };
+    CHECK(exchanges(20));
+    CHECK(eventually([&] { return bench.arm->force() == Vec3(0.0); }));
+    CHECK(exchanges(20));
+    CHECK(bench.arm->force() == Vec3(0.0));
+}
+
+TEST_CASE("Haply: a late answer lets the force go, and the device stays open") {
+    Bench bench({.command_lifetime = 1e9, .answer_delay = 0.05});
+    auto device = open_haply(bench.service, 0, {[] { return 0.0; }, steady_timer().wait});
+    REQUIRE(device);
+    REQUIRE((*device)->write({Vec3(2, 0, 0), {}}));  // never too old by this clock
+    for (int i = 0; i < 3; ++i) {
+        CHECK(eventually([&] { return bench.arm->force().x > 1.0; }));
+        CHECK(eventually([&] { return bench.arm->force() == Vec3(0.0); }));
+    }
+    CHECK((*device)->write({}));
+}
+
+TEST_CASE("Haply: closing the device releases the force with its last message") {
+    Bench bench({.command_lifetime = 1e9});
+    auto device = opened(bench);
+    render_until(*device, Vec3(4, 0, 0), [&](const Sample&) { return bench.arm->force().x > 3.0; });
+    device.reset();
+    CHECK(eventually([&] { return bench.arm->force() == Vec3(0.0); }));
+    CHECK(bench.open());
+}
+
+TEST_CASE("Haply: after every fault the device is lost, names it, and no force is left") {
+    const std::array<std::pair<HaplyFault, std::string>, 16> faults{{
+        {HaplyFault::close, "127.0.0.1:"},
+        {HaplyFault::silence, "the Haply service no longer answers"},
+        {HaplyFault::nonsense, "sends a message that is not JSON; expected a JSON object"},
+        {HaplyFault::array, "sends array; expected a JSON object"},
+        {HaplyFault::huge, "127.0.0.1:"},
+        {HaplyFault::null_position, "cursor_position.y is of type null; expected a number"},
+        {HaplyFault::text_position, "cursor_position.z is of type string; expected a number"},
+        {HaplyFault::no_position, "cursor_position.x is missing; expected a number"},
+        {HaplyFault::overflow, "sends a message that is not JSON"},
+        {HaplyFault::millimetres, "m; expected 0.6 m at most"},
+        {HaplyFault::turn, "orientation has length 0.5; expected a unit quaternion"},
+        {HaplyFault::uncalibrated, "Haply Inverse3 049D is not calibrated any more"},
+        {HaplyFault::missing, "Haply Inverse3 049D is not connected any more"},
+        {HaplyFault::disconnected, "Haply Inverse3 049D was disconnected"},
+        {HaplyFault::brake, "has braked: its emergency brake was triggered"},
+        {HaplyFault::stall, "has braked: a motor stalled"},
+    }};
+    for (const auto& expected : faults) {
+        const HaplyFault fault = expected.first;
+        const std::string& text = expected.second;
+        CAPTURE(text);
+        Bench bench;
+        auto device = opened(bench);
+        render_until(*device, Vec3(2, 0, 0), [&](const Sample&) { return bench.arm->force().x > 1.0; });
+        bench.arm->set_fault(fault);
+        const Error error = render_until_lost(*device);
+        CHECK(error.lost);
+        CHECK(error.code == ErrorCode::no_device);
+        CHECK_MESSAGE(error.message().find(text) != std::string::npos, error.message());
+        CHECK(bench.arm->fault_shown());
+        CHECK(bench.arm->force_after_fault() <= longest_force);
+        CHECK(eventually([&] { return bench.arm->force() == Vec3(0.0); }));
+        // Still lost, and the service can be used again without the fault.
+        CHECK_FALSE(device->read(0.0));
+        CHECK_FALSE(device->write({}));
+        device.reset();
+        bench.arm->set_fault(HaplyFault::none);
+        const auto again = opened(bench);
+        render_until(*again, Vec3(2, 0, 0), [&](const Sample&) { return bench.arm->force().x > 1.0; });
+    }
+}
+
+TEST_CASE("Haply: a service that would keep the last force gets a zero after a fault") {
+    for (const HaplyFault fault : {HaplyFault::silence, HaplyFault::nonsense, HaplyFault::null_position,
+                                   HaplyFault::millimetres, HaplyFault::uncalibrated}) {
+        Bench bench({.command_lifetime = 1e9});
+        const auto device = opened(bench);
+        render_until(*device, Vec3(2, 0, 0), [&](const Sample&) { return bench.arm->force().x > 1.0; });
+        bench.arm->set_fault(fault);
+        CHECK(render_until_lost(*device).lost);
+        CHECK(eventually([&] { return bench.arm->force() == Vec3(0.0); }));
+    }
+}
+
+TEST_CASE("Haply: the emulated service measures a force that stays after a fault") {
+    Bench bench;
+    auto socket = WebSocket::connect(bench.service.states, patience);  // ignores the answers
+    REQUIRE(socket);
+    bench.arm->set_fault(HaplyFault::null_position);
+    CHECK(eventually([&] {
+        REQUIRE(socket->send(haply_force_message(entry, Vec3(2, 0, 0), false), patience));
+        return bench.arm->force_after_fault() > longest_force;
+    }));
+}
+
+TEST_CASE("Haply: an arm that is not calibrated asks for it, when it is listed and when it is opened") {
+    const Bench bench({.calibrated = false});
+    const auto listed = list_haply(bench.service, patience);
+    REQUIRE(listed);
+    REQUIRE(listed->size() == 1);
+    REQUIRE(listed->front().trouble);
+    const char* text =
+        "Haply Inverse3 049D is not calibrated; expected an arm that was placed into its inkwell and "
+        "calibrated, as its light shows";
+    CHECK(listed->front().trouble->message() == text);
+    CHECK(bench.trouble_of_opening().message() == text);
+    CHECK(bench.arm->commands() == 0);
+}
+
+TEST_CASE("Haply: lists the arms of a service") {
+    Bench bench;
+    const auto listed = list_haply(bench.service, patience);
+    REQUIRE(listed);
+    REQUIRE(listed->size() == 1);
+    CHECK(listed->front().arm == "049D");
+    CHECK_FALSE(listed->front().trouble);
+    const auto second = bench.open(1);
+    REQUIRE_FALSE(second);
+    CHECK(second.error().message().find("the Haply service has no arm 1") == 0);
+
+    const Bench empty({.arm = false});
+    const auto none = list_haply(empty.service, patience);
+    REQUIRE(none);
+    CHECK(none->empty());
+    CHECK(empty.trouble_of_opening().lost);
+
+    // No service: no arm, and no error.
+    HaplyService stopped = bench.service;
+    bench.arm.reset();
+    const auto absent = list_haply(stopped, 0.1);
+    REQUIRE(absent);
+    CHECK(absent->empty());
+    const Error trouble = bench.trouble_of_opening();
+    CHECK(trouble.code == ErrorCode::no_device);
+    CHECK(trouble.message().find("the Haply service does not answer: 127.0.0.1:") == 0);
+}
+
+TEST_CASE("Haply: another arm and exchanged axes are refused, because limits and directions would be wrong") {
+    CHECK(Bench({.type = "inverse3x"}).open());
+    CHECK(Bench({.type = ""}).open());
+    CHECK(Bench({.type = "minverse"}).trouble_of_opening().message() ==
+          "Haply service: device 049D is no Inverse3; expected an Inverse3, whose limits are known");
+    const Bench exchanged({.basis = "XZY"});
+    CHECK(exchanged.trouble_of_opening().message() ==
+          "Haply service: the axes of device 049D are exchanged; expected the basis XYZ");
+    const auto listed = list_haply(exchanged.service, patience);
+    REQUIRE_FALSE(listed);
+    CHECK(listed.error().what.find("are exchanged") != std::string::npos);
+}
+
+TEST_CASE("Haply: BOLTWRIGHT_HAPLY names the service") {
+    const auto with = [](const char* value) {
+        setenv("BOLTWRIGHT_HAPLY", value, 1);
+        auto service = haply_service();
+        unsetenv("BOLTWRIGHT_HAPLY");
+        return service;
+    };
+    const auto other = with("10.0.0.7:20001");
+    REQUIRE(other);
+    CHECK(other->states.text() == "10.0.0.7:20001");
+    CHECK(other->events.text() == "10.0.0.7:20020");
+    CHECK(with("localhost:10001")->states.text() == "127.0.0.1:10001");
+    CHECK(with("")->states.text() == "127.0.0.1:10001");
+    for (const char* wrong : {"here", "here:", ":10001", "here:0", "here:65530", "here:1x", "here:-1"}) {
+        CAPTURE(wrong);
+        const auto refused = with(wrong);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().message() == "BOLTWRIGHT_HAPLY is '" + std::string(wrong) +
+                                               "'; expected ADDRESS:PORT, for example 127.0.0.1:10001");
+    }
+}
+
+TEST_CASE("Haply: the vendor's row lists and opens the arm of the service that the environment names") {
+    const Bench bench;
+    const auto vendors = arm_vendors();
+    const auto row = std::find_if(vendors.begin(), vendors.end(),
+                                  [](const ArmVendor& vendor) { return vendor.name == "haply"; });
+    REQUIRE(row != vendors.end());
+    setenv("BOLTWRIGHT_HAPLY", bench.service.states.text().c_str(), 1);
+    std::vector<ListedDevice> arms;
+    CHECK(eventually([&] {  // a listing waits only briefly
+        arms = row->list();
+        return !arms.empty();
+    }));
+    REQUIRE(arms.size() == 1);
+    CHECK(arms.front().id == "haply:0");
+    CHECK(arms.front().name == "Haply Inverse3 049D");
+    CHECK(arms.front().kind == DeviceKind::arm);
+    const auto device = row->open(arms.front(), {});
+    setenv("BOLTWRIGHT_HAPLY", "nowhere", 1);
+    const auto unusable = row->list();
+    unsetenv("BOLTWRIGHT_HAPLY");
+    REQUIRE(device);
+    CHECK((*device)->describe().id == "haply:0");
+    REQUIRE(unusable.size() == 1);
+    CHECK(unusable.front().trouble);
+}
+
+TEST_CASE("Haply: versions before 3.5 take other messages") {
+    CHECK(is_old_haply_version(R"({"project_version": "3.0.0.0"})") == true);
+    CHECK(is_old_haply_version(R"({"project_version": "3.4.1"})") == true);
+    CHECK(is_old_haply_version(R"({"project_version": "3.5.0.0"})") == false);
+    CHECK(is_old_haply_version(R"({"ok": true, "data": {"project_version": "3.10.2"}})") == false);
+    CHECK(is_old_haply_version(R"({"project_version": "4.0"})") == false);
+    for (const char* unknown : {"", "[]", "{}", R"({"project_version": 3.5})", R"({"project_version": "3"})",
+                                R"({"project_version": "new.5"})", R"({"data": "3.4"})"})
+        CHECK_FALSE(is_old_haply_version(unknown));
+    CHECK(haply_force_message(entry, Vec3(1, 2, 3), false) ==
+          R"({"inverse3":[{"device_id":"049D","commands":{"set_cursor_force":{"vector":)"
+          R"({"x":1.000000,"y":-3.000000,"z":2.000000}}}}]})");
+    CHECK(haply_force_message(entry, Vec3(0.0), true).find(R"("values":{"x":0.000000)") != std::string::npos);
+}
+
+TEST_CASE("Haply: a list of devices with a missing or wrong field is an error") {
+    const auto trouble = [](std::string_view message) {
+        const auto inventory = parse_haply_inventory(message);
+        return inventory ? std::string() : inventory.error().message();
+    };
+    CHECK(trouble("{}").empty());
+    CHECK(trouble(R"({"inverse3": {}})") == "Haply service: inverse3 is of type object; expected an array");
+    CHECK(trouble(R"({"inverse3": [1]})") == "Haply service: device_id is missing; expected a string");
+    CHECK(trouble(R"({"inverse3": [{"device_id": "A"}]})") ==
+          "Haply service: status.calibrated is missing; expected true or false");
+    CHECK(trouble(R"({"inverse3": [{"device_id": "A\"}", "status": {"calibrated": true}}]})")
+              .find("device_id has unusual characters") != std::string::npos);
+    CHECK(trouble(R"({"verse_grip": [{"device_id": 7}]})") ==
+          "Haply service: device_id is of type number; expected a string");
+    std::string many = R"({"inverse3": [0)";
+    for (int i = 0; i < 16; ++i) many += ",0";
+    CHECK(trouble(many + "]}") == "Haply service: inverse3 has 17 devices; expected at most 16");
+    CHECK_FALSE(trouble(std::string(60'000, '[')).empty());
+    CHECK_FALSE(trouble("{\"inverse3\": \"\xff\xfe\"}").empty());
+}
+
+TEST_CASE("Haply: a grip that sleeps is missing from a state; a wrong one is an error") {
+    const char* position = R"({"x":0.01,"y":0.02,"z":0.03})";
+    const auto asleep = parse_haply_state(state_message(position), entry, &wireless_grip);
+    REQUIRE(asleep);
+    CHECK_FALSE(asleep->orientation);
+    CHECK(asleep->position == Vec3(0.01, 0.03, -0.02));
+    const auto grip = [&](std::string_view state) {
+        const auto read = parse_haply_state(
+            state_message(position, R"([{"device_id":"61576","state":)" + std::string(state) + "}]"), entry,
+            &wireless_grip);
+        return read ? std::string() : read.error().message();
+    };
+    const std::string turn = R"("orientation":{"w":1,"x":0,"y":0,"z":0})";
+    CHECK(grip("{" + turn + R"(,"buttons":{"a":true,"b":false,"c":false}})").empty());
+    CHECK(grip("{" + turn + "}") == "Haply service: buttons.a is missing; expected true or false");
+    CHECK(grip(R"({"buttons":{}})") == "Haply service: orientation is missing; expected an object");
+    CHECK(grip(R"({"orientation":{"w":null}})") ==
+          "Haply service: orientation.w is of type null; expected a number");
+    CHECK(grip(R"({"orientation":{"w":0,"x":0,"y":0,"z":0}})") ==
+          "Haply service: orientation has length 0; expected a unit quaternion");
+    CHECK(parse_haply_state(state_message(position, "7"), entry, nullptr));
+}
+
+TEST_CASE("Haply: events of other devices, and events that are no loss, are ignored") {
+    const auto loss = [](const char* name, const char* id, const char* more = "") {
+        return loss_in_haply_event(
+            R"({"name":")" + std::string(name) + R"(","data":{"device_id":")" + id + "\"" + more + "}}",
+            entry);
+    };
+    CHECK(loss("device-disconnected", "049D"));
+    CHECK_FALSE(loss("device-disconnected", "61576"));
+    CHECK_FALSE(loss("device-connected", "049D"));
+    CHECK(loss("device-safety-triggered", "049D", R"(,"safety_type":"stall_detected")"));
+    CHECK_FALSE(loss("device-safety-triggered", "049D", R"(,"safety_type":"ebrake_released")"));
+    CHECK_FALSE(loss("device-safety-triggered", "049D"));
+    CHECK_FALSE(loss_in_haply_event("nonsense", entry));
+    CHECK_FALSE(loss_in_haply_event(R"({"name":[],"data":[]})", entry));
+}
+
+}  // namespace device_haply_test
