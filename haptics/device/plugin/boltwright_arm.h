@@ -42,8 +42,8 @@
    - render any force other than the wrench of the latest exchange() and the compensation of the arm's own
      weight, nor any force at all before enable(1) or after enable(0);
    - let the arm move by itself, except in calibrate() with may_move;
-   - end the process, let a C++ exception out of a function, replace signal handlers, or close file descriptors
-     that it has not opened;
+   - end the process, let a C++ exception out of a function, replace signal handlers, or close file
+   descriptors that it has not opened;
    - read the standard input, which is empty. What it prints goes to the standard error output.
 
    STRINGS
@@ -95,8 +95,8 @@ struct bw_arm_info_v1 {
     uint32_t axes;   /* BW_ARM_FORCE_X | ... */
     uint32_t flags;  /* BW_ARM_SENSES_ROTATION */
     int32_t buttons; /* 0 to 32 */
-    /* Time from exchange() until its wrench acts on the hand and the state shows it, in ms, rounded up: 0 or 1,
-       at a rate of 1000 also 2. Boltwright adds its own. If it is too small, forces may oscillate. */
+    /* Time from exchange() until its wrench acts on the hand and the state shows it, in ms, rounded up: 0 or
+       1, at a rate of 1000 also 2. Boltwright adds its own. If it is too small, forces may oscillate. */
     int32_t delay;
     uint32_t reserved;    /* 0 */
     char name[64];        /* of the arm, for the user; empty: the name of the plug-in */
