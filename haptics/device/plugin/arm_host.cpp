@@ -64,9 +64,11 @@ Result<std::string> read_config(std::filesystem::path plugin) {
     const std::filesystem::path file = plugin.replace_extension(".conf");
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return std::string();
-    BOLT_TRY_ASSIGN(std::string text, read_file(file, std::size_t{1} << 20U, ErrorCode::failed));
-    if (text.size() <= most_config && text.find('\0') == std::string::npos) return text;
-    return fail(ErrorCode::failed, fmt::format("{} has {} bytes", file.filename().string(), text.size()),
+    const std::string name = file.filename().string();
+    const Result<std::string> text = read_file(file, std::size_t{1} << 20U, ErrorCode::failed);
+    if (!text) return fail(ErrorCode::failed, name + ' ' + text.error().what, "a text file that can be read");
+    if (text->size() <= most_config && text->find('\0') == std::string::npos) return *text;
+    return fail(ErrorCode::failed, fmt::format("{} has {} bytes", name, text->size()),
                 fmt::format("a text of {} at most, without NUL", most_config));
 }
 
@@ -115,9 +117,7 @@ class PluginServer {
         const Error* unusable = !functions_ ? &functions_.error() : !config_ ? &config_.error() : nullptr;
         if (unusable != nullptr) {
             reply.result = BW_ARM_ERROR;
-            const std::string what =
-                unusable->file.empty() ? unusable->what : unusable->file + ' ' + unusable->what;
-            copy_text(reply.text, what.c_str());
+            copy_text(reply.text, unusable->what.c_str());
             copy_text(reply.expected, unusable->expected.c_str());
             return reply;
         }

@@ -30,7 +30,7 @@ static struct bw_arm* open_arm(int index, const char* config) {
     memset(&arm, 0, sizeof arm);
     arm.stiffness = config[0] != '\0' ? strtod(config, NULL) : STIFFNESS;
     if (!(arm.stiffness >= 1.0 && arm.stiffness <= 1e5)) {
-        error = "sample_arm.conf is no stiffness from 1 to 100000 N/m";
+        error = "the .conf file has no stiffness from 1 to 100000 N/m";
         return NULL;
     }
     return &arm;
