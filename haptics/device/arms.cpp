@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "haptics/device/force_dimension.hpp"
+#include "haptics/device/plugin/arm_process.hpp"
 #include "haptics/device/plugin_arms.hpp"
 
 namespace bolt::device {
@@ -46,7 +47,7 @@ Result<std::unique_ptr<DeviceDriver>> open_listed_force_dimension(const ListedDe
 std::vector<ListedDevice> list_plugin_arms() {
     std::vector<ListedDevice> arms;
     for (const std::filesystem::path& plugin : find_plugins(plugin_folders())) {
-        const std::string name = plugin.stem().string() + ", an arm of a plug-in";
+        const std::string name = plugin_name(plugin) + ", an arm of a plug-in";
         const Result<int> count = count_plugin_arms(plugin);
         const auto entry = [&](int index, std::optional<Error> trouble) {
             arms.push_back({plugin.string(), plugin_arm_id(plugin, index), name, DeviceKind::arm, trouble});

@@ -75,8 +75,7 @@ Result<ArmProcess> ArmProcess::start(const std::filesystem::path& plugin) {
 }
 
 ArmProcess::~ArmProcess() {
-    // A function that has not returned will not return in time.
-    if (child_) child_->end(waiting_ ? 0.0 : time_to_end);
+    if (child_) child_->end(hangs_ ? 0.0 : time_to_end);
 }
 
 Result<PluginReply> ArmProcess::call(PluginCall function, int argument) {
@@ -149,7 +148,8 @@ Error ArmProcess::ended() {
     return ended;
 }
 
-Error ArmProcess::late(double time) const {
+Error ArmProcess::late(double time) {
+    hangs_ = true;
     return error(fmt::format("{} has not returned for {:g} s", function_name(function_), time),
                  "an arm that is switched on, and a plug-in that does not wait for it");
 }

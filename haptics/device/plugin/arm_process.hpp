@@ -39,12 +39,13 @@ class ArmProcess {
     // nullopt if there is none yet
     Result<std::optional<PluginReply>> reply(double timeout);
     [[nodiscard]] Error ended();
-    [[nodiscard]] Error late(double time) const;
+    [[nodiscard]] Error late(double time);
 
     std::optional<ChildSocket> child_;
     std::string name_;
     PluginCall function_ = PluginCall::count;  // the latest that was called
     bool waiting_ = false;                     // for its reply
+    bool hangs_ = false;                       // it has not returned in time
     double began_ = 0.0;                       // s, when it was called
 };
 

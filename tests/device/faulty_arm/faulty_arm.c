@@ -9,6 +9,7 @@ const struct bw_arm_v1* sample_arm_entry(uint32_t abi);
 #undef bw_arm_entry
 #include <signal.h>
 #include <stdio.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 static int user_has_acted = 0, calibrations = 0;
@@ -39,6 +40,17 @@ static void observe(const char* text) {
     if (file == NULL) return;
     fputs(text, file);
     fclose(file);
+}
+
+/* Uses the connection to the program, which the plug-in has not opened. */
+static void meddle(int disconnects) {
+    int fd;
+    for (fd = 3; fd < 32; ++fd) {
+        if (disconnects)
+            shutdown(fd, SHUT_RDWR);
+        else
+            send(fd, "nonsense", 8, MSG_NOSIGNAL);
+    }
 }
 
 static void misbehave(const char* function) {
@@ -127,6 +139,12 @@ static int faulty_exchange(struct bw_arm* a, const struct bw_arm_wrench_v1* wren
         error = "the arm is unplugged";
         return BW_ARM_ERROR;
     }
+    if (shows("nonsense")) meddle(0);
+    if (shows("closed connection")) {
+        meddle(1);
+        for (;;) pause();
+    }
+    if (shows("20 ms")) usleep(20000);
     if (shows("silent")) return BW_ARM_NO_SAMPLE;
     exchange(a, wrench, state);
     if (shows("NaN")) state->position[2] = 0.0 / 0.0;
