@@ -76,7 +76,10 @@ Status check_axes(Description& d) {
         return fail(ErrorCode::no_device,
                     "it renders torques, but its largest torque or torsional stiffness is 0",
                     "both, or no axes of torque");
-    if (!forces) d.limits.force = d.limits.damping = 0.0;
+    if (!forces) {
+        d.limits.force = d.limits.damping = 0.0;
+        d.limits.stiffness = force::OutputLimits{}.stiffness;
+    }
     if (!torques) d.limits.torque = d.limits.torsion = d.limits.angular_damping = 0.0;
     if (forces && !torques)
         d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");

@@ -228,6 +228,16 @@ TEST_CASE("Plug-in: limits beyond those of any arm are reduced, with a remark ea
     CHECK(d.remarks.at(0) == "reports a force of 500 N; Boltwright uses 70 N at most");
 }
 
+TEST_CASE("Plug-in: an arm without axes of force renders none, whatever limits it reports") {
+    const Bench bench;
+    const auto opened = bench.open_with("input only");
+    REQUIRE_MESSAGE(opened, message(opened));
+    check_description((*opened)->describe());
+    CHECK((*opened)->describe().limits.force == 0.0);
+    CHECK((*opened)->describe().limits.stiffness > 0.0);
+    CHECK(glm::length(rest_under(**opened, {5, 0, 0})) < 1e-9);
+}
+
 TEST_CASE("Plug-in: a name without an end is cut, and texts are made readable") {
     const Bench bench;
     const auto opened = bench.open_with("long name");

@@ -22,9 +22,9 @@
    returns the newest state of it.
 
    ORDER OF CALLS
-   count, open, info, calibrate (until it is done), enable(1), exchange (many times), exchange with a zero
-   wrench, enable(0), close. An arm may be closed at any point. After a negative result Boltwright takes the
-   text of last_error, closes the arm, and opens it again later.
+   open, info, calibrate (until it is done), enable(1), exchange (many times), exchange with a zero wrench,
+   enable(0), close. An arm may be closed at any point. count() need not come first. After a negative result
+   Boltwright takes the text of last_error, closes the arm, and opens it again later.
 
    TIME
    exchange() is called at the arm's rate, 1000 times a second at most. It should return within 0.5 ms; after
@@ -34,16 +34,15 @@
    SAFETY
    Boltwright clamps each wrench to what info() reports, and what info() reports to 70 N, 3.1 N.m and
    8000 N/m. It ramps forces up, and stops them if the hand is too fast, jumps, or sends no sample for 8 ms.
-   If no call of exchange() is due for 50 ms, exchange() is called with a zero wrench. If the process ends or
-   is killed, no function is called any more. THE ARM MUST THEN RELEASE ITS FORCE BY ITSELF: switch on its
-   watchdog.
+   If the program makes no call for 50 ms, its process calls exchange() with a zero wrench. If the process
+   ends or is killed, no function is called any more. THE ARM MUST THEN RELEASE ITS FORCE BY ITSELF: switch on
+   its watchdog.
 
    A PLUG-IN MUST NOT
    - render any force other than the wrench of the latest exchange() and the compensation of the arm's own
      weight, nor any force at all before enable(1) or after enable(0);
    - let the arm move by itself, except in calibrate() with may_move;
-   - end the process, let a C++ exception out of a function, replace signal handlers, or close file
-   descriptors that it has not opened;
+   - end the process, throw a C++ exception, replace signal handlers, or close files that it has not opened;
    - read the standard input, which is empty. What it prints goes to the standard error output.
 
    STRINGS
@@ -144,10 +143,10 @@ struct bw_arm_v1 {
     /* Describes the arm. Returns BW_ARM_DONE or BW_ARM_ERROR. */
     int (*info)(struct bw_arm* arm, struct bw_arm_info_v1* info);
 
-    /* Lets the arm find its position. Called every 10 ms until it returns BW_ARM_DONE, which an arm that
-       knows its position returns at once. It should not block. With `may_move` other than 0 the user has kept
-       the room around the arm free, and it may move by itself for 90 s. While it returns BW_ARM_NEEDS_USER
-       the user reads the text of last_error, and exchange() is not called. */
+    /* Lets the arm find its position. Called every 10 ms (with pauses of a second at most while the user
+       must act) until it returns BW_ARM_DONE, which an arm that knows its position returns at once. It should
+       not block. With `may_move` other than 0 the user has kept the room around the arm free, and it may move
+       by itself for 90 s. While it returns BW_ARM_NEEDS_USER, the user reads the text of last_error. */
     int (*calibrate)(struct bw_arm* arm, int may_move);
 
     /* Switches the motors on (1), with zero force, or off (0). Returns BW_ARM_DONE or BW_ARM_ERROR. */

@@ -93,6 +93,7 @@ static int faulty_info(struct bw_arm* a, struct bw_arm_info_v1* about) {
     if (shows("buttons")) about->buttons = 33;
     if (shows("long name")) memset(about->name, 'x', sizeof about->name);
     if (shows("senses rotation")) about->flags = BW_ARM_SENSES_ROTATION;
+    if (shows("input only")) about->axes = 0;
     if (shows("strong")) {
         about->axes = 63;
         about->max_force = 500.0;
