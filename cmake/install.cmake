@@ -1,4 +1,5 @@
-# Installation and the Debian packages that CPack makes of it: boltwright, boltwright-content and boltwright-author.
+# Installation and the Debian packages that CPack makes of it: boltwright, boltwright-content, boltwright-author and
+# boltwright-dev.
 # tools/make-packages.sh builds them, with debug symbols in packages of their own.
 set(BOLT_PACKAGING ${CMAKE_SOURCE_DIR}/tools/package)
 
@@ -26,6 +27,7 @@ add_custom_target(package_texts ALL DEPENDS ${texts} ${changelog})
 
 set(content share/boltwright/content)
 install(TARGETS boltwright RUNTIME DESTINATION bin COMPONENT boltwright)
+install(TARGETS bolt-arm-host RUNTIME DESTINATION lib/boltwright COMPONENT boltwright)
 install(DIRECTORY content/words DESTINATION ${content} COMPONENT boltwright FILES_MATCHING PATTERN "*.json")
 # Who sits at a machine may use the devices that are plugged into it.
 install(FILES tools/udev/60-boltwright.rules DESTINATION lib/udev/rules.d COMPONENT boltwright)
@@ -38,7 +40,9 @@ install(DIRECTORY content/assemblies content/environments content/hands content/
 install(FILES content/materials.json DESTINATION ${content} COMPONENT content)
 install(TARGETS bolt-author RUNTIME DESTINATION bin COMPONENT author)
 install(FILES content/AUTHORING.md DESTINATION share/doc/boltwright-author COMPONENT author)
-foreach(part boltwright:boltwright:boltwright author:boltwright-author:bolt-author content:boltwright-content:)
+install(FILES haptics/device/plugin/boltwright_arm.h DESTINATION include COMPONENT dev)
+install(FILES tests/device/sample_arm/sample_arm.c DESTINATION share/doc/boltwright-dev/examples COMPONENT dev)
+foreach(part boltwright:boltwright:boltwright author:boltwright-author:bolt-author content:boltwright-content: dev:boltwright-dev:)
     string(REPLACE ":" ";" part ${part})
     list(GET part 0 component)
     list(GET part 1 package)
@@ -55,7 +59,7 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_PACKAGE_VENDOR Boltwright)
 set(CPACK_PACKAGE_CONTACT "Boltwright maintainers <maintainers@boltwright.invalid>")
-set(CPACK_COMPONENTS_ALL boltwright content author)
+set(CPACK_COMPONENTS_ALL boltwright content author dev)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
@@ -75,7 +79,7 @@ set(CPACK_DEBIAN_BOLTWRIGHT_PACKAGE_SECTION education)
 set(CPACK_DEBIAN_BOLTWRIGHT_PACKAGE_DEPENDS
     "boltwright-content (= ${PROJECT_VERSION}), libvulkan1, mesa-vulkan-drivers | vulkan-icd, fonts-dejavu-core, fonts-wqy-microhei")
 set(CPACK_DEBIAN_BOLTWRIGHT_PACKAGE_RECOMMENDS "ffmpeg, zenity | kdialog | x11-utils")
-set(CPACK_DEBIAN_BOLTWRIGHT_PACKAGE_SUGGESTS boltwright-author)
+set(CPACK_DEBIAN_BOLTWRIGHT_PACKAGE_SUGGESTS "boltwright-author, boltwright-dev")
 # The first line is the synopsis; CPack indents the others.
 set(CPACK_DEBIAN_BOLTWRIGHT_DESCRIPTION "trainer for tightening bolted joints by feel
 A trainee takes a wrench to the joints of a machine and turns each nut through
@@ -95,4 +99,13 @@ set(CPACK_DEBIAN_AUTHOR_PACKAGE_DEPENDS "boltwright (= ${PROJECT_VERSION})")
 set(CPACK_DEBIAN_AUTHOR_DESCRIPTION "makes assemblies for Boltwright
 Imports STEP files, checks assemblies, shows their models, and computes the
 torque, clamp force and curve of a bolted joint.")
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME boltwright-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DEV_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEV_DEBUGINFO_PACKAGE OFF)
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS boltwright)
+set(CPACK_DEBIAN_DEV_DESCRIPTION "header for force-feedback arms in Boltwright
+A C header that describes plug-ins, with an example: a plug-in adds an arm to
+Boltwright without its sources.")
 include(CPack)

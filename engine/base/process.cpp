@@ -2,14 +2,21 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
+#include <csignal>
 #include <cstring>
 #include <utility>
+
+#include "engine/base/steady_seconds.hpp"
 
 extern char** environ;
 
@@ -125,6 +132,99 @@ int ChildStdin::finish() {
     if (pipe_ >= 0) ::close(std::exchange(pipe_, -1));
     if (child_ < 0) return -1;
     return wait_for(std::exchange(child_, -1));
+}
+
+namespace {
+
+// Waits at most `timeout` s until the socket has a packet or its other end is closed.
+bool wait_for_packet(int socket, double timeout) {
+    const double until = steady_seconds() + timeout;
+    for (;;) {
+        const double left = std::max(until - steady_seconds(), 0.0);
+        const timespec time{static_cast<time_t>(left), static_cast<long>(1e9 * (left - std::floor(left)))};
+        pollfd events{socket, POLLIN, 0};
+        const int ready = ::ppoll(&events, 1, &time, nullptr);
+        if (ready >= 0 || errno != EINTR) return ready > 0;
+    }
+}
+
+// Returns how the child ended, if it does within `patience` s.
+std::optional<ProgramEnd> reap(int child, double patience) {
+    const double until = steady_seconds() + patience;
+    for (;;) {
+        int status = 0;
+        if (::waitpid(child, &status, WNOHANG) == child) {
+            if (WIFSIGNALED(status)) return ProgramEnd{0, WTERMSIG(status), false};
+            return ProgramEnd{WEXITSTATUS(status), 0, false};
+        }
+        if (steady_seconds() >= until) return {};
+        const timespec millisecond{0, 1'000'000};
+        ::nanosleep(&millisecond, nullptr);
+    }
+}
+
+}  // namespace
+
+Result<ChildSocket> ChildSocket::start(const std::vector<std::string>& command) {
+    std::array<int, 2> ends{};
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0)
+        return fail(ErrorCode::failed,
+                    fmt::format("a socket to {} cannot be created: {}", command[0], std::strerror(errno)));
+    const Redirect input{ends[1], STDIN_FILENO};
+    const Result<int> child = spawn(command, {&input, 1});
+    ::close(ends[1]);
+    if (!child) {
+        ::close(ends[0]);
+        return fail(child.error());
+    }
+    return ChildSocket(ends[0], *child, command[0]);
+}
+
+ChildSocket::ChildSocket(ChildSocket&& other) noexcept
+    : socket_(std::exchange(other.socket_, -1)),
+      child_(std::exchange(other.child_, -1)),
+      name_(std::move(other.name_)),
+      end_(other.end_) {}
+
+ChildSocket& ChildSocket::operator=(ChildSocket&& other) noexcept {
+    std::swap(socket_, other.socket_);
+    std::swap(child_, other.child_);
+    std::swap(name_, other.name_);
+    std::swap(end_, other.end_);
+    return *this;
+}
+
+ChildSocket::~ChildSocket() { end(0.0); }
+
+Status ChildSocket::send(std::span<const std::byte> packet) {
+    const ssize_t sent = ::send(socket_, packet.data(), packet.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent == static_cast<ssize_t>(packet.size())) return {};
+    return fail(ErrorCode::failed,
+                fmt::format("{} no longer receives packets: {}", name_, std::strerror(errno)));
+}
+
+Result<std::optional<std::size_t>> ChildSocket::receive(std::span<std::byte> packet, double timeout) {
+    if (!wait_for_packet(socket_, timeout)) return std::optional<std::size_t>{};
+    // MSG_TRUNC: the length of the packet, even if it did not fit.
+    const ssize_t length = ::recv(socket_, packet.data(), packet.size(), MSG_DONTWAIT | MSG_TRUNC);
+    if (length > 0) return static_cast<std::size_t>(length);
+    return fail(ErrorCode::failed, fmt::format("{} has ended", name_));
+}
+
+ProgramEnd ChildSocket::end(double patience) {
+    if (child_ >= 0) {
+        ::shutdown(socket_, SHUT_WR);
+        std::optional<ProgramEnd> ended = reap(child_, patience);
+        if (!ended) {
+            ::kill(child_, SIGKILL);
+            wait_for(child_);
+            ended = ProgramEnd{0, SIGKILL, true};
+        }
+        end_ = *ended;
+        child_ = -1;
+    }
+    if (socket_ >= 0) ::close(std::exchange(socket_, -1));
+    return end_;
 }
 
 }  // namespace bolt

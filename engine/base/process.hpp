@@ -1,8 +1,10 @@
-// Runs other programs: until they exit, with captured output, or with a stream of bytes on their standard
-// input.
+// Runs other programs: until they exit, with captured output, with a stream of bytes on their standard input,
+// or with packets that both sides exchange.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +44,41 @@ class ChildStdin {
     ChildStdin(int pipe, int child, std::string name) : pipe_(pipe), child_(child), name_(std::move(name)) {}
     int pipe_ = -1, child_ = -1;
     std::string name_;
+};
+
+struct ProgramEnd {
+    int exit_code = 0;
+    int signal = 0;       // that ended it; 0: it exited
+    bool killed = false;  // by us, because it did not exit in time
+};
+
+// A running program that exchanges packets with us. Its standard input is a socket (SOCK_SEQPACKET), on which
+// it receives and sends.
+class ChildSocket {
+  public:
+    // The program is searched for on the PATH and inherits our output streams. Fails if it cannot be started.
+    static Result<ChildSocket> start(const std::vector<std::string>& command);
+    ChildSocket(ChildSocket&& other) noexcept;
+    ChildSocket& operator=(ChildSocket&& other) noexcept;
+    ~ChildSocket();  // kills the program unless end() was called
+
+    // Never waits. Fails if the program has ended or reads nothing.
+    Status send(std::span<const std::byte> packet);
+
+    // Waits at most `timeout` s for a packet and returns its length, which is greater than that of `packet`
+    // if it did not fit; nullopt on timeout. Fails if the program has ended.
+    Result<std::optional<std::size_t>> receive(std::span<std::byte> packet, double timeout);
+
+    // Ends the packets to the program, waits at most `patience` s for it to exit, and then kills it. Returns
+    // the same when called again.
+    ProgramEnd end(double patience);
+
+  private:
+    ChildSocket(int socket, int child, std::string name)
+        : socket_(socket), child_(child), name_(std::move(name)) {}
+    int socket_ = -1, child_ = -1;
+    std::string name_;
+    ProgramEnd end_;
 };
 
 }  // namespace bolt

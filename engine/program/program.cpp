@@ -116,6 +116,9 @@ A requested device or GPU is missing.
 \fBBOLTWRIGHT_CONTENT\fR
 Folder of assemblies, tools and words, in place of the installed one.
 .TP
+\fBBOLTWRIGHT_ARM_PLUGINS\fR
+Folders of plug-ins for force-feedback arms, separated by colons.
+.TP
 \fBXDG_DATA_HOME\fR
 Settings, glove calibrations and sessions are kept in \fIboltwright\fR below this folder (default: \fI~/.local/share\fR).
 .TP

@@ -7,8 +7,10 @@
 #include <charconv>
 
 #include "haptics/device/force_dimension.hpp"
-#include "haptics/device/open_haptics.hpp"
 #include "haptics/device/haply.hpp"
+#include "haptics/device/open_haptics.hpp"
+#include "haptics/device/plugin/arm_process.hpp"
+#include "haptics/device/plugin_arms.hpp"
 
 namespace bolt::device {
 
@@ -80,10 +82,30 @@ Result<std::unique_ptr<DeviceDriver>> open_listed_haply(const ListedDevice& list
     return open_haply(service, arm_index(listed.id), steady_timer());
 }
 
+std::vector<ListedDevice> list_plugin_arms() {
+    std::vector<ListedDevice> arms;
+    for (const std::filesystem::path& plugin : find_plugins(plugin_folders())) {
+        const std::string name = plugin_name(plugin) + ", an arm of a plug-in";
+        const Result<int> count = count_plugin_arms(plugin);
+        const auto entry = [&](int index, std::optional<Error> trouble) {
+            arms.push_back({plugin.string(), plugin_arm_id(plugin, index), name, DeviceKind::arm, trouble});
+        };
+        if (!count) entry(0, count.error());
+        for (int i = 0; count && i < *count; ++i) entry(i, {});
+    }
+    return arms;
+}
+
+Result<std::unique_ptr<DeviceDriver>> open_listed_plugin_arm(const ListedDevice& listed,
+                                                             const OpenOptions& options) {
+    return open_plugin_arm({listed.path, arm_index(listed.id), options.arm_may_move}, steady_timer());
+}
+
 constexpr std::array vendors{
     ArmVendor{"force-dimension", list_force_dimension, open_listed_force_dimension},
     ArmVendor{"openhaptics", list_open_haptics, open_listed_open_haptics},
     ArmVendor{"haply", list_haply_arms, open_listed_haply},
+    ArmVendor{"plugin", list_plugin_arms, open_listed_plugin_arm},
 };
 
 }  // namespace

@@ -55,6 +55,15 @@ std::string rendering_text(const Description& d) {
 
 }  // namespace
 
+force::OutputCommand clamp_to_limits(const Description& d, force::OutputCommand command) {
+    for (int i = 0; i < 3; ++i) {
+        if (!d.renders[static_cast<std::size_t>(i)]) command.force[i] = 0.0;
+        if (!d.renders[static_cast<std::size_t>(i) + 3]) command.torque[i] = 0.0;
+    }
+    return {force::clamp_length(command.force, d.limits.force),
+            force::clamp_length(command.torque, d.limits.torque)};
+}
+
 std::vector<std::string> summary_lines(const Description& d) {
     std::vector<std::string> lines;
     lines.push_back(fmt::format("{}{}, {:.0f} times a second{}; {} button{}", sensing_text(d),

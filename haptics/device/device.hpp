@@ -84,6 +84,9 @@ class DeviceDriver {
     virtual Status write(const force::OutputCommand& command) = 0;
 };
 
+// Clamps a finite command to the limits of the device and to the axes that it renders.
+force::OutputCommand clamp_to_limits(const Description& description, force::OutputCommand command);
+
 // Opens the device; called again after each loss. The error tells the user what to do.
 using DeviceFactory = std::function<Result<std::unique_ptr<DeviceDriver>>()>;
 

@@ -17,16 +17,6 @@ bool renders(const Description& d) {
     return std::any_of(d.renders.begin(), d.renders.end(), [](bool axis) { return axis; });
 }
 
-// Clamps a command to the limits of the device.
-force::OutputCommand clamp_to_limits(const Description& d, force::OutputCommand command) {
-    for (int i = 0; i < 3; ++i) {
-        if (!d.renders[static_cast<std::size_t>(i)]) command.force[i] = 0.0;
-        if (!d.renders[static_cast<std::size_t>(i) + 3]) command.torque[i] = 0.0;
-    }
-    return {force::clamp_length(command.force, d.limits.force),
-            force::clamp_length(command.torque, d.limits.torque)};
-}
-
 }  // namespace
 
 DeviceSupervisor::DeviceSupervisor(DeviceFactory open, Timer timer, const SupervisorOptions& options)

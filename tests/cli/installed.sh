@@ -19,6 +19,8 @@ expect 3 'there is no such folder' "$bin/bolt-author" validate installed-m8
 expect 0 'installed-m8' env XDG_DATA_DIRS="relative:$work/none:$prefix/share" bash -c '
     mkdir -p alone && cp "$0/bolt-author" alone && alone/bolt-author validate installed-m8' "$prefix/bin"
 
+expect 0 'renders force' env BOLTWRIGHT_ARM_PLUGINS="${bin%/bin}/plugins" "$prefix/bin/boltwright" devices --device plugin:sample_arm:0 --seconds 0.1
+
 # The menu entry runs the program without a command.
 check 'the desktop entry starts an installed program' test -x "$prefix/bin/$(sed -n 's/^Exec=//p' "$prefix/share/applications/boltwright.desktop")"
 "$prefix/bin/boltwright" 2>log >/dev/null &

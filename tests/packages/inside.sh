@@ -9,8 +9,8 @@ eventually() { for _ in $(seq 120); do "$@" && return; sleep 0.5; done; return 1
 cd /packages
 apt-get update -qq
 find / -xdev -path /packages -prune -o -path /proc -prune -o -path /var/lib/dpkg -prune -o -iname '*boltwright*' -print >/tmp/before
-check 'apt installs the packages' apt-get install -y -qq ./boltwright_*.deb ./boltwright-content_*.deb ./boltwright-author_*.deb
-check 'lintian reports no error' lintian --fail-on error --tag-display-limit 0 ./boltwright_*.deb ./boltwright-content_*.deb ./boltwright-author_*.deb
+check 'apt installs the packages' apt-get install -y -qq ./boltwright_*.deb ./boltwright-content_*.deb ./boltwright-author_*.deb ./boltwright-dev_*.deb
+check 'lintian reports no error' lintian --fail-on error --tag-display-limit 0 ./boltwright_*.deb ./boltwright-content_*.deb ./boltwright-author_*.deb ./boltwright-dev_*.deb
 check 'the desktop entry is valid' desktop-file-validate /usr/share/applications/boltwright.desktop
 # There is no home page, which is a warning in some versions.
 appstreamcli validate --no-net --no-color /usr/share/metainfo/io.github.boltwright.metainfo.xml >/tmp/appstream
@@ -27,6 +27,8 @@ check 'bash completes a command and a value' as_ada '
 find /usr -newer /tmp/before -type f >/tmp/installed
 check 'a simulated trainee finishes a lesson' as_ada 'boltwright train cover-m8 --headless --quiet --no-pictures --out lesson'
 check 'bolt-author finds the content' as_ada 'bolt-author validate zq350'
+check 'the header of plug-ins and its example are installed' test -s /usr/include/boltwright_arm.h -a -s /usr/share/doc/boltwright-dev/examples/sample_arm.c
+check 'the process of plug-ins is installed' test -x /usr/lib/boltwright/bolt-arm-host
 cat >/tmp/play.sh <<'P'
 cd
 Xvfb :7 -screen 0 1280x800x24 >/dev/null 2>&1 &
@@ -71,7 +73,7 @@ as_ada 'mkdir -p ~/.local/share/boltwright/assemblies && cp -r /usr/share/boltwr
 users_files() { as_ada 'find ~/.local/share/boltwright lesson -type f -exec sha256sum {} + | sort'; }
 users_files >/tmp/users_before
 mkdir /tmp/later
-for package in ./boltwright_*.deb ./boltwright-content_*.deb ./boltwright-author_*.deb; do
+for package in ./boltwright_*.deb ./boltwright-content_*.deb ./boltwright-author_*.deb ./boltwright-dev_*.deb; do
     rm -rf /tmp/unpacked
     dpkg-deb -R "$package" /tmp/unpacked
     sed -i -E 's/^Version: (.*)/Version: \1+later/; s/(boltwright[a-z-]* \(= [^)]*)\)/\1+later)/g' /tmp/unpacked/DEBIAN/control
@@ -85,7 +87,7 @@ check 'an upgrade keeps the files of the user' cmp /tmp/users_before /tmp/users_
 check 'there are files of the user' test -s /tmp/users_before
 check 'the later version replays the kept session' as_ada 'boltwright replay ~/.local/share/boltwright/sessions/*_first-nut/session.boltwright'
 check 'an assembly of the user is found by its name' as_ada 'boltwright train mine --headless --quiet --no-pictures --out mine && grep -q "\"assembly\": \"mine\"" mine/summary.json'
-check 'apt removes the packages' apt-get purge -y -qq boltwright boltwright-content boltwright-author
+check 'apt removes the packages' apt-get purge -y -qq boltwright boltwright-content boltwright-author boltwright-dev
 find / -xdev -path /packages -prune -o -path /proc -prune -o -path /var/lib/dpkg -prune -o -path /home -prune -o -iname '*boltwright*' -print >/tmp/after
 check 'nothing of them is left' cmp /tmp/before /tmp/after
 check 'the sessions of the user are kept' as_ada 'ls ~/.local/share/boltwright/sessions/*_first-nut/session.boltwright lesson/session.boltwright'

@@ -1,11 +1,14 @@
 // Benchmark of the cost of a device to the servo tick: publishing a command and reading the newest sample at
 // 1 kHz while each write of the device takes 15 ms. The counters are microseconds: wall_* is elapsed time
 // with interruptions, cpu_* the thread's CPU time. The baseline writes to the device directly.
+// `plugin_exchange` is the way to the process of the first plug-in for arms and back.
 #include <benchmark/benchmark.h>
 
 #include <thread>
 
 #include "haptics/device/device_thread.hpp"
+#include "haptics/device/plugin/arm_process.hpp"
+#include "haptics/device/plugin_arms.hpp"
 #include "tools/bench/harness.hpp"
 
 namespace {
@@ -65,8 +68,8 @@ void measure(benchmark::State& state, int count, const Work& work) {
             cpu.push_back(bench::thread_microseconds() - begun);
             wall.push_back(1e3 * bench::milliseconds_since(start));
         }
-        for (const auto& [name, share] :
-             {std::pair("p50", 0.5), std::pair("p99.9", 0.999), std::pair("max", 1.0)}) {
+        for (const auto& [name, share] : {std::pair("p50", 0.5), std::pair("p99", 0.99),
+                                          std::pair("p99.9", 0.999), std::pair("max", 1.0)}) {
             state.counters["wall_" + std::string(name)] = bench::quantile(wall, share);
             state.counters["cpu_" + std::string(name)] = bench::quantile(cpu, share);
         }
@@ -97,7 +100,22 @@ void device_written_directly(benchmark::State& state) {
     });
 }
 
+void plugin_exchange(benchmark::State& state) {
+    run_or_skip(state, [&] {
+        const auto plugins = device::find_plugins(device::plugin_folders());
+        if (plugins.empty()) throw std::runtime_error("no plug-in; expected one in $BOLTWRIGHT_ARM_PLUGINS");
+        device::ArmProcess process = unwrap(device::ArmProcess::start(plugins.front()));
+        unwrap(process.call(device::PluginCall::open));
+        measure(state, ticks, [&](int /*tick*/) {
+            unwrap(process.begin_exchange({sizeof(bw_arm_wrench_v1), 0, {}, {}}));
+            auto reply = unwrap(process.finish_exchange(1.0));
+            benchmark::DoNotOptimize(reply);
+        });
+    });
+}
+
 BENCHMARK(device_through_a_mailbox)->Iterations(1)->Unit(benchmark::kMillisecond);
 BENCHMARK(device_written_directly)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(plugin_exchange)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -1,0 +1,338 @@
+#include "haptics/device/plugin_arms.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include "haptics/device/plugin/arm_process.hpp"
+
+namespace bolt::device {
+
+namespace {
+
+constexpr int most_plugin_arms = 16;           // of one plug-in
+constexpr double slowest_rate = 500.0;         // 1/s
+constexpr double fastest_rate = 1000.0;        // 1/s, of calls of exchange()
+constexpr double farthest_position = 2.0;      // m
+constexpr double calibration_interval = 0.01;  // s between two calls of calibrate()
+constexpr double calibration_time = 90.0;      // s for an arm that moves by itself
+constexpr double time_for_user = 0.5;          // s until the user is asked to act
+
+// Force, torque and stiffness: the largest of the arms in docs/decisions.md. Torsion, damping and angular
+// damping: the defaults of OutputLimits, which are those of an arm of that class. Reach: more than that of
+// any arm on a table.
+struct PluginLimit {
+    const char* name;
+    double bw_arm_info_v1::*reported;
+    double force::OutputLimits::*used;
+    double largest;
+    const char* unit;
+};
+constexpr std::array plugin_limits{
+    PluginLimit{"force", &bw_arm_info_v1::max_force, &force::OutputLimits::force, 70.0, "N"},
+    PluginLimit{"torque", &bw_arm_info_v1::max_torque, &force::OutputLimits::torque, 3.1, "N·m"},
+    PluginLimit{"stiffness", &bw_arm_info_v1::max_stiffness, &force::OutputLimits::stiffness, 8000.0, "N/m"},
+    PluginLimit{"torsional stiffness", &bw_arm_info_v1::max_torsion, &force::OutputLimits::torsion, 40.0,
+                "N·m/rad"},
+    PluginLimit{"damping", &bw_arm_info_v1::max_damping, &force::OutputLimits::damping, 20.0, "N·s/m"},
+    PluginLimit{"angular damping", &bw_arm_info_v1::max_angular_damping,
+                &force::OutputLimits::angular_damping, 0.1, "N·m·s/rad"},
+};
+constexpr double largest_reach = 1.0;  // m
+
+// Sets the limits, each no larger than the largest.
+Status take_limits(const bw_arm_info_v1& info, Description& d) {
+    for (const PluginLimit& limit : plugin_limits) {
+        const double reported = info.*limit.reported;
+        if (!std::isfinite(reported) || reported < 0.0)
+            return fail(ErrorCode::no_device,
+                        fmt::format("its largest {} is {:g} {}", limit.name, reported, limit.unit),
+                        "a finite number that is not negative");
+        if (reported > limit.largest)
+            d.remarks.push_back(fmt::format("reports a {} of {:g} {}; Boltwright uses {:g} {} at most",
+                                            limit.name, reported, limit.unit, limit.largest, limit.unit));
+        d.limits.*limit.used = std::min(reported, limit.largest);
+    }
+    return {};
+}
+
+// Without axes of force or of torque their limits are 0.
+Status check_axes(Description& d) {
+    const auto any = [&](std::size_t first) {
+        return d.renders[first] || d.renders[first + 1] || d.renders[first + 2];
+    };
+    const bool forces = any(0), torques = any(3);
+    if (forces && (d.limits.force == 0.0 || d.limits.stiffness == 0.0))
+        return fail(ErrorCode::no_device, "it renders forces, but its largest force or stiffness is 0",
+                    "both, or no axes of force");
+    if (torques && (d.limits.torque == 0.0 || d.limits.torsion == 0.0))
+        return fail(ErrorCode::no_device,
+                    "it renders torques, but its largest torque or torsional stiffness is 0",
+                    "both, or no axes of torque");
+    if (!forces) {
+        d.limits.force = d.limits.damping = 0.0;
+        d.limits.stiffness = force::OutputLimits{}.stiffness;
+    }
+    if (!torques) d.limits.torque = d.limits.torsion = d.limits.angular_damping = 0.0;
+    if (forces && !torques)
+        d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+    return {};
+}
+
+Status take_timing(const bw_arm_info_v1& info, Description& d) {
+    if (!std::isfinite(info.rate) || info.rate < slowest_rate)
+        return fail(ErrorCode::no_device, fmt::format("it sends {:g} samples a second", info.rate),
+                    fmt::format("{:g} or more", slowest_rate));
+    d.rate = std::min(info.rate, fastest_rate);
+    // A command waits for the next call of exchange().
+    const int own_delay = static_cast<int>(std::ceil(1e3 / d.rate));
+    const int most = 3 - own_delay;
+    if (info.delay < 0 || info.delay > most)
+        return fail(ErrorCode::no_device, fmt::format("its delay is {} ms", info.delay),
+                    fmt::format("0 to {} ms at {:g} samples a second", most, d.rate));
+    d.limits.delay = info.delay + own_delay;
+    return {};
+}
+
+Status take_reach(const bw_arm_info_v1& info, Description& d) {
+    for (int i = 0; i < 3; ++i) {
+        const double reach = info.reach[i];
+        if (!std::isfinite(reach) || reach <= 0.0)
+            return fail(ErrorCode::no_device, fmt::format("its reach along {} is {:g} m", "xyz"[i], reach),
+                        "a finite number above 0");
+        d.reach[i] = std::min(reach, largest_reach);
+    }
+    return {};
+}
+
+Result<Description> describe_plugin_arm(const bw_arm_info_v1& info, const std::filesystem::path& plugin,
+                                        int index) {
+    Description d;
+    d.name = clean_text({info.name, ::strnlen(info.name, sizeof info.name)});
+    if (d.name.empty()) d.name = plugin_name(plugin);
+    d.id = plugin_arm_id(plugin, index);
+    for (std::size_t i = 0; i < d.renders.size(); ++i) d.renders[i] = (info.axes >> i & 1U) != 0;
+    BOLT_TRY(take_limits(info, d));
+    BOLT_TRY(check_axes(d));
+    BOLT_TRY(take_timing(info, d));
+    BOLT_TRY(take_reach(info, d));
+    if (info.buttons < 0 || info.buttons > 32)
+        return fail(ErrorCode::no_device, fmt::format("it has {} buttons", info.buttons), "0 to 32");
+    d.buttons = info.buttons;
+    if ((info.flags & BW_ARM_SENSES_ROTATION) == 0)
+        d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
+    return d;
+}
+
+// Says what is wrong with a state; null: nothing.
+const char* fault_of(const bw_arm_state_v1& state, const Pose& pose) {
+    if (!finite(pose.position) || glm::length(pose.position) > farthest_position)
+        return "it reports a position that is not within 2 m";
+    // Also true for NaN.
+    if (!(std::abs(glm::dot(pose.orientation, pose.orientation) - 1.0) < 1e-2))
+        return "it reports an orientation that is no unit quaternion";
+    return state.size == sizeof state ? nullptr : "it has changed the size of its state";
+}
+
+class PluginArm final : public DeviceDriver {
+  public:
+    PluginArm(ArmProcess process, Description description, bool senses_rotation, Timer timer)
+        : process_(std::move(process)),
+          description_(std::move(description)),
+          senses_rotation_(senses_rotation),
+          timer_(std::move(timer)),
+          next_(timer_.now()) {}
+
+    [[nodiscard]] const Description& describe() const override { return description_; }
+
+    Result<std::optional<Sample>> read(double timeout) override {
+        const double now = timer_.now();
+        const double until = now + timeout;
+        if (!process_.exchanging()) {
+            if (next_ > until) {
+                timer_.wait(timeout);
+                return std::optional<Sample>{};
+            }
+            if (next_ > now) timer_.wait(next_ - now);
+            next_ = std::max(next_ + 1.0 / description_.rate, timer_.now());  // late samples are left out
+            if (const Status begun = process_.begin_exchange(wrench_); !begun) return lost(begun.error());
+        }
+        const auto reply = process_.finish_exchange(std::max(until - timer_.now(), 0.0));
+        if (!reply) return lost(reply.error());
+        if (!*reply || (*reply)->result == BW_ARM_NO_SAMPLE) return std::optional<Sample>{};
+        return sample((*reply)->state);
+    }
+
+    // Takes effect with the next exchange.
+    Status write(const force::OutputCommand& command) override {
+        force::OutputCommand sent;
+        if (finite(command.force) && finite(command.torque)) sent = clamp_to_limits(description_, command);
+        wrench_ = {sizeof wrench_, 0, {}, {}};
+        for (int i = 0; i < 3; ++i) {
+            wrench_.force[i] = sent.force[i];
+            wrench_.torque[i] = sent.torque[i];
+        }
+        return {};
+    }
+
+  private:
+    static tl::unexpected<Error> lost(Error error) {
+        error.lost = true;
+        return fail(std::move(error));
+    }
+
+    Result<std::optional<Sample>> sample(const bw_arm_state_v1& state) {
+        Sample sample;
+        sample.pose.position = {state.position[0], state.position[1], state.position[2]};
+        if (senses_rotation_)
+            sample.pose.orientation =
+                Quat(state.orientation[0], state.orientation[1], state.orientation[2], state.orientation[3]);
+        if (const char* fault = fault_of(state, sample.pose))
+            return lost(process_.error(fault, "a pose as boltwright_arm.h describes it"));
+        sample.pose.orientation = glm::normalize(sample.pose.orientation);
+        const std::uint64_t buttons = (std::uint64_t{1} << static_cast<unsigned>(description_.buttons)) - 1;
+        sample.buttons = state.buttons & static_cast<std::uint32_t>(buttons);
+        sample.time = timer_.now();
+        return std::optional<Sample>(sample);
+    }
+
+    ArmProcess process_;
+    Description description_;
+    bool senses_rotation_;
+    Timer timer_;
+    bw_arm_wrench_v1 wrench_{sizeof(bw_arm_wrench_v1), 0, {}, {}};
+    double next_;  // s, time of the next exchange
+};
+
+// The processes of arms that wait for their user, by id. Closed arms would begin their calibration again.
+class WaitingArms {
+  public:
+    std::optional<ArmProcess> take(const std::string& id) {
+        const std::lock_guard lock(mutex_);
+        const auto found = arms_.find(id);
+        if (found == arms_.end()) return {};
+        std::optional<ArmProcess> arm(std::move(found->second));
+        arms_.erase(found);
+        return arm;
+    }
+    void keep(const std::string& id, ArmProcess arm) {
+        const std::lock_guard lock(mutex_);
+        arms_.insert_or_assign(id, std::move(arm));
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<std::string, ArmProcess> arms_;
+};
+
+WaitingArms& waiting_arms() {
+    static WaitingArms arms;
+    return arms;
+}
+
+// Calls calibrate() until it is done or the user must act.
+Result<PluginReply> calibrate(ArmProcess& process, const PluginArmOptions& options, const Timer& timer) {
+    const double began = timer.now();
+    for (;;) {
+        BOLT_TRY_ASSIGN(const PluginReply reply,
+                        process.call(PluginCall::calibrate, options.may_move ? 1 : 0));
+        const double time = reply.result == BW_ARM_NEEDS_USER ? time_for_user : calibration_time;
+        const bool goes_on = reply.result == BW_ARM_BUSY || reply.result == BW_ARM_NEEDS_USER;
+        if (!goes_on || timer.now() - began > time) return reply;
+        timer.wait(calibration_interval);
+    }
+}
+
+Error calibration_error(const ArmProcess& process, const PluginReply& reply, const std::string& id) {
+    switch (reply.result) {
+        case BW_ARM_NEEDS_USER:
+            return process.error(
+                fmt::format("it waits for you: {}",
+                            clean_text({reply.text, ::strnlen(reply.text, sizeof reply.text)})),
+                "an arm that knows its position");
+        case BW_ARM_MUST_MOVE:
+            return process.error(
+                "the arm has to move by itself to find its position, and may not",
+                fmt::format("free room around it, then `boltwright devices --device {} --may-move`", id));
+        case BW_ARM_BUSY:
+            return process.error(
+                fmt::format("the arm has not found its position in {:g} s", calibration_time),
+                "an arm that can move freely");
+        default:
+            return process.error(fmt::format("calibrate returns {}", reply.result),
+                                 "a result as boltwright_arm.h describes it");
+    }
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> plugin_folders() {
+    namespace fs = std::filesystem;
+    std::vector<fs::path> folders;
+    if (const char* given = std::getenv("BOLTWRIGHT_ARM_PLUGINS")) {
+        std::istringstream list(given);
+        for (std::string folder; std::getline(list, folder, ':');)
+            if (!folder.empty()) folders.emplace_back(folder);
+    }
+    const char* data = std::getenv("XDG_DATA_HOME");
+    const char* home = std::getenv("HOME");
+    if (data != nullptr && fs::path(data).is_absolute())
+        folders.push_back(fs::path(data) / "boltwright/arms");
+    else if (home != nullptr && *home != '\0')
+        folders.push_back(fs::path(home) / ".local/share/boltwright/arms");
+    folders.emplace_back("/usr/lib/boltwright/arms");
+    return folders;
+}
+
+std::vector<std::filesystem::path> find_plugins(const std::vector<std::filesystem::path>& folders) {
+    std::map<std::string, std::filesystem::path> found;
+    for (const std::filesystem::path& folder : folders) {
+        std::error_code ignored;
+        for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+            if (entry.path().extension() == ".so") found.try_emplace(plugin_name(entry.path()), entry.path());
+    }
+    std::vector<std::filesystem::path> plugins;
+    for (const auto& [name, path] : found) plugins.push_back(path);
+    return plugins;
+}
+
+std::string plugin_arm_id(const std::filesystem::path& plugin, int index) {
+    return fmt::format("plugin:{}:{}", plugin_name(plugin), index);
+}
+
+Result<int> count_plugin_arms(const std::filesystem::path& plugin) {
+    BOLT_TRY_ASSIGN(ArmProcess process, ArmProcess::start(plugin));
+    BOLT_TRY_ASSIGN(const PluginReply reply, process.call(PluginCall::count));
+    return std::min(reply.result, most_plugin_arms);
+}
+
+Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer) {
+    const std::string id = plugin_arm_id(options.plugin, options.index);
+    std::optional<ArmProcess> process = waiting_arms().take(id);
+    if (!process) {
+        BOLT_TRY_ASSIGN(process, ArmProcess::start(options.plugin));
+        BOLT_TRY(process->call(PluginCall::open, options.index));
+    }
+    BOLT_TRY_ASSIGN(const PluginReply about, process->call(PluginCall::info));
+    Result<Description> description = describe_plugin_arm(about.info, options.plugin, options.index);
+    if (!description) return fail(process->error(description.error().what, description.error().expected));
+    BOLT_TRY_ASSIGN(const PluginReply calibrated, calibrate(*process, options, timer));
+    if (calibrated.result != BW_ARM_DONE) {
+        Error error = calibration_error(*process, calibrated, id);
+        if (calibrated.result == BW_ARM_NEEDS_USER) waiting_arms().keep(id, std::move(*process));
+        return fail(std::move(error));
+    }
+    BOLT_TRY(process->call(PluginCall::enable, 1));
+    const bool senses_rotation = (about.info.flags & BW_ARM_SENSES_ROTATION) != 0;
+    return std::make_unique<PluginArm>(std::move(*process), std::move(*description), senses_rotation,
+                                       std::move(timer));
+}
+
+}  // namespace bolt::device

@@ -1,0 +1,521 @@
+// Arms of plug-ins: the sample arm, and one that shows a fault on command, each in a process of its own.
+#include "haptics/device/plugin_arms.hpp"
+
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <limits>
+#include <utility>
+
+#include "haptics/device/arms.hpp"
+#include "haptics/device/connected_devices.hpp"
+#include "haptics/device/device_thread.hpp"
+#include "haptics/device/plugin/arm_process.hpp"
+#include "tests/device/driver_contract.hpp"
+#include "tests/support/environment.hpp"
+#include "tests/support/eventually.hpp"
+#include "tests/support/folder.hpp"
+
+namespace device_plugin_arms_test {
+
+using namespace bolt;
+using namespace bolt::device;
+using namespace bolt::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Opened = Result<std::unique_ptr<DeviceDriver>>;
+
+const fs::path plugins = BOLT_PLUGINS;
+
+void write_text(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+// The faulty arm in a folder of its own.
+struct Bench {
+    Folder folder;
+    fs::path plugin = folder / "faulty_arm.so";
+    EnvironmentVariable fault_file{"FAULTY_ARM", (folder / "fault").c_str()};
+
+    Bench() { fs::copy_file(plugins / "faulty_arm.so", plugin); }
+    // Replaced in one step, because the plug-in reads it at any time.
+    void show(const std::string& fault) const {
+        write_text(folder / "next", fault);
+        fs::rename(folder / "next", folder / "fault");
+    }
+    [[nodiscard]] Opened open(bool may_move = false) const {
+        return open_plugin_arm({plugin, 0, may_move}, steady_timer());
+    }
+    [[nodiscard]] Opened open_with(const std::string& fault) const {
+        show(fault);
+        return open();
+    }
+};
+
+std::string message(const Opened& opened) { return opened ? "" : opened.error().message(); }
+
+// Reads until there is an error or 100 samples have come, for a minute at most. Returns the error or the last
+// sample.
+Result<Sample> read_many(DeviceDriver& device) {
+    Sample last;
+    int samples = 0;
+    for (int i = 0; i < 12'000 && samples < 100; ++i) {
+        BOLT_TRY_ASSIGN(const std::optional<Sample> sample, device.read(0.005));
+        if (!sample) continue;
+        last = *sample;
+        ++samples;
+    }
+    return last;
+}
+
+// Returns whether the mass comes to rest at `place` under `force`. It may take a while: the arm's process
+// releases the force if a busy computer delays the test.
+bool rests_at(DeviceDriver& device, const Vec3& force, const Vec3& place) {
+    REQUIRE(device.write({force, Vec3(100.0)}));
+    int at_rest = 0;
+    for (int i = 0; i < 300 && at_rest < 3; ++i) {
+        const Result<Sample> last = read_many(device);
+        REQUIRE_MESSAGE(last, (last ? "" : last.error().message()));
+        at_rest = glm::distance(last->pose.position, place) < 1e-6 ? at_rest + 1 : 0;
+    }
+    return at_rest == 3;
+}
+
+}  // namespace
+
+TEST_CASE("Plug-in: the sample arm keeps the contract of drivers") {
+    check_driver_contract(
+        [] {
+            return open_plugin_arm({plugins / "sample_arm.so", 0, false}, steady_timer());
+        },
+        [] {});
+}
+
+TEST_CASE("Plug-in: an arm that is unplugged is lost, and names a remedy") {
+    const Bench bench;
+    check_unplugged([&] { return bench.open(); }, [&] { bench.show("unplugged"); });
+    CHECK(message(bench.open()) ==
+          "the plug-in faulty_arm: open: the arm is unplugged; expected an arm that is switched on and "
+          "connected");
+}
+
+TEST_CASE("Plug-in: the description is what the plug-in reports") {
+    const auto opened = open_plugin_arm({plugins / "sample_arm.so", 0, false}, steady_timer());
+    REQUIRE(opened);
+    const Description& d = (*opened)->describe();
+    CHECK(d.name == "mass on a spring");
+    CHECK(d.id == "plugin:sample_arm:0");
+    CHECK(d.renders == std::array<bool, 6>{true, true, true, false, false, false});
+    CHECK(d.limits.force == 10.0);
+    CHECK(d.limits.torque == 0.0);
+    CHECK(d.limits.stiffness == 2000.0);
+    CHECK(d.limits.damping == 10.0);
+    CHECK(d.limits.delay == 1);  // a command waits for the next exchange
+    CHECK(d.reach == Vec3(0.1));
+    CHECK(d.buttons == 1);
+    CHECK(d.remarks.size() == 2);
+}
+
+TEST_CASE("Plug-in: a force reaches the arm, clamped whatever is written, and axes that it lacks get none") {
+    const auto opened = open_plugin_arm({plugins / "sample_arm.so", 0, false}, steady_timer());
+    REQUIRE(opened);
+    DeviceDriver& device = **opened;
+    CHECK(rests_at(device, {0, 3, 0}, {0, 0.01, 0}));  // 300 N/m
+    CHECK(rests_at(device, {1e6, 0, 0}, {10.0 / 300.0, 0, 0}));
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(rests_at(device, {nan, 5, 0}, Vec3(0.0)));
+}
+
+TEST_CASE("Plug-in: the text of NAME.conf reaches the plug-in") {
+    const Folder folder;
+    const fs::path plugin = folder / "stiff.so";
+    fs::copy_file(plugins / "sample_arm.so", plugin);
+    const auto open = [&] { return open_plugin_arm({plugin, 0, false}, steady_timer()); };
+    write_text(folder / "stiff.conf", "1000\n");
+    auto opened = open();
+    REQUIRE(opened);
+    CHECK(rests_at(**opened, {0, 0, 5}, {0, 0, 0.005}));
+    write_text(folder / "stiff.conf", "soft");
+    CHECK(message(open()).find("the plug-in stiff: open: the .conf file has no stiffness") == 0);
+    write_text(folder / "stiff.conf", std::string(5000, '1'));
+    CHECK(message(open()) ==
+          "the plug-in stiff: stiff.conf has 5000 bytes; expected a text of 4095 at most, without NUL");
+    fs::remove(folder / "stiff.conf");
+    fs::create_directory(folder / "stiff.conf");
+    CHECK(message(open()) ==
+          "the plug-in stiff: stiff.conf is a folder; expected a text file that can be read");
+}
+
+TEST_CASE("Plug-in: a file that is no plug-in is refused with the reason") {
+    const Folder folder;
+    const auto refusal = [](const fs::path& plugin) {
+        const auto count = count_plugin_arms(plugin);
+        REQUIRE_FALSE(count);
+        CHECK(count.error().code == ErrorCode::no_device);
+        CHECK(count.error().expected ==
+              "a plug-in for this kind of computer, as boltwright_arm.h describes it");
+        return count.error().what;
+    };
+    CHECK(refusal(folder / "absent.so") == "the plug-in absent: absent.so is not installed");
+    write_text(folder / "text.so", std::string(4096, 'x'));
+    CHECK(refusal(folder / "text.so").find("invalid ELF header") != std::string::npos);
+    // Cut off in the header, and in the middle.
+    std::ifstream whole(plugins / "sample_arm.so", std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(whole)), {});
+    write_text(folder / "short.so", bytes.substr(0, 40));
+    CHECK(refusal(folder / "short.so").find("file too short") != std::string::npos);
+    write_text(folder / "cut.so", bytes.substr(0, 3000));
+    CHECK_FALSE(count_plugin_arms(folder / "cut.so"));
+    // ELFCLASS32, of a computer with 32 bits.
+    bytes[4] = 1;
+    write_text(folder / "narrow.so", bytes);
+    CHECK(refusal(folder / "narrow.so").find("wrong ELF class") != std::string::npos);
+}
+
+TEST_CASE("Plug-in: a library without the entry, another version, a short and an empty table are refused") {
+    const Bench bench;
+    const fs::path other = bench.folder / "other.so";
+    fs::copy_file(BOLT_EMULATED_FORCE_DIMENSION, other);
+    const auto no_entry = count_plugin_arms(other);
+    REQUIRE_FALSE(no_entry);
+    CHECK(no_entry.error().what.find("has no bw_arm_entry") != std::string::npos);
+    for (const auto& [fault, text] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"old",
+              "the plug-in faulty_arm: bw_arm_entry(1) returns no functions; expected a plug-in made with "
+              "this "
+              "version of boltwright_arm.h"},
+             {"short", "the plug-in faulty_arm: its bw_arm_v1 has a size of 40 bytes; expected 72 or more"},
+             {"empty",
+              "the plug-in faulty_arm: its bw_arm_v1 lacks a function; expected all eight of "
+              "boltwright_arm.h"}}) {
+        CAPTURE(fault);
+        CHECK(message(bench.open_with(fault)) == text);
+    }
+}
+
+TEST_CASE("Plug-in: reports that are not finite, negative or contradictory are refused") {
+    const Bench bench;
+    for (const auto& [fault, text] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"infinite force", "its largest force is inf N; expected a finite number that is not negative"},
+             {"negative torque",
+              "its largest torque is -1 N·m; expected a finite number that is not negative"},
+             {"no stiffness", "its largest force or stiffness is 0; expected both, or no axes of force"},
+             {"slow", "it sends 50 samples a second; expected 500 or more"},
+             {"late", "its delay is 3 ms; expected 0 to 2 ms at 1000 samples a second"},
+             {"no reach", "its reach along y is 0 m; expected a finite number above 0"},
+             {"buttons", "it has 33 buttons; expected 0 to 32"},
+             {"odd", "calibrate returns 99; expected a result as boltwright_arm.h describes it"}}) {
+        CAPTURE(fault);
+        const std::string refusal = message(bench.open_with(fault));
+        CAPTURE(refusal);
+        CHECK(refusal.find("the plug-in faulty_arm: ") == 0);
+        CHECK(refusal.find(text) != std::string::npos);
+    }
+}
+
+TEST_CASE("Plug-in: limits beyond those of any arm are reduced, with a remark each") {
+    const Bench bench;
+    const auto opened = bench.open_with("strong");
+    REQUIRE_MESSAGE(opened, message(opened));
+    const Description& d = (*opened)->describe();
+    check_description(d);
+    CHECK(d.limits.force == 70.0);
+    CHECK(d.limits.torque == 3.1);
+    CHECK(d.limits.stiffness == 8000.0);
+    CHECK(d.limits.torsion == 40.0);
+    CHECK(d.limits.damping == 20.0);
+    CHECK(d.limits.angular_damping == 0.1);
+    CHECK(d.reach == Vec3(1.0, 0.1, 0.1));
+    CHECK(d.rate == 1000.0);
+    CHECK(d.remarks.at(0) == "reports a force of 500 N; Boltwright uses 70 N at most");
+}
+
+TEST_CASE("Plug-in: an arm without axes of force renders none, whatever limits it reports") {
+    const Bench bench;
+    const auto opened = bench.open_with("input only");
+    REQUIRE_MESSAGE(opened, message(opened));
+    check_description((*opened)->describe());
+    CHECK((*opened)->describe().limits.force == 0.0);
+    CHECK((*opened)->describe().limits.stiffness > 0.0);
+    CHECK(rests_at(**opened, {5, 0, 0}, Vec3(0.0)));
+}
+
+TEST_CASE("Plug-in: a name without an end is cut, and texts are made readable") {
+    const Bench bench;
+    const auto opened = bench.open_with("long name");
+    REQUIRE(opened);
+    CHECK((*opened)->describe().name == std::string(64, 'x'));
+    CHECK(clean_text("Größe \u4e2d \U0001f527") == "Größe \u4e2d \U0001f527");
+    CHECK(clean_text("a\nb\x1b[1m\x7f") == "a?b?[1m?");
+    // A byte that continues nothing, an overlong slash, half of a pair, the end in a character.
+    CHECK(clean_text("\x80|\xc0\xaf|\xed\xa0\x80|\xe4\xb8") == "?|??|???|??");
+    CHECK(clean_text("\xf4\x90\x80\x80\xf0\x8f\xbf\xbf") == "????????");
+}
+
+TEST_CASE(
+    "Plug-in: a pose that is not finite, far away or not turned by a unit quaternion is a lost device") {
+    const Bench bench;
+    for (const char* fault : {"NaN", "far away"}) {
+        CAPTURE(fault);
+        bench.show("");
+        const auto opened = bench.open();
+        REQUIRE(opened);
+        CHECK(read_many(**opened));
+        bench.show(fault);
+        const auto sample = read_many(**opened);
+        REQUIRE_FALSE(sample);
+        CHECK(sample.error().lost);
+        CHECK(sample.error().message() ==
+              "the plug-in faulty_arm: it reports a position that is not within 2 m; expected a pose as "
+              "boltwright_arm.h describes it");
+    }
+}
+
+TEST_CASE("Plug-in: only an arm that senses rotation turns the tool, by a unit quaternion") {
+    const Bench bench;
+    auto opened = bench.open_with("bad turn");  // which the sample arm does not sense
+    REQUIRE(opened);
+    const auto sample = read_many(**opened);
+    REQUIRE(sample);
+    CHECK(sample->pose.orientation == Quat(1, 0, 0, 0));
+    opened->reset();
+    opened = bench.open_with("senses rotation");
+    REQUIRE(opened);
+    const auto turned = read_many(**opened);
+    REQUIRE(turned);
+    CHECK(glm::distance(turned->pose.orientation * Vec3(1, 0, 0), Vec3(0, 1, 0)) < 1e-9);
+    bench.show("bad turn");
+    const auto bad = read_many(**opened);
+    REQUIRE_FALSE(bad);
+    CHECK(bad.error().lost);
+    CHECK(bad.error().what == "the plug-in faulty_arm: it reports an orientation that is no unit quaternion");
+}
+
+TEST_CASE("Plug-in: buttons that the arm does not have are not pressed") {
+    const Bench bench;
+    const auto opened = bench.open_with("all buttons");
+    REQUIRE(opened);
+    const auto sample = read_many(**opened);
+    REQUIRE(sample);
+    CHECK(sample->buttons == 1);
+}
+
+TEST_CASE(
+    "Plug-in: a crash is an error that names the plug-in, the function and the signal, wherever it happens") {
+    const Bench bench;
+    for (const std::string function : {"open", "calibrate", "enable", "exchange"}) {
+        CAPTURE(function);
+        bench.show("crash in " + function);
+        auto opened = bench.open();
+        Error error;
+        if (function == "exchange") {
+            REQUIRE(opened);
+            const auto sample = read_many(**opened);
+            REQUIRE_FALSE(sample);
+            error = sample.error();
+            CHECK(error.lost);
+            CHECK_FALSE((*opened)->read(0.001));  // it stays lost
+        } else {
+            REQUIRE_FALSE(opened);
+            error = opened.error();
+        }
+        CHECK(error.code == ErrorCode::no_device);
+        CHECK(error.message() ==
+              "the plug-in faulty_arm crashed in " + function +
+                  " (signal 11, Segmentation fault); expected a version of the plug-in without "
+                  "this fault");
+    }
+    bench.show("crash in count");
+    const auto counted = count_plugin_arms(bench.plugin);
+    REQUIRE_FALSE(counted);
+    CHECK(counted.error().what.find("crashed in count") != std::string::npos);
+    bench.show("exit in enable");
+    CHECK(message(bench.open()).find("it has ended its process in enable with exit code 3") !=
+          std::string::npos);
+    bench.show("crash in bw_arm_entry");
+    CHECK(message(bench.open()).find("crashed in open (signal 11") != std::string::npos);
+}
+
+TEST_CASE("Plug-in: a function that hangs is an error, and reading never waits longer than its timeout") {
+    const Bench bench;
+    bench.show("hang in count");
+    const auto counted = count_plugin_arms(bench.plugin);
+    REQUIRE_FALSE(counted);
+    CHECK(counted.error().what == "the plug-in faulty_arm: count has not returned for 2 s");
+    bench.show("");
+    auto opened = bench.open();
+    REQUIRE(opened);
+    CHECK(read_many(**opened));
+    bench.show("hang in exchange");
+    const Timer timer = steady_timer();
+    double last_sample = timer.now();
+    int timeouts = 0;
+    Result<std::optional<Sample>> sample = std::optional<Sample>{};
+    while (sample) {
+        sample = (*opened)->read(0.002);
+        if (!sample) break;
+        if (*sample) last_sample = timer.now();
+        timeouts = *sample ? 0 : timeouts + 1;
+    }
+    CHECK(sample.error().lost);
+    CHECK(sample.error().what == "the plug-in faulty_arm: exchange has not returned for 0.5 s");
+    CHECK(timer.now() - last_sample >= 0.5);
+    CHECK(timeouts > 1);
+    opened->reset();  // kills the process
+    bench.show("");
+    CHECK(bench.open());
+}
+
+TEST_CASE("Plug-in: an arm without a new sample sends none") {
+    const Bench bench;
+    const auto opened = bench.open();
+    REQUIRE(opened);
+    bench.show("silent");
+    // Samples that were asked for before have come.
+    for (int i = 0; i < 10; ++i) REQUIRE((*opened)->read(0.005));
+    for (int i = 0; i < 10; ++i) {
+        const auto sample = (*opened)->read(0.005);
+        REQUIRE(sample);
+        CHECK_FALSE(*sample);
+    }
+}
+
+TEST_CASE("Plug-in: an arm that has to move by itself moves only if it may, and may take its time") {
+    const Bench bench;
+    CHECK(message(bench.open_with("must move")) ==
+          "the plug-in faulty_arm: the arm has to move by itself to find its position, and may not; expected "
+          "free room "
+          "around it, then `boltwright devices --device plugin:faulty_arm:0 --may-move`");
+    CHECK(bench.open(true));
+    CHECK(bench.open_with("busy"));
+}
+
+TEST_CASE("Plug-in: an arm that waits for its user stays open until he has acted") {
+    const Bench bench;
+    for (int i = 0; i < 2; ++i)
+        CHECK(message(bench.open_with("needs user")) ==
+              "the plug-in faulty_arm: it waits for you: put the pen into its holder; expected an arm that "
+              "knows its "
+              "position");
+    // Another process would not have seen it.
+    CHECK(bench.open_with("user acts"));
+    CHECK_FALSE(bench.open());
+}
+
+TEST_CASE("Plug-in: an arm without calls of the program for 50 ms renders no force") {
+    const Bench bench;
+    const auto opened = bench.open();
+    REQUIRE(opened);
+    REQUIRE((*opened)->write({Vec3(3, 0, 0), {}}));
+    REQUIRE(read_many(**opened));
+    bench.show("released");  // now a zero wrench creates the file `released`
+    CHECK(eventually([&] { return fs::exists(bench.folder / "released"); }));
+}
+
+TEST_CASE("Plug-in: closing it sends a zero wrench and switches the motors off") {
+    const Bench bench;
+    auto opened = bench.open();
+    REQUIRE(opened);
+    REQUIRE((*opened)->write({Vec3(3, 0, 0), {}}));
+    REQUIRE(read_many(**opened));
+    opened->reset();
+    std::ifstream log(bench.folder / "closing");
+    const std::string text((std::istreambuf_iterator<char>(log)), {});
+    CHECK(text == "force 0, off, close");
+}
+
+TEST_CASE("Plug-in: closing it lets an exchange that has begun return") {
+    const Bench bench;
+    auto opened = bench.open_with("20 ms");
+    REQUIRE(opened);
+    REQUIRE((*opened)->write({Vec3(3, 0, 0), {}}));
+    const auto sample = (*opened)->read(0.001);
+    REQUIRE(sample);
+    CHECK_FALSE(*sample);
+    opened->reset();
+    CHECK(fs::exists(bench.folder / "closing"));
+}
+
+TEST_CASE("Plug-in: one that damages its process or the connection is a lost device") {
+    const Bench bench;
+    for (const auto& [fault, text] : std::initializer_list<std::pair<const char*, const char*>>{
+             {"nonsense", "the plug-in faulty_arm: its process has sent nonsense"},
+             {"closed connection", "the plug-in faulty_arm has closed its connection in exchange"}}) {
+        CAPTURE(fault);
+        bench.show("");
+        const auto opened = bench.open();
+        REQUIRE(opened);
+        bench.show(fault);
+        const auto sample = read_many(**opened);
+        REQUIRE_FALSE(sample);
+        CHECK(sample.error().lost);
+        CHECK(sample.error().what == text);
+    }
+}
+
+TEST_CASE("Plug-in: folders are searched in order, and the first plug-in of a name counts") {
+    const Folder one, two;
+    const EnvironmentVariable variable("BOLTWRIGHT_ARM_PLUGINS",
+                                       (one.path().string() + "::" + two.path().string()).c_str());
+    const EnvironmentVariable home("HOME", "/home/ada"), no_data("XDG_DATA_HOME", nullptr);
+    const fs::path system = "/usr/lib/boltwright/arms";
+    CHECK(plugin_folders() ==
+          std::vector<fs::path>{one.path(), two.path(), "/home/ada/.local/share/boltwright/arms", system});
+    {
+        const EnvironmentVariable data("XDG_DATA_HOME", "/data"), none("BOLTWRIGHT_ARM_PLUGINS", nullptr);
+        CHECK(plugin_folders() == std::vector<fs::path>{"/data/boltwright/arms", system});
+    }
+    for (const fs::path& file : {one / "b.so", two / "b.so", two / "a.so", two / "notes.txt"})
+        write_text(file, "");
+    CHECK(find_plugins({one.path(), "/nowhere", two.path()}) ==
+          std::vector<fs::path>{two / "a.so", one / "b.so"});
+}
+
+TEST_CASE("Plug-in: arms are listed with their ids or with what is wrong, and open by their id") {
+    const Bench bench;
+    fs::copy_file(plugins / "sample_arm.so", bench.folder / "sample_arm.so");
+    const EnvironmentVariable variable("BOLTWRIGHT_ARM_PLUGINS", bench.folder.path().c_str());
+    const auto list = [&] {
+        std::vector<ListedDevice> found;
+        for (const ArmVendor& vendor : arm_vendors())
+            if (vendor.name == "plugin")
+                for (ListedDevice& arm : vendor.list())
+                    if (fs::path(arm.path).parent_path() == bench.folder.path()) found.push_back(arm);
+        return found;
+    };
+    auto arms = list();
+    REQUIRE(arms.size() == 2);
+    CHECK(arms[0].id == "plugin:faulty_arm:0");
+    CHECK(arms[0].name == "faulty_arm, an arm of a plug-in");
+    CHECK(arms[1].id == "plugin:sample_arm:0");
+    CHECK(arms[1].kind == DeviceKind::arm);
+    CHECK_FALSE(arms[1].trouble);
+    CHECK(open(arms[1]));
+    bench.show("many");
+    CHECK(list().size() == 17);
+    bench.show("unplugged");
+    CHECK(list().size() == 1);
+    bench.show("no count");
+    arms = list();
+    REQUIRE(arms.size() == 2);
+    REQUIRE(arms[0].trouble);
+    CHECK(arms[0].trouble->message() ==
+          "the plug-in faulty_arm: count: no?USB?; expected an arm that is switched on and connected");
+    CHECK_FALSE(open(arms[0]));
+}
+
+TEST_CASE("Plug-in: on its thread, a crash is a loss with its reason, and the arm is opened again") {
+    const Bench bench;
+    auto thread = DeviceThread::start([&] { return bench.open(); });
+    REQUIRE(thread);
+    REQUIRE(thread->wait_until_open(60.0));
+    CHECK(eventually([&] { return thread->snapshot().usable; }));
+    bench.show("crash in exchange");
+    CHECK(eventually(
+        [&] { return thread->report().trouble.find("crashed in exchange") != std::string::npos; }));
+    CHECK(thread->report().losses >= 1);
+    bench.show("");
+    CHECK(eventually([&] { return thread->snapshot().usable && thread->report().trouble.empty(); }));
+}
+
+}  // namespace device_plugin_arms_test
