@@ -12,9 +12,9 @@
 #include "engine/base/result.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/station_setup.hpp"
+#include "haptics/device/connected_devices.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/device/device_thread.hpp"
-#include "haptics/device/connected_devices.hpp"
 #include "haptics/hand/glove_driver.hpp"
 
 namespace bolt::cli {
