@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "engine/base/file.hpp"
+
 namespace bolt::content {
 
 namespace fs = std::filesystem;
@@ -44,17 +46,6 @@ fs::path content_folder() {
         if (holds_content(folder / "boltwright" / "content")) return folder / "boltwright" / "content";
     const fs::path source = BOLT_SOURCE_CONTENT;
     return holds_content(source) ? source : fs::path{};
-}
-
-Result<fs::path> user_data_folder() {
-    // NOLINTBEGIN(concurrency-mt-unsafe): nothing sets them
-    if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && fs::path(data).is_absolute())
-        return fs::path(data) / "boltwright";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return fs::path(home) / ".local" / "share" / "boltwright";
-    // NOLINTEND(concurrency-mt-unsafe)
-    return fail(ErrorCode::usage, "there is no home folder for user data",
-                "the environment variable HOME, or an explicit folder");
 }
 
 std::vector<fs::path> assembly_folders() {

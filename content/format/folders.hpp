@@ -1,4 +1,4 @@
-// Where the content and the data of the user are.
+// Where the content and the assemblies of the user are.
 #pragma once
 
 #include <filesystem>
@@ -14,10 +14,6 @@ namespace bolt::content {
 // folder of $XDG_DATA_DIRS; else that of the source tree from which the program was built, if it was not
 // built for a package. Empty if none exists, or if $BOLTWRIGHT_CONTENT is not a content folder.
 std::filesystem::path content_folder();
-
-// The folder of the user's data by the XDG base directory specification; it may not exist yet. Fails if the
-// environment defines none.
-Result<std::filesystem::path> user_data_folder();
 
 // The folders whose subfolders are assemblies: assemblies/ in user_data_folder(), then in content_folder().
 // An assembly in the first hides one of the same name in the second. They may not exist.

@@ -1,6 +1,7 @@
 #include "engine/base/file.hpp"
 
 #include <sys/stat.h>
+#include <cstdlib>
 
 #include <algorithm>
 #include <cerrno>
@@ -73,6 +74,18 @@ Status require_different_files(const std::filesystem::path& input, const std::fi
     std::error_code none;
     if (!std::filesystem::equivalent(input, output, none) || none) return {};
     return fail(ErrorCode::usage, output.string() + " is also the input", "expected a different output file");
+}
+
+Result<std::filesystem::path> user_data_folder() {
+    // NOLINTBEGIN(concurrency-mt-unsafe): nothing sets them
+    if (const char* data = std::getenv("XDG_DATA_HOME");
+        data != nullptr && std::filesystem::path(data).is_absolute())
+        return std::filesystem::path(data) / "boltwright";
+    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
+        return std::filesystem::path(home) / ".local" / "share" / "boltwright";
+    // NOLINTEND(concurrency-mt-unsafe)
+    return fail(ErrorCode::usage, "there is no home folder for user data",
+                "the environment variable HOME, or an explicit folder");
 }
 
 FileStamp stamp(const std::filesystem::path& file) {

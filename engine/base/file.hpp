@@ -1,4 +1,5 @@
-// Reads and writes small files as a whole, and detects changes of files. Errors name the file and the reason.
+// Reads and writes small files as a whole, finds the user's folder, and detects changes of files. Errors name
+// the file and the reason.
 #pragma once
 
 #include <cstddef>
@@ -23,6 +24,10 @@ Status write_file(const std::filesystem::path& path, std::string_view text);
 
 // Fails if both paths name the same file, because writing the output would destroy the input.
 Status require_different_files(const std::filesystem::path& input, const std::filesystem::path& output);
+
+// The folder of the user's data by the XDG base directory specification; it may not exist yet. Fails if the
+// environment defines none.
+Result<std::filesystem::path> user_data_folder();
 
 // Distinguishes two versions of a file without reading them. A missing file is a version too.
 struct FileStamp {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "content/format/assembly.hpp"
+#include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/swapchain.hpp"
@@ -51,7 +52,7 @@ Result<std::string> examine_servo(double seconds, const std::string& assembly) {
 
 // The findings, in the words of the menu.
 Status summarize() {
-    BOLT_TRY_ASSIGN(const auto data, content::user_data_folder());
+    BOLT_TRY_ASSIGN(const auto data, user_data_folder());
     computer::FactsRequest request;
     request.gpu = computer::find_gpu();
     request.sessions = data / "sessions";

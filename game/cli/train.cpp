@@ -254,7 +254,7 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     app_options.first_start = options.first_start;
     app_options.settings_file = options.settings;
     // Without a home folder no settings are kept.
-    if (const auto data = content::user_data_folder()) app_options.settings_folder = *data / "settings";
+    if (const auto data = user_data_folder()) app_options.settings_folder = *data / "settings";
     app_options.on_start = remove_stale_files;
     app_options.on_end = [](const content::Assembly& assembly, const session::LessonOptions& lesson,
                             const session::LessonOutcome& outcome, const std::filesystem::path& folder) {
@@ -285,11 +285,12 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
 int run_train(const TrainArguments& options) {
     const Result<trainer::Equipment> equipment = equipment_of(options);
     if (!equipment) return print_error(equipment.error());
-    if (options.headless && (!equipment->glove.empty() || !equipment->devices.empty())) {
+    const bool free_hand = equipment->hand == trainer::HandMode::free;
+    if (options.headless && (!equipment->glove.empty() || !equipment->devices.empty() || free_hand)) {
         Error error;
         error.code = ErrorCode::usage;
-        error.what = "a simulated trainee does not use devices";
-        error.expected = "--headless without --device ID and --glove PORT";
+        error.what = "a simulated trainee does not use devices or the mouse";
+        error.expected = "--headless without --device ID, --hand free and --glove PORT";
         return print_error(error);
     }
 
@@ -320,7 +321,7 @@ int run_train(const TrainArguments& options) {
 
 Status train_from_desktop() {
     TrainArguments options;
-    BOLT_TRY_ASSIGN(const auto data, content::user_data_folder());
+    BOLT_TRY_ASSIGN(const auto data, user_data_folder());
     options.out = (data / "sessions").string();
     options.folder_per_lesson = true;
     options.first_start = !std::filesystem::exists(options.out);

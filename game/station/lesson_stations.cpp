@@ -93,15 +93,12 @@ class FrameStation final : public LessonStation {
         inputs.mover = snapshot_;
         inputs.controls = controls_;
         inputs.commands = commands_;
-        const bool works = !controls_.pause;
-        const station::DeviceCommands output = works ? station::tick(layout_, setup_, state_, servo_, inputs)
-                                                     : station::pause_tick(layout_, setup_, state_, inputs);
+        const station::StationStep done = station::step(layout_, setup_, state_, servo_, inputs, ++number_);
         commands_.clear();
         // The simulated arm takes every command.
-        (void)driver_->write(output.mover);
-        latest_ = {++number_,          state_.input,           state_.output, state_.workspace.tool,
-                   state_.wrench_rest, state_.dead_man_pressed};
-        if (works) ticks_.push_back(latest_);
+        (void)driver_->write(done.commands.mover);
+        latest_ = done.tick;
+        if (!done.paused) ticks_.push_back(latest_);
     }
 
     device::VirtualTime time_;

@@ -9,6 +9,7 @@
 #include "content/format/folders.hpp"
 #include "content/station/wheel_config_file.hpp"
 #include "content/trainee/settings.hpp"
+#include "engine/base/file.hpp"
 #include "engine/base/nearest.hpp"
 #include "game/motion/path_planning.hpp"
 #include "game/session/contact_models.hpp"
@@ -130,7 +131,7 @@ const char* name(hand::Side hand) { return hand == hand::Side::left ? "left" : "
 }  // namespace
 
 Result<fs::path> calibrations_folder() {
-    BOLT_TRY_ASSIGN(const auto data, content::user_data_folder());
+    BOLT_TRY_ASSIGN(const auto data, user_data_folder());
     return data / "gloves";
 }
 

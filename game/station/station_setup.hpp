@@ -148,7 +148,7 @@ class LessonStation {
     virtual const servo::Timing* stop() = 0;
 };
 
-// What mouse and keyboard move if no device moves the tool: nothing, a puck or a simulated arm.
+// The pretended device that mouse and keyboard move if no device moves the tool; monostate: none.
 using VirtualMover = std::variant<std::monostate, device::VirtualPuck, device::SimulatedArm>;
 
 // Starts the station on its own threads.

@@ -50,7 +50,7 @@ Quat viewer_heading(const ActiveLesson& active) {
     return glm::angleAxis(active.view.camera.shown.yaw, Vec3(0, 1, 0));
 }
 
-// What a drag of the hand refers to.
+// The scene in which the user drags the hand.
 DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active, const Screen& screen) {
     const StationClient& client = *active.station;
     const servo::Setup& setup = active.session->setup();

@@ -114,7 +114,7 @@ Result<std::filesystem::path> lesson_folder(const AppOptions& options, const Les
 
 UserFolders folders_of(const AppOptions& options) {
     UserFolders folders{options.out, options.folder_per_lesson, options.settings_folder, {}};
-    if (const auto data = content::user_data_folder()) folders.assemblies = *data / "assemblies";
+    if (const auto data = user_data_folder()) folders.assemblies = *data / "assemblies";
     return folders;
 }
 

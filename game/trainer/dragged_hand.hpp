@@ -20,7 +20,7 @@ struct DraggedHand {
     bool grasps = false;        // the left button was pressed beside the wrench or a nut
 };
 
-// What the hand holds or is beside, in the assembly's frame.
+// The view, the tool and the nut beside it, in the assembly's frame.
 struct DragScene {
     Screen screen;
     Pose tool;  // as it is drawn

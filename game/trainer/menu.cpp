@@ -217,7 +217,9 @@ void draw_missing(const ScreenContext& context, float width, const Menu& menu, c
             missing.push_back(context.words["menu.missing.tool"]);
     }
     for (const std::string& line : missing) draw_paragraph(line, width, warning_text);
-    if (menu.devices.size() < 3 && choice.equipment.hand == HandMode::helped)
+    const bool connected = std::any_of(menu.devices.begin(), menu.devices.end(),
+                                       [](const DeviceOption& o) { return !o.equipment.devices.empty(); });
+    if (!connected && choice.equipment.hand == HandMode::helped)
         draw_paragraph(context.words["menu.missing.force"], width, muted_text);
 }
 

@@ -35,7 +35,7 @@ class KeyboardPuck {
     std::bitset<256> down_;
 };
 
-// What moves the hand where no device does.
+// The way in which mouse and keyboard move the hand where no device does.
 enum class HandMode : std::uint8_t {
     helped,    // the mouse chooses a nut, and the hand goes there by itself
     free,      // the mouse moves the hand, which feels the forces of a simulated arm; runs with the frames
@@ -62,8 +62,8 @@ struct DeviceOption {
     std::string name;  // names of the devices; empty: mouse and keyboard, as Equipment::hand says
     Equipment equipment;
 };
-// Mouse and keyboard with a helped and with a free hand, and the combinations of the devices that are connected
-// now.
+// Mouse and keyboard with a helped and with a free hand, and the combinations of the devices that are
+// connected now.
 std::vector<DeviceOption> device_options();
 // The default: the connected device that moves the tool, together with a wheel if there is one; else the
 // mouse.

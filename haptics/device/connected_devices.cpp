@@ -8,6 +8,7 @@
 
 #include "haptics/device/arms.hpp"
 #include "haptics/device/hid_transport.hpp"
+#include "haptics/device/plugin_arms.hpp"
 #include "haptics/device/space_mouse.hpp"
 #include "haptics/device/usb_force_feedback.hpp"
 #include "haptics/device/wheel.hpp"
@@ -186,16 +187,14 @@ Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const Ope
                 "a SpaceMouse or a wheel with force feedback");
 }
 
-DeviceFactory factory_for(std::string id, const OpenOptions& options) {
-    return [id = std::move(id), options]() -> Result<std::unique_ptr<DeviceDriver>> {
+DeviceFactory factory_for(std::string id, const OpenOptions& given) {
+    OpenOptions kept = given;
+    if (!kept.waiting_arms) kept.waiting_arms = make_waiting_arms();
+    return [id = std::move(id), options = std::move(kept)]() -> Result<std::unique_ptr<DeviceDriver>> {
         for (const ListedDevice& device : list_devices())
             if (device.id == id) return open(device, options);
-        Error error;
-        error.code = ErrorCode::no_device;
-        error.what = fmt::format("there is no device {}", id);
-        error.expected = "a connected device; `boltwright devices` lists them";
-        error.lost = true;
-        return fail(std::move(error));
+        return fail(lost_device(fmt::format("there is no device {}", id),
+                                "a connected device; `boltwright devices` lists them"));
     };
 }
 

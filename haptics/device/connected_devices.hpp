@@ -11,6 +11,8 @@
 
 namespace bolt::device {
 
+class WaitingArms;  // plugin_arms.hpp
+
 enum class DeviceKind : std::uint8_t {
     arm,    // through its vendor's library or service (arms.hpp); renders forces
     puck,   // six axes that spring back; SpaceMouse class
@@ -42,6 +44,7 @@ struct OpenOptions {
     WheelConfig wheel{};
     PuckResponse puck{};
     bool arm_may_move = false;  // an arm may move by itself to find its position, if it has not done so yet
+    std::shared_ptr<WaitingArms> waiting_arms{};  // of plug-ins, from one attempt to the next; may be null
 };
 
 Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const OpenOptions& options = {});

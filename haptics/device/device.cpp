@@ -75,4 +75,13 @@ std::vector<std::string> summary_lines(const Description& d) {
     return lines;
 }
 
+Error lost_device(std::string what, std::string expected) {
+    Error error;
+    error.code = ErrorCode::no_device;
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    error.lost = true;
+    return error;
+}
+
 }  // namespace bolt::device

@@ -63,6 +63,9 @@ struct Sample {
     double time = 0.0;           // s, when it was read, on the caller's clock
 };
 
+// The error of a device that is gone or has let its force go: the supervisor opens it again.
+Error lost_device(std::string what, std::string expected);
+
 // The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
 // lost device (DeviceSupervisor does) nor exchanges data with the servo (DeviceThread does). All calls come
 // from one thread.

@@ -160,13 +160,10 @@ class ForceDimensionArm final : public DeviceDriver {
         if (api_.get_status(status.data(), id_) < 0) return failure("its status cannot be read");
         if (status[status_force] != 0) return {};
         const auto cause = static_cast<std::size_t>(std::max(status[status_cause], 0));
-        Error error;
-        error.code = ErrorCode::no_device;
-        error.what = fmt::format("{} has braked{}{}", description_.name, cause > 0 ? ": " : "",
-                                 cause < brake_causes.size() ? brake_causes[cause] : "unknown cause");
-        error.expected = "a hand that moves it slowly";
-        error.lost = true;
-        return fail(std::move(error));
+        return fail(
+            lost_device(fmt::format("{} has braked{}{}", description_.name, cause > 0 ? ": " : "",
+                                    cause < brake_causes.size() ? brake_causes[cause] : "unknown cause"),
+                        "a hand that moves it slowly"));
     }
 
     ForceDimensionApi api_;

@@ -28,15 +28,6 @@ constexpr int most_events = 16;            // that are read between two exchange
 constexpr int event_port_offset = 10020 - 10001;
 constexpr int old_http_port_offset = 10000 - 10001;  // of services before 3.5
 
-Error lost_arm_or_service(std::string what, std::string expected) {
-    Error error;
-    error.code = ErrorCode::no_device;
-    error.what = std::move(what);
-    error.expected = std::move(expected);
-    error.lost = true;
-    return error;
-}
-
 Error not_running(std::string_view reason) {
     Error error;
     error.code = ErrorCode::no_device;
@@ -215,8 +206,8 @@ class HaplyArm final : public DeviceDriver {
                 --unanswered_;
                 BOLT_TRY(publish(*message));
             } else if (waited >= answer_timeout) {
-                return fail(lost_arm_or_service("the Haply service no longer answers",
-                                                fmt::format("an answer within {:g} s", answer_timeout)));
+                return fail(lost_device("the Haply service no longer answers",
+                                        fmt::format("an answer within {:g} s", answer_timeout)));
             } else if (waited >= command_lifetime && !released) {
                 released = true;
                 BOLT_TRY(send(Vec3(0.0)));
@@ -241,8 +232,8 @@ class HaplyArm final : public DeviceDriver {
             if (!message) connection_.events.reset();
             if (!message || !*message) break;
             if (const auto loss = loss_in_haply_event(**message, connection_.arm))
-                return fail(lost_arm_or_service(description_.name + " " + *loss,
-                                                "an arm that is connected by USB and moved slowly"));
+                return fail(lost_device(description_.name + " " + *loss,
+                                        "an arm that is connected by USB and moved slowly"));
         }
         return {};
     }
@@ -307,8 +298,8 @@ Result<std::unique_ptr<DeviceDriver>> open_haply(const HaplyService& service, in
     if (!inventory) return fail(not_running(service.states.text() + ": sends no list of its devices"));
     const auto i = static_cast<std::size_t>(std::max(index, 0));
     if (i >= inventory->arms.size())
-        return fail(lost_arm_or_service(fmt::format("the Haply service has no arm {}", index),
-                                        "an Inverse3 that is switched on and connected by USB"));
+        return fail(lost_device(fmt::format("the Haply service has no arm {}", index),
+                                "an Inverse3 that is switched on and connected by USB"));
     Connection connection{std::move(*socket), {}, inventory->arms[i], {}};
     if (!connection.arm.calibrated) return fail(not_calibrated(connection.arm.id));
     if (i < inventory->grips.size()) connection.grip = inventory->grips[i];

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "haptics/device/device.hpp"
+
 namespace bolt::device {
 
 namespace {
@@ -27,15 +29,6 @@ Error wrong_message(std::string what, std::string expected) {
     error.code = ErrorCode::failed;
     error.what = "Haply service: " + std::move(what);
     error.expected = std::move(expected);
-    return error;
-}
-
-Error lost_arm(std::string what, std::string expected) {
-    Error error;
-    error.code = ErrorCode::no_device;
-    error.what = std::move(what);
-    error.expected = std::move(expected);
-    error.lost = true;
     return error;
 }
 
@@ -233,14 +226,14 @@ Result<HaplyState> parse_haply_state(std::string_view message, const HaplyArmEnt
     BOLT_TRY_ASSIGN(const Json json, parse_object(message));
     BOLT_TRY_ASSIGN(const Json* device, find_device(json, "inverse3", arm.id));
     if (device == nullptr)
-        return fail(lost_arm(fmt::format("Haply Inverse3 {} is not connected any more", arm.id),
-                             "an arm that is switched on and connected by USB"));
+        return fail(lost_device(fmt::format("Haply Inverse3 {} is not connected any more", arm.id),
+                                "an arm that is switched on and connected by USB"));
     // States may leave the status out.
     if (const Json* status = find_member(device, "status"); find_member(status, "calibrated") != nullptr) {
         BOLT_TRY_ASSIGN(const bool calibrated, read_boolean(status, "status", "calibrated"));
         if (!calibrated)
-            return fail(lost_arm(fmt::format("Haply Inverse3 {} is not calibrated any more", arm.id),
-                                 "an arm that was calibrated in its inkwell"));
+            return fail(lost_device(fmt::format("Haply Inverse3 {} is not calibrated any more", arm.id),
+                                    "an arm that was calibrated in its inkwell"));
     }
     const Json* values = find_member(device, "state");
     HaplyState state;

@@ -29,17 +29,16 @@ constexpr double start_timeout = 1.0;     // s until the scheduler runs and the 
 constexpr double release_timeout = 0.02;  // s until a frame has ended the force
 constexpr const char* arm_name = "OpenHaptics arm";
 
-// Force, torque, stiffness and half the workspace of CHAI3D (CPhantomDevices). Torsion and damping are not
-// published; these are low values of ours, not measured on arms. An arm of an unknown model gets the last
-// row.
+// Force, stiffness and half the workspace of CHAI3D (CPhantomDevices). Damping is not published; these are
+// low values of ours, not measured on arms. An arm of an unknown model gets the last row.
 struct ModelLimits {
     std::string_view mark;  // in the model's name
-    double force, torque, stiffness, torsion, damping, angular_damping, reach;
+    double force, stiffness, damping, reach;
 };
 constexpr std::array models{
-    ModelLimits{"Premium 3.0", 22.0, 0.188, 1000.0, 1.0, 5.0, 0.005, 0.25},
-    ModelLimits{"Premium", 8.5, 0.188, 800.0, 1.0, 5.0, 0.005, 0.12},
-    ModelLimits{"", 3.3, 0.0, 400.0, 0.0, 3.0, 0.0, 0.075},
+    ModelLimits{"Premium 3.0", 22.0, 1000.0, 5.0, 0.25},
+    ModelLimits{"Premium", 8.5, 800.0, 5.0, 0.12},
+    ModelLimits{"", 3.3, 400.0, 3.0, 0.075},
 };
 
 // Empties the stack of errors. Returns the gravest one, which has the highest code; 0: none.
@@ -94,23 +93,26 @@ ArmProperties describe_arm(const OpenHapticsApi& api) {
     });
     arm.senses_rotation = get_integer(api, get_senses) >= 6;
     arm.calibration_style = static_cast<unsigned>(get_integer(api, get_calibration_style));
-    const bool torque = arm.senses_rotation && get_integer(api, get_renders) >= 6 && most.torque > 0.0;
     Description& d = arm.description;
     d.name = model.empty() ? arm_name : fmt::format("{} ({})", arm_name, model);
     d.id = "openhaptics:0";
-    d.renders = {true, true, true, torque, torque, torque};
+    d.renders = {true, true, true, false, false, false};
     d.limits.force = limit(get_doubles(api, get_max_force)[0], most.force);
-    d.limits.torque = torque ? most.torque : 0.0;
+    d.limits.torque = 0.0;
     d.limits.stiffness = limit(1e3 * get_doubles(api, get_max_stiffness)[0], most.stiffness);
-    d.limits.torsion = torque ? most.torsion : 0.0;
+    d.limits.torsion = 0.0;
     d.limits.damping = most.damping;
-    d.limits.angular_damping = torque ? most.angular_damping : 0.0;
+    d.limits.angular_damping = 0.0;
     d.limits.delay = 2;  // a command waits in the mailbox for the next frame
     d.rate = 1.0 / frame_time;
     d.buttons = most_buttons;
     describe_reach(api, most.reach, arm);
     if (!arm.senses_rotation) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
-    if (!torque) d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+    // The library wants torques of the gimbal's motors, and the directions of these are not confirmed: a
+    // wrong sign would push the hand instead of resisting it.
+    d.remarks.emplace_back(get_integer(api, get_renders) >= 6
+                               ? "its torque is not used: torques are rendered as forces at the grip"
+                               : "renders no torque: torques are rendered as forces at the grip");
     if (const double lasting = get_doubles(api, get_lasting_force)[0];
         lasting > 0.0 && lasting < d.limits.force)
         d.remarks.push_back(

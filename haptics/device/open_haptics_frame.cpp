@@ -8,9 +8,8 @@ namespace bolt::device::open_haptics {
 
 namespace {
 
-// hdDefines.h. Lengths are in mm, torques in mN·m.
-constexpr unsigned get_buttons = 0x2000, get_transform = 0x2052, get_gimbal_angles = 0x2150,
-                   get_motor_heat = 0x2605, set_force = 0x2700, set_gimbal_torque = 0x2704;
+// hdDefines.h. Lengths are in mm.
+constexpr unsigned get_buttons = 0x2000, get_transform = 0x2052, get_motor_heat = 0x2605, set_force = 0x2700;
 
 // s; an older command renders no force, because the device thread hangs. With two frames on top the force
 // ends 20 ms after the last command.
@@ -20,7 +19,6 @@ constexpr double rest_time = 0.5;    // s without such an error before the force
 constexpr double ramp_time = 0.5;    // s from none to full strength
 constexpr double cool = 0.7;         // heat of the motors, 0 … 1, below which a warm arm renders again
 constexpr double farthest = 2.0;     // m; a position beyond is a faulty one
-constexpr double max_roll_torque = 0.048;  // N·m, of the motor that rolls the stylus
 
 // The pose in the vendor's transform, whose columns follow each other; nullopt if it makes no sense.
 std::optional<Pose> pose_in(const Doubles& m, bool with_rotation) {
@@ -35,19 +33,6 @@ std::optional<Pose> pose_in(const Doubles& m, bool with_rotation) {
     if (glm::determinant(turned) < 0.0) return {};
     pose.orientation = glm::normalize(glm::quat_cast(turned));
     return pose;
-}
-
-// The torques (N·m) of the motors for yaw, pitch and roll that together exert `torque` on a stylus with this
-// orientation: each is the component along its motor's axis. One factor keeps the roll motor within its
-// limit. From a neutral gimbal the tip to the right, the tip down and clockwise are positive (vendor's
-// example; that the motors pull in the same directions is not confirmed).
-Vec3 motor_torques(const Quat& orientation, const Vec3& gimbal, const Vec3& torque) {
-    const Quat before_roll = orientation * rotation(Vec3(0.0, 0.0, gimbal.z));
-    const Quat before_pitch = before_roll * rotation(Vec3(gimbal.y, 0.0, 0.0));
-    const Vec3 motors{-glm::dot(before_pitch * Vec3(0, 1, 0), torque),
-                      -glm::dot(before_roll * Vec3(1, 0, 0), torque),
-                      -glm::dot(orientation * Vec3(0, 0, 1), torque)};
-    return std::abs(motors.z) > max_roll_torque ? motors * (max_roll_torque / std::abs(motors.z)) : motors;
 }
 
 }  // namespace
@@ -79,7 +64,7 @@ void FrameCallback::run_frame() {
     if (report_.calibration == calibrated) {
         const std::optional<Pose> pose = pose_in(get_doubles(api_, get_transform), arm_.senses_rotation);
         if (pose) take_sample(*pose, now);
-        render(pose, now, elapsed);
+        render(pose.has_value(), now, elapsed);
     } else {
         calibrate();
     }
@@ -128,9 +113,9 @@ void FrameCallback::update_strength(bool renders, double elapsed) {
     strength_ = std::min(1.0, strength_ + std::min(elapsed, 2.0 * frame_time) / ramp_time);
 }
 
-void FrameCallback::render(const std::optional<Pose>& pose, double now, double elapsed) {
+void FrameCallback::render(bool has_pose, double now, double elapsed) {
     if (report_.released) return;  // the device thread may have disabled the forces
-    update_strength(pose && !is_resting(now), elapsed);
+    update_strength(has_pose && !is_resting(now), elapsed);
     commands.update();
     const TimedCommand& command = commands.latest();
     const bool releases = releases_.load(std::memory_order_relaxed);
@@ -138,16 +123,7 @@ void FrameCallback::render(const std::optional<Pose>& pose, double now, double e
     const double share = none ? 0.0 : strength_;
     const Vec3 force = share * command.output.force;
     api_.set_doubles(set_force, &force.x);
-    if (arm_.description.limits.torque > 0.0) set_torque(pose, share * command.output.torque);
     report_.released = releases;
-}
-
-void FrameCallback::set_torque(const std::optional<Pose>& pose, const Vec3& torque) {
-    const Doubles gimbal = get_doubles(api_, get_gimbal_angles);
-    const Vec3 angles(gimbal[0], gimbal[1], gimbal[2]);
-    const bool known = pose && finite(angles);
-    const Vec3 motors = known ? 1e3 * motor_torques(pose->orientation, angles, torque) : Vec3(0.0);
-    api_.set_doubles(set_gimbal_torque, &motors.x);
 }
 
 }  // namespace bolt::device::open_haptics

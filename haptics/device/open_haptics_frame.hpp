@@ -36,7 +36,7 @@ void take_errors(const OpenHapticsApi& api, const Note& note) {
     }
 }
 
-// What the driver knows of an open arm.
+// The properties of an open arm.
 struct ArmProperties {
     Description description;
     Vec3 centre{0.0};  // m, of the reach, in the vendor's frame
@@ -79,8 +79,7 @@ class FrameCallback {
     void note_error(unsigned code, double now);
     bool is_resting(double now);
     void update_strength(bool renders, double elapsed);
-    void render(const std::optional<Pose>& pose, double now, double elapsed);
-    void set_torque(const std::optional<Pose>& pose, const Vec3& torque);
+    void render(bool has_pose, double now, double elapsed);
 
     OpenHapticsApi api_;
     unsigned id_;

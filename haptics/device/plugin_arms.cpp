@@ -11,6 +11,7 @@
 #include <mutex>
 #include <sstream>
 
+#include "engine/base/file.hpp"
 #include "haptics/device/plugin/arm_process.hpp"
 
 namespace bolt::device {
@@ -211,7 +212,8 @@ class PluginArm final : public DeviceDriver {
     double next_;  // s, time of the next exchange
 };
 
-// The processes of arms that wait for their user, by id. Closed arms would begin their calibration again.
+}  // namespace
+
 class WaitingArms {
   public:
     std::optional<ArmProcess> take(const std::string& id) {
@@ -232,10 +234,9 @@ class WaitingArms {
     std::map<std::string, ArmProcess> arms_;
 };
 
-WaitingArms& waiting_arms() {
-    static WaitingArms arms;
-    return arms;
-}
+std::shared_ptr<WaitingArms> make_waiting_arms() { return std::make_shared<WaitingArms>(); }
+
+namespace {
 
 // Calls calibrate() until it is done or the user must act.
 Result<PluginReply> calibrate(ArmProcess& process, const PluginArmOptions& options, const Timer& timer) {
@@ -274,19 +275,13 @@ Error calibration_error(const ArmProcess& process, const PluginReply& reply, con
 }  // namespace
 
 std::vector<std::filesystem::path> plugin_folders() {
-    namespace fs = std::filesystem;
-    std::vector<fs::path> folders;
+    std::vector<std::filesystem::path> folders;
     if (const char* given = std::getenv("BOLTWRIGHT_ARM_PLUGINS")) {
         std::istringstream list(given);
         for (std::string folder; std::getline(list, folder, ':');)
             if (!folder.empty()) folders.emplace_back(folder);
     }
-    const char* data = std::getenv("XDG_DATA_HOME");
-    const char* home = std::getenv("HOME");
-    if (data != nullptr && fs::path(data).is_absolute())
-        folders.push_back(fs::path(data) / "boltwright/arms");
-    else if (home != nullptr && *home != '\0')
-        folders.push_back(fs::path(home) / ".local/share/boltwright/arms");
+    if (const auto data = user_data_folder()) folders.push_back(*data / "arms");
     folders.emplace_back("/usr/lib/boltwright/arms");
     return folders;
 }
@@ -315,7 +310,8 @@ Result<int> count_plugin_arms(const std::filesystem::path& plugin) {
 
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer) {
     const std::string id = plugin_arm_id(options.plugin, options.index);
-    std::optional<ArmProcess> process = waiting_arms().take(id);
+    std::optional<ArmProcess> process =
+        options.waiting ? options.waiting->take(id) : std::optional<ArmProcess>();
     if (!process) {
         BOLT_TRY_ASSIGN(process, ArmProcess::start(options.plugin));
         BOLT_TRY(process->call(PluginCall::open, options.index));
@@ -326,7 +322,8 @@ Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& op
     BOLT_TRY_ASSIGN(const PluginReply calibrated, calibrate(*process, options, timer));
     if (calibrated.result != BW_ARM_DONE) {
         Error error = calibration_error(*process, calibrated, id);
-        if (calibrated.result == BW_ARM_NEEDS_USER) waiting_arms().keep(id, std::move(*process));
+        if (calibrated.result == BW_ARM_NEEDS_USER && options.waiting)
+            options.waiting->keep(id, std::move(*process));
         return fail(std::move(error));
     }
     BOLT_TRY(process->call(PluginCall::enable, 1));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,14 +24,19 @@ std::string plugin_arm_id(const std::filesystem::path& plugin, int index);
 // How many arms the plug-in has now, at most 16. Starts the plug-in for that.
 Result<int> count_plugin_arms(const std::filesystem::path& plugin);
 
+// The processes of arms that wait for their user, by id. Closed arms would begin their calibration again.
+class WaitingArms;
+std::shared_ptr<WaitingArms> make_waiting_arms();
+
 struct PluginArmOptions {
     std::filesystem::path plugin;
     int index = 0;          // of the arm, from 0
     bool may_move = false;  // the arm may move by itself to find its position, if it has not done so yet
+    std::shared_ptr<WaitingArms> waiting{};  // null: an arm that waits for its user is closed
 };
 
-// Opens arm `index`. Fails if it would have to move by itself and may not, or if the user must act; the arm
-// then stays open and goes on with its calibration when it is opened again.
+// Opens arm `index`. Fails if it would have to move by itself and may not, or if the user must act; with
+// `waiting` the arm then stays open and goes on with its calibration when it is opened again.
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer);
 
 }  // namespace bolt::device

@@ -41,8 +41,8 @@ Pose encoder_pose(const Arm& arm);
 // Moves arm and hand for `dt` s, a multiple of 25 µs, under a command that was sent at the beginning.
 void step(Arm& arm, const force::OutputCommand& command, double dt);
 
-// What a person does with the hand that holds a simulated arm. Totals since the beginning, so that none is
-// lost if the device reads only the latest.
+// The motion of the hand that holds a simulated arm. `moved` and `turned` are totals since the beginning, so
+// that no motion is lost if the device reads only the latest value.
 struct HandMotion {
     Vec3 moved{0.0};                  // m, along the axes of the device frame
     Quat turned{1.0, 0.0, 0.0, 0.0};  // unit, in the device frame

@@ -157,13 +157,8 @@ constexpr double longest_step = 0.5e-3;  // s
 // s without a read or write after which the hand jumps to the intended pose.
 constexpr double idle_reset = 0.05;
 
-tl::unexpected<Error> device_lost(const Description& description) {
-    Error error;
-    error.code = ErrorCode::no_device;
-    error.what = description.name + " is not plugged in";
-    error.expected = "a connected device";
-    error.lost = true;
-    return fail(std::move(error));
+tl::unexpected<Error> unplugged(const Description& description) {
+    return fail(lost_device(description.name + " is not plugged in", "a connected device"));
 }
 
 }  // namespace
@@ -182,11 +177,11 @@ class SimulatedDevice::Connection final : public DeviceDriver {
         const double until = device_.timer_.now() + timeout;
         if (device_.is_active(InjectedFault::silent) || due_ > until) {
             device_.timer_.wait(timeout);
-            if (device_.is_unplugged()) return device_lost(describe());
+            if (device_.is_unplugged()) return unplugged(describe());
             return std::optional<Sample>{};
         }
         device_.timer_.wait(due_ - device_.timer_.now());
-        if (device_.is_unplugged()) return device_lost(describe());
+        if (device_.is_unplugged()) return unplugged(describe());
         device_.advance();
         // Missed samples are skipped.
         due_ = std::max(due_, device_.now_.time - 1.0 / describe().rate) + 1.0 / describe().rate;
@@ -204,7 +199,7 @@ class SimulatedDevice::Connection final : public DeviceDriver {
     Status write(const force::OutputCommand& command) override {
         wait_if_stuck();
         if (device_.is_active(InjectedFault::slow)) device_.timer_.wait(slow_write_time);
-        if (device_.is_unplugged()) return device_lost(describe());
+        if (device_.is_unplugged()) return unplugged(describe());
         device_.advance();
         const force::OutputLimits& limits = describe().limits;
         device_.command_ = {force::clamp_length(command.force, limits.force),
@@ -230,7 +225,7 @@ SimulatedDevice::SimulatedDevice(SimulatedDeviceOptions design, Timer timer)
 
 DeviceFactory SimulatedDevice::factory() {
     return [this]() -> Result<std::unique_ptr<DeviceDriver>> {
-        if (is_unplugged()) return device_lost(options_.description);
+        if (is_unplugged()) return unplugged(options_.description);
         advance();
         return std::make_unique<Connection>(*this);
     };

@@ -49,9 +49,8 @@ struct Station::Shared {
         inputs.commands = std::span(received).first(count_received);
         if (hand) inputs.hand_grip = hand->grip();
         inputs.missed = deadline.missed;
-        const bool works = !inputs.controls.pause;
-        const DeviceCommands output = works ? station::tick(layout, setup, station, state, inputs)
-                                            : station::pause_tick(layout, setup, station, inputs);
+        const StationStep done = step(layout, setup, station, state, inputs, deadline.number);
+        const DeviceCommands& output = done.commands;
         if (mover) mover->command(output.mover, true);
         if (wheel) wheel->command(output.wheel, true);
         count(stats.mover, station.mover, output.mover);
@@ -60,10 +59,8 @@ struct Station::Shared {
         if (hand)
             hand->set_tool({held_tool_pose(layout, setup, station, inputs.controls),
                             station.wrench_rest.value_or(station.output.tool)});
-        const StationTick now{deadline.number,        station.input,       station.output,
-                              station.workspace.tool, station.wrench_rest, station.dead_man_pressed};
-        latest_tick.write(now);
-        if (works && !ticks.push(now)) lost_ticks.fetch_add(1, std::memory_order_relaxed);
+        latest_tick.write(done.tick);
+        if (!done.paused && !ticks.push(done.tick)) lost_ticks.fetch_add(1, std::memory_order_relaxed);
         return true;
     }
 };

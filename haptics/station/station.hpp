@@ -55,17 +55,6 @@ struct StationOptions {
 Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
                            std::optional<device::Description> wheel);
 
-// One tick, for recording.
-struct StationTick {
-    std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted
-    servo::Input input;
-    servo::Output output;
-    Pose tool;  // pose commanded by the hand, in the assembly's frame
-    // Pose of the wrench while no hand holds it (StationControls::wrench_rest).
-    std::optional<Pose> wrench_rest;
-    bool dead_man_pressed = false;  // by a button of a device
-};
-
 class Station {
   public:
     // Opens the devices and starts the threads. Fails if a device does not open in time, cannot take its

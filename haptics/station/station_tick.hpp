@@ -190,6 +190,26 @@ inline constexpr double handle_capture_distance = 0.10;  // m from the handle's 
 DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const StationInputs& inputs);
 
+// One tick, for recording.
+struct StationTick {
+    std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted
+    servo::Input input;
+    servo::Output output;
+    Pose tool;  // pose commanded by the hand, in the assembly's frame
+    // Pose of the wrench while no hand holds it (StationControls::wrench_rest).
+    std::optional<Pose> wrench_rest;
+    bool dead_man_pressed = false;  // by a button of a device
+};
+
+struct StationStep {
+    DeviceCommands commands;
+    StationTick tick;
+    bool paused = false;  // no servo tick, so nothing to record
+};
+// tick(), or pause_tick() while StationControls::pause is set. `number` goes to the tick.
+StationStep step(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
+                 const StationInputs& inputs, std::uint64_t number);
+
 // The following apply to a tool whose device senses velocity (Sensing::velocity).
 //
 // The commanded pose is at most this far ahead of the constrained pose, so that a reversal acts at once.

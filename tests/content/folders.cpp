@@ -38,15 +38,15 @@ TEST_CASE("Folders: the user's data follow the XDG base directory specification"
     const test::EnvironmentVariable home("HOME", "/home/ada");
     {
         const test::EnvironmentVariable data("XDG_DATA_HOME", "/somewhere");
-        CHECK(content::user_data_folder().value() == "/somewhere/boltwright");
+        CHECK(user_data_folder().value() == "/somewhere/boltwright");
     }
     {
         const test::EnvironmentVariable data("XDG_DATA_HOME",
                                              "not/absolute");  // the specification: ignore it
-        CHECK(content::user_data_folder().value() == "/home/ada/.local/share/boltwright");
+        CHECK(user_data_folder().value() == "/home/ada/.local/share/boltwright");
     }
     const test::EnvironmentVariable data("XDG_DATA_HOME", nullptr), no_home("HOME", nullptr);
-    CHECK_FALSE(content::user_data_folder());
+    CHECK_FALSE(user_data_folder());
     CHECK(content::assembly_folders().size() == 1);  // those of the content remain
 }
 

@@ -80,4 +80,13 @@ void check_unplugged(const device::DeviceFactory& open, const Pull& pull) {
     CHECK_FALSE(again.error().expected.empty());
 }
 
+// A timer that advances an emulated arm. Both arguments must outlive it; `advance` may be set later.
+inline device::Timer advancing_timer(double& now, void (*const& advance)(double seconds)) {
+    return {[&now] { return now; },
+            [&now, &advance](double seconds) {
+                now += std::max(seconds, 0.0);
+                advance(std::max(seconds, 0.0));
+            }};
+}
+
 }  // namespace bolt::test

@@ -38,11 +38,7 @@ struct Bench {
     ForceDimensionApi api;
     Controls arm;
     double now = 0.0;
-    Timer timer{[this] { return now; },
-                [this](double seconds) {
-                    now += std::max(seconds, 0.0);
-                    arm.advance(std::max(seconds, 0.0));
-                }};
+    Timer timer = advancing_timer(now, arm.advance);
 
     Bench() {
         const std::vector<std::filesystem::path> path{BOLT_EMULATED_FORCE_DIMENSION};

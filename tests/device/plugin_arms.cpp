@@ -35,6 +35,7 @@ void write_text(const fs::path& file, const std::string& text) { std::ofstream(f
 struct Bench {
     Folder folder;
     fs::path plugin = folder / "faulty_arm.so";
+    std::shared_ptr<WaitingArms> waiting = make_waiting_arms();
     EnvironmentVariable fault_file{"FAULTY_ARM", (folder / "fault").c_str()};
 
     Bench() { fs::copy_file(plugins / "faulty_arm.so", plugin); }
@@ -44,7 +45,7 @@ struct Bench {
         fs::rename(folder / "next", folder / "fault");
     }
     [[nodiscard]] Opened open(bool may_move = false) const {
-        return open_plugin_arm({plugin, 0, may_move}, steady_timer());
+        return open_plugin_arm({plugin, 0, may_move, waiting}, steady_timer());
     }
     [[nodiscard]] Opened open_with(const std::string& fault) const {
         show(fault);

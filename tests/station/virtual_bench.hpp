@@ -83,15 +83,12 @@ class VirtualBench final : public station_setup::LessonStation {
         inputs.commands = commands_;
         if (hand_) inputs.hand_grip = hand_->held ? servo::Grip::wrench : servo::Grip::none;
 
-        const bool works = !controls_.pause;
-        const station::DeviceCommands output = works ? station::tick(layout_, setup_, state_, servo_, inputs)
-                                                     : station::pause_tick(layout_, setup_, state_, inputs);
+        const station::StationStep done = station::step(layout_, setup_, state_, servo_, inputs, ++number_);
         commands_.clear();
-        mailboxes_.commands.write({output.mover, true, ++command_number_});
-        newest_ = {++number_,          state_.input,           state_.output, state_.workspace.tool,
-                   state_.wrench_rest, state_.dead_man_pressed};
+        mailboxes_.commands.write({done.commands.mover, true, ++command_number_});
+        newest_ = done.tick;
         if (std::exchange(garbles_, false)) newest_.input.device.position[0] += 1e-3F;
-        if (works) ticks_.push_back(newest_);
+        if (!done.paused) ticks_.push_back(newest_);
     }
 
     device::VirtualTime time_;

@@ -48,8 +48,8 @@ struct EmulatedHaplyOptions {
     std::string basis = "XYZ";
     double command_lifetime = 5e-3;  // s that one message keeps a force
     double answer_delay = 0.0;       // s from a message to its answer
-    // Of the hand with the arm.
-    double mass = 0.4;         // kg
+    // The hand that holds the arm.
+    double mass = 0.4;         // kg, of both
     double friction = 12.0;    // N·s/m
     double stiffness = 300.0;  // N/m, of the spring to the intended position
 };
@@ -74,7 +74,7 @@ class EmulatedHaply {
     [[nodiscard]] Vec3 force() const;              // N that acts on the hand now
     [[nodiscard]] std::uint64_t commands() const;  // messages with a force in the form of this version
     [[nodiscard]] std::uint64_t rejected() const;  // other messages
-    // Whether the fault has shown: in an answer, in its absence, or in an event that was sent.
+    // True once the fault has shown: in an answer, in its absence, or in an event that was sent.
     [[nodiscard]] bool fault_shown() const;
     // s from then until the last force on the hand ended; 0 if it had ended before.
     [[nodiscard]] double force_after_fault() const;

@@ -210,7 +210,7 @@ bool is_initialised() {
     return false;
 }
 
-// Whether a force may be set now.
+// Returns true if a force may be set now; otherwise notes the error.
 bool may_render() {
     if (!is_initialised()) return false;
     if (!arm.in_frame)
