@@ -250,8 +250,13 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
     const double torque = nut.torque;
     const double work = lesson.task == Task::loosen ? -torque : torque;
     const bool fingers = lesson.grip == servo::Grip::fingers;
-    if (!track.worked && (work > working_torque || (fingers && work > 0.01)))
-        begin_work(lesson, joint, world);
+    // A hand that lifts the wrench off the nut that it has just done can exert torque, but does not turn the
+    // nut.
+    const LessonStep* due = lesson.due();
+    const bool leaves = !fingers && due != nullptr && due->joint != joint &&
+                        lesson.last_held_joint == static_cast<int>(joint) && track.done_in_pass == due->pass;
+    const bool works = leaves ? nut.speed > turning_speed : work > working_torque || (fingers && work > 0.01);
+    if (!track.worked && works) begin_work(lesson, joint, world);
     track.peak_torque = std::max(track.peak_torque, work);
     update_turned_torque(lesson, joint, nut, work);
     report_excess_torque(lesson, joint, tick_of(world));

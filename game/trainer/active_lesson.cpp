@@ -58,7 +58,7 @@ DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active,
     scene.screen = screen;
     scene.wrench = hand_of(active).wrench;
     scene.tool = scene.wrench ? tool_of(active).pose : client.latest.tool;
-    scene.near_wrench = client.near_wrench;
+    scene.points_at_reachable = active.pointer.on_wrench || active.pointer.nut.has_value();
     scene.engaged = client.latest.output.joint >= 0;
     if (const auto nut = hand_of(active).nut)
         scene.nut = force::Pivot{world::nut_centre(world, setup, *nut), setup.nuts[*nut].axis};
@@ -99,8 +99,9 @@ void handle_input(const scene::SceneWorld& world, Frame& frame) {
     if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
     if (active.station) {
         StationClient& client = *active.station;
-        active.pointer.nut.reset();
-        active.pointer.on_wrench = client.near_wrench;
+        // A device's hand does not point: it takes what it is beside.
+        if (!client.dragged || active.pointer.nut != hand_of(active).nut) active.pointer.nut.reset();
+        active.pointer.on_wrench = client.near_wrench && (active.pointer.on_wrench || !client.dragged);
         active.pointer.drags_hand = client.dragged.has_value();
         if (client.dragged && !active.clock.paused)
             drag_hand(*client.dragged,

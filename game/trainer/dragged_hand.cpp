@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
+#include <utility>
 
 namespace bolt::trainer {
 
@@ -21,6 +22,10 @@ constexpr double finger_rate = 6.0;
 // 1/s: in the air the guiding force leads the hand, 2.7 cm/s for its largest force of 2.4 N. On a bolt the
 // hand holds what it has pulled.
 constexpr double air_yielding = 3.0;
+
+// A hand that lets a wrench go on a nut eases first, or the wrench would be as tense when it is taken again.
+constexpr double ease_time = 0.3;       // s
+constexpr double ease_yielding = 30.0;  // 1/s
 
 // A motion of the hand in the assembly's frame. The turn is about the tool's origin.
 struct Motion {
@@ -98,12 +103,17 @@ Motion mouse_motion(const DraggedHand& hand, const DragInput& input, const DragS
 }  // namespace
 
 void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene) {
-    if (input.mouse.pressed_at) hand.grasps = scene.near_wrench || scene.nut.has_value();
+    if (input.mouse.pressed_at) hand.grasps = scene.points_at_reachable;
     if (!input.mouse.left_down) hand.grasps = false;
-    const bool closed = (input.mouse.left_down && (hand.grasps || scene.wrench)) || input.keys.buttons != 0;
+    const bool let_go = std::exchange(hand.held, input.mouse.left_down) && !hand.held;
+    hand.easing =
+        let_go && scene.wrench && scene.engaged ? ease_time : std::max(0.0, hand.easing - input.seconds);
+    if (hand.held) hand.easing = 0.0;
+    const bool eases = hand.easing > 0.0;
+    const bool closed = (hand.held && (hand.grasps || scene.wrench)) || input.keys.buttons != 0 || eases;
     hand.motion.buttons = closed ? 1 : 0;
 
-    hand.motion.yielding = scene.engaged ? 0.0 : air_yielding;
+    hand.motion.yielding = eases ? ease_yielding : scene.engaged ? 0.0 : air_yielding;
     Motion motion = mouse_motion(hand, input, scene);
     motion.shift += key_speed * input.seconds * (scene.device * input.keys.along);
     motion.turn += key_turn_speed * input.seconds * (scene.device * input.keys.about);

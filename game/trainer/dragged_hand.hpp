@@ -17,7 +17,9 @@ namespace bolt::trainer {
 
 struct DraggedHand {
     device::HandMotion motion;  // sent to the arm
-    bool grasps = false;        // the left button was pressed beside the wrench or a nut
+    bool grasps = false;  // the left button was pressed on the wrench or the nut that the hand is beside
+    bool held = false;    // the left button, in the last frame
+    double easing = 0.0;  // s for which the hand still lets a wrench on a nut spring back before it opens
 };
 
 // The view, the tool and the nut beside it, in the assembly's frame.
@@ -25,7 +27,9 @@ struct DragScene {
     Screen screen;
     Pose tool;  // as it is drawn
     bool wrench = false;
-    bool near_wrench = false;         // the hand is beside the wrench that lies there
+    // The pointer is on the wrench or the nut that the hand is beside. A press elsewhere moves the open hand,
+    // so that it can leave them.
+    bool points_at_reachable = false;
     std::optional<force::Pivot> nut;  // that the hand holds or is beside
     bool engaged = false;             // it holds the nut
     double handle_length = 0.0;       // m

@@ -11,11 +11,13 @@ using namespace trainer;
 
 namespace {
 
-constexpr double gain = 0.25;       // of the visible error that one frame corrects
-constexpr double hover = 0.03;      // m above the nut
-constexpr double arrived = 0.008;   // m
-constexpr double notch = 0.02;      // m of a wheel's notch
-constexpr double pull_step = 0.03;  // rad of a frame
+const glm::dvec2 nowhere(2.0, 2.0);  // px, a corner of the picture
+constexpr double gain = 0.25;        // of the visible error that one frame corrects
+constexpr double hover = 0.03;       // m above the nut
+constexpr double arrived = 0.008;    // m
+constexpr double notch = 0.02;       // m of a wheel's notch
+constexpr double pull_step = 0.03;   // rad of a frame
+constexpr double aligned = to_radians(3.0);
 constexpr double stroke = to_radians(50.0);
 
 }  // namespace
@@ -32,10 +34,14 @@ Pose FreeHandUser::hand() const {
     return hand_of(lesson()).wrench ? tool_of(lesson()).pose : hand_of(lesson()).pose;
 }
 
-void FreeHandUser::hold(bool left) {
+void FreeHandUser::hold(bool left, const std::optional<Vec3>& at) {
     if (left == left_) return;
     left_ = left;
     presses += left ? 1 : 0;
+    if (left) {
+        pointer_ = at ? project(driver_.screen(), *at).value_or(nowhere) : nowhere;
+        driver_.move(pointer_);
+    }
     driver_.frame({platform::ButtonEvent{platform::Button::left, left, pointer_}});
 }
 
@@ -79,6 +85,9 @@ bool FreeHandUser::reach(double height, double longest) {
             at += handle;
             // Turning about −axis tightens; the misalignment is positive if the jaw is ahead.
             if (glm::length(level) < 0.05) error += seat.misalignment * glm::cross(up, handle);
+            // A jaw that does not fit would rest on the nut: align it above.
+            const bool fits = std::abs(seat.misalignment) < aligned;
+            if (height == 0.0 && !fits && above > -hover && above < 0.0) error += hover * up;
         }
         if ((height > 0.0 || !hand_of(lesson()).wrench) && glm::length(error) < arrived) return true;
         drag_by(at, error);
@@ -96,8 +105,8 @@ void FreeHandUser::run_down() {
     const std::size_t joint = due()->joint, step = lesson().session->lesson().current;
     hold(true);
     if (!reach(0.0, 8.0)) return;
-    hold(false);  // beside the nut: now the fingers close
-    hold(true);
+    hold(false);
+    hold(true, nut());  // beside the nut: now the fingers close
     for (const double until = now() + 20.0;
          going() && due() != nullptr && now() < until && lesson().session->lesson().current == step &&
          lesson().session->state().joints[joint].stage == joint::Stage::navigation;)
@@ -112,11 +121,12 @@ void FreeHandUser::tighten() {
     if (!hand_of(lesson()).wrench) {
         hold(false);
         driver_.key(platform::Key::home);
-        hold(true);
+        hold(true, hand_of(lesson()).rest * Vec3(0.05, 0.0, 0.0));
         for (int i = 0; i < 5; ++i) frame();
         return;
     }
     hold(true);
+    if (engaged() >= 0 && engaged() != static_cast<int>(due()->joint)) lift();
     if (engaged() < 0 && !(reach(hover, 10.0) && (reach(0.0, 6.0) || engaged() >= 0))) return;
     const std::size_t joint = due()->joint;
     const servo::Setup& setup = lesson().session->setup();
@@ -127,6 +137,7 @@ void FreeHandUser::tighten() {
         if (torque >= torque_share * due()->torque) {
             hold(false);
             for (int i = 0; i < 10; ++i) frame();
+            lift();
             return;
         }
         const double share = std::clamp(1.0 - torque / due()->torque, 0.1, 1.0);
@@ -136,23 +147,14 @@ void FreeHandUser::tighten() {
         swung += pull_step * share;
         frame(lever * (pull_step * share));
     }
-    set_back();
+    lift();
 }
 
-// Off the nut, back by 60°, and the handle again beside it.
-void FreeHandUser::set_back() {
-    if (!going() || due() == nullptr) return;
-    const Vec3 up = axis();
-    for (int i = 0;
-         i < 20 && going() && due() != nullptr && glm::dot(hand().position - nut(), up) < 0.8 * hover; ++i) {
-        const Vec3 grip = hand() * Vec3(lesson().session->setup().wrench.handle_length, 0.0, 0.0);
-        drag_by(grip, 0.02 * up / gain);
-    }
-    for (int i = 0; i < 12 && going() && due() != nullptr; ++i) {
-        const Vec3 handle =
-            hand().orientation * Vec3(lesson().session->setup().wrench.handle_length, 0.0, 0.0);
-        drag_by(hand().position + handle, to_radians(5.0) * glm::cross(up, handle) / gain);
-    }
+// Off the nut with the wheel, as a drag would swing the wrench.
+void FreeHandUser::lift() {
+    hold(true);
+    for (int i = 0; i < 60 && going() && engaged() >= 0; ++i) frame({}, -0.5);
+    for (int i = 0; i < 4 && going(); ++i) frame({}, -0.5);
 }
 
 void FreeHandUser::play(double longest, std::size_t steps) {

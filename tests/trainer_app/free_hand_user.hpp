@@ -26,7 +26,8 @@ class FreeHandUser {
     [[nodiscard]] Vec3 axis() const;
     [[nodiscard]] Pose hand() const;
 
-    void hold(bool left);
+    // Presses or releases the left button; presses at `at` (m, assembly) if given, else where nothing is.
+    void hold(bool left, const std::optional<Vec3>& at = {});
     // Moves the pointer by a drag of `px` and the wheel by `notches` in a frame.
     void frame(const glm::dvec2& px = glm::dvec2(0.0), double notches = 0.0);
     // Drags `at` by a part of `error` (m).
@@ -36,7 +37,7 @@ class FreeHandUser {
     bool reach(double height, double longest);
     void run_down();
     void tighten();
-    void set_back();
+    void lift();
 
     HeadlessTrainer& driver_;
     glm::dvec2 pointer_{80.0, 45.0};
