@@ -146,9 +146,11 @@ SimulatedTrainee::SimulatedTrainee(SimulatedTrainee&&) noexcept = default;
 SimulatedTrainee& SimulatedTrainee::operator=(SimulatedTrainee&&) noexcept = default;
 SimulatedTrainee::~SimulatedTrainee() = default;
 
-servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State& state,
-                                   const lesson::Lesson& lesson) {
-    TraineeState& t = *state_;
+namespace {
+
+// Perceives the tick before and advances the phase. The hand has not moved yet.
+Intention advance(TraineeState& t, const servo::Setup& setup, const servo::State& state,
+                  const lesson::Lesson& lesson) {
     t.setup = &setup;
     t.servo_state = &state;
     t.lesson = &lesson;
@@ -157,10 +159,9 @@ servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State
         t.visibility.eye = lesson.assembly->views.front().eye;
     t.time += setup.dt;
 
-    servo::Input input;
-    input.enabled = true;
+    Intention intention;
     const lesson::LessonStep* due = lesson.due();
-    if (due != nullptr && lesson.guides) input.guide = static_cast<std::int16_t>(due->joint);
+    if (due != nullptr && lesson.guides) intention.guide = static_cast<std::int16_t>(due->joint);
     // A hand that holds a nut does not yield to forces; a free hand does. While the wrench is being lowered
     // the jaw may already be on the nut, but the hand does not hold it yet.
     const bool holds_nut = state.engagement.joint >= 0 && t.phase != Phase::lower;
@@ -171,7 +172,7 @@ servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State
         felt_torque(setup.torque_rendering, t.nut(), t.hand.orientation * Vec3(1, 0, 0), output);
     const Percept& felt = t.perception.update(holds_nut ? torque : 0.0, t.handle_angle, t.joint().nut.speed,
                                               holds_nut, holds_nut && state.engagement.swung > 0.0);
-    Pose pose = step_phase(t, felt, input.grip);
+    Pose pose = step_phase(t, felt, intention.grip);
     if (t.phase != Phase::done) {
         pose.position += t.tremor.at(t.time) * t.profile.tremor;
         if (t.phase == Phase::pull) {
@@ -179,23 +180,53 @@ servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State
             pose.orientation = motion::tool_orientation(t.nut(), t.handle_angle + sway, t.flipped);
         }
     }
+    if (t.obstacles() != nullptr && t.holds_wrench) intention.grip = Grip::wrench;
+    intention.tool = pose;
+    intention.holds_nut = holds_nut;
+    return intention;
+}
+
+}  // namespace
+
+servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State& state,
+                                   const lesson::Lesson& lesson) {
+    TraineeState& t = *state_;
+    const Intention intention = advance(t, setup, state, lesson);
+    const bool holds_nut = intention.holds_nut;
     // The intended pose may have jumped; the hand stays in place.
-    if (holds_nut != t.held_nut || t.intended_pose_jumped) reset_arm(t.arm, t.hand, pose);
+    if (holds_nut != t.held_nut || t.intended_pose_jumped) reset_arm(t.arm, t.hand, intention.tool);
     t.held_nut = holds_nut;
     t.intended_pose_jumped = false;
-    t.hand = step_arm(t.profile.impedance, t.arm, pose, output, holds_nut, setup.dt);
-    if (t.obstacles() != nullptr && t.holds_wrench) {
-        input.grip = Grip::wrench;
-        if (t.obstacles()->in_hand) {
-            const Pose& wrench = t.obstacles()->god_object.tool;
-            retreat_if_caught(t, pose, wrench);
-            if (holds_nut) t.hand = motion::yield_to_wrench(t.hand, wrench);
-        }
+    const force::OutputCommand output{state.output.output.force, state.output.output.torque};
+    t.hand = step_arm(t.profile.impedance, t.arm, intention.tool, output, holds_nut, setup.dt);
+    if (t.obstacles() != nullptr && t.holds_wrench && t.obstacles()->in_hand) {
+        const Pose& wrench = t.obstacles()->god_object.tool;
+        retreat_if_caught(t, intention.tool, wrench);
+        if (holds_nut) t.hand = motion::yield_to_wrench(t.hand, wrench);
     }
+    servo::Input input;
+    input.enabled = true;
+    input.guide = intention.guide;
+    input.grip = intention.grip;
     input.device = servo::commanded_tool(t.hand);
-    report_visibility(t, due);
+    report_visibility(t, lesson.due());
     return input;
 }
+
+Intention SimulatedTrainee::intend(const servo::Setup& setup, const servo::State& state,
+                                   const lesson::Lesson& lesson, const Pose& hand) {
+    TraineeState& t = *state_;
+    t.hand = hand;
+    const Intention intention = advance(t, setup, state, lesson);
+    t.held_nut = intention.holds_nut;
+    t.intended_pose_jumped = false;
+    if (t.obstacles() != nullptr && t.holds_wrench && t.obstacles()->in_hand)
+        retreat_if_caught(t, intention.tool, t.obstacles()->god_object.tool);
+    report_visibility(t, lesson.due());
+    return intention;
+}
+
+const Pose& SimulatedTrainee::hand() const { return state_->hand; }
 
 std::vector<lesson::LessonEvent> SimulatedTrainee::take_events() { return std::exchange(state_->events, {}); }
 

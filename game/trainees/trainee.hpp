@@ -18,6 +18,14 @@ namespace bolt::trainees {
 
 struct TraineeState;  // behaviour.hpp
 
+// The pose that a trainee wants the tool to have, and its grip.
+struct Intention {
+    Pose tool;  // in the assembly's frame
+    servo::Grip grip = servo::Grip::none;
+    std::int16_t guide = -1;  // joint that the guiding force leads to; −1: none
+    bool holds_nut = false;   // the hand turns a nut, or waits on it, and does not give way to forces
+};
+
 class SimulatedTrainee {
   public:
     // `help` provides a view when the trainee sees too little. Without it the trainee only moves its head.
@@ -29,6 +37,14 @@ class SimulatedTrainee {
 
     // Returns the input for the next tick from the percepts after the last one. Deterministic in the seed.
     servo::Input act(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson);
+
+    // As act(), for a trainee that holds a force-feedback arm: returns its intention and leaves it to the arm
+    // how far the hand follows. `hand`: the pose of the tool that the arm commands now.
+    Intention intend(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson,
+                     const Pose& hand);
+
+    // The pose of the tool that the hand commands; before the first tick, where it begins.
+    [[nodiscard]] const Pose& hand() const;
 
     // Returns and clears the events since the last call: one of kind `visibility` for each change of the
     // visible fraction of the due nut.

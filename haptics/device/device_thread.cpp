@@ -33,10 +33,23 @@ bool DeviceSupervisor::expects_samples() const {
     return report_.description->sensing != Sensing::velocity && !report_.description->silent_at_rest;
 }
 
+namespace {
+
+// m from the middle of an arm's reach within which a position makes sense, in units of the reach; for an arm
+// of unknown reach, in m.
+constexpr double plausible_reaches = 4.0, plausible_distance = 2.0;
+
+bool is_within_reach(const Vec3& position, const Vec3& reach) {
+    const double half = std::max({reach.x, reach.y, reach.z});
+    return glm::length(position) <= (half > 0.0 ? plausible_reaches * half : plausible_distance);
+}
+
+}  // namespace
+
 bool DeviceSupervisor::is_valid(const Sample& s) const {
     switch (report_.description->sensing) {
         case Sensing::pose:
-            return finite(s.pose.position) &&
+            return finite(s.pose.position) && is_within_reach(s.pose.position, report_.description->reach) &&
                    std::abs(glm::dot(s.pose.orientation, s.pose.orientation) - 1.0) < 1e-2;
         case Sensing::velocity:
             return finite(s.velocity) && finite(s.angular_velocity);

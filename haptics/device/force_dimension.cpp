@@ -24,6 +24,7 @@ constexpr std::array brake_causes{"",
                                   "the USB cable was unplugged",
                                   "the dead-man switch was released"};
 
+constexpr int time_guard = 1;        // result: the device has sent nothing new
 constexpr double period = 1e-3;      // s between two samples
 constexpr int status_interval = 20;  // samples between two queries of the status
 
@@ -131,8 +132,9 @@ class ForceDimensionArm final : public DeviceDriver {
         if (++since_status_ >= status_interval) BOLT_TRY(check_status());
         Vec3 position(0.0);
         double rotation[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        if (api_.get_frame(&position.x, &position.y, &position.z, rotation, id_) < 0)
-            return fail(arm_error(api_, description_.name, "its position cannot be read"));
+        const int result = api_.get_frame(&position.x, &position.y, &position.z, rotation, id_);
+        if (result < 0) return fail(arm_error(api_, description_.name, "its position cannot be read"));
+        if (result == time_guard) return std::optional<Sample>{};  // the last one again
         Sample sample;
         sample.pose = {ours(position), ours(rotation)};
         sample.buttons = api_.get_button_mask(id_);

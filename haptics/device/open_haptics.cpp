@@ -159,6 +159,7 @@ class OpenHapticsArm final : public DeviceDriver {
     Result<std::optional<Sample>> read(double timeout) override {
         wait_for(timeout, [&] { return report_.number != read_ || report_.fault != 0; });
         if (report_.fault != 0) return fail(lost());
+        if (timer_.now() - report_.time > open_haptics::longest_frame) api_.disable(force_output);
         if (report_.number == read_) return std::optional<Sample>{};
         read_ = report_.number;
         return std::optional<Sample>(report_.sample);

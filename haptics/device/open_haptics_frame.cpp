@@ -59,7 +59,8 @@ unsigned FrameCallback::run(void* self) {
 void FrameCallback::run_frame() {
     const double now = timer_.now();
     const double elapsed = std::max(now - before_, 0.0);
-    before_ = now;
+    before_ = report_.time = now;
+    if (elapsed > longest_frame) strength_ = 0.0;
     api_.begin_frame(id_);
     if (report_.calibration == calibrated) {
         const std::optional<Pose> pose = pose_in(get_doubles(api_, get_transform), arm_.senses_rotation);

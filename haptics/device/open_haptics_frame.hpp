@@ -49,7 +49,12 @@ struct TimedCommand {
     double time = -1e9;  // s, when it was written
 };
 
+// s without a frame after which the device thread switches the forces off, because the library keeps
+// rendering the last one. The first frame after it switches them on again, and the force grows from zero.
+inline constexpr double longest_frame = 15e-3;
+
 struct FrameReport {
+    double time = 0.0;  // s, of the frame
     Sample sample;
     std::uint64_t number = 0;  // counts the valid samples of a calibrated arm
     unsigned calibration = 0;  // as the library reports it; 0: not checked yet

@@ -142,6 +142,16 @@ void set_heading_and_grip(const Layout& layout, StationState& s, const Quat& hea
     force::realign(layout.workspace, s.workspace, s.hand, s.workspace.tool);
 }
 
+// Returns true if a hand cannot have moved from one sample to the next: the position is measured anew, or one
+// of the samples is wrong.
+bool has_jumped(const Description& mover, const Pose& before, const Pose& now) {
+    const force::OutputLimits& limits = mover.limits;
+    const double between = mover.rate > 0.0 ? 1.0 / mover.rate : 0.0;  // s
+    return glm::distance(before.position, now.position) > limits.jump + limits.speed * between ||
+           glm::length(turn_between(before.orientation, now.orientation)) >
+               limits.angular_jump + limits.angular_speed * between;
+}
+
 void move(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
           const Quat& view, bool clutch, double dt) {
     if (layout.mover->sensing == Sensing::velocity) {
@@ -150,10 +160,12 @@ void move(const Layout& layout, const servo::Setup& setup, StationState& s, cons
         return;
     }
     if (s.mover.fresh) {
+        const bool jumped = has_jumped(*layout.mover, s.hand, snapshot.sample.pose);
         s.hand = snapshot.sample.pose;
-        if (snapshot.opening != s.mover.opening) {
+        // The tool stays where it is and follows from there.
+        if (snapshot.opening != s.mover.opening || jumped) {
             force::realign(layout.workspace, s.workspace, s.hand, s.workspace.tool);
-            s.workspace.share = 0.0;
+            s.workspace.share = s.mover.force_share = 0.0;
         }
         s.mover.opening = snapshot.opening;
     }

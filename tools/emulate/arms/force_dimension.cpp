@@ -8,13 +8,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace {
 
 using Vector = std::array<double, 3>;
 
 constexpr int no_error = 0, error_no_device = 5, error_not_ready = 12, error_in_use = 20;
-constexpr int motor_saturated = 2, cause_speed = 2, cause_software = 4;
+constexpr int time_guard = 1, motor_saturated = 2, cause_speed = 2, cause_software = 4;
 constexpr double encoder_step = 10e-6;  // m
 constexpr double dt = 25e-6;            // s
 constexpr char arm_id = 0;
@@ -25,7 +26,8 @@ struct Arm {
     std::array<Vector, 3> rotation{Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}};  // rows
     double time = 0.0, max_force = 1e9, max_torque = 1e9, speed_limit = 2.0;
     bool open = false, initialized = false, enabled = false, braked = true, unplugged = false, in_use = false,
-         active_wrist = false;
+         active_wrist = false, stale = false, corrupt = false, millimetres = false;
+    Vector measured{};
     int cause = 0, searches = 0;
     unsigned buttons = 0;
 };
@@ -120,6 +122,9 @@ void emu_unplug(int on) {
 }
 void emu_in_use(int on) { arm.in_use = on != 0; }
 void emu_speed_limit(double v) { arm.speed_limit = v; }
+void emu_stale(int on) { arm.stale = on != 0; }
+void emu_corrupt(int on) { arm.corrupt = on != 0; }
+void emu_millimetres(int on) { arm.millimetres = on != 0; }
 void emu_position(double xyz[3]) { std::copy(arm.position.begin(), arm.position.end(), xyz); }
 void emu_force(double force[6]) {
     const Arm none{};
@@ -196,10 +201,13 @@ int dhdGetStatus(int* status, char id) {
 int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double rotation[3][3], char id) {
     if (!reaches(id)) return -1;
     double* const out[] = {x, y, z};
-    for (std::size_t i = 0; i < 3; ++i) *out[i] = encoder_step * std::round(arm.position[i] / encoder_step);
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!arm.stale) arm.measured[i] = encoder_step * std::round(arm.position[i] / encoder_step);
+        *out[i] = arm.corrupt ? std::numeric_limits<double>::quiet_NaN()
+                              : (arm.millimetres ? 1e3 : 1.0) * arm.measured[i];
         std::copy(arm.rotation[i].begin(), arm.rotation[i].end(), rotation[i]);
-    return 0;
+    }
+    return arm.stale ? time_guard : 0;
 }
 unsigned dhdGetButtonMask(char id) { return reaches(id) ? arm.buttons : 0U; }
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,

@@ -25,6 +25,9 @@ void emu_buttons(unsigned mask);
 void emu_unplug(int on);
 void emu_in_use(int on);         // another program has opened the arm
 void emu_speed_limit(double v);  // m/s above which it brakes; 2 by default
+void emu_stale(int on);          // the library returns the last position again, and says so
+void emu_corrupt(int on);        // positions are not numbers
+void emu_millimetres(int on);    // positions are in mm
 
 // What an observer sees.
 void emu_position(double xyz[3]);  // m

@@ -1,58 +1,13 @@
-// An emulated Haply service on this computer, with one Inverse3 and a grip that a hand holds: mass, friction,
-// and a spring to an intended position. SI units; the service's frame (x to the right, y forward, z up) with
-// its origin in the middle of the reach. Messages: Haply's documentation of the service, 3.1 to 3.5.
+// An emulated Haply service on this computer, with one Inverse3 and a grip (haply_model.hpp), in the time of
+// the computer.
 #pragma once
 
-#include <cstdint>
 #include <memory>
-#include <string>
 
-#include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
+#include "tools/emulate/arms/haply_model.hpp"
 
 namespace bolt::emulate {
-
-enum class HaplyGrip : std::uint8_t { none, wired, wireless };
-
-enum class HaplyFault : std::uint8_t {
-    none,
-    // Instead of the next answer:
-    close,     // the connection ends
-    silence,   // nothing, from now on
-    nonsense,  // text that is not JSON
-    array,     // JSON that is no object
-    huge,      // 200 kB
-    // In every answer from now on:
-    null_position,
-    text_position,
-    no_position,
-    overflow,     // a number beyond the range of double
-    millimetres,  // positions in the wrong unit
-    turn,         // an orientation that is no unit quaternion
-    uncalibrated,
-    missing,  // the arm is not among the devices
-    // The arm renders no more force, and an event says so:
-    disconnected,
-    brake,
-    stall,
-};
-
-struct EmulatedHaplyOptions {
-    std::uint16_t port = 0;           // of the states; 0: any. Events are at port + 19.
-    std::string version = "3.5.0.0";  // before 3.5 it answers /version at port - 1; empty: at no port
-    HaplyGrip grip = HaplyGrip::wireless;
-    bool arm = true;
-    bool calibrated = true;
-    bool centred = false;           // positions are from the middle of the reach, not from the base
-    std::string type = "inverse3";  // empty: not reported
-    std::string basis = "XYZ";
-    double command_lifetime = 5e-3;  // s that one message keeps a force
-    double answer_delay = 0.0;       // s from a message to its answer
-    // The hand that holds the arm.
-    double mass = 0.4;         // kg, of both
-    double friction = 12.0;    // N·s/m
-    double stiffness = 300.0;  // N/m, of the spring to the intended position
-};
 
 class EmulatedHaply {
   public:

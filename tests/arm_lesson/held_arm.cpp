@@ -1,0 +1,277 @@
+#include "tests/arm_lesson/held_arm.hpp"
+
+#include <doctest/doctest.h>
+
+#include "haptics/device/force_dimension.hpp"
+#include "haptics/device/haply_messages.hpp"
+#include "haptics/device/open_haptics.hpp"
+#include "haptics/device/vendor_library.hpp"
+#include "tests/device/driver_contract.hpp"
+#include "tools/emulate/arms/force_dimension.h"
+#include "tools/emulate/arms/haply_model.hpp"
+#include "tools/emulate/arms/open_haptics.h"
+
+namespace bolt::test {
+
+namespace {
+
+device::VendorLibrary emulated(const char* path) {
+    const std::vector<std::filesystem::path> paths{path};
+    auto library = device::VendorLibrary::open(paths);
+    REQUIRE_MESSAGE(library, (library ? "" : library.error().message()));
+    return std::move(*library);
+}
+
+struct ForceDimensionControls {
+    double now = 0.0;
+    decltype(emu_reset)* reset = nullptr;
+    decltype(emu_advance)* advance = nullptr;
+    decltype(emu_intend)* intend = nullptr;
+    decltype(emu_turn)* turn = nullptr;
+    decltype(emu_initialized)* initialized = nullptr;
+    decltype(emu_active_wrist)* active_wrist = nullptr;
+    decltype(emu_buttons)* buttons = nullptr;
+    decltype(emu_unplug)* unplug = nullptr;
+    decltype(emu_speed_limit)* speed_limit = nullptr;
+    decltype(emu_stale)* stale = nullptr;
+    decltype(emu_corrupt)* corrupt = nullptr;
+    decltype(emu_millimetres)* millimetres = nullptr;
+    decltype(emu_force)* force = nullptr;
+};
+
+struct OpenHapticsControls {
+    double now = 0.0;
+    decltype(emu_hd_reset)* reset = nullptr;
+    decltype(emu_hd_advance)* advance = nullptr;
+    decltype(emu_hd_intend)* intend = nullptr;
+    decltype(emu_hd_turn)* turn = nullptr;
+    decltype(emu_hd_buttons)* buttons = nullptr;
+    decltype(emu_hd_unplug)* unplug = nullptr;
+    decltype(emu_hd_speed_limit)* speed_limit = nullptr;
+    decltype(emu_hd_heat)* heat = nullptr;
+    decltype(emu_hd_corrupt)* corrupt = nullptr;
+    decltype(emu_hd_raise)* raise = nullptr;
+    decltype(emu_hd_late)* late = nullptr;
+    decltype(emu_hd_switch_off)* switch_off = nullptr;
+    decltype(emu_hd_force)* force = nullptr;
+};
+
+constexpr Vec3 touch_centre(0.0, 0.01, 0.01);  // m, of the box that the emulated Touch reports
+constexpr unsigned fault_of_the_arm = 0x300, too_much_force = 0x201;
+
+// A direction in our axes from the vendor's, which have x to the user, y to the right and z up, and back.
+Vec3 ours(const double v[3]) { return {v[1], v[2], v[0]}; }
+Vec3 theirs(const Vec3& v) { return {v.z, v.x, v.y}; }
+
+}  // namespace
+
+namespace {
+
+struct HaplyArmAndTime {
+    double now = 0.0;
+    emulate::HaplyArmModel model{{}};
+};
+
+// One message and its answer each millisecond, as the driver does.
+class MessagedHaply final : public device::DeviceDriver {
+  public:
+    MessagedHaply(std::shared_ptr<HaplyArmAndTime> arm, device::Timer timer, device::HaplyInventory inventory)
+        : arm_(std::move(arm)), timer_(std::move(timer)), inventory_(std::move(inventory)) {
+        // As haply.cpp describes an Inverse3.
+        description_.name = "Haply Inverse3";
+        description_.id = "haply:0";
+        description_.renders = {true, true, true, false, false, false};
+        description_.limits.force = 10.0;
+        description_.limits.torque = description_.limits.torsion = 0.0;
+        description_.limits.stiffness = 1000.0;
+        description_.limits.damping = 5.0;
+        description_.limits.angular_damping = 0.0;
+        description_.limits.delay = 3;
+        description_.reach = Vec3(0.1);
+        description_.buttons = 3;
+    }
+
+    [[nodiscard]] const device::Description& describe() const override { return description_; }
+
+    Result<std::optional<device::Sample>> read(double timeout) override {
+        timer_.wait(std::min(timeout, 1e-3));
+        const auto answer =
+            arm_->model.answer(device::haply_force_message(inventory_.arms.front(), force_, false));
+        if (!answer) return fail(device::lost_device("the service closed the connection", "the service"));
+        if (answer->empty()) return std::optional<device::Sample>{};
+        BOLT_TRY_ASSIGN(const auto state, device::parse_haply_state(*answer, inventory_.arms.front(),
+                                                                    &inventory_.grips.front()));
+        device::Sample sample;
+        sample.pose = {state.position, state.orientation.value_or(Quat(1.0, 0.0, 0.0, 0.0))};
+        sample.velocity = state.velocity;
+        sample.buttons = state.buttons;
+        sample.time = timer_.now();
+        return std::optional<device::Sample>(sample);
+    }
+    Status write(const force::OutputCommand& command) override {
+        force_ = force::clamp_length(command.force, description_.limits.force);
+        return {};
+    }
+
+  private:
+    std::shared_ptr<HaplyArmAndTime> arm_;
+    device::Timer timer_;
+    device::HaplyInventory inventory_;
+    device::Description description_;
+    Vec3 force_{0.0};
+};
+
+// The service's frame has x to the right, y forward and z up.
+Vec3 service_axes(const Vec3& v) { return {v.x, -v.z, v.y}; }
+Vec3 our_axes(const Vec3& v) { return {v.x, v.z, -v.y}; }
+
+}  // namespace
+
+std::unique_ptr<HeldArm> haply_arm() {
+    using emulate::HaplyFault;
+    auto arm = std::make_unique<HeldArm>();
+    const auto held = std::make_shared<HaplyArmAndTime>();
+    arm->name = "Haply";
+    arm->timer = {[held] { return held->now; },
+                  [held](double seconds) {
+                      held->now += seconds;
+                      held->model.advance(seconds);
+                  }};
+    arm->open = [held, timer = arm->timer]() -> Result<std::unique_ptr<device::DeviceDriver>> {
+        BOLT_TRY_ASSIGN(auto inventory, device::parse_haply_inventory(held->model.inventory()));
+        if (inventory.arms.empty() || !inventory.arms.front().calibrated)
+            return fail(device::lost_device("there is no calibrated arm", "one"));
+        return std::make_unique<MessagedHaply>(held, timer, std::move(inventory));
+    };
+    arm->intend = [held](const Pose& pose) {
+        held->model.intention = service_axes(pose.position);
+        const Quat& q = pose.orientation;
+        held->model.orientation = {q.w, q.x, -q.z, q.y};
+    };
+    arm->press = [held](std::uint32_t buttons) { held->model.buttons = buttons; };
+    arm->force = [held] { return force::OutputCommand{our_axes(held->model.force()), {}}; };
+    const auto fault = [&](const char* name, HaplyFault kind) {
+        arm->faults.push_back({name, [held, kind] { held->model.set_fault(kind); },
+                               [held] { held->model.set_fault(HaplyFault::none); }});
+    };
+    fault("silence", HaplyFault::silence);
+    fault("nonsense", HaplyFault::nonsense);
+    fault("no position", HaplyFault::null_position);
+    fault("millimetres", HaplyFault::millimetres);
+    fault("no unit quaternion", HaplyFault::turn);
+    fault("uncalibrated", HaplyFault::uncalibrated);
+    fault("missing", HaplyFault::missing);
+    fault("closed", HaplyFault::close);
+    return arm;
+}
+
+std::unique_ptr<HeldArm> force_dimension_arm(bool active) {
+    auto arm = std::make_unique<HeldArm>();
+    const auto c = std::make_shared<ForceDimensionControls>();
+    auto library = emulated(BOLT_EMULATED_FORCE_DIMENSION);
+    library.find("emu_reset", c->reset);
+    library.find("emu_advance", c->advance);
+    library.find("emu_intend", c->intend);
+    library.find("emu_turn", c->turn);
+    library.find("emu_initialized", c->initialized);
+    library.find("emu_active_wrist", c->active_wrist);
+    library.find("emu_buttons", c->buttons);
+    library.find("emu_unplug", c->unplug);
+    library.find("emu_speed_limit", c->speed_limit);
+    library.find("emu_stale", c->stale);
+    library.find("emu_corrupt", c->corrupt);
+    library.find("emu_millimetres", c->millimetres);
+    library.find("emu_force", c->force);
+    REQUIRE(library.check());
+    c->reset();
+    c->initialized(1);
+    c->active_wrist(active ? 1 : 0);
+    const auto api = device::load_force_dimension({BOLT_EMULATED_FORCE_DIMENSION});
+    REQUIRE(api);
+    arm->name = active ? "Force Dimension, motors in the wrist" : "Force Dimension";
+    arm->timer = advancing_timer(c->now, c->advance);
+    arm->open = [api = *api, timer = arm->timer] {
+        return device::open_force_dimension(api, {0, false}, timer);
+    };
+    arm->intend = [c](const Pose& pose) {
+        const Vec3 at = theirs(pose.position);
+        c->intend(at.x, at.y, at.z);
+        double rotation[3][3];
+        const Vec3 columns[] = {theirs(pose.orientation * Vec3(0, 0, 1)),
+                                theirs(pose.orientation * Vec3(1, 0, 0)),
+                                theirs(pose.orientation * Vec3(0, 1, 0))};
+        for (int column = 0; column < 3; ++column)
+            for (int row = 0; row < 3; ++row) rotation[row][column] = columns[column][row];
+        c->turn(rotation);
+    };
+    arm->press = [c](std::uint32_t buttons) { c->buttons(buttons); };
+    arm->force = [c] {
+        double out[6];
+        c->force(out);
+        return force::OutputCommand{ours(out), ours(out + 3)};
+    };
+    arm->faults = {{"unplugged", [c] { c->unplug(1); }, [c] { c->unplug(0); }},
+                   {"braked", [c] { c->speed_limit(0.0); }, [c] { c->speed_limit(2.0); }},
+                   {"stale frames", [c] { c->stale(1); }, [c] { c->stale(0); }},
+                   {"not a number", [c] { c->corrupt(1); }, [c] { c->corrupt(0); }},
+                   {"millimetres", [c] { c->millimetres(1); }, [c] { c->millimetres(0); }}};
+    return arm;
+}
+
+std::unique_ptr<HeldArm> open_haptics_arm() {
+    auto arm = std::make_unique<HeldArm>();
+    const auto c = std::make_shared<OpenHapticsControls>();
+    auto library = emulated(BOLT_EMULATED_OPEN_HAPTICS);
+    library.find("emu_hd_reset", c->reset);
+    library.find("emu_hd_advance", c->advance);
+    library.find("emu_hd_intend", c->intend);
+    library.find("emu_hd_turn", c->turn);
+    library.find("emu_hd_buttons", c->buttons);
+    library.find("emu_hd_unplug", c->unplug);
+    library.find("emu_hd_speed_limit", c->speed_limit);
+    library.find("emu_hd_heat", c->heat);
+    library.find("emu_hd_corrupt", c->corrupt);
+    library.find("emu_hd_raise", c->raise);
+    library.find("emu_hd_late", c->late);
+    library.find("emu_hd_switch_off", c->switch_off);
+    library.find("emu_hd_force", c->force);
+    REQUIRE(library.check());
+    c->reset();
+    const auto api = device::load_open_haptics({BOLT_EMULATED_OPEN_HAPTICS});
+    REQUIRE(api);
+    arm->name = "OpenHaptics";
+    arm->timer = advancing_timer(c->now, c->advance);
+    arm->open = [api = *api, timer = arm->timer] { return device::open_open_haptics(api, timer); };
+    arm->intend = [c](const Pose& pose) {
+        const Vec3 at = pose.position + touch_centre;
+        c->intend(at.x, at.y, at.z);
+        const double gimbal[3] = {};
+        double rotation[3][3];
+        for (int column = 0; column < 3; ++column) {
+            Vec3 unit(0.0);
+            unit[column] = 1.0;
+            const Vec3 turned = pose.orientation * unit;
+            for (int row = 0; row < 3; ++row) rotation[row][column] = turned[row];
+        }
+        c->turn(gimbal, rotation);
+    };
+    arm->press = [c](std::uint32_t buttons) { c->buttons(static_cast<int>(buttons)); };
+    arm->force = [c] {
+        double out[6];
+        c->force(out);
+        return force::OutputCommand{{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
+    };
+    arm->faults = {
+        {"unplugged", [c] { c->unplug(1); }, [c] { c->unplug(0); }},
+        {"too fast", [c] { c->speed_limit(0.0); }, [c] { c->speed_limit(2.0); }},
+        {"warm", [c] { c->heat(1.0); }, [c] { c->heat(0.0); }},
+        {"saturated", [c] { c->raise(too_much_force); }, [] {}, false},
+        {"a fault of the arm", [c] { c->raise(fault_of_the_arm); }, [] {}, false},
+        {"not a number", [c] { c->corrupt(1); }, [c] { c->corrupt(0); }},
+        {"stalled", [c] { c->late(0.5); }, [] {}},
+        {"switched off", [c] { c->switch_off(); }, [] {}},
+    };
+    return arm;
+}
+
+}  // namespace bolt::test
