@@ -326,7 +326,7 @@ void spin(TraineeState& t, const Percept& felt) {
     t.handle_angle += t.profile.spin_speed * t.setup->dt * motion::minimum_jerk(t.elapsed() / 0.1);
     // The torque of fingertips is too small for the device's scale, so the trainee sees that the nut is
     // seated.
-    const bool started = t.elapsed() > 0.1 + t.profile.reaction;
+    const bool started = t.elapsed() > 0.1 + t.profile.reaction + t.arm_lag;
     t.intent.finished = started && felt.nut_speed < seated_speed * t.profile.spin_speed;
     if (t.intent.finished || t.handle_angle - t.stroke_start > to_radians(spin_stroke))
         t.enter(Phase::spin_back, t.intent.finished ? 0.3 : 0.12);

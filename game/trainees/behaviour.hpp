@@ -93,6 +93,7 @@ struct TraineeState {
     double reported_visibility = -1.0;        // 0…1, the value of the last event
     std::size_t reported_joint = SIZE_MAX;    // the joint of the last event
     ArmDeflection arm;
+    double arm_lag = 0.0;               // s by which a force-feedback arm follows the hand
     Pose hand;                          // actual pose of the hand
     bool held_nut = false;              // held a nut in the last tick
     bool intended_pose_jumped = false;  // the intended pose jumps in this tick; the hand must not

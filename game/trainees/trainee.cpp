@@ -16,6 +16,7 @@ using servo::Grip;
 
 constexpr double frame_time = 1.0 / 60.0;   // s
 constexpr double alignment_radius = 0.06;   // m from the nut, in which the wrench is being aligned
+constexpr double arm_lag = 0.2;             // s, of a force-feedback arm that turns with the hand
 constexpr double visibility_change = 0.02;  // smallest change that is reported
 
 // Starts the stroke once the nut is held. If the tool missed the nut, it is placed again at another angle.
@@ -217,6 +218,7 @@ Intention SimulatedTrainee::intend(const servo::Setup& setup, const servo::State
                                    const lesson::Lesson& lesson, const Pose& hand) {
     TraineeState& t = *state_;
     t.hand = hand;
+    t.arm_lag = arm_lag;
     const Intention intention = advance(t, setup, state, lesson);
     t.held_nut = intention.holds_nut;
     t.intended_pose_jumped = false;

@@ -17,6 +17,7 @@ constexpr double fault_time = 0.4;      // s
 constexpr double patience = 60.0;       // s of the lesson
 
 struct FaultOutcome {
+    double limit = 0.0;       // N, of the arm
     double before = 0.0;      // N on the hand before the fault
     double last_force = 0.0;  // s from the fault until the last force on the hand, while it lasts
     double most = 0.0;        // N on the hand, at any time of the lesson
@@ -40,6 +41,7 @@ FaultOutcome inject(HeldArm& arm, const ArmFault& fault) {
     PlayedLesson lesson(arm, loaded.assembly, {}, folder / "session.boltwright");
     while (!pulls(lesson, arm) && !lesson.finished() && lesson.session().time() < patience) lesson.tick();
     FaultOutcome outcome;
+    outcome.limit = lesson.layout().mover->limits.force;
     outcome.before = glm::length(arm.force().force);
     const Vec3 wrench = lesson.latest().output.tool.position;
     fault.begin();
@@ -84,6 +86,9 @@ void check_faults(HeldArm& arm) {
         CHECK(o.last_force <= longest_force);
         CHECK(o.again == 0.0);
         CHECK(o.back > 0.0);
+        CHECK(o.most <= o.limit * (1.0 + 1e-6));
+        CHECK(o.step <= 0.1 * o.limit);
+        CHECK(o.tool_moved < 0.005);
         CHECK(o.finished);
     }
 }

@@ -5,6 +5,7 @@
 #include "haptics/device/force_dimension.hpp"
 #include "haptics/device/haply_messages.hpp"
 #include "haptics/device/open_haptics.hpp"
+#include "haptics/device/simulated_arm.hpp"
 #include "haptics/device/vendor_library.hpp"
 #include "tests/device/driver_contract.hpp"
 #include "tools/emulate/arms/force_dimension.h"
@@ -271,6 +272,77 @@ std::unique_ptr<HeldArm> open_haptics_arm() {
         {"stalled", [c] { c->late(0.5); }, [] {}},
         {"switched off", [c] { c->switch_off(); }, [] {}},
     };
+    return arm;
+}
+
+namespace {
+
+// The latest force on the hand, and pose of the arm.
+struct Observed {
+    force::OutputCommand command;
+    Pose pose;
+};
+
+class ObservedDriver final : public device::DeviceDriver {
+  public:
+    ObservedDriver(std::unique_ptr<device::DeviceDriver> driver, std::shared_ptr<Observed> last)
+        : driver_(std::move(driver)), last_(std::move(last)) {}
+    [[nodiscard]] const device::Description& describe() const override { return driver_->describe(); }
+    Result<std::optional<device::Sample>> read(double timeout) override {
+        auto sample = driver_->read(timeout);
+        if (sample && *sample) last_->pose = (*sample)->pose;
+        return sample;
+    }
+    Status write(const force::OutputCommand& command) override {
+        last_->command = command;
+        return driver_->write(command);
+    }
+
+  private:
+    std::unique_ptr<device::DeviceDriver> driver_;
+    std::shared_ptr<Observed> last_;
+};
+
+struct SimulatedArmAndTime {
+    device::VirtualTime time;
+    device::SimulatedArm arm{device::simulated_arm_description(), device::simulated_arm_parameters(),
+                             device::virtual_timer(time)};
+    device::HandMotion motion;
+    Pose intended;
+};
+
+constexpr double correction = 3e-3;  // per tick, of the error that the user sees
+
+}  // namespace
+
+std::unique_ptr<HeldArm> simulated_arm() {
+    auto arm = std::make_unique<HeldArm>();
+    const auto held = std::make_shared<SimulatedArmAndTime>();
+    const auto last = std::make_shared<Observed>();
+    arm->name = "Simulated arm";
+    arm->timer = device::virtual_timer(held->time);
+    arm->open = [held, last]() -> Result<std::unique_ptr<device::DeviceDriver>> {
+        BOLT_TRY_ASSIGN(auto driver, held->arm.factory()());
+        return std::make_unique<ObservedDriver>(std::move(driver), last);
+    };
+    // A mouse only moves the hand further; the user sees where the arm is.
+    arm->intend = [held, last](const Pose& pose) {
+        device::HandMotion& m = held->motion;
+        const Quat turned = pose.orientation * glm::conjugate(held->intended.orientation);
+        const Vec3 seen = turn_between(last->pose.orientation, pose.orientation);
+        m.moved +=
+            pose.position - held->intended.position + correction * (pose.position - last->pose.position);
+        m.turned = glm::normalize(rotation(correction * seen) * turned * m.turned);
+        held->intended = pose;
+        held->arm.set_motion(m);
+    };
+    arm->press = [held](std::uint32_t buttons) {
+        held->motion.buttons = buttons;
+        held->arm.set_motion(held->motion);
+    };
+    arm->force = [last] { return last->command; };
+    arm->braces = false;
+    arm->damping = device::simulated_arm_parameters().damping;
     return arm;
 }
 

@@ -26,6 +26,7 @@ struct HeldArm {
     std::function<void(std::uint32_t buttons)> press;
     std::function<force::OutputCommand()> force;  // that acts on the hand now
     double stiffness = 300.0, damping = 12.0;     // N/m, N·s/m, of the hand
+    bool braces = true;  // the hand compensates a steady force; otherwise the user corrects what he sees
     std::vector<ArmFault> faults;
 };
 
@@ -35,5 +36,7 @@ std::unique_ptr<HeldArm> open_haptics_arm();
 // By the messages of Haply's service, without its sockets and threads: these run in the computer's time
 // (tests/device/haply.cpp).
 std::unique_ptr<HeldArm> haply_arm();
+// That of `train --device simulated-arm`, in virtual time.
+std::unique_ptr<HeldArm> simulated_arm();
 
 }  // namespace bolt::test

@@ -1,63 +1,85 @@
-// A whole lesson on each emulated arm.
+// Whole guided lessons on the emulated arms.
 #include <doctest/doctest.h>
-
-#include <cstdlib>
+#include <fmt/format.h>
 
 #include "tests/arm_lesson/played_lesson.hpp"
 #include "tests/support/folder.hpp"
+
+namespace arm_lessons_test {
 
 using namespace bolt;
 using namespace bolt::test;
 
 namespace {
 
-content::Assembly assembly(const char* name) {
-    auto loaded = content::load_assembly(name);
-    REQUIRE(loaded.ok());
-    return loaded.assembly;
-}
+struct Played {
+    session::LessonOutcome outcome;
+    FeltForces felt;
+    device::Description arm;
+    double seconds = 0.0;
+    std::uint64_t losses = 0;
+};
 
-void play(HeldArm& arm, const char* name, double limit) {
+Played play(HeldArm& arm, const char* name) {
+    const auto loaded = content::load_assembly(name);
+    REQUIRE(loaded.ok());
     const Folder folder;
     session::LessonOptions options;
     options.obstacles = session::Obstacles::if_any;
-    PlayedLesson lesson(arm, assembly(name), options, folder / "session.boltwright");
-    const bool trace = std::getenv("TRACE") != nullptr;
-    std::size_t step = SIZE_MAX;
-    while (!lesson.finished() && lesson.session().time() < limit) {
-        lesson.tick();
-        for (const auto& event : lesson.session().events())
-            if (trace) MESSAGE(lesson.session().time(), " s, joint ", event.joint, ": ", event.text);
-        if (trace && lesson.session().lesson().current != step) {
-            step = lesson.session().lesson().current;
-            MESSAGE(lesson.session().time(), " s: step ", step);
-        }
-    }
-    const auto outcome = lesson.finish();
-    const FeltForces& felt = lesson.felt();
-    MESSAGE(arm.name, ": ", lesson.session().time(), " s, score ", outcome.result.score, ", scale ",
-            lesson.layout().workspace.scale, ", force ", felt.force, ", on bolt ", felt.force_on_bolt,
-            ", step ", felt.force_step, ", torque ", felt.torque_on_bolt, ", clutched ", felt.clutched,
-            ", losses ", lesson.report().losses, ", jump ", felt.largest_tool_jump);
-    CHECK(outcome.result.finished);
+    PlayedLesson lesson(arm, loaded.assembly, options, folder / "session.boltwright");
+    constexpr double patience = 1800.0;  // s of the lesson
+    while (!lesson.finished() && lesson.session().time() < patience) lesson.tick();
+    Played played{lesson.finish(), lesson.felt(), *lesson.layout().mover, lesson.session().time(),
+                  lesson.report().losses};
+    const FeltForces& f = played.felt;
+    MESSAGE(fmt::format(
+        "{}, {}: {:.0f} s, score {:.0f}, {:.1f} N at most, {:.1f} N and {:.3f} N·m on bolts, {:.2f} N in a "
+        "tick, clutched {} times",
+        arm.name, name, played.seconds, played.outcome.result.score, f.force, f.force_on_bolt,
+        f.torque_on_bolt, f.force_step, f.clutched));
+    // The recording ends with the lesson.
+    const auto reader = session::SessionReader::open(folder / "session.boltwright");
+    REQUIRE(reader);
+    CHECK(static_cast<double>(reader->tick_count()) * options.dt == doctest::Approx(played.seconds));
+    return played;
+}
+
+void check(const Played& played) {
+    const force::OutputLimits& limits = played.arm.limits;
+    CHECK(played.outcome.result.finished);
+    CHECK(played.losses == 0);
+    CHECK(played.felt.force <= limits.force * (1.0 + 1e-6));
+    CHECK(played.felt.torque <= limits.torque * (1.0 + 1e-6));
+    // In one tick, and once more in the tick that a watchdog lets go.
+    CHECK(played.felt.force_step <= 1.1e-3 * limits.force_rate);
+    // A tight joint is felt.
+    CHECK(played.felt.force_on_bolt > 0.5 * limits.force);
+    if (limits.torque > 0.0) CHECK(played.felt.torque_on_bolt > 0.5 * limits.torque);
 }
 
 }  // namespace
 
-TEST_CASE("Arm lesson: Force Dimension") {
-    play(*force_dimension_arm(false), std::getenv("ASM") ? std::getenv("ASM") : "first-nut",
-         std::getenv("LIMIT") ? atof(std::getenv("LIMIT")) : 120.0);
-}
-TEST_CASE("Arm lesson: Force Dimension with wrist") {
-    play(*force_dimension_arm(true), std::getenv("ASM") ? std::getenv("ASM") : "first-nut",
-         std::getenv("LIMIT") ? atof(std::getenv("LIMIT")) : 120.0);
-}
-TEST_CASE("Arm lesson: OpenHaptics") {
-    play(*open_haptics_arm(), std::getenv("ASM") ? std::getenv("ASM") : "first-nut",
-         std::getenv("LIMIT") ? atof(std::getenv("LIMIT")) : 120.0);
+TEST_CASE("Arm lessons: the whole reducer with each vendor's arm") {
+    for (const auto& make : {+[] { return force_dimension_arm(false); }, +[] { return open_haptics_arm(); },
+                             +[] { return haply_arm(); }}) {
+        const Played played = play(*make(), "zq350");
+        check(played);
+        CHECK(played.outcome.result.score >= 95.0);
+    }
 }
 
-TEST_CASE("Arm lesson: Haply") {
-    play(*haply_arm(), std::getenv("ASM") ? std::getenv("ASM") : "first-nut",
-         std::getenv("LIMIT") ? atof(std::getenv("LIMIT")) : 120.0);
+TEST_CASE("Arm lessons: a cover with an arm that has motors in its wrist") {
+    const Played played = play(*force_dimension_arm(true), "cover-m8");
+    check(played);
+    CHECK(played.outcome.result.score >= 95.0);
 }
+
+// A mouse moves the hand, and its user corrects what he sees.
+TEST_CASE("Arm lessons: a nut and a whole cover with the simulated arm") {
+    const Played nut = play(*simulated_arm(), "first-nut");
+    check(nut);
+    CHECK(nut.outcome.result.score >= 95.0);
+    check(play(*simulated_arm(), "cover-m8"));
+}
+
+}  // namespace arm_lessons_test

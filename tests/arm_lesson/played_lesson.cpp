@@ -68,8 +68,9 @@ void PlayedLesson::move_hand(const trainees::Intention& intention) {
     const double dt = station_.setup.dt;
     const Pose wanted = device_pose(intention.tool);
     const Vec3 reach = used_reach * layout_.mover->reach;
-    const Vec3 share = glm::abs(wanted.position) / reach;
-    if (!clutching_ && settling_ <= 0.0 && std::max({share.x, share.y, share.z}) > 1.0) {
+    const Vec3 beyond = glm::abs(wanted.position) - reach;
+    const bool out = reach != Vec3(0.0) && std::max({beyond.x, beyond.y, beyond.z}) > 0.0;
+    if (!clutching_ && settling_ <= 0.0 && out) {
         const Vec3 inside = glm::clamp(wanted.position, -reach, reach);
         const Vec3 to = -0.4 * inside;
         clutching_ = Clutching{0.0, std::max(clutch_time, glm::distance(hand_.position, to) / clutch_speed),
@@ -101,7 +102,8 @@ void PlayedLesson::move_hand(const trainees::Intention& intention) {
         hand_.orientation = glm::normalize(rotation(turn) * hand_.orientation);
     }
     // A planned motion has no lag, and a hand that turns a nut braces against its steady force.
-    const Vec3 against = intention.holds_nut ? -arm_.force().force / arm_.stiffness : Vec3(0.0);
+    const Vec3 against =
+        intention.holds_nut && arm_.braces ? -arm_.force().force / arm_.stiffness : Vec3(0.0);
     push_ += (against - push_) * std::min(1.0, dt / push_time);
     Pose intended = hand_;
     intended.position += push_ + moved / dt * (arm_.damping / arm_.stiffness);
