@@ -288,21 +288,6 @@ Status open_glove(const content::Assembly& assembly, const StationRequest& reque
     return {};
 }
 
-// Takes over what the station file says about the selected devices. The wheel's configuration is returned.
-device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned) {
-    const DeviceSelection& selection = planned.devices;
-    station::StationOptions& options = planned.options;
-    if (station.arm && selection.mover && selection.mover->id == station.arm->device) {
-        const content::StationArm& arm = *station.arm;
-        options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power};
-        options.mover_limits = arm.limits;
-        options.mover_buttons = arm.buttons.value_or(options.mover_buttons);
-    }
-    if (!station.wheel || !selection.wheel || selection.wheel->id != station.wheel->device) return {};
-    options.wheel_buttons = station.wheel->buttons.value_or(options.wheel_buttons);
-    return station.wheel->config;
-}
-
 Status choose_devices(const StationRequest& request, PlannedStation& planned) {
     std::optional<device::WheelConfig> given;
     if (!request.wheel_config_file.empty()) {
@@ -321,6 +306,20 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
 }
 
 }  // namespace
+
+device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned) {
+    const DeviceSelection& selection = planned.devices;
+    station::StationOptions& options = planned.options;
+    if (station.arm && selection.mover && selection.mover->id == station.arm->device) {
+        const content::StationArm& arm = *station.arm;
+        options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power};
+        options.mover_limits = arm.limits;
+        options.mover_buttons = arm.buttons.value_or(options.mover_buttons);
+    }
+    if (!station.wheel || !selection.wheel || selection.wheel->id != station.wheel->device) return {};
+    options.wheel_buttons = station.wheel->buttons.value_or(options.wheel_buttons);
+    return station.wheel->config;
+}
 
 Pose initial_wrench_pose(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
                          double nut_angle) {

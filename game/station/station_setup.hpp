@@ -110,6 +110,10 @@ struct PlannedStation {
     bool obstacles = false;                                // the assembly has contact models
 };
 
+// Takes over what a station file says about the devices of `planned`, by their ids: the map, the limits and
+// the buttons go to its options, and the wheel's configuration is returned.
+device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned);
+
 // Fails for an invalid request before it opens a device; opens only the glove, to query its identity. The
 // result holds a copy of `assembly`.
 Result<PlannedStation> plan_station(const content::Assembly& assembly, const StationRequest& request);
