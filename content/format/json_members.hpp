@@ -1,5 +1,5 @@
-// Reads the members of objects in a small file that has no schema. The first error is kept with its position;
-// later ones are ignored.
+// Reads the members of objects in a small file. `at` is the JSON pointer of the object. The first error is
+// kept with its position; later ones are ignored.
 #pragma once
 
 #include <fmt/format.h>
@@ -30,12 +30,13 @@ struct MemberReader {
         report(at, JsonPart::value, fmt::format("\"{}\" is missing", key), {});
         return nullptr;
     }
-    std::string text(const json& object, const char* key, std::size_t longest = max_text) {
-        const json* value = find(object, "", key);
+    std::string text(const json& object, const std::string& at, const char* key,
+                     std::size_t longest = max_text) {
+        const json* value = find(object, at, key);
         if (value == nullptr) return {};
         if (value->is_string() && value->get_ref<const std::string&>().size() <= longest)
             return value->get<std::string>();
-        report(std::string("/") + key, JsonPart::value, fmt::format("\"{}\" is not a short text", key),
+        report(at + "/" + key, JsonPart::value, fmt::format("\"{}\" is not a short text", key),
                fmt::format("a text of at most {} bytes", longest));
         return {};
     }
@@ -49,11 +50,11 @@ struct MemberReader {
                fmt::format("a number from {} to {}", low, high));
         return low;
     }
-    bool flag(const json& object, const char* key) {
-        const json* value = find(object, "", key);
+    bool flag(const json& object, const std::string& at, const char* key) {
+        const json* value = find(object, at, key);
         if (value == nullptr) return false;
         if (value->is_boolean()) return value->get<bool>();
-        report(std::string("/") + key, JsonPart::value,
+        report(at + "/" + key, JsonPart::value,
                fmt::format("\"{}\" cannot be {}", key, in_quotes(value->dump())), "true or false");
         return false;
     }

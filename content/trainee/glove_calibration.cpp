@@ -76,15 +76,15 @@ Result<GloveCalibration> parse_glove_calibration(std::string_view text, const st
         members.report("", JsonPart::value, "the glove calibration is not an object", "a JSON object");
         return fail(*members.first_error);
     }
-    if (members.text(root, "format") != calibration_format)
+    if (members.text(root, "", "format") != calibration_format)
         members.report("/format", JsonPart::value, "the format of the glove calibration is unknown",
                        fmt::format("\"format\": \"{}\"", calibration_format));
     members.check_known(
         root, "",
         {"format", "trainee", "glove", "hand", "sensors", "date", "quality", "hand_length_mm", "lines"});
-    read.trainee = members.text(root, "trainee", max_trainee_name_size);
-    read.glove = members.text(root, "glove");
-    const std::string hand = members.text(root, "hand");
+    read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
+    read.glove = members.text(root, "", "glove");
+    const std::string hand = members.text(root, "", "hand");
     if (hand != "left" && hand != "right")
         members.report("/hand", JsonPart::value, fmt::format("a hand cannot be {}", in_quotes(hand)),
                        "\"left\" or \"right\"");
@@ -93,7 +93,7 @@ Result<GloveCalibration> parse_glove_calibration(std::string_view text, const st
     if (sensors != 18.0 && sensors != 22.0)
         members.report("/sensors", JsonPart::value, "a glove cannot have this number of sensors", "18 or 22");
     read.sensors = static_cast<std::size_t>(sensors);
-    read.date = members.text(root, "date");
+    read.date = members.text(root, "", "date");
     if (!is_date(read.date))
         members.report("/date", JsonPart::value, fmt::format("{} is not a date", in_quotes(read.date)),
                        "a date as \"2026-11-22\"");

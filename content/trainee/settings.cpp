@@ -35,7 +35,7 @@ bool contains(const std::vector<std::string>& all, const std::string& one) {
 
 void read_language(MemberReader& members, const json& root, TraineeSettings& to,
                    const SettingsVocabulary& known) {
-    to.language = members.text(root, "language");
+    to.language = members.text(root, "", "language");
     if (to.language.empty() || contains(known.languages, to.language)) return;
     members.report("/language", JsonPart::value,
                    fmt::format("{} is not a supported language", in_quotes(to.language)),
@@ -43,7 +43,7 @@ void read_language(MemberReader& members, const json& root, TraineeSettings& to,
 }
 
 void read_palette(MemberReader& members, const json& root, TraineeSettings& to) {
-    const std::string name = members.text(root, "palette");
+    const std::string name = members.text(root, "", "palette");
     if (name != usual && name != distinct)
         members.report("/palette", JsonPart::value, fmt::format("{} is not a palette", in_quotes(name)),
                        fmt::format("\"{}\" or \"{}\"", usual, distinct));
@@ -52,7 +52,7 @@ void read_palette(MemberReader& members, const json& root, TraineeSettings& to) 
 
 void read_law(MemberReader& members, const json& root, TraineeSettings& to) {
     if (!root.contains("law")) return;
-    to.law = members.text(root, "law");
+    to.law = members.text(root, "", "law");
     if (to.law != mechanistic && to.law != published)
         members.report("/law", JsonPart::value, fmt::format("{} is not a joint law", in_quotes(to.law)),
                        fmt::format("\"{}\" or \"{}\"", mechanistic, published));
@@ -114,18 +114,18 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
         members.report("", JsonPart::value, "the settings file is not an object", "a JSON object");
         return fail(*members.first_error);
     }
-    if (members.text(root, "format") != settings_format)
+    if (members.text(root, "", "format") != settings_format)
         members.report("/format", JsonPart::value, "the format of the settings file is unknown",
                        fmt::format("\"format\": \"{}\"", settings_format));
     members.check_known(root, "",
                         {"format", "trainee", "language", "volume", "captions", "palette", "left_handed",
                          "force_scale", "seated_height_m", "law", "keys"});
-    read.trainee = members.text(root, "trainee", max_trainee_name_size);
+    read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
     read_language(members, root, read, known);
     read.volume = members.number(root, "", "volume", 0.0, 1.0);
-    read.captions = members.flag(root, "captions");
+    read.captions = members.flag(root, "", "captions");
     read_palette(members, root, read);
-    read.left_handed = members.flag(root, "left_handed");
+    read.left_handed = members.flag(root, "", "left_handed");
     read.force_scale = members.number(root, "", "force_scale", least_force_scale, 1.0);
     read_seat(members, root, read);
     read_law(members, root, read);

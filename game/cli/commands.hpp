@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/base/result.hpp"
 
@@ -22,6 +23,21 @@ void add_render(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 void add_glove(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
+void add_station(CLI::App& app, int& exit_code);
+
+// The trial of a station, for `doctor` and `station try`.
+struct TrialOptions {
+    std::string assembly = "zq350";  // that the servo simulates
+    std::vector<std::string> devices;
+    std::string station_file, wheel_config_file, glove, trainee, calibrations;
+    double seconds = 5.0;
+
+    [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty() || !station_file.empty(); }
+};
+
+// Runs the trial and prints its messages and report. Returns the exit code: 0 if the station is fit for
+// training, 1 if it is not, or the code of the error that prevented the trial.
+int try_station(const TrialOptions& options);
 
 // Opens the menu in a window, as the desktop's entry does. Each lesson gets a folder in
 // user_data_folder()/sessions.

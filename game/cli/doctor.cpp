@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "content/format/assembly.hpp"
+#include "content/station/station_file.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "engine/gpu/device.hpp"
@@ -18,6 +19,7 @@
 #include "engine/platform/window.hpp"
 #include "game/cli/commands.hpp"
 #include "game/computer/computer.hpp"
+#include "game/station/station_check.hpp"
 #include "game/station/trial.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/device/virtual_devices.hpp"
@@ -26,15 +28,6 @@
 namespace bolt::cli {
 
 namespace {
-
-struct TrialOptions {
-    std::string assembly = "zq350";
-    std::vector<std::string> devices;
-    std::string wheel_config_file, glove, trainee, calibrations;
-    double seconds = 5.0;
-
-    [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty(); }
-};
 
 // Times the servo of the assembly's lesson at 1 kHz and 4 kHz for `seconds` each. Returns the thread's
 // privileges, the histograms and the assessments as text.
@@ -68,31 +61,58 @@ std::string trial_header(const TrialOptions& options, const content::Assembly& a
     std::string text = "Devices:\n" + station_setup::describe_station(station.layout(), planned.devices);
     text += fmt::format("The wrench sits on nut {} of {}, which is tight{}.\n", joint, assembly.name,
                         planned.obstacles ? "" : "; the assembly has no contact models");
-    if (!options.glove.empty() && planned.calibration) text += "The gloved hand takes it by closing.\n";
+    if (!planned.glove.empty() && planned.calibration) text += "The gloved hand takes it by closing.\n";
     return text + fmt::format("For {:g} s from now on:\n", options.seconds);
 }
 
-// Runs the trial of a station and prints its messages and report. Returns the exit code: 0 if it is fit for
-// training, 1 if it is not, or the code of the error that prevented the trial.
-int try_station(const TrialOptions& options) {
-    const content::LoadedAssembly loaded = content::load_assembly(options.assembly);
-    if (!loaded.ok()) return print_error(loaded.errors);
-    device::VirtualPuck still({}, device::steady_timer());  // used if no device moves the tool
+// The settings of the station file that its devices cannot follow.
+std::string station_remarks(const content::StationFile& file, const station_setup::PlannedStation& planned,
+                            station::Station& station) {
+    station_setup::StationFacts facts;
+    if (planned.devices.mover && station.mover_report() != nullptr)
+        facts.arm = *station.mover_report()->description;
+    if (station.wheel_report() != nullptr) facts.wheel = *station.wheel_report()->description;
+    content::StationFile devices = file;
+    if (devices.arm) devices.arm->tool.clear();  // the trial does not depend on it
+    const std::string text = station_setup::describe(station_setup::compare(devices, facts));
+    return text.empty() ? text : "Station file:\n" + text;
+}
+
+// The request of the options; what they name has precedence over the station file.
+Result<station_setup::StationRequest> request_of(const TrialOptions& options) {
     station_setup::StationRequest request;
     request.devices = options.devices;
     request.wheel_config_file = options.wheel_config_file;
-    request.fallback_mover = still.factory();
     request.glove = options.glove;
     request.trainee = options.trainee;
     request.calibrations = options.calibrations;
     request.tightened = true;
+    if (options.station_file.empty()) return request;
+    BOLT_TRY_ASSIGN(const auto station, content::load_station(options.station_file));
+    BOLT_TRY(station_setup::add_devices_of(station, device::list_devices(true), request.devices));
+    if (request.glove.empty()) request.glove = station.glove_port;
+    request.station = station;
+    return request;
+}
 
-    Result<station_setup::PlannedStation> planned = station_setup::plan_station(loaded.assembly, request);
+}  // namespace
+
+int try_station(const TrialOptions& options) {
+    const content::LoadedAssembly loaded = content::load_assembly(options.assembly);
+    if (!loaded.ok()) return print_error(loaded.errors);
+    Result<station_setup::StationRequest> request = request_of(options);
+    if (!request) return print_error(request.error());
+    device::VirtualPuck still({}, device::steady_timer());  // used if no device moves the tool
+    request->fallback_mover = still.factory();
+
+    Result<station_setup::PlannedStation> planned = station_setup::plan_station(loaded.assembly, *request);
     if (!planned) return print_error(planned.error());
     if (!planned->devices.mover) planned->options.mover_buttons = {0, 0, 0, 0};
     Result<station::Station> station = station::Station::start(std::move(planned->options));
     if (!station) return print_error(station.error());
-    if (Status printed = print(trial_header(options, loaded.assembly, *planned, *station)); !printed)
+    if (Status printed = print(station_remarks(request->station, *planned, *station) +
+                               trial_header(options, loaded.assembly, *planned, *station));
+        !printed)
         return print_error(printed.error());
 
     catch_interruption();
@@ -111,6 +131,8 @@ int try_station(const TrialOptions& options) {
     if (!printed) return print_error(printed.error());
     return reasons.empty() ? 0 : static_cast<int>(ErrorCode::failed);
 }
+
+namespace {
 
 // Commands that would run a trial with the connected devices; empty if there are none.
 std::string suggested_trials() {
@@ -178,8 +200,9 @@ void add_doctor(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<DoctorOptions>();
     CLI::App* doctor = app.add_subcommand(
         "doctor",
-        "Check this machine: GPUs, windows and the timing of the servo. With --device or --glove: run a "
-        "station with them and assess whether it is good enough for training (exit code 0) or not (1); needs "
+        "Check this machine: GPUs, windows and the timing of the servo. With --device, --glove or --station: "
+        "run a station with them and assess whether it is good enough for training (exit code 0) or not (1); "
+        "needs "
         "no display and no GPU");
     TrialOptions& station = options->station;
     doctor
@@ -193,15 +216,14 @@ void add_doctor(CLI::App& app, int& exit_code) {
             "the tool and one that turns the wrench. A device renders no force unless its button is held")
         ->expected(1)
         ->take_all();
-    auto* device = doctor->get_option("--device");
-    doctor
-        ->add_option("--rig", station.wheel_config_file,
-                     "Configuration file of the wheel: its motor, its encoder")
-        ->needs(device);
-    auto* glove = doctor->add_option("--glove", station.glove, "Serial port of a glove to try");
+    doctor->add_option(
+        "--station", station.station_file,
+        "Station file to try: devices, glove and their settings; other options have precedence");
+    doctor->add_option("--rig", station.wheel_config_file,
+                       "Configuration file of the wheel: its motor, its encoder");
+    doctor->add_option("--glove", station.glove, "Serial port of a glove to try");
     auto* trainee = doctor->add_option("--trainee", station.trainee,
                                        "Wearer of the glove, with a calibration made by `boltwright glove`");
-    trainee->needs(glove);
     doctor
         ->add_option("--folder", station.calibrations,
                      "Folder of calibrations; default: the user's data folder")
@@ -211,7 +233,14 @@ void add_doctor(CLI::App& app, int& exit_code) {
                      "Duration of the trial (5), or of the timing at each rate of the servo (2; 0: none)")
         ->check(CLI::Range(0.0, 3600.0));
     doctor->callback([&exit_code, options] {
-        if (options->station.any()) {
+        const TrialOptions& named = options->station;
+        if (named.station_file.empty()) {
+            if (!named.wheel_config_file.empty() && named.devices.empty())
+                throw CLI::RequiresError("--rig", "--device or --station");
+            if (!named.trainee.empty() && named.glove.empty())
+                throw CLI::RequiresError("--trainee", "--glove or --station");
+        }
+        if (named.any()) {
             options->station.seconds = options->seconds.value_or(options->station.seconds);
             exit_code = try_station(options->station);
             return;

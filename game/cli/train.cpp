@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "content/format/assembly.hpp"
+#include "content/station/station_file.hpp"
 #include "content/trainee/settings.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
@@ -38,7 +39,8 @@ struct TrainArguments {
     std::string law;
     std::vector<std::string> devices;
     std::string hand = "helped";
-    std::string glove = "none", wheel_config_file;
+    std::string glove;  // empty: the station file's, or none
+    std::string station_file, wheel_config_file;
     bool hmd = false;
     bool headless = false;
     bool start = false, full_screen = false, validate = false, silent = false;
@@ -100,24 +102,40 @@ bool is_keyword(const std::string& device) {
     return device == "auto" || device == "mouse" || device == "simulated" || device == "simulated-arm";
 }
 
+// Takes a station file over into the equipment; devices that the command line names have precedence.
+Status add_station_file(const TrainArguments& options, trainer::Equipment& equipment) {
+    BOLT_TRY_ASSIGN(const auto station, content::load_station(options.station_file));
+    const bool keyword = !options.devices.empty() && is_keyword(options.devices.front());
+    if (keyword && options.devices.front() != "auto")
+        return fail(ErrorCode::usage,
+                    fmt::format("--device {}: the station file names the devices", options.devices.front()),
+                    "--station without --device, or with the id of one of its devices");
+    BOLT_TRY(station_setup::add_devices_of(station, device::list_devices(true), equipment.devices));
+    equipment.station = station;
+    equipment.glove = station.glove_port;
+    return {};
+}
+
 // The devices of the options. A missing device is an error; there is no silent fallback.
 Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
     if (options.hmd) return fail(ErrorCode::no_device, "this build has no headset output", "no --hmd");
     trainer::Equipment equipment;
+    const bool station = !options.station_file.empty();
     const std::string first = options.devices.empty() ? "auto" : options.devices.front();
     if (options.devices.size() > 1 && std::any_of(options.devices.begin(), options.devices.end(), is_keyword))
         return fail(
             ErrorCode::usage,
             "--device: auto, mouse, simulated and simulated-arm cannot be combined with other devices",
             "only ids of devices");
-    if (first == "auto")
+    if (first == "auto" && !station)
         equipment = options.headless ? trainer::Equipment{} : trainer::default_equipment();
     else if (first == "simulated")
         equipment.hand = trainer::HandMode::keyboard;
     else if (first == "simulated-arm")
         equipment.hand = trainer::HandMode::simulated_arm;
-    else if (first != "mouse")
+    else if (first != "mouse" && first != "auto")
         equipment.devices = options.devices;
+    if (station) BOLT_TRY(add_station_file(options, equipment));
     if (options.hand == "free") {
         const bool mouse = first == "mouse" || (first == "auto" && equipment.devices.empty());
         if (!mouse)
@@ -128,8 +146,8 @@ Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
     if (options.glove == "auto") {
         const auto ports = hand::serial_ports();
         if (!ports.empty()) equipment.glove = ports.front();
-    } else if (options.glove != "none") {
-        equipment.glove = options.glove;
+    } else if (!options.glove.empty()) {
+        equipment.glove = options.glove == "none" ? std::string() : options.glove;
     }
     // Checked before a window opens.
     const auto chosen = station_setup::select_devices(device::list_devices(true), equipment.devices);
@@ -286,17 +304,23 @@ int run_train(const TrainArguments& options) {
     const Result<trainer::Equipment> equipment = equipment_of(options);
     if (!equipment) return print_error(equipment.error());
     const bool free_hand = equipment->hand == trainer::HandMode::free;
-    if (options.headless && (!equipment->glove.empty() || !equipment->devices.empty() || free_hand)) {
+    const bool devices =
+        !equipment->devices.empty() || !equipment->glove.empty() || !options.station_file.empty();
+    if (options.headless && (devices || free_hand)) {
         Error error;
         error.code = ErrorCode::usage;
         error.what = "a simulated trainee does not use devices or the mouse";
-        error.expected = "--headless without --device ID, --hand free and --glove PORT";
+        error.expected = "--headless without --device ID, --station FILE, --hand free and --glove PORT";
         return print_error(error);
     }
 
     content::LoadedAssembly loaded = content::load_assembly(options.assembly, options.variant);
     if (!loaded.ok()) return print_error(loaded.errors);
-    if (Status chosen = content::choose_tool(loaded.assembly, options.tool); !chosen)
+    const Result<std::string> tool = options.tool.empty()
+                                         ? trainer::tool_of_station(equipment->station, loaded.assembly.tools)
+                                         : options.tool;
+    if (!tool) return print_error(tool.error());
+    if (Status chosen = content::choose_tool(loaded.assembly, *tool); !chosen)
         return print_error(chosen.error());
     Result<trainees::TrainOptions> train = train_options(options, loaded.assembly);
     if (!train) return print_error(train.error());
@@ -310,6 +334,7 @@ int run_train(const TrainArguments& options) {
     }
     // A folder here is not the assembly of the same name in the menu.
     TrainArguments named = options;
+    named.tool = *tool;
     std::error_code ignored;
     if (std::filesystem::exists(options.assembly, ignored))
         named.assembly = std::filesystem::absolute(options.assembly).lexically_normal().string();
@@ -382,12 +407,14 @@ void add_train(CLI::App& app, int& exit_code) {
             "turns the wrench)")
         ->check(CLI::IsMember({"helped", "free"}))
         ->capture_default_str();
+    train->add_option("--station", options->station_file,
+                      "Station file: devices, glove and their settings; other options have precedence. "
+                      "`boltwright station new` makes one");
     train->add_option("--rig", options->wheel_config_file,
                       "Configuration file of the wheel: its motor, its encoder");
-    train
-        ->add_option("--glove", options->glove,
-                     "Port of a CyberGlove calibrated for --trainee, auto, or none")
-        ->capture_default_str();
+    train->add_option("--glove", options->glove,
+                      "Port of a CyberGlove calibrated for --trainee, auto, or none; default: the station "
+                      "file's, else none");
     train->add_flag("--hmd", options->hmd, "Display in a headset");
     train->add_flag("--headless", options->headless,
                     "No window: a simulated trainee performs the lesson in virtual time");

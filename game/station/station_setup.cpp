@@ -94,6 +94,43 @@ std::vector<std::string> ids_of(const DeviceSelection& selection) {
 
 namespace {
 
+// `id`: of the file, in this role; empty: it names none.
+Status check_role(std::span<const device::ListedDevice> connected, const std::vector<std::string>& ids,
+                  const std::string& id, DeviceRole role) {
+    if (id.empty()) return {};
+    for (const device::ListedDevice& l : connected) {
+        const bool same_role = role_of(l.kind) == role;
+        const char* member = role == DeviceRole::mover ? "arm" : "wheel";
+        if (l.id == id && !same_role)
+            return fail(
+                ErrorCode::bad_content,
+                fmt::format("{} is the \"{}\" of the station, but is another kind of device", id, member),
+                fmt::format("one that {}", describe(role)));
+        if (l.id != id && same_role && std::find(ids.begin(), ids.end(), l.id) != ids.end())
+            return fail(
+                ErrorCode::usage,
+                fmt::format("--device {}: the settings of the station's \"{}\" are for {}", l.id, member, id),
+                "that device, or no --station");
+    }
+    return {};
+}
+
+}  // namespace
+
+Status add_devices_of(const content::StationFile& station, std::span<const device::ListedDevice> connected,
+                      std::vector<std::string>& ids) {
+    const std::string arm = station.arm ? station.arm->device : std::string();
+    const std::string wheel = station.wheel ? station.wheel->device : std::string();
+    BOLT_TRY(check_role(connected, ids, arm, DeviceRole::mover));
+    BOLT_TRY(check_role(connected, ids, wheel, DeviceRole::wheel));
+    if (!ids.empty()) return {};
+    for (const std::string& id : {arm, wheel})
+        if (!id.empty()) ids.push_back(id);
+    return {};
+}
+
+namespace {
+
 namespace fs = std::filesystem;
 
 constexpr int longest_latency_timer = 2;  // ms
@@ -252,14 +289,16 @@ Status open_glove(const content::Assembly& assembly, const StationRequest& reque
 }
 
 Status choose_devices(const StationRequest& request, PlannedStation& planned) {
-    device::WheelConfig wheel_config;
+    std::optional<device::WheelConfig> given;
     if (!request.wheel_config_file.empty()) {
         BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(request.wheel_config_file));
-        wheel_config = read;
+        given = read;
     }
     const Result<DeviceSelection> selection = select_devices(device::list_devices(true), request.devices);
     if (!selection) return fail(selection.error());
     planned.devices = *selection;
+    const device::WheelConfig of_station = apply_station(request.station, planned);
+    const device::WheelConfig wheel_config = given.value_or(of_station);
     if (selection->mover) planned.options.mover = device::factory_for(selection->mover->id, {wheel_config});
     if (selection->wheel) planned.options.wheel = device::factory_for(selection->wheel->id, {wheel_config});
     if (!selection->mover) planned.options.mover = request.fallback_mover;
@@ -267,6 +306,20 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
 }
 
 }  // namespace
+
+device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned) {
+    const DeviceSelection& selection = planned.devices;
+    station::StationOptions& options = planned.options;
+    if (station.arm && selection.mover && selection.mover->id == station.arm->device) {
+        const content::StationArm& arm = *station.arm;
+        options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power};
+        options.mover_limits = arm.limits;
+        options.mover_buttons = arm.buttons.value_or(options.mover_buttons);
+    }
+    if (!station.wheel || !selection.wheel || selection.wheel->id != station.wheel->device) return {};
+    options.wheel_buttons = station.wheel->buttons.value_or(options.wheel_buttons);
+    return station.wheel->config;
+}
 
 Pose initial_wrench_pose(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
                          double nut_angle) {

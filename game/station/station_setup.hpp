@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "content/format/assembly.hpp"
+#include "content/station/station_file.hpp"
 #include "content/trainee/glove_calibration.hpp"
 #include "game/session/lesson_session.hpp"
 #include "haptics/device/connected_devices.hpp"
@@ -49,6 +50,12 @@ Result<DeviceSelection> select_devices(std::span<const device::ListedDevice> con
 DeviceSelection select_any_devices(std::span<const device::ListedDevice> connected);
 std::vector<std::string> ids_of(const DeviceSelection& selection);
 
+// Adds the devices of a station file to those that the command line names, which are used instead if there
+// are any. Fails if a device of the file is connected and cannot have its role, or with ErrorCode::usage if a
+// named device has the role of another one in the file: its settings are for that one.
+Status add_devices_of(const content::StationFile& station, std::span<const device::ListedDevice> connected,
+                      std::vector<std::string>& ids);
+
 // The default folder of calibrations, by the XDG base directory specification.
 Result<std::filesystem::path> calibrations_folder();
 
@@ -75,8 +82,11 @@ Result<station::HandSetup> make_hand_setup(const content::Assembly& assembly,
                                            const content::GloveCalibration& calibration);
 
 struct StationRequest {
-    std::vector<std::string> devices{};         // ids, at most one per role
-    std::filesystem::path wheel_config_file{};  // empty: the defaults of device::WheelConfig
+    std::vector<std::string> devices{};  // ids, at most one per role
+    // Its settings apply to those of its devices that are in `devices`; its glove and tool are not used.
+    content::StationFile station{};
+    // Used instead of the station's; empty: the station's, or the defaults of device::WheelConfig.
+    std::filesystem::path wheel_config_file{};
     // Moves the tool if no device does, for example mouse and keyboard.
     device::DeviceFactory fallback_mover{};
     std::filesystem::path glove{};  // serial port; empty: no glove
@@ -99,6 +109,10 @@ struct PlannedStation {
     std::optional<content::GloveCalibration> calibration;  // of the glove's wearer
     bool obstacles = false;                                // the assembly has contact models
 };
+
+// Takes over what a station file says about the devices of `planned`, by their ids: the map, the limits and
+// the buttons go to its options, and the wheel's configuration is returned.
+device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned);
 
 // Fails for an invalid request before it opens a device; opens only the glove, to query its identity. The
 // result holds a copy of `assembly`.

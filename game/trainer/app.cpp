@@ -130,7 +130,7 @@ struct App::GpuResources {
 App::App(AppOptions options) : options_(std::move(options)) {
     if (options_.menu) {
         menu_.assemblies = list_assemblies();
-        menu_.devices = device_options();
+        menu_.devices = device_options(options_.choice.equipment);
         menu_.folders = folders_of(options_);
         menu_.first_start = options_.first_start;
     }

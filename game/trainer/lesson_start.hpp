@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,11 @@ struct LessonChoice {
     Equipment equipment;
     std::optional<joint::Law> law;  // from the command line; a choice in the menu resets it
 };
+
+// The tool of the station's arm among those of an assembly, as LessonChoice::tool: empty if it is the first
+// or the station has none. Fails if the assembly does not have it.
+Result<std::string> tool_of_station(const content::StationFile& station,
+                                    std::span<const content::Tool> tools);
 
 // The law of a lesson: the command line's, else the trainee's, else the assembly's.
 joint::Law law_in_force(const LessonChoice& choice, const content::TraineeSettings& settings,

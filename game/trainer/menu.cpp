@@ -123,7 +123,7 @@ void select(const AssemblyEntry& entry, LessonChoice& choice) {
     if (entry.name == choice.assembly) return;
     choice.assembly = entry.name;
     choice.variant.clear();
-    choice.tool.clear();
+    choice.tool = tool_of_station(choice.equipment.station, entry.tools).value_or(std::string());
 }
 
 void draw_task_and_mode(const ScreenContext& context, float width, LessonChoice& choice) {
@@ -197,6 +197,7 @@ void draw_devices(const ScreenContext& context, float width, std::span<const Dev
             option.equipment.hand == HandMode::free ? words::TextKey("menu.free_hand") : "menu.mouse";
         const std::string name = option.name.empty() ? context.words[mouse] : option.name;
         Equipment next = option.equipment;
+        next.station = equipment.station;
         next.wheel_config_file = equipment.wheel_config_file;
         next.glove = equipment.glove;
         if (row.button(name, equipment.devices == next.devices && equipment.hand == next.hand))

@@ -66,19 +66,24 @@ std::string name_of(const station_setup::DeviceSelection& selection) {
 
 }  // namespace
 
-std::vector<DeviceOption> device_options() {
+std::vector<DeviceOption> device_options(const Equipment& chosen) {
     Equipment free;
     free.hand = HandMode::free;
     std::vector<DeviceOption> options{{{}, {}}, {{}, free}};
-    const station_setup::DeviceSelection all = station_setup::select_any_devices(device::list_devices());
+    const std::vector<device::ListedDevice> connected = device::list_devices();
+    const station_setup::DeviceSelection all = station_setup::select_any_devices(connected);
     const auto add = [&](const station_setup::DeviceSelection& selection) {
         Equipment equipment;
         equipment.devices = station_setup::ids_of(selection);
-        options.push_back({name_of(selection), equipment});
+        const bool listed = std::any_of(options.begin(), options.end(), [&](const DeviceOption& option) {
+            return option.equipment.devices == equipment.devices;
+        });
+        if (!listed) options.push_back({name_of(selection), equipment});
     };
     if (all.mover) add({all.mover, std::nullopt});
     if (all.wheel) add({std::nullopt, all.wheel});
     if (all.mover && all.wheel) add(all);
+    if (const auto selection = station_setup::select_devices(connected, chosen.devices)) add(*selection);
     return options;
 }
 
@@ -100,6 +105,7 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
                                        device::simulated_arm_parameters(), timer);
     station_setup::StationRequest request;
     request.devices = equipment.devices;
+    request.station = equipment.station;
     request.wheel_config_file = equipment.wheel_config_file;
     request.fallback_mover = arm ? simulated_arm.factory() : puck.factory();
     request.glove = equipment.glove;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "content/station/station_file.hpp"
 #include "engine/base/math.hpp"
 #include "engine/platform/input.hpp"
 #include "game/session/lesson_session.hpp"
@@ -45,8 +46,9 @@ enum class HandMode : std::uint8_t {
 
 // The input of a lesson: mouse and keyboard, or a station with devices.
 struct Equipment {
-    std::vector<std::string> devices;         // ids, as boltwright devices lists them
-    std::filesystem::path wheel_config_file;  // empty: the defaults of device::WheelConfig
+    std::vector<std::string> devices;  // ids, as boltwright devices lists them
+    content::StationFile station;  // settings of its devices, where `devices` has them; its glove is not used
+    std::filesystem::path wheel_config_file;  // empty: the station's, or the defaults of device::WheelConfig
     std::filesystem::path glove;              // serial port; empty: no glove
     double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force
     HandMode hand = HandMode::helped;         // if none of the devices moves the hand
@@ -62,9 +64,9 @@ struct DeviceOption {
     std::string name;  // names of the devices; empty: mouse and keyboard, as Equipment::hand says
     Equipment equipment;
 };
-// Mouse and keyboard with a helped and with a free hand, and the combinations of the devices that are
-// connected now.
-std::vector<DeviceOption> device_options();
+// Mouse and keyboard with a helped and with a free hand, the combinations of the devices that are connected
+// now, and the devices of `chosen`, such as those of a station file.
+std::vector<DeviceOption> device_options(const Equipment& chosen);
 // The default: the connected device that moves the tool, together with a wheel if there is one; else the
 // mouse.
 Equipment default_equipment();

@@ -107,6 +107,7 @@ struct WheelConfig {
 
     bool reversed = false;      // the motor pulls in the opposite direction
     Vec3 axis{0.0, 0.0, -1.0};  // unit, device frame: clockwise as the user sees it is positive
+    bool operator==(const WheelConfig&) const = default;
 };
 
 // Maps the deflection of a puck to velocity. Quadratic, for fine control at low speed.

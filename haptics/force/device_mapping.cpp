@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bolt::force {
 
@@ -68,6 +69,20 @@ double fitted_scale(const Vec3& reach, double handle_length) {
     if (reach.x > 0.0) scale = std::max(scale, chord / (used_reach * reach.x));
     if (reach.z > 0.0) scale = std::max(scale, height / (used_reach * reach.z));
     return scale;
+}
+
+Vec3 turned_reach(const Quat& turn, const Vec3& reach) {
+    constexpr double negligible = 1e-6;  // component of a unit vector: less than a micrometre in a metre
+    Vec3 turned(std::numeric_limits<double>::infinity());
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 along(0.0);
+        along[axis] = 1.0;
+        along = glm::conjugate(turn) * along;
+        for (int i = 0; i < 3; ++i)
+            if (std::abs(along[i]) > negligible)
+                turned[axis] = std::min(turned[axis], reach[i] / std::abs(along[i]));
+    }
+    return turned;
 }
 
 OutputCommand to_device(const WorkspaceMap& w, const WorkspaceState& s, const OutputCommand& on_tool) {

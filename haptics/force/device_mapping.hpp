@@ -68,6 +68,10 @@ Pose pivoted(const Pivot& pivot, const Pose& held, double grip_distance, const V
 // unknown: 1.
 double fitted_scale(const Vec3& reach, double handle_length);
 
+// The reach (m, half the workspace) along the axes to which `turn` turns those of the device, through its
+// middle. 0: unknown, as it is for the device along an axis that counts.
+Vec3 turned_reach(const Quat& turn, const Vec3& reach);
+
 OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& state,
                         const OutputCommand& on_tool);
 

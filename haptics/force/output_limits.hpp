@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
 #include "engine/base/math.hpp"
 
@@ -56,6 +57,31 @@ inline OutputLimits scaled(const OutputLimits& limits, double scale) {
          {&OutputLimits::force, &OutputLimits::torque, &OutputLimits::force_rate, &OutputLimits::torque_rate})
         less.*limit *= share;
     return less;
+}
+
+// Upper bounds that the builder of a station sets for a device; none: the device's own limit. Units as in
+// OutputLimits.
+struct LimitBounds {
+    std::optional<double> force, torque;
+    std::optional<double> stiffness, torsion;
+    std::optional<double> damping, angular_damping;
+    bool operator==(const LimitBounds&) const = default;
+};
+
+// The limits, lowered to the bounds. A bound above the limit, negative or NaN has no effect: no bound can
+// raise a limit.
+inline OutputLimits lowered(const OutputLimits& limits, const LimitBounds& bounds) {
+    OutputLimits lower = limits;
+    const auto lower_to = [](double& limit, const std::optional<double>& bound) {
+        if (bound && *bound >= 0.0) limit = std::min(limit, *bound);
+    };
+    lower_to(lower.force, bounds.force);
+    lower_to(lower.torque, bounds.torque);
+    lower_to(lower.stiffness, bounds.stiffness);
+    lower_to(lower.torsion, bounds.torsion);
+    lower_to(lower.damping, bounds.damping);
+    lower_to(lower.angular_damping, bounds.angular_damping);
+    return lower;
 }
 
 }  // namespace bolt::force

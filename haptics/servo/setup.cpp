@@ -64,6 +64,8 @@ Setup make_setup(const SetupDescription& d) {
     setup.wrench.deviation = random.uniform(-d.click_accuracy, d.click_accuracy);
 
     setup.limits = d.limits;
+    setup.hold_stiffness = std::min(setup.hold_stiffness, d.limits.stiffness);
+    if (d.limits.torsion > 0.0) setup.hold_torsion = std::min(setup.hold_torsion, d.limits.torsion);
     // The energy of a spring that the device cannot render must not count as stored.
     if (d.limits.force <= 0.0) setup.hold_stiffness = 0.0;
     setup.torque_rendering = force::make_torque_rendering(d.limits, d.greatest_torque, d.handle_length);

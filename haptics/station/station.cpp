@@ -83,11 +83,13 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
 }
 
 // With the power 1/scale a force on the tool is as large on the hand.
-force::WorkspaceMap fitted_workspace(const Layout& layout, double handle_length) {
+force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& options) {
     force::WorkspaceMap map;
+    map.turn = glm::normalize(options.workspace.turn);
     if (!layout.mover || layout.mover->sensing != device::Sensing::pose) return map;
-    map.scale = force::fitted_scale(layout.mover->reach, handle_length);
-    map.power = 1.0 / map.scale;
+    const Vec3 reach = force::turned_reach(map.turn, layout.mover->reach);
+    map.scale = options.workspace.scale.value_or(force::fitted_scale(reach, options.handle_length));
+    map.power = options.workspace.power.value_or(1.0 / map.scale);
     return map;
 }
 
@@ -97,12 +99,13 @@ Result<Layout> make_layout(const StationOptions& options, std::optional<device::
                            std::optional<device::Description> wheel) {
     Layout layout;
     layout.mover = std::move(mover);
+    if (layout.mover) layout.mover->limits = force::lowered(layout.mover->limits, options.mover_limits);
     layout.wheel = std::move(wheel);
     layout.mover_buttons = options.mover_buttons;
     layout.wheel_buttons = options.wheel_buttons;
     layout.home = options.home;
     BOLT_TRY(check(layout));
-    layout.workspace = options.workspace.value_or(fitted_workspace(layout, options.handle_length));
+    layout.workspace = make_workspace(layout, options);
     layout.grip_distance = grip_distance_of(layout, options.handle_length);
     return layout;
 }

@@ -32,12 +32,21 @@ struct StationLinkStats {
     LinkStats mover, wheel;
 };
 
+// How the mover's workspace maps to the assembly's, as far as the builder of the station determines it.
+struct WorkspaceOptions {
+    // Unit, from the device's frame to the user's: not the identity if the device is mounted at another angle
+    // than its maker intends.
+    Quat turn{1.0, 0.0, 0.0, 0.0};
+    std::optional<double> scale;  // none: fitted to the mover's reach
+    std::optional<double> power;  // none: 1/scale, so that forces keep their magnitude
+};
+
 struct StationOptions {
     device::DeviceFactory mover, wheel;  // empty: no such device
     Buttons mover_buttons, wheel_buttons;
-    // None: fitted to the mover's reach, with forces of unchanged magnitude.
-    std::optional<force::WorkspaceMap> workspace;
-    double handle_length = 0.0;  // m, of the wrench
+    WorkspaceOptions workspace;
+    force::LimitBounds mover_limits;  // lower than those that the mover reports
+    double handle_length = 0.0;       // m, of the wrench
     Pose home;
     std::filesystem::path glove;    // serial port; empty: no glove
     std::optional<HandSetup> hand;  // wearer of the glove; none: the controls determine the grip
@@ -50,8 +59,8 @@ struct StationOptions {
     std::function<Result<servo::State>(const servo::Setup& setup)> state;  // empty: servo::initial_state
 };
 
-// The layout of these devices: workspace and grip distance from the options, or fitted to the devices. Fails
-// as check().
+// The layout of these devices: workspace and grip distance from the options, or fitted to the devices. The
+// mover's limits are lowered here, before anything uses them. Fails as check().
 Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
                            std::optional<device::Description> wheel);
 

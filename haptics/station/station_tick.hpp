@@ -22,6 +22,7 @@ struct Buttons {
     std::uint32_t dead_man = 1;
     std::uint32_t clutch = 2;
     std::uint32_t stop = 0, reset = 0;
+    bool operator==(const Buttons&) const = default;
 };
 
 // Which device moves the tool, which one turns the wrench on its bolt, and the transforms between their

@@ -63,3 +63,36 @@ TEST_CASE("Selection: without ids the first usable device of each role is taken"
     CHECK(ids_of(select_any_devices({})).empty());
     CHECK(ids_of(select_any_devices(std::span(connected).first(1))).empty());
 }
+
+TEST_CASE("Selection: a station file names the devices, and the command line has precedence") {
+    content::StationFile station;
+    station.arm.emplace().device = "046d:c626";
+    station.wheel.emplace().device = "1209:ffb0";
+    using Ids = std::vector<std::string>;
+    const auto added = [&](Ids ids) -> Result<Ids> {
+        BOLT_TRY(add_devices_of(station, connected, ids));
+        return ids;
+    };
+    CHECK(added({}) == Ids{"046d:c626", "1209:ffb0"});
+    CHECK(added({"046d:c626"}) == Ids{"046d:c626"});
+    CHECK(added({"1209:ffb0"}) == Ids{"1209:ffb0"});
+    const auto error = [&](Ids ids) {
+        const auto all = added(std::move(ids));
+        REQUIRE(!all);
+        return all.error();
+    };
+    CHECK(error({"1234:5678"}).code == ErrorCode::usage);
+    CHECK(error({"046d:c626", "1234:5678"}).message() ==
+          "--device 1234:5678: the settings of the station's \"wheel\" are for 1209:ffb0; expected that "
+          "device, "
+          "or no --station");
+    station.arm->device = "1234:5678";
+    CHECK(error({}).code == ErrorCode::bad_content);
+    CHECK(error({}).message().find("1234:5678 is the \"arm\" of the station") == 0);
+    // A device that is not connected is an error of select_devices().
+    station.arm->device = "046d:ffff";
+    CHECK(added({}) == Ids{"046d:ffff", "1209:ffb0"});
+    station = {};
+    CHECK(added({}) == Ids{});
+    CHECK(added({"1234:5678"}) == Ids{"1234:5678"});
+}

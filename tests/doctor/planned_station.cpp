@@ -116,6 +116,44 @@ TEST_CASE("Planned station: it can be started; without a selected device the sub
     CHECK(station->glove_report() == nullptr);
 }
 
+TEST_CASE("Planned station: what a station file says holds for its devices only") {
+    content::StationFile file;
+    content::StationArm& arm = file.arm.emplace();
+    arm.device = "haply:0";
+    arm.mounting = {0.5 * pi, 0.1, 0.2};
+    arm.scale = 3.0;
+    arm.power = 0.25;
+    arm.buttons = Buttons{4, 8, 16, 32};
+    arm.limits.force = 5.0;
+    content::StationWheel& wheel = file.wheel.emplace();
+    wheel.device = "1209:ffb0";
+    wheel.config.full_torque = 8.0;
+    wheel.buttons = Buttons{2, 0, 1, 0};
+    const auto planned_with = [&](const char* mover, const char* turner) {
+        PlannedStation planned;
+        planned.devices.mover.emplace().id = mover;
+        planned.devices.wheel.emplace().id = turner;
+        const device::WheelConfig config = apply_station(file, planned);
+        return std::pair(std::move(planned), config);
+    };
+    const auto [same, config] = planned_with("haply:0", "1209:ffb0");
+    CHECK(same.options.workspace.turn == content::orientation_of(arm.mounting));
+    CHECK(same.options.workspace.scale == 3.0);
+    CHECK(same.options.workspace.power == 0.25);
+    CHECK(same.options.mover_buttons == Buttons{4, 8, 16, 32});
+    CHECK(same.options.mover_limits == arm.limits);
+    CHECK(same.options.wheel_buttons == Buttons{2, 0, 1, 0});
+    CHECK(config == wheel.config);
+
+    const auto [other, usual] = planned_with("haply:1", "1209:ffb1");
+    CHECK(other.options.workspace.turn == Quat(1, 0, 0, 0));
+    CHECK(!other.options.workspace.scale);
+    CHECK(other.options.mover_buttons == Buttons{});
+    CHECK(other.options.mover_limits == force::LimitBounds{});
+    CHECK(other.options.wheel_buttons == Buttons{});
+    CHECK(usual == device::WheelConfig{});
+}
+
 TEST_CASE("Planned station: errors are reported before a device is opened") {
     const content::Assembly what = assembly("cover-m8");
     CHECK(error_of(what, {.devices = {"256f:0000"}}).find("boltwright devices") != std::string::npos);

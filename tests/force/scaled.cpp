@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "engine/base/random.hpp"
 #include "haptics/force/output_stage.hpp"
 
 using namespace bolt;
@@ -55,4 +56,33 @@ TEST_CASE("Scaled limits: the limiter obeys them") {
         before = out.force.x;
     }
     CHECK(before == doctest::Approx(5.0));
+}
+
+TEST_CASE("Lowered limits: each limit is the lower of the device's own and the bound, and the others stay") {
+    Random random(5);
+    constexpr double OutputLimits::*limits[] = {&OutputLimits::force,     &OutputLimits::torque,
+                                                &OutputLimits::stiffness, &OutputLimits::torsion,
+                                                &OutputLimits::damping,   &OutputLimits::angular_damping};
+    constexpr std::optional<double> LimitBounds::*bounds[] = {
+        &LimitBounds::force,   &LimitBounds::torque,  &LimitBounds::stiffness,
+        &LimitBounds::torsion, &LimitBounds::damping, &LimitBounds::angular_damping};
+    const double strange[] = {bolt::nan, -1.0, std::numeric_limits<double>::infinity()};
+    for (int i = 0; i < 1000; ++i) {
+        OutputLimits own;
+        LimitBounds bound;
+        for (std::size_t k = 0; k < std::size(limits); ++k) {
+            own.*limits[k] = random.chance(0.1) ? 0.0 : random.uniform(0.0, 100.0);
+            if (random.chance(0.7)) bound.*bounds[k] = random.uniform(0.0, 100.0);
+            if (random.chance(0.1)) bound.*bounds[k] = strange[random.bits() % 3];
+        }
+        const OutputLimits less = lowered(own, bound);
+        for (std::size_t k = 0; k < std::size(limits); ++k) {
+            const double before = own.*limits[k];
+            const double given = (bound.*bounds[k]).value_or(before);
+            CHECK(less.*limits[k] == (given >= 0.0 && given < before ? given : before));
+        }
+        CHECK(less.force_rate == own.force_rate);
+        CHECK(less.speed == own.speed);
+        CHECK(less.silence == own.silence);
+    }
 }

@@ -1,6 +1,8 @@
 // The trainer at a station: input from devices, messages about them, and the session after they fail.
 #include <doctest/doctest.h>
 
+#include "content/format/assembly.hpp"
+#include "content/format/folders.hpp"
 #include "game/session/session_file.hpp"
 #include "tests/station/virtual_bench.hpp"
 #include "tests/trainer_app/headless_trainer.hpp"
@@ -16,14 +18,16 @@ struct AtBench {
     std::optional<station::DisplayedHand> gloved;
 
     std::optional<Error> refuses;
+    std::vector<Equipment> started;  // of each lesson
 
     AppOptions options(bool menu) {
         AppOptions o = test::options("cover-m8", menu);
         o.choice.equipment.hand = HandMode::keyboard;
         o.start_station = [this](
                               const content::Assembly& assembly, const session::LessonOptions& lesson_options,
-                              const Equipment&,
+                              const Equipment& equipment,
                               const std::string&) -> Result<std::unique_ptr<station_setup::LessonStation>> {
+            started.push_back(equipment);
             if (refuses) return fail(*refuses);
             auto prepared = session::prepare(assembly, lesson_options);
             if (!prepared) return fail(prepared.error());
@@ -77,6 +81,50 @@ TEST_CASE("Trainer at a station: keys move the tool, a pause stops it, and the s
     CHECK(reader->complete());
     CHECK(reader->header().servo_rate == 1000.0);
     CHECK(reader->tick_count() == static_cast<std::uint64_t>(std::lround(paused * 1000.0)));
+}
+
+TEST_CASE(
+    "Trainer at a station: every lesson gets what the station file says, also one that is started again") {
+    AtBench at;
+    AppOptions options = at.options(true);
+    content::StationFile& station = options.choice.equipment.station;
+    station.arm.emplace().device = "force-dimension:0";
+    station.arm->limits.force = 5.0;
+    station.arm->mounting.yaw = pi;
+    HeadlessTrainer driver(std::move(options));
+    driver.frame();
+    driver.press_button("menu.start");
+    for (int i = 0; i < 3; ++i) at.frame(driver);
+    at.frame(driver, {down(platform::Key::escape)});
+    at.frame(driver, {up(platform::Key::escape)});
+    driver.press_button("menu.end");
+    driver.frame();
+    driver.press_button("menu.again");
+    driver.frame();
+    REQUIRE(at.started.size() == 2);
+    for (const Equipment& equipment : at.started) {
+        REQUIRE(equipment.station.arm);
+        CHECK(equipment.station.arm->limits.force == 5.0);
+        CHECK(equipment.station.arm->mounting.yaw == pi);
+    }
+}
+
+TEST_CASE("Trainer at a station: the tool of the station's arm is chosen where the assembly has it") {
+    const content::LoadedAssembly loaded = content::load_assembly(content::assembly_folder("cover-m8"));
+    REQUIRE(loaded.ok());
+    const std::vector<content::Tool>& tools = loaded.assembly.tools;
+    REQUIRE(tools.size() == 2);
+    content::StationFile station;
+    CHECK(tool_of_station(station, tools) == std::string());
+    station.arm.emplace().tool = tools[0].name;
+    CHECK(tool_of_station(station, tools) == std::string());
+    station.arm->tool = tools[1].name;
+    CHECK(tool_of_station(station, tools) == tools[1].name);
+    station.arm->tool = "spanner";
+    const Result<std::string> none = tool_of_station(station, tools);
+    REQUIRE(!none);
+    CHECK(none.error().code == ErrorCode::bad_content);
+    CHECK(none.error().expected.find(tools[1].name) != std::string::npos);
 }
 
 TEST_CASE("Trainer at a station: a key is sent with its frame, and the next picture shows the effect") {

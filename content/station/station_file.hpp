@@ -1,0 +1,76 @@
+// Reads and writes the station file: the arm, the wheel and the glove of one workplace, and what its builder
+// knows about them and they do not report. A JSON file, whose members content/schema/station.schema.json
+// describes:
+//
+//   {"format": "boltwright station 1",
+//    "arm": {"device": "force-dimension:0", "mounting": {"yaw_deg": 180}, "limits": {"force_N": 8}},
+//    "glove": {"port": "/dev/ttyUSB0"}}
+//
+// All members except "format", and "device" and "port" in their objects, are optional.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "engine/base/math.hpp"
+#include "engine/base/result.hpp"
+#include "haptics/device/device.hpp"
+#include "haptics/force/output_limits.hpp"
+#include "haptics/station/station_tick.hpp"
+
+namespace bolt::content {
+
+// How a device stands in front of the user, rad. All zero: as its maker intends, its x to the user's right, y
+// up and z to the user. From there it is rolled about its z, then pitched about the user's x (positive: its
+// far side rises), then yawed about the vertical (positive: counter-clockwise seen from above).
+struct Mounting {
+    double yaw = 0.0, pitch = 0.0, roll = 0.0;
+    bool operator==(const Mounting&) const = default;
+};
+
+// The rotation from the device's frame to the user's (x right, y up, z towards the user).
+Quat orientation_of(const Mounting& mounting);
+
+struct StationArm {
+    std::string device;  // id, as boltwright devices lists it
+    Mounting mounting;
+    std::optional<double> scale;  // m of the tool per m of the handle; none: fitted to the reach
+    std::optional<double> power;  // W at the device per W at the tool (force::WorkspaceMap); none: 1/scale
+    std::optional<station::Buttons> buttons;  // none: the defaults
+    force::LimitBounds limits;
+    std::string tool;  // the assembly's tool whose handle is mounted on the arm; empty: any
+    bool operator==(const StationArm&) const = default;
+};
+
+struct StationWheel {
+    std::string device;
+    device::WheelConfig config;
+    std::optional<station::Buttons> buttons;
+    bool operator==(const StationWheel&) const = default;
+};
+
+struct StationFile {
+    std::string schema;  // path of the JSON schema, for editors; may be empty
+    std::string name;    // for people; may be empty
+    std::optional<StationArm> arm;
+    std::optional<StationWheel> wheel;
+    std::string glove_port;  // empty: no glove
+    bool operator==(const StationFile&) const = default;
+};
+
+// N/m, least value of the bound on stiffness: a softer spring could not hold the tool.
+inline constexpr double least_stiffness = 50.0;
+
+// Errors name `file`, line and column.
+Result<StationFile> parse_station(std::string_view text, const std::string& file);
+Result<StationFile> load_station(const std::filesystem::path& path);
+
+// The text of a file, one member a line, in the order of the structs. It is read back to an equal value.
+std::string station_json(const StationFile& station);
+
+// Fails, and leaves the file unchanged, if the values are outside the bounds of parse_station().
+Status save_station(const std::filesystem::path& path, const StationFile& station);
+
+}  // namespace bolt::content
