@@ -119,7 +119,7 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
                        fmt::format("\"format\": \"{}\"", settings_format));
     members.check_known(root, "",
                         {"format", "trainee", "language", "volume", "captions", "palette", "left_handed",
-                         "force_scale", "seated_height_m", "law", "keys"});
+                         "force_scale", "force_arrow", "seated_height_m", "law", "keys"});
     read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
     read_language(members, root, read, known);
     read.volume = members.number(root, "", "volume", 0.0, 1.0);
@@ -127,6 +127,7 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
     read_palette(members, root, read);
     read.left_handed = members.flag(root, "", "left_handed");
     read.force_scale = members.number(root, "", "force_scale", least_force_scale, 1.0);
+    if (root.contains("force_arrow")) read.force_arrow = members.flag(root, "", "force_arrow");
     read_seat(members, root, read);
     read_law(members, root, read);
     read_keys(members, root, read, known);
@@ -144,6 +145,7 @@ std::string settings_text(const TraineeSettings& settings) {
     root["palette"] = settings.palette == PaletteKind::distinct ? distinct : usual;
     root["left_handed"] = settings.left_handed;
     root["force_scale"] = settings.force_scale;
+    if (!settings.force_arrow) root["force_arrow"] = false;
     root["seated_height_m"] = settings.seated_eye_height ? nlohmann::ordered_json(*settings.seated_eye_height)
                                                          : nlohmann::ordered_json(nullptr);
     if (!settings.law.empty()) root["law"] = settings.law;

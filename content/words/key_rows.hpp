@@ -203,6 +203,7 @@ inline constexpr KeyRow key_rows[] = {
     {"menu.palette.usual", ""},
     {"menu.palette.distinct", ""},
     {"menu.force_scale", ""},
+    {"menu.force_arrow", ""},
     {"menu.seated", ""},
     {"menu.sound", ""},
     {"menu.settings", ""},

@@ -112,9 +112,20 @@ MotionArrow round_arrow(const ArrowArc& arc, const glm::vec4& color) {
     return {ArrowShape::round, matrix(x, glm::cross(arc.axis, x), arc.axis, arc.middle, arc.radius), color};
 }
 
-void show_arrow(SceneWorld& world, const std::optional<MotionArrow>& arrow) {
+std::optional<MotionArrow> force_arrow(const Vec3& at, const Vec3& force) {
+    // Violet: neither the colours of motions nor those of verdicts.
+    constexpr double slenderness = 0.4;
+    constexpr glm::vec4 color{0.78F, 0.45F, 1.0F, 1.0F};
+    if (glm::length(force) < least_arrow_force) return std::nullopt;
+    MotionArrow arrow = straight_arrow(at, at + force_arrow_length * force, color);
+    arrow.world = glm::scale(arrow.world, Vec3(slenderness, slenderness, 1.0));
+    return arrow;
+}
+
+void show_arrow(SceneWorld& world, const std::optional<MotionArrow>& arrow, ArrowMeaning meaning) {
     world.view<ArrowMarker, Transform>().each(
         [&](ecs::Entity entity, ArrowMarker& marker, Transform& transform) {
+            if (marker.meaning != meaning) return;
             marker.shown = arrow && arrow->shape == marker.shape;
             if (!marker.shown) {
                 world.remove<Outline>(entity);

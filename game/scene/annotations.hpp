@@ -37,9 +37,16 @@ struct ArrowArc {
 };
 MotionArrow round_arrow(const ArrowArc& arc, const glm::vec4& color);
 
-// Displays `arrow` instead of the arrow displayed before, with an outline that is visible through other
-// parts. None hides it.
-void show_arrow(SceneWorld& world, const std::optional<MotionArrow>& arrow);
+// Displays `arrow` instead of the arrow of this meaning displayed before, with an outline that is visible
+// through other parts. None hides it.
+void show_arrow(SceneWorld& world, const std::optional<MotionArrow>& arrow,
+                ArrowMeaning meaning = ArrowMeaning::motion);
+
+// The arrow of a force (N) on the hand at `at` (m, assembly frame): it begins there, and its length is
+// proportional to the force. None for a force that is too small to see.
+std::optional<MotionArrow> force_arrow(const Vec3& at, const Vec3& force);
+inline constexpr double force_arrow_length = 0.012;  // m/N
+inline constexpr double least_arrow_force = 0.4;     // N
 
 // The components that work_label() reads.
 using WorkAccess = ecs::Access<const world::Joint, const world::ContactState, const world::WorkingHand>;

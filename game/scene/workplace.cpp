@@ -187,11 +187,14 @@ void add_hand(Workplace& workplace, const LessonModels& models, const GpuLessonM
 }
 
 void add_arrows(Workplace& workplace, const GpuLessonModels& on_gpu) {
-    for (const ArrowShape shape : {ArrowShape::straight, ArrowShape::round}) {
+    constexpr std::pair<ArrowShape, ArrowMeaning> arrows[] = {{ArrowShape::straight, ArrowMeaning::motion},
+                                                              {ArrowShape::round, ArrowMeaning::motion},
+                                                              {ArrowShape::straight, ArrowMeaning::force}};
+    for (const auto& [shape, meaning] : arrows) {
         const ecs::Entity entity = workplace.world.create();
         workplace.world.add<Transform>(entity);
         workplace.world.add<Drawable>(entity, &on_gpu.arrows, static_cast<std::uint32_t>(shape), -1, true);
-        workplace.world.add<ArrowMarker>(entity, shape);
+        workplace.world.add<ArrowMarker>(entity, shape, meaning);
     }
 }
 

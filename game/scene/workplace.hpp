@@ -59,10 +59,12 @@ struct GhostPart {
     bool shown = false;
 };
 
-// An arrow that demonstrates a motion (annotations.hpp).
+// An arrow that demonstrates a motion, or the force on the hand (annotations.hpp).
 enum class ArrowShape : std::uint8_t { straight, round };
+enum class ArrowMeaning : std::uint8_t { motion, force };
 struct ArrowMarker {
     ArrowShape shape = ArrowShape::straight;
+    ArrowMeaning meaning = ArrowMeaning::motion;
     bool shown = false;
     glm::vec4 color{1.0F};
 };

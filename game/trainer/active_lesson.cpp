@@ -257,6 +257,26 @@ void placement_system(scene::SceneWorld& world, Frame& frame) {
 namespace {
 
 constexpr glm::vec4 pointer_color{0.9F, 0.95F, 1.0F, 0.8F}, no_color{0.0F};
+constexpr double force_smoothing = 0.05;   // s
+constexpr double force_arrow_place = 0.4;  // share of the handle from the jaw
+
+void show_force(scene::SceneWorld& world, ActiveLesson& active, double seconds) {
+    ForceDisplay& display = active.force;
+    const bool dragged = active.station && active.station->dragged;
+    if (!dragged || !display.enabled || active.clock.paused || active.clock.finished) {
+        display.force = Vec3(0.0);
+        scene::show_arrow(world, std::nullopt, scene::ArrowMeaning::force);
+        return;
+    }
+    display.force +=
+        std::min(1.0, seconds / force_smoothing) * (active.station->latest.output.force - display.force);
+    const Pose& tool = tool_of(active).pose;
+    // Between hand and work, because the wrist itself is often out of the picture.
+    const double along =
+        hand_of(active).wrench ? force_arrow_place * active.session->setup().wrench.handle_length : 0.0;
+    scene::show_arrow(world, scene::force_arrow(tool * Vec3(along, 0.0, 0.0), display.force),
+                      scene::ArrowMeaning::force);
+}
 
 }  // namespace
 
@@ -292,6 +312,7 @@ void coaching_system(scene::SceneWorld& world, Frame& frame) {
                                : take_wrench_hint       ? active.palette.due
                                                         : no_color);
     show_hint_visuals(world, active, hint);
+    show_force(world, active, frame.seconds);
 }
 
 }  // namespace bolt::trainer

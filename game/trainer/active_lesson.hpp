@@ -60,6 +60,12 @@ struct Coaching {
     std::optional<std::pair<std::size_t, Pose>> wrench_ghost;  // cached: its step and its pose
 };
 
+// The force on a hand that a mouse moves, as an arrow, because the mouse does not render it.
+struct ForceDisplay {
+    bool enabled = true;  // from the trainee's settings
+    Vec3 force{0.0};      // N, smoothed, on the hand, assembly frame
+};
+
 struct LessonSound {
     std::unique_ptr<sound::LiveSound> live;  // null: no sound
     bool muted = false;
@@ -86,6 +92,7 @@ struct ActiveLesson {
     LessonClock clock;
     LessonView view;
     Coaching coaching;
+    ForceDisplay force;
     LessonSound sound;
     StepUndo undo;
     TorquePlot plot;
@@ -126,7 +133,7 @@ void handle_input(const scene::SceneWorld& world, Frame& frame);
 void tick_system(scene::SceneWorld& world, Frame& frame);
 // Sets the poses of nuts, wrench and hand from the components.
 void placement_system(scene::SceneWorld& world, Frame& frame);
-// Updates hints, mistakes, captions and outlines.
+// Updates hints, mistakes, captions, outlines and the arrow of the force.
 void coaching_system(scene::SceneWorld& world, Frame& frame);
 // Updates the camera, the close-up and the cut-away in front of the nut.
 void view_system(scene::SceneWorld& world, Frame& frame);

@@ -327,6 +327,7 @@ void App::apply_preferences() {
     ActiveLesson& active = *active_;
     active.input.keys = preferences_.keys;
     active.sound.volume = settings.volume;
+    active.force.enabled = settings.force_arrow;
     active.palette = view::palette_of(settings.palette);
     if (settings.captions != active.sound.captions.has_value())
         active.sound.captions = settings.captions ? std::optional(Captions{}) : std::nullopt;

@@ -107,6 +107,8 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     }
     draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::least_force_scale, 1.0});
     record_place(context, "menu.force_scale");
+    ImGui::Checkbox(words["menu.force_arrow"].c_str(), &settings.force_arrow);
+    record_place(context, "menu.force_arrow");
 }
 
 void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {

@@ -36,6 +36,7 @@ TraineeSettings example(std::uint64_t seed) {
     if (random.chance(0.7)) s.law = random.chance(0.5) ? "published" : "mechanistic";
     if (random.chance(0.7)) s.keys["tool"] = random.chance(0.5) ? "T" : "F1";
     if (random.chance(0.7)) s.keys["hint"] = "H";
+    s.force_arrow = seed % 3 != 0;
     return s;
 }
 
@@ -54,6 +55,7 @@ TEST_CASE("Settings: writing and reading round-trips to the last bit") {
         CHECK(read->palette == s.palette);
         CHECK(read->left_handed == s.left_handed);
         CHECK(read->force_scale == s.force_scale);
+        CHECK(read->force_arrow == s.force_arrow);
         CHECK(read->seated_eye_height == s.seated_eye_height);
         CHECK(read->law == s.law);
         CHECK(read->keys == s.keys);

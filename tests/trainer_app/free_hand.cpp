@@ -1,6 +1,7 @@
 // The free hand: the mouse moves and turns the hand, which feels the forces of a simulated arm.
 #include <doctest/doctest.h>
 
+#include "game/scene/annotations.hpp"
 #include "game/session/session_file.hpp"
 #include "tests/trainer_app/free_hand_user.hpp"
 
@@ -16,6 +17,17 @@ AppOptions free_hand(const char* assembly) {
     return o;
 }
 
+// Length of the arrow that shows the force on the hand, m; 0: hidden.
+double shown_force(ActiveLesson& active) {
+    double length = 0.0;
+    active.workplace.world.view<const scene::ArrowMarker, const scene::Transform>().each(
+        [&](const scene::ArrowMarker& marker, const scene::Transform& transform) {
+            if (marker.shown && marker.meaning == scene::ArrowMeaning::force)
+                length = static_cast<double>(glm::length(glm::vec3(transform.world[2])));
+        });
+    return length;
+}
+
 }  // namespace
 
 TEST_CASE("Free hand: a simulated user aligns and tightens the nut by dragging alone") {
@@ -23,7 +35,26 @@ TEST_CASE("Free hand: a simulated user aligns and tightens the nut by dragging a
     driver.frame();
     REQUIRE(driver.lesson().station);
     test::FreeHandUser user(driver);
+    double longest = 0.0, greatest = 0.0;  // m, N
+    bool switched_off = false;
+    user.on_frame = [&] {
+        if (driver.app().screen() != ShownScreen::lesson) return;
+        auto& active = const_cast<ActiveLesson&>(driver.lesson());
+        longest = std::max(longest, shown_force(active));
+        greatest = std::max(greatest, glm::length(active.station->latest.output.force));
+        if (switched_off || shown_force(active) < 0.02) return;
+        switched_off = true;
+        active.force.enabled = false;
+        driver.frame({}, 1e-3);
+        CHECK(shown_force(active) == 0.0);
+        active.force.enabled = true;
+    };
     user.play(120.0);
+    CHECK(switched_off);
+    // A tight nut is seen.
+    CHECK(greatest > 3.0);
+    CHECK(longest > 0.5 * scene::force_arrow_length * greatest);
+    CHECK(longest <= scene::force_arrow_length * greatest * (1.0 + 1e-6));
     CHECK(driver.app().screen() == ShownScreen::result);
     REQUIRE(driver.outcome());
     CHECK(driver.outcome()->result.joints.front().overall == lesson::Verdict::ok);

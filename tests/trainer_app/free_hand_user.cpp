@@ -51,6 +51,7 @@ void FreeHandUser::frame(const glm::dvec2& px, double notches) {
     if (px != glm::dvec2(0.0)) events.emplace_back(platform::CursorEvent{pointer_});
     if (notches != 0.0) events.emplace_back(platform::WheelEvent{{0.0, notches}, pointer_});
     driver_.frame(events);
+    on_frame();
 }
 
 void FreeHandUser::drag_by(const Vec3& at, const Vec3& error) {

@@ -2,6 +2,8 @@
 // dragging what is still wrong. It presses only the left button, Shift and the wheel.
 #pragma once
 
+#include <functional>
+
 #include "tests/trainer_app/headless_trainer.hpp"
 
 namespace bolt::test {
@@ -14,7 +16,8 @@ class FreeHandUser {
     void play(double longest, std::size_t steps = SIZE_MAX);
 
     double torque_share = 1.0;  // of the due torque
-    int presses = 0;            // of the left button
+    std::function<void()> on_frame = [] {};
+    int presses = 0;  // of the left button
 
   private:
     [[nodiscard]] const trainer::ActiveLesson& lesson() const { return driver_.lesson(); }
