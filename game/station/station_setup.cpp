@@ -45,7 +45,7 @@ Result<device::ListedDevice> find_device(std::span<const device::ListedDevice> c
     for (const device::ListedDevice& l : connected) {
         ids.push_back(l.id);
         if (l.id != id) continue;
-        if (l.trouble) return fail(*l.trouble);
+        if (!l.usable()) return fail(*l.trouble);
         return l;
     }
     const std::string near = nearest(id, ids);
@@ -77,7 +77,7 @@ DeviceSelection select_any_devices(std::span<const device::ListedDevice> connect
     DeviceSelection selection;
     for (const device::ListedDevice& l : connected) {
         const std::optional<DeviceRole> role = role_of(l.kind);
-        if (!role || l.trouble) continue;
+        if (!role || !l.usable()) continue;
         std::optional<device::ListedDevice>& slot =
             *role == DeviceRole::mover ? selection.mover : selection.wheel;
         if (!slot) slot = l;
@@ -260,7 +260,10 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
     const Result<DeviceSelection> selection = select_devices(device::list_devices(true), request.devices);
     if (!selection) return fail(selection.error());
     planned.devices = *selection;
-    if (selection->mover) planned.options.mover = device::factory_for(selection->mover->id, {wheel_config});
+    planned.options.on_preparation = request.on_preparation;
+    device::OpenOptions of_mover{wheel_config};
+    of_mover.permission = request.permission;
+    if (selection->mover) planned.options.mover = device::factory_for(selection->mover->id, of_mover);
     if (selection->wheel) planned.options.wheel = device::factory_for(selection->wheel->id, {wheel_config});
     if (!selection->mover) planned.options.mover = request.fallback_mover;
     return {};

@@ -9,6 +9,7 @@
 #include "haptics/device/arms.hpp"
 #include "haptics/device/hid_transport.hpp"
 #include "haptics/device/plugin_arms.hpp"
+#include "haptics/device/preparation.hpp"
 #include "haptics/device/space_mouse.hpp"
 #include "haptics/device/usb_force_feedback.hpp"
 #include "haptics/device/wheel.hpp"
@@ -187,14 +188,27 @@ Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const Ope
                 "a SpaceMouse or a wheel with force feedback");
 }
 
+namespace {
+
+Result<std::unique_ptr<DeviceDriver>> open_listed(const std::string& id, const OpenOptions& options) {
+    for (const ListedDevice& device : list_devices())
+        if (device.id == id) return open(device, options);
+    return fail(lost_device(fmt::format("there is no device {}", id),
+                            "a connected device; `boltwright devices` lists them"));
+}
+
+}  // namespace
+
 DeviceFactory factory_for(std::string id, const OpenOptions& given) {
     OpenOptions kept = given;
     if (!kept.waiting_arms) kept.waiting_arms = make_waiting_arms();
     return [id = std::move(id), options = std::move(kept)]() -> Result<std::unique_ptr<DeviceDriver>> {
-        for (const ListedDevice& device : list_devices())
-            if (device.id == id) return open(device, options);
-        return fail(lost_device(fmt::format("there is no device {}", id),
-                                "a connected device; `boltwright devices` lists them"));
+        if (!options.permission || !options.permission->take()) return open_listed(id, options);
+        OpenOptions permitted = options;
+        permitted.arm_may_move = true;
+        Result<std::unique_ptr<DeviceDriver>> opened = open_listed(id, permitted);
+        options.permission->end();
+        return opened;
     };
 }
 

@@ -11,7 +11,8 @@
 
 namespace bolt::device {
 
-class WaitingArms;  // plugin_arms.hpp
+class MovePermission;  // preparation.hpp
+class WaitingArms;     // plugin_arms.hpp
 
 enum class DeviceKind : std::uint8_t {
     arm,    // through its vendor's library or service (arms.hpp); renders forces
@@ -35,6 +36,9 @@ struct ListedDevice {
     std::string name;
     DeviceKind kind = DeviceKind::other;
     std::optional<Error> trouble;  // why it cannot be used, with a remedy
+
+    // False if it cannot be opened. An arm that only needs its preparation can.
+    [[nodiscard]] bool usable() const { return !trouble || trouble->preparation.need != DeviceNeed::none; }
 };
 
 // The devices connected now; with `others` also unsupported ones such as keyboards.
@@ -44,7 +48,8 @@ struct OpenOptions {
     WheelConfig wheel{};
     PuckResponse puck{};
     bool arm_may_move = false;  // an arm may move by itself to find its position, if it has not done so yet
-    std::shared_ptr<WaitingArms> waiting_arms{};  // of plug-ins, from one attempt to the next; may be null
+    std::shared_ptr<WaitingArms> waiting_arms{};   // of plug-ins, from one attempt to the next; may be null
+    std::shared_ptr<MovePermission> permission{};  // factory_for() sets `arm_may_move` from it; may be null
 };
 
 Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const OpenOptions& options = {});

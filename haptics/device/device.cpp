@@ -84,4 +84,20 @@ Error lost_device(std::string what, std::string expected) {
     return error;
 }
 
+Error unprepared_device(std::string what, std::string expected, Preparation preparation) {
+    Error error;
+    error.code = ErrorCode::no_device;
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    error.preparation = std::move(preparation);
+    return error;
+}
+
+Error immobile_device(const std::string& name, std::string_view id) {
+    return unprepared_device(
+        name + " has to move by itself to find its position, and may not",
+        fmt::format("free room around it, then `boltwright devices --device {} --yes`", id),
+        {DeviceNeed::permission, {}});
+}
+
 }  // namespace bolt::device

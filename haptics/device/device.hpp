@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/math.hpp"
@@ -65,6 +66,11 @@ struct Sample {
 
 // The error of a device that is gone or has let its force go: the supervisor opens it again.
 Error lost_device(std::string what, std::string expected);
+
+// The error of an arm that is connected and cannot be opened before it has what it needs.
+Error unprepared_device(std::string what, std::string expected, Preparation preparation);
+// The same for an arm that would have to move by itself and has no permission.
+Error immobile_device(const std::string& name, std::string_view id);
 
 // The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
 // lost device (DeviceSupervisor does) nor exchanges data with the servo (DeviceThread does). All calls come

@@ -54,9 +54,11 @@ bool DeviceSupervisor::try_open(std::uint64_t number) {
     if (!opened) {
         ++report_.refusals;
         report_.trouble = opened.error().message();
+        report_.preparation = opened.error().preparation;
         return false;
     }
     ++report_.openings;
+    report_.preparation = {};
     device_ = std::move(*opened);
     report_.description = std::make_shared<const Description>(device_->describe());
     // One sample period, so that reading does not delay the next command.
@@ -168,7 +170,7 @@ constexpr double report_interval = 0.1;  // s between two reports if only counte
 // True if the report must be published now.
 bool changed(const DeviceReport& now, const DeviceReport& before) {
     return now.state != before.state || now.openings != before.openings || now.losses != before.losses ||
-           now.trouble != before.trouble;
+           now.trouble != before.trouble || now.preparation != before.preparation;
 }
 
 }  // namespace
@@ -259,11 +261,20 @@ double DeviceThread::blocked_for() const {
     return shared_->timer.now() - shared_->last_return.load(std::memory_order_relaxed);
 }
 
-Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(double timeout) {
-    const double until = shared_->timer.now() + timeout;
+Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(
+    double timeout, const PreparationHandler& on_preparation) {
+    double until = shared_->timer.now() + timeout;
     while (report().openings == 0) {
+        if (on_preparation && report().preparation.need != DeviceNeed::none)
+            until = on_preparation(report().preparation) ? shared_->timer.now() + timeout : 0.0;
         if (shared_->timer.now() >= until) {
-            if (!report().trouble.empty()) return fail(ErrorCode::no_device, report().trouble);
+            if (!report().trouble.empty()) {
+                Error error;
+                error.code = ErrorCode::no_device;
+                error.what = report().trouble;
+                error.preparation = report().preparation;
+                return fail(std::move(error));
+            }
             return fail(ErrorCode::no_device, "the device does not open in time",
                         fmt::format("a connected device that opens within {:g} s", timeout));
         }

@@ -36,6 +36,7 @@ enum class DeviceState : std::uint8_t {
 struct DeviceReport {
     DeviceState state = DeviceState::absent;
     std::string trouble;                             // plain text with a remedy; empty: none
+    Preparation preparation;                         // what the device needs before it can be opened
     std::shared_ptr<const Description> description;  // from the last opening; null: never opened
     std::uint64_t openings = 0, refusals = 0;        // successful and failed attempts to open
     std::uint64_t losses = 0;                        // closed after a read or write error
@@ -109,6 +110,10 @@ struct DeviceThreadOptions {
     int priority = 0;  // SCHED_FIFO priority 1 … 99 if permitted; 0: default scheduling
 };
 
+// Shows the user what a device needs. Called every few milliseconds while it needs that. Returns false to
+// give up; the device's error then has the preparation. May wait, for example for an answer.
+using PreparationHandler = std::function<bool(const Preparation& preparation)>;
+
 class DeviceThread {
   public:
     // Returns immediately. The thread opens the device and reopens it after a loss.
@@ -129,8 +134,10 @@ class DeviceThread {
     [[nodiscard]] double blocked_for() const;
 
     // Waits until the device is open and returns its description; after `timeout` s the error says why it is
-    // not. Reads report(), so call it from the same thread.
-    Result<std::shared_ptr<const Description>> wait_until_open(double timeout);
+    // not. The time in which `on_preparation` lets it wait does not count. Reads report(), so call it from
+    // the same thread.
+    Result<std::shared_ptr<const Description>> wait_until_open(double timeout,
+                                                               const PreparationHandler& on_preparation = {});
 
   private:
     struct Shared;

@@ -101,12 +101,7 @@ class ForceDimensionArm final : public DeviceDriver {
     // Call once after the arm was opened.
     Status enable(bool may_move) {
         if (!api_.is_initialized(id_)) {
-            if (!may_move)
-                return fail(
-                    ErrorCode::no_device,
-                    description_.name + " has to move by itself to find its position, and may not",
-                    fmt::format("free room around it, then `boltwright devices --device {} --may-move`",
-                                description_.id));
+            if (!may_move) return fail(immobile_device(description_.name, description_.id));
             if (api_.auto_init(id_) < 0) return failure("it does not find its position");
         }
         // Ends the regulation of the position; the forces stay on.

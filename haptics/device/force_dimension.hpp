@@ -46,8 +46,9 @@ struct ForceDimensionOptions {
     bool may_move = false;  // the arm may move by itself to find its position, if it has not done so yet
 };
 
-// Opens arm `index`. Fails if it would have to move by itself and may not. The arm's name and limits follow
-// from its joints, because the limits of a model are only known for these (docs/decisions.md).
+// Opens arm `index`. Fails with an Error::preparation if it would have to move by itself and may not. The
+// arm's name and limits follow from its joints, because the limits of a model are only known for these
+// (docs/decisions.md).
 Result<std::unique_ptr<DeviceDriver>> open_force_dimension(const ForceDimensionApi& api,
                                                            const ForceDimensionOptions& options, Timer timer);
 

@@ -37,11 +37,9 @@ Error not_running(std::string_view reason) {
 }
 
 Error not_calibrated(const std::string& arm) {
-    Error error;
-    error.code = ErrorCode::no_device;
-    error.what = fmt::format("Haply Inverse3 {} is not calibrated", arm);
-    error.expected = "an arm that was placed into its inkwell and calibrated, as its light shows";
-    return error;
+    return unprepared_device(fmt::format("Haply Inverse3 {} is not calibrated", arm),
+                             "an arm that was placed into its inkwell and calibrated, as its light shows",
+                             {DeviceNeed::inkwell, {}});
 }
 
 // Waits for the first message of a connection. nullopt: it did not come in time.

@@ -147,11 +147,13 @@ class OpenHapticsArm final : public DeviceDriver {
         if (report_.fault != 0) return failure("it cannot be started", report_.fault);
         if (report_.calibration == calibrated) return {};
         if (report_.calibration == 0) return failure("its scheduler does not run", 0);
-        const bool inkwell = (arm_.calibration_style & style_inkwell) != 0;
-        return fail(ErrorCode::no_device, arm_.description.name + " does not know its position",
-                    inkwell
-                        ? "its stylus in the inkwell: push it in, and it is calibrated at the next attempt"
-                        : "an arm that was calibrated with the vendor's program Touch_Diagnostic");
+        const std::string what = arm_.description.name + " does not know its position";
+        if ((arm_.calibration_style & style_inkwell) != 0)
+            return fail(unprepared_device(
+                what, "its stylus in the inkwell: push it in, and it is calibrated at the next attempt",
+                {DeviceNeed::inkwell, {}}));
+        return fail(ErrorCode::no_device, what,
+                    "an arm that was calibrated with the vendor's program Touch_Diagnostic");
     }
 
     [[nodiscard]] const Description& describe() const override { return arm_.description; }

@@ -160,7 +160,7 @@ TEST_CASE("Force Dimension: an arm that does not know its position moves only if
     REQUIRE_FALSE(refused);
     CHECK(refused.error().message().find(
               "has to move by itself to find its position, and may not; expected free room around it, then "
-              "`boltwright devices --device force-dimension:0 --may-move`") != std::string::npos);
+              "`boltwright devices --device force-dimension:0 --yes`") != std::string::npos);
     CHECK(bench.arm.moved_by_itself() == 0);
     CHECK(bench.arm.open() == 0);
     CHECK(bench.open(true));
