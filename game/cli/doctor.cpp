@@ -16,6 +16,7 @@
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
 #include "engine/platform/window.hpp"
+#include "game/cli/arm_questions.hpp"
 #include "game/cli/commands.hpp"
 #include "game/computer/computer.hpp"
 #include "game/station/trial.hpp"
@@ -32,6 +33,7 @@ struct TrialOptions {
     std::vector<std::string> devices;
     std::string wheel_config_file, glove, trainee, calibrations;
     double seconds = 5.0;
+    bool yes = false;
 
     [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty(); }
 };
@@ -86,6 +88,9 @@ int try_station(const TrialOptions& options) {
     request.trainee = options.trainee;
     request.calibrations = options.calibrations;
     request.tightened = true;
+    const ArmQuestions questions = make_arm_questions(options.yes);
+    request.on_preparation = questions.on_preparation;
+    request.permission = questions.permission;
 
     Result<station_setup::PlannedStation> planned = station_setup::plan_station(loaded.assembly, request);
     if (!planned) return print_error(planned.error());
@@ -206,6 +211,11 @@ void add_doctor(CLI::App& app, int& exit_code) {
         ->add_option("--folder", station.calibrations,
                      "Folder of calibrations; default: the user's data folder")
         ->needs(trainee);
+    doctor
+        ->add_flag("--yes", station.yes,
+                   "Answers the questions whether an arm may move by itself, which a terminal asks: keep the "
+                   "room around it free")
+        ->needs(device);
     doctor
         ->add_option("--seconds", options->seconds,
                      "Duration of the trial (5), or of the timing at each rate of the servo (2; 0: none)")
