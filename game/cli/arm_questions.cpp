@@ -41,12 +41,12 @@ bool ask(std::string_view question, bool yes) {
     return answer == "y" || answer == "Y" || answer == "yes";
 }
 
-ArmQuestions make_arm_questions(bool yes) {
-    ArmQuestions questions;
+device::ArmDialog terminal_dialog(bool yes) {
+    device::ArmDialog questions;
     questions.permission = std::make_shared<device::MovePermission>();
     questions.on_preparation = [yes, permission = questions.permission,
                                 shown = Preparation()](const Preparation& needed) mutable {
-        if (permission->active()) return true;
+        if (needed.need == DeviceNeed::none || permission->active()) return true;
         if (needed.need == DeviceNeed::permission) {
             if (!ask(
                     "The arm moves by itself to find its position. Keep hands and things clear. May it move?",

@@ -1,10 +1,8 @@
 // Questions on the terminal before an arm moves or pushes, and what to do about an arm that must be prepared.
 #pragma once
 
-#include <memory>
 #include <string_view>
 
-#include "haptics/device/device_thread.hpp"
 #include "haptics/device/preparation.hpp"
 
 namespace bolt::cli {
@@ -18,10 +16,6 @@ bool ask(std::string_view question, bool yes);
 
 // For a station or a device thread. Without a terminal an arm that needs more than permission is an error at
 // once, because nobody is there to put its handle into the inkwell.
-struct ArmQuestions {
-    device::PreparationHandler on_preparation;
-    std::shared_ptr<device::MovePermission> permission;
-};
-ArmQuestions make_arm_questions(bool yes);
+device::ArmDialog terminal_dialog(bool yes);
 
 }  // namespace bolt::cli

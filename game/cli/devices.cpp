@@ -83,11 +83,11 @@ Result<std::string> examine_device(const DevicesOptions& options) {
         BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(options.wheel_config_file));
         wheel_config = read;
     }
-    const ArmQuestions questions = make_arm_questions(options.yes);
+    const device::ArmDialog dialog = terminal_dialog(options.yes);
     device::OpenOptions opening{wheel_config};
-    opening.permission = questions.permission;
+    opening.permission = dialog.permission;
     BOLT_TRY_ASSIGN(auto thread, device::DeviceThread::start(device::factory_for(options.device, opening)));
-    BOLT_TRY_ASSIGN(const auto description, thread.wait_until_open(open_timeout, questions.on_preparation));
+    BOLT_TRY_ASSIGN(const auto description, thread.wait_until_open(open_timeout, dialog.on_preparation));
     const device::Timer timer = device::steady_timer();
     const std::uint64_t before = thread.snapshot().number;
     timer.wait(options.seconds);

@@ -88,9 +88,7 @@ int try_station(const TrialOptions& options) {
     request.trainee = options.trainee;
     request.calibrations = options.calibrations;
     request.tightened = true;
-    const ArmQuestions questions = make_arm_questions(options.yes);
-    request.on_preparation = questions.on_preparation;
-    request.permission = questions.permission;
+    request.arm_dialog = terminal_dialog(options.yes);
 
     Result<station_setup::PlannedStation> planned = station_setup::plan_station(loaded.assembly, request);
     if (!planned) return print_error(planned.error());

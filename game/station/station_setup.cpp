@@ -260,9 +260,9 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
     const Result<DeviceSelection> selection = select_devices(device::list_devices(true), request.devices);
     if (!selection) return fail(selection.error());
     planned.devices = *selection;
-    planned.options.on_preparation = request.on_preparation;
+    planned.options.on_preparation = request.arm_dialog.on_preparation;
     device::OpenOptions of_mover{wheel_config};
-    of_mover.permission = request.permission;
+    of_mover.permission = request.arm_dialog.permission;
     if (selection->mover) planned.options.mover = device::factory_for(selection->mover->id, of_mover);
     if (selection->wheel) planned.options.wheel = device::factory_for(selection->wheel->id, {wheel_config});
     if (!selection->mover) planned.options.mover = request.fallback_mover;

@@ -84,9 +84,7 @@ struct StationRequest {
     std::string trainee{};          // wearer of the glove; empty: its samples are read but form no hand
     std::filesystem::path calibrations{};  // empty: calibrations_folder()
 
-    // Of an arm that must be prepared (station::StationOptions::on_preparation). Null: it may not move.
-    device::PreparationHandler on_preparation{};
-    std::shared_ptr<device::MovePermission> permission{};
+    device::ArmDialog arm_dialog{};  // of an arm that must be prepared
 
     double force_scale = 1.0;  // 0 … 1, scale of the forces in a lesson
 

@@ -301,7 +301,8 @@ void draw_hint(const ActiveLesson& active, const HudText& texts, const glm::dvec
 }
 
 void draw_device_messages(const ActiveLesson& active, const glm::dvec2& size, float scale) {
-    if (!active.station) return;
+    // The screen about the arm has better words for what it needs.
+    if (!active.station || active.station->needs.any()) return;
     std::vector<HudLine> lines;
     for (const std::string& trouble : active.station->troubles) lines.push_back({trouble, warm});
     text_panel("##troubles", {12.0F * scale, static_cast<float>(size.y) - 12.0F * scale}, {0.0F, 1.0F}, lines,

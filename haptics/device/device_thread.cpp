@@ -265,8 +265,12 @@ Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(
     double timeout, const PreparationHandler& on_preparation) {
     double until = shared_->timer.now() + timeout;
     while (report().openings == 0) {
-        if (on_preparation && report().preparation.need != DeviceNeed::none)
-            until = on_preparation(report().preparation) ? shared_->timer.now() + timeout : 0.0;
+        if (on_preparation) {
+            const bool needs = report().preparation.need != DeviceNeed::none;
+            const bool waits = on_preparation(report().preparation);
+            if (!waits) until = 0.0;
+            if (waits && needs) until = shared_->timer.now() + timeout;
+        }
         if (shared_->timer.now() >= until) {
             if (!report().trouble.empty()) {
                 Error error;
@@ -280,6 +284,7 @@ Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(
         }
         shared_->timer.wait(5e-3);
     }
+    if (on_preparation) (void)on_preparation({});
     return report().description;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/base/function_ref.hpp"
 #include "engine/base/lock_free.hpp"
 #include "haptics/device/device.hpp"
+#include "haptics/device/preparation.hpp"
 
 namespace bolt::device {
 
@@ -110,10 +111,6 @@ struct DeviceThreadOptions {
     int priority = 0;  // SCHED_FIFO priority 1 … 99 if permitted; 0: default scheduling
 };
 
-// Shows the user what a device needs. Called every few milliseconds while it needs that. Returns false to
-// give up; the device's error then has the preparation. May wait, for example for an answer.
-using PreparationHandler = std::function<bool(const Preparation& preparation)>;
-
 class DeviceThread {
   public:
     // Returns immediately. The thread opens the device and reopens it after a loss.
@@ -134,8 +131,8 @@ class DeviceThread {
     [[nodiscard]] double blocked_for() const;
 
     // Waits until the device is open and returns its description; after `timeout` s the error says why it is
-    // not. The time in which `on_preparation` lets it wait does not count. Reads report(), so call it from
-    // the same thread.
+    // not. The time in which the device needs something and `on_preparation` waits for it does not count.
+    // Reads report(), so call it from the same thread.
     Result<std::shared_ptr<const Description>> wait_until_open(double timeout,
                                                                const PreparationHandler& on_preparation = {});
 

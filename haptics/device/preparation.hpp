@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
+#include <memory>
 
 #include "engine/base/result.hpp"
 
@@ -31,6 +33,17 @@ class MovePermission {
   private:
     enum class State : std::uint8_t { none, given, taken };
     std::atomic<State> state_{State::none};
+};
+
+// Shows the user what a device needs; DeviceNeed::none: nothing. Called every few milliseconds while the
+// device is opened, and once when it is open. Returns false to give up; the device's error then has the
+// preparation. May wait, for example for an answer.
+using PreparationHandler = std::function<bool(const Preparation& preparation)>;
+
+// How an arm reaches the user while it is opened. The default: a need is an error, and no arm moves.
+struct ArmDialog {
+    PreparationHandler on_preparation{};
+    std::shared_ptr<MovePermission> permission{};
 };
 
 // For the screen.

@@ -3,11 +3,14 @@
 // Signatures, order of calls and errors: dhdc.h and drdc.h of the Force Dimension SDK 3.17.
 #include "tools/emulate/arms/force_dimension.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <thread>
 
 namespace {
 
@@ -41,9 +44,18 @@ int refuse(int error) {
 
 void follow_clock();
 
+// Switches the arm off while the file of EMULATED_ARM_SWITCH is absent; then it forgets its position.
+void follow_switch() {
+    const char* file = std::getenv("EMULATED_ARM_SWITCH");
+    if (!has_own_clock || file == nullptr) return;
+    arm.unplugged = access(file, F_OK) != 0;
+    if (arm.unplugged) arm.open = arm.enabled = arm.initialized = false;
+}
+
 // Returns true if the arm is open and connected; otherwise sets the error of the call.
 bool reaches(char id) {
     follow_clock();
+    follow_switch();
     if (arm.open && !arm.unplugged && id == arm_id) return true;
     refuse(error_no_device);
     return false;
@@ -131,8 +143,12 @@ int emu_moved_by_itself(void) { return arm.searches; }
 int emu_braked(void) { return arm.braked ? 1 : 0; }
 int emu_open(void) { return arm.open ? 1 : 0; }
 
-int dhdGetDeviceCount(void) { return arm.unplugged ? 0 : 1; }
+int dhdGetDeviceCount(void) {
+    follow_switch();
+    return arm.unplugged ? 0 : 1;
+}
 int drdOpenID(char index) {
+    follow_switch();
     if (index != 0 || arm.unplugged) return refuse(error_no_device);
     if (arm.in_use || arm.open) return refuse(error_in_use);
     arm.open = true;
@@ -150,6 +166,8 @@ bool drdIsInitialized(char id) { return reaches(id) && arm.initialized; }
 int drdAutoInit(char id) {
     if (!reaches(id)) return -1;
     ++arm.searches;
+    if (const char* seconds = std::getenv("EMULATED_ARM_HOMING"); has_own_clock && seconds != nullptr)
+        std::this_thread::sleep_for(std::chrono::duration<double>(std::atof(seconds)));
     arm.position = arm.velocity = {};
     arm.initialized = true;
     return 0;
