@@ -237,6 +237,8 @@ inline constexpr KeyRow key_rows[] = {
     {"arm.inkwell", ""},
     {"arm.user", "text"},
     {"arm.calibrates", ""},
+    {"arm.warm", ""},
+    {"arm.rests", ""},
     {"menu.computer", ""},
     {"menu.files", ""},
     {"files.sessions", "folder"},

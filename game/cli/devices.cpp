@@ -98,6 +98,8 @@ Result<std::string> examine_device(const DevicesOptions& options) {
                     report.trouble.empty() ? description->name + " sends nothing" : report.trouble);
     std::string text = fmt::format("{}  {}\n", options.device, description->name);
     for (const std::string& line : device::summary_lines(*description)) text += fmt::format("  {}\n", line);
+    for (const std::string& line : device::summary_lines(report.condition))
+        text += fmt::format("  {}\n", line);
     if (options.seconds > 0.0)
         text += fmt::format("  sent {:.0f} samples a second{}\n", received / options.seconds,
                             received < 1.0 ? "; it is at rest" : "");

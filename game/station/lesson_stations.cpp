@@ -31,6 +31,10 @@ class RunningStation final : public LessonStation {
         if (report == nullptr) return {};
         return {report->preparation, permission_ && permission_->active()};
     }
+    device::Condition condition() override {
+        const device::DeviceReport* report = station_.mover_report();
+        return report != nullptr ? report->condition : device::Condition{};
+    }
     void permit_move() override {
         if (permission_) permission_->give();
     }

@@ -262,6 +262,7 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
     planned.devices = *selection;
     planned.options.on_preparation = request.arm_dialog.on_preparation;
     device::OpenOptions of_mover{wheel_config};
+    of_mover.effector_mass = request.effector_mass;
     of_mover.permission = request.arm_dialog.permission;
     if (selection->mover) planned.options.mover = device::factory_for(selection->mover->id, of_mover);
     if (selection->wheel) planned.options.wheel = device::factory_for(selection->wheel->id, {wheel_config});

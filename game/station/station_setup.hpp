@@ -85,6 +85,7 @@ struct StationRequest {
     std::filesystem::path calibrations{};  // empty: calibrations_folder()
 
     device::ArmDialog arm_dialog{};  // of an arm that must be prepared
+    double effector_mass = 0.0;      // kg, mounted on the arm (device::OpenOptions)
 
     double force_scale = 1.0;  // 0 … 1, scale of the forces in a lesson
 
@@ -145,6 +146,7 @@ class LessonStation {
     virtual std::vector<std::string> troubles() = 0;             // messages on the present problems
     // What the device that moves the tool needs before it can be opened again, after it was lost.
     virtual device::ArmNeeds needs() { return {}; }
+    virtual device::Condition condition() { return {}; }  // of that device
     virtual void permit_move() {}  // to that device, for its next attempt (device::MovePermission)
 
     [[nodiscard]] virtual const station::Layout& layout() const = 0;

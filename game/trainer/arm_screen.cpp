@@ -85,6 +85,12 @@ void pause_for_arm(StationClient& client, LessonClock& clock) {
     }
 }
 
+std::optional<words::TextKey> arm_warning(const device::Condition& condition) {
+    if (condition.rests) return words::TextKey("arm.rests");
+    if (device::is_warm(condition)) return words::TextKey("arm.warm");
+    return {};
+}
+
 std::string describe(const device::ArmNeeds& needs) {
     if (needs.moves) return "the arm may move by itself";
     switch (needs.preparation.need) {

@@ -35,6 +35,9 @@ ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen);
 // it.
 void pause_for_arm(StationClient& client, LessonClock& clock);
 
+// What the trainee should know of warm motors; none: they are cool, or the arm does not report it.
+std::optional<words::TextKey> arm_warning(const device::Condition& condition);
+
 // One line for the log; empty: it needs nothing.
 std::string describe(const device::ArmNeeds& needs);
 

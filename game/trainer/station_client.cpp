@@ -173,6 +173,7 @@ void update_client(StationClient& client, const session::LessonSession& session)
     client.latest = client.link->latest_tick();
     client.troubles = client.link->troubles();
     client.needs = client.link->needs();
+    client.condition = client.link->condition();
     const station::DisplayedHand* hand = client.link->hand();
     client.gloved = hand != nullptr;
     client.glove_lost = hand != nullptr && hand->lost;

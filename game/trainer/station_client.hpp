@@ -100,10 +100,11 @@ struct StationClient {
     std::optional<std::size_t> near_nut;  // nut within reach of the tool
     bool near_wrench = false;             // the resting wrench is within reach of the hand
     std::vector<std::string> troubles;
-    device::ArmNeeds needs;      // of the device that moves the tool, after it was lost
-    bool waits_for_arm = false;  // the lesson is paused until it has what it needs
-    bool paused_before = false;  // the user had paused the lesson already
-    hand::Skeleton fingers;      // of a gloved hand, in the frame of the wrench, in the hand or at rest
+    device::Condition condition;  // of the device that moves the tool
+    device::ArmNeeds needs;       // of the device that moves the tool, after it was lost
+    bool waits_for_arm = false;   // the lesson is paused until it has what it needs
+    bool paused_before = false;   // the user had paused the lesson already
+    hand::Skeleton fingers;       // of a gloved hand, in the frame of the wrench, in the hand or at rest
     bool gloved = false;
     bool glove_lost = false;         // the glove sends no valid samples
     double nut_angle_at_grip = 0.0;  // rad, angle of the held nut when it was engaged

@@ -82,6 +82,7 @@ void DeviceSupervisor::close() {
     // An error means that the device is already lost.
     if (renders(*report_.description) && device_->write({})) ++report_.writes;
     device_.reset();
+    report_.condition = {};
     report_.state = DeviceState::absent;
 }
 
@@ -89,6 +90,7 @@ void DeviceSupervisor::handle_loss(const Error& error) {
     ++report_.losses;
     report_.trouble = error.message();
     device_.reset();
+    report_.condition = {};
     report_.state = DeviceState::absent;
     next_try_ = timer_.now() + retry_delay_;
 }
@@ -150,6 +152,7 @@ std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> latest_
         return {};
     }
     const double now = timer_.now();
+    report_.condition = device_->condition();
     std::optional<Sample> sample = *read;
     if (sample && !is_valid(*sample)) {
         ++report_.malformed;

@@ -38,6 +38,7 @@ struct DeviceReport {
     DeviceState state = DeviceState::absent;
     std::string trouble;                             // plain text with a remedy; empty: none
     Preparation preparation;                         // what the device needs before it can be opened
+    Condition condition;                             // while open
     std::shared_ptr<const Description> description;  // from the last opening; null: never opened
     std::uint64_t openings = 0, refusals = 0;        // successful and failed attempts to open
     std::uint64_t losses = 0;                        // closed after a read or write error

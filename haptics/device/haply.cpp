@@ -67,6 +67,9 @@ Description describe_arm(const HaplyArmEntry& arm, const HaplyGripEntry* grip, i
     Description d;
     d.name = fmt::format("Haply Inverse3 {}", arm.id);
     d.id = fmt::format("haply:{}", index);
+    d.model = "Inverse3";
+    d.serial = arm.id;
+    d.senses_rotation = grip != nullptr;
     d.renders = {true, true, true, false, false, false};
     d.limits.force = 10.0;
     d.limits.torque = 0.0;
@@ -125,6 +128,9 @@ class HaplyArm final : public DeviceDriver {
     }
 
     [[nodiscard]] const Description& describe() const override { return description_; }
+
+    // An arm that loses its calibration is lost.
+    [[nodiscard]] Condition condition() const override { return {true, {}, false}; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double end = timer_.now() + timeout;

@@ -119,6 +119,7 @@ Result<Description> describe_plugin_arm(const bw_arm_info_v1& info, const std::f
     d.name = clean_text({info.name, ::strnlen(info.name, sizeof info.name)});
     if (d.name.empty()) d.name = plugin_name(plugin);
     d.id = plugin_arm_id(plugin, index);
+    d.model = d.name;
     for (std::size_t i = 0; i < d.renders.size(); ++i) d.renders[i] = (info.axes >> i & 1U) != 0;
     BOLT_TRY(take_limits(info, d));
     BOLT_TRY(check_axes(d));
@@ -127,8 +128,8 @@ Result<Description> describe_plugin_arm(const bw_arm_info_v1& info, const std::f
     if (info.buttons < 0 || info.buttons > 32)
         return fail(ErrorCode::no_device, fmt::format("it has {} buttons", info.buttons), "0 to 32");
     d.buttons = info.buttons;
-    if ((info.flags & BW_ARM_SENSES_ROTATION) == 0)
-        d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
+    d.senses_rotation = (info.flags & BW_ARM_SENSES_ROTATION) != 0;
+    if (!d.senses_rotation) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
     return d;
 }
 
@@ -152,6 +153,7 @@ class PluginArm final : public DeviceDriver {
           next_(timer_.now()) {}
 
     [[nodiscard]] const Description& describe() const override { return description_; }
+    [[nodiscard]] Condition condition() const override { return {true, {}, false}; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double now = timer_.now();
