@@ -5,6 +5,7 @@
 #include "content/format/json_members.hpp"
 #include "content/station/wheel_config_file.hpp"
 #include "engine/base/file.hpp"
+#include "haptics/device/connected_devices.hpp"
 
 namespace bolt::content {
 namespace {
@@ -163,8 +164,9 @@ void read_limits(MemberReader& members, const json& arm, force::LimitBounds& to)
 void read_arm(MemberReader& members, const json& root, std::optional<StationArm>& to) {
     const json* object = object_member(members, root, "", "arm");
     if (object == nullptr) return;
-    members.check_known(*object, "/arm",
-                        {"device", "mounting", "scale", "power", "buttons", "limits", "tool"});
+    members.check_known(
+        *object, "/arm",
+        {"device", "mounting", "scale", "power", "buttons", "limits", "effector_mass_kg", "tool"});
     StationArm& arm = to.emplace();
     arm.device = read_text(members, *object, "/arm", device_member);
     read_mounting(members, *object, arm.mounting);
@@ -172,6 +174,9 @@ void read_arm(MemberReader& members, const json& root, std::optional<StationArm>
     if (object->contains("power")) arm.power = members.number(*object, "/arm", "power", 0.01, 10.0);
     read_buttons(members, *object, "/arm", arm.buttons);
     read_limits(members, *object, arm.limits);
+    if (object->contains("effector_mass_kg"))
+        arm.effector_mass =
+            members.number(*object, "/arm", "effector_mass_kg", 0.0, device::largest_effector_mass);
     if (object->contains("tool")) arm.tool = members.text(*object, "/arm", "tool");
 }
 
@@ -255,6 +260,7 @@ ordered_json json_of(const StationArm& arm) {
     write_buttons(object, arm.buttons);
     for (const auto& [number, bound] : bound_members)
         if (arm.limits.*bound) object["limits"][number.key] = *(arm.limits.*bound);
+    if (arm.effector_mass > 0.0) object["effector_mass_kg"] = arm.effector_mass;
     if (!arm.tool.empty()) object["tool"] = arm.tool;
     return object;
 }

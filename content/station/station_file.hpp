@@ -40,7 +40,8 @@ struct StationArm {
     std::optional<double> power;  // W at the device per W at the tool (force::WorkspaceMap); none: 1/scale
     std::optional<station::Buttons> buttons;  // none: the defaults
     force::LimitBounds limits;
-    std::string tool;  // the assembly's tool whose handle is mounted on the arm; empty: any
+    double effector_mass = 0.0;  // kg of what is mounted on the arm (device::OpenOptions::effector_mass)
+    std::string tool;            // the assembly's tool whose handle is mounted on the arm; empty: any
     bool operator==(const StationArm&) const = default;
 };
 

@@ -10,6 +10,7 @@
 
 #include "content/station/wheel_config_file.hpp"
 #include "engine/base/result.hpp"
+#include "game/cli/arm_questions.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/station_setup.hpp"
 #include "haptics/device/connected_devices.hpp"
@@ -21,12 +22,11 @@ namespace bolt::cli {
 
 namespace {
 
-constexpr double open_timeout = 3.0;       // s
-constexpr double movement_timeout = 90.0;  // s, for an arm that moves to find its position
+constexpr double open_timeout = 3.0;  // s
 
 struct DevicesOptions {
     std::string device, glove, wheel_config_file;
-    bool others = false, may_move = false;
+    bool others = false, yes = false;
     double seconds = 1.0;
 };
 
@@ -50,7 +50,8 @@ std::string device_list(const std::vector<device::ListedDevice>& found) {
     std::string text = "Devices:\n";
     for (const device::ListedDevice& l : found) {
         text += fmt::format("  {}  {}  {}\n    {}\n", l.id, l.name, l.path, description_of(l.kind));
-        if (l.trouble) text += fmt::format("    cannot be used: {}\n", l.trouble->message());
+        if (l.trouble)
+            text += fmt::format("    cannot be used{}: {}\n", l.usable() ? " yet" : "", l.trouble->message());
     }
     if (found.empty())
         text +=
@@ -82,10 +83,11 @@ Result<std::string> examine_device(const DevicesOptions& options) {
         BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(options.wheel_config_file));
         wheel_config = read;
     }
-    BOLT_TRY_ASSIGN(auto thread, device::DeviceThread::start(device::factory_for(
-                                     options.device, {wheel_config, {}, options.may_move})));
-    BOLT_TRY_ASSIGN(const auto description,
-                    thread.wait_until_open(options.may_move ? movement_timeout : open_timeout));
+    const device::ArmDialog dialog = terminal_dialog(options.yes);
+    device::OpenOptions opening{wheel_config};
+    opening.permission = dialog.permission;
+    BOLT_TRY_ASSIGN(auto thread, device::DeviceThread::start(device::factory_for(options.device, opening)));
+    BOLT_TRY_ASSIGN(const auto description, thread.wait_until_open(open_timeout, dialog.on_preparation));
     const device::Timer timer = device::steady_timer();
     const std::uint64_t before = thread.snapshot().number;
     timer.wait(options.seconds);
@@ -96,6 +98,8 @@ Result<std::string> examine_device(const DevicesOptions& options) {
                     report.trouble.empty() ? description->name + " sends nothing" : report.trouble);
     std::string text = fmt::format("{}  {}\n", options.device, description->name);
     for (const std::string& line : device::summary_lines(*description)) text += fmt::format("  {}\n", line);
+    for (const std::string& line : device::summary_lines(report.condition))
+        text += fmt::format("  {}\n", line);
     if (options.seconds > 0.0)
         text += fmt::format("  sent {:.0f} samples a second{}\n", received / options.seconds,
                             received < 1.0 ? "; it is at rest" : "");
@@ -146,7 +150,7 @@ int run_devices(const DevicesOptions& options) {
 
 std::string devices_line() {
     std::size_t usable = 0, unusable = 0;
-    for (const device::ListedDevice& l : device::list_devices()) ++(l.trouble ? unusable : usable);
+    for (const device::ListedDevice& l : device::list_devices()) ++(l.usable() ? usable : unusable);
     const std::size_t found = hand::serial_ports().size();
     std::string text = fmt::format("Devices: {}", usable + unusable);
     if (unusable > 0) text += fmt::format(", {} of them cannot be used", unusable);
@@ -164,8 +168,9 @@ void add_devices(CLI::App& app, int& exit_code) {
                      "Configuration file of the wheel: its motor, its encoder")
         ->needs("--device");
     devices
-        ->add_flag("--may-move", options->may_move,
-                   "The arm may move by itself to find its position: keep the room around it free")
+        ->add_flag("--yes,--may-move", options->yes,
+                   "Answers the question whether an arm may move by itself to find its position, which a "
+                   "terminal asks: keep the room around it free")
         ->needs("--device");
     devices->add_option("--glove", options->glove, "Serial port of a glove to query");
     devices->add_flag("--all", options->others, "List devices of other kinds too, such as keyboards");

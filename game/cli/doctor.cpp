@@ -17,6 +17,7 @@
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
 #include "engine/platform/window.hpp"
+#include "game/cli/arm_questions.hpp"
 #include "game/cli/commands.hpp"
 #include "game/computer/computer.hpp"
 #include "game/station/station_check.hpp"
@@ -87,6 +88,7 @@ Result<station_setup::StationRequest> request_of(const TrialOptions& options) {
     request.trainee = options.trainee;
     request.calibrations = options.calibrations;
     request.tightened = true;
+    request.arm_dialog = terminal_dialog(options.yes);
     if (options.station_file.empty()) return request;
     BOLT_TRY_ASSIGN(const auto station, content::load_station(options.station_file));
     BOLT_TRY(station_setup::add_devices_of(station, device::list_devices(true), request.devices));
@@ -228,6 +230,10 @@ void add_doctor(CLI::App& app, int& exit_code) {
         ->add_option("--folder", station.calibrations,
                      "Folder of calibrations; default: the user's data folder")
         ->needs(trainee);
+    doctor->add_flag(
+        "--yes", station.yes,
+        "Answers the questions whether an arm may move by itself, which a terminal asks: keep the "
+        "room around it free");
     doctor
         ->add_option("--seconds", options->seconds,
                      "Duration of the trial (5), or of the timing at each rate of the servo (2; 0: none)")
@@ -239,6 +245,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
                 throw CLI::RequiresError("--rig", "--device or --station");
             if (!named.trainee.empty() && named.glove.empty())
                 throw CLI::RequiresError("--trainee", "--glove or --station");
+            if (named.yes && named.devices.empty())
+                throw CLI::RequiresError("--yes", "--device or --station");
         }
         if (named.any()) {
             options->station.seconds = options->seconds.value_or(options->station.seconds);

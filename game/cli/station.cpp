@@ -115,6 +115,8 @@ void add_try(CLI::App& station, const std::shared_ptr<StationArguments>& options
     tried->add_option("--seconds", trial.seconds, "Duration of the trial")
         ->check(CLI::Range(0.0, 3600.0))
         ->capture_default_str();
+    tried->add_flag("--yes", trial.yes,
+                    "Answers the questions whether an arm may move by itself, which a terminal asks");
     tried->callback([options, &exit_code] { exit_code = try_station(options->trial); });
 }
 

@@ -9,8 +9,9 @@ namespace {
 
 class RunningStation final : public LessonStation {
   public:
-    RunningStation(station::Station station, VirtualMover mover)
-        : mover_(std::move(mover)), station_(std::move(station)) {}
+    RunningStation(station::Station station, VirtualMover mover,
+                   std::shared_ptr<device::MovePermission> permission)
+        : mover_(std::move(mover)), permission_(std::move(permission)), station_(std::move(station)) {}
 
     void set_controls(const station::StationControls& controls) override { station_.set_controls(controls); }
     Status send(const station::StationCommand& command) override { return station_.send(command); }
@@ -25,6 +26,18 @@ class RunningStation final : public LessonStation {
     [[nodiscard]] std::uint64_t lost_ticks() const override { return station_.lost_ticks(); }
     const station::DisplayedHand* hand() override { return station_.hand(); }
     std::vector<std::string> troubles() override { return station_.troubles(); }
+    device::ArmNeeds needs() override {
+        const device::DeviceReport* report = station_.mover_report();
+        if (report == nullptr) return {};
+        return {report->preparation, permission_ && permission_->active()};
+    }
+    device::Condition condition() override {
+        const device::DeviceReport* report = station_.mover_report();
+        return report != nullptr ? report->condition : device::Condition{};
+    }
+    void permit_move() override {
+        if (permission_) permission_->give();
+    }
     [[nodiscard]] const station::Layout& layout() const override { return station_.layout(); }
     [[nodiscard]] const servo::Setup& setup() const override { return station_.setup(); }
     const servo::Timing* stop() override {
@@ -34,6 +47,7 @@ class RunningStation final : public LessonStation {
 
   private:
     VirtualMover mover_;
+    std::shared_ptr<device::MovePermission> permission_;  // null: the device never moves by itself
     station::Station station_;
 };
 
@@ -119,10 +133,10 @@ class FrameStation final : public LessonStation {
 
 }  // namespace
 
-Result<std::unique_ptr<LessonStation>> start_lesson_station(station::StationOptions options,
-                                                            VirtualMover mover) {
+Result<std::unique_ptr<LessonStation>> start_lesson_station(
+    station::StationOptions options, VirtualMover mover, std::shared_ptr<device::MovePermission> permission) {
     BOLT_TRY_ASSIGN(auto station, station::Station::start(std::move(options)));
-    return std::make_unique<RunningStation>(std::move(station), std::move(mover));
+    return std::make_unique<RunningStation>(std::move(station), std::move(mover), std::move(permission));
 }
 
 Result<std::unique_ptr<LessonStation>> start_frame_station(const station::StationOptions& options) {

@@ -45,7 +45,7 @@ Result<device::ListedDevice> find_device(std::span<const device::ListedDevice> c
     for (const device::ListedDevice& l : connected) {
         ids.push_back(l.id);
         if (l.id != id) continue;
-        if (l.trouble) return fail(*l.trouble);
+        if (!l.usable()) return fail(*l.trouble);
         return l;
     }
     const std::string near = nearest(id, ids);
@@ -77,7 +77,7 @@ DeviceSelection select_any_devices(std::span<const device::ListedDevice> connect
     DeviceSelection selection;
     for (const device::ListedDevice& l : connected) {
         const std::optional<DeviceRole> role = role_of(l.kind);
-        if (!role || l.trouble) continue;
+        if (!role || !l.usable()) continue;
         std::optional<device::ListedDevice>& slot =
             *role == DeviceRole::mover ? selection.mover : selection.wheel;
         if (!slot) slot = l;
@@ -288,6 +288,11 @@ Status open_glove(const content::Assembly& assembly, const StationRequest& reque
     return {};
 }
 
+// True if the settings of the station file are for the device that moves the tool.
+bool is_mover_of(const content::StationFile& station, const DeviceSelection& selection) {
+    return station.arm && selection.mover && selection.mover->id == station.arm->device;
+}
+
 Status choose_devices(const StationRequest& request, PlannedStation& planned) {
     std::optional<device::WheelConfig> given;
     if (!request.wheel_config_file.empty()) {
@@ -299,7 +304,11 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
     planned.devices = *selection;
     const device::WheelConfig of_station = apply_station(request.station, planned);
     const device::WheelConfig wheel_config = given.value_or(of_station);
-    if (selection->mover) planned.options.mover = device::factory_for(selection->mover->id, {wheel_config});
+    planned.options.on_preparation = request.arm_dialog.on_preparation;
+    device::OpenOptions of_mover{wheel_config};
+    if (is_mover_of(request.station, *selection)) of_mover.effector_mass = request.station.arm->effector_mass;
+    of_mover.permission = request.arm_dialog.permission;
+    if (selection->mover) planned.options.mover = device::factory_for(selection->mover->id, of_mover);
     if (selection->wheel) planned.options.wheel = device::factory_for(selection->wheel->id, {wheel_config});
     if (!selection->mover) planned.options.mover = request.fallback_mover;
     return {};
@@ -310,7 +319,7 @@ Status choose_devices(const StationRequest& request, PlannedStation& planned) {
 device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned) {
     const DeviceSelection& selection = planned.devices;
     station::StationOptions& options = planned.options;
-    if (station.arm && selection.mover && selection.mover->id == station.arm->device) {
+    if (is_mover_of(station, selection)) {
         const content::StationArm& arm = *station.arm;
         options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power};
         options.mover_limits = arm.limits;

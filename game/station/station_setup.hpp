@@ -14,6 +14,7 @@
 #include "content/trainee/glove_calibration.hpp"
 #include "game/session/lesson_session.hpp"
 #include "haptics/device/connected_devices.hpp"
+#include "haptics/device/preparation.hpp"
 #include "haptics/device/simulated_arm.hpp"
 #include "haptics/device/virtual_devices.hpp"
 #include "haptics/hand/glove_driver.hpp"
@@ -93,6 +94,8 @@ struct StationRequest {
     std::string trainee{};          // wearer of the glove; empty: its samples are read but form no hand
     std::filesystem::path calibrations{};  // empty: calibrations_folder()
 
+    device::ArmDialog arm_dialog{};  // of an arm that must be prepared
+
     double force_scale = 1.0;  // 0 … 1, scale of the forces in a lesson
 
     bool obstacles = true;   // if the assembly has contact models
@@ -154,6 +157,10 @@ class LessonStation {
     [[nodiscard]] virtual std::uint64_t lost_ticks() const = 0;  // dropped because they were not read in time
     virtual const station::DisplayedHand* hand() = 0;            // null: no gloved hand
     virtual std::vector<std::string> troubles() = 0;             // messages on the present problems
+    // What the device that moves the tool needs before it can be opened again, after it was lost.
+    virtual device::ArmNeeds needs() { return {}; }
+    virtual device::Condition condition() { return {}; }  // of that device
+    virtual void permit_move() {}  // to that device, for its next attempt (device::MovePermission)
 
     [[nodiscard]] virtual const station::Layout& layout() const = 0;
     [[nodiscard]] virtual const servo::Setup& setup() const = 0;
@@ -165,9 +172,10 @@ class LessonStation {
 // The pretended device that mouse and keyboard move if no device moves the tool; monostate: none.
 using VirtualMover = std::variant<std::monostate, device::VirtualPuck, device::SimulatedArm>;
 
-// Starts the station on its own threads.
-Result<std::unique_ptr<LessonStation>> start_lesson_station(station::StationOptions options,
-                                                            VirtualMover mover);
+// Starts the station on its own threads. `permission`: of the device that moves the tool; may be null.
+Result<std::unique_ptr<LessonStation>> start_lesson_station(
+    station::StationOptions options, VirtualMover mover,
+    std::shared_ptr<device::MovePermission> permission = {});
 
 // Starts a station without threads, whose simulated arm moves in the time of the frames: on any computer,
 // however busy, no tick is missed, and the same input gives the same lesson.

@@ -215,15 +215,22 @@ Status App::begin_lesson(float aspect) {
     const LessonChoice choice = lesson_choice();
     if (active_ && options_.choice.equipment.needs_station())
         active_->station.reset();  // it holds the devices
-    BOLT_TRY_ASSIGN(const auto folder, lesson_folder(options_, choice));
-    auto started =
-        start_lesson({choice, preferences_.settings, options_.lesson, folder, options_.start_station});
+    BOLT_TRY_ASSIGN(folder_, lesson_folder(options_, choice));
+    LessonStart start{choice, preferences_.settings, options_.lesson, folder_, options_.start_station};
+    if (!choice.equipment.has_hardware()) return enter_lesson(start_lesson(start), aspect);
+    if (active_) BOLT_TRY(close_lesson());
+    starter_ = std::make_unique<LessonStarter>(std::move(start), std::move(given_up_));
+    arm_screen_ = {};
+    screen_ = ShownScreen::starting;
+    return {};
+}
+
+Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     if (!started) {
         std::error_code ignored;
-        if (options_.folder_per_lesson) std::filesystem::remove(folder, ignored);  // if it is still empty
+        if (options_.folder_per_lesson) std::filesystem::remove(folder_, ignored);  // if it is still empty
         return fail(started.error());
     }
-    folder_ = folder;
     if (active_) {
         BOLT_TRY(gpu_->context->device->idle());
         active_.reset();
@@ -250,9 +257,42 @@ Status App::begin_lesson(float aspect) {
     outcome_.reset();
     tour_ = tour_requested_ ? std::optional(Tour{}) : std::nullopt;
     screen_ = ShownScreen::lesson;
+    menu_.first_start = false;
     log(fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name, context_->assembly.variant,
                     lesson::name(context_->options.mode), joint::name(context_->options.law)));
     return {};
+}
+
+// An error of a start is shown in the menu if there is one.
+Status App::report_start(Status begun) {
+    if (begun) return {};
+    if (begun.error().lost || !options_.menu) return begun;
+    menu_.start_error = begun.error();
+    screen_ = ShownScreen::menu;
+    log(begun.error().message());
+    return {};
+}
+
+void App::cancel_start() {
+    if (!starter_) return;
+    starter_->give_up();
+    given_up_ = std::move(starter_);
+    screen_ = ShownScreen::menu;
+    closed_ = closed_ || !options_.menu;
+}
+
+// Shows what the arm needs, while a lesson starts and in a lesson, and takes the user's answer.
+void App::follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_answers) {
+    StationClient* client = screen_ == ShownScreen::lesson && active_->station ? &*active_->station : nullptr;
+    if (client != nullptr) pause_for_arm(*client, active_->clock);
+    const device::ArmNeeds needs = starter_            ? starter_->needs()
+                                   : client != nullptr ? client->needs
+                                                       : device::ArmNeeds{};
+    const std::string before = describe(arm_screen_.needs);
+    arm_screen_.in_lesson = client != nullptr;
+    update(arm_screen_, needs, settings_ ? 0.0 : seconds);  // the settings cover the question
+    if (const std::string now = describe(needs); now != before && !now.empty()) log(now);
+    if (!settings_) perform(action_of(arm_screen_, events, enter_answers));
 }
 
 // Releases the lesson whose result was shown, with the devices that its station holds.
@@ -391,6 +431,12 @@ void App::perform(ScreenAction action) {
             return show_page(MenuPage::files);
         case ScreenAction::close_page:
             return show_page(MenuPage::choices);
+        case ScreenAction::permit_move:
+            if (starter_) starter_->permit_move();
+            if (active_ && active_->station) active_->station->link->permit_move();
+            return;
+        case ScreenAction::cancel_start:
+            return cancel_start();
         case ScreenAction::select_trainee:
             return select_trainee();
         case ScreenAction::quit:
@@ -413,7 +459,9 @@ Status App::run_systems(std::span<const platform::InputEvent> events, const glm:
     Frame frame{active,          words_, shown,
                 seconds - shown, size,   apply_events(active.input, events, focus),
                 &*gpu_->fonts,   {}};
-    if (frame.input.triggered(Action::pause) && in_lesson) active.clock.paused = !active.clock.paused;
+    const bool waits_for_arm = active.station && active.station->waits_for_arm;
+    if (frame.input.triggered(Action::pause) && in_lesson && !waits_for_arm)
+        active.clock.paused = !active.clock.paused;
     full_screen_requested_ = full_screen_requested_ || frame.input.triggered(Action::full_screen);
     const bool had_wrench = hand_of(active).wrench;
     const auto timed = [&](std::string_view system, const auto& run) {
@@ -448,6 +496,8 @@ void App::draw_screen(const ScreenContext& context) {
         const ScreenAction action = settings_->draw(context, preferences_, active_ && in_lesson);
         apply_preferences();
         perform(action);
+    } else if (starter_ || arm_screen_.needs.any()) {
+        perform(draw_arm(context, arm_screen_));
     } else if (in_lesson && active_->clock.paused) {
         perform(draw_pause(context, preferences_, active_->session->lesson().mode));
     } else if (screen_ == ShownScreen::menu) {
@@ -467,6 +517,7 @@ Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
     ui::Ui& ui = *gpu_->ui;
     const glm::dvec2 extent(size.width, size.height);
     ui.add_characters(input_.text);
+    ui.add_characters(arm_screen_.needs.preparation.instruction);
     if (screen_ == ShownScreen::menu) add_characters(ui, words_, menu_, options_.choice);
     BOLT_TRY(ui.begin(frame, input_));
     if (const auto picture = pictures_.picture(renderer); picture && !active_)
@@ -497,19 +548,18 @@ Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent
                   float scale, double seconds) {
     const glm::dvec2 extent(size.width, size.height);
     if (const auto code = std::exchange(selected_language_, std::nullopt)) BOLT_TRY(select_language(*code));
-    if (std::exchange(start_requested_, false)) {
+    const auto aspect = static_cast<float>(extent.x / extent.y);
+    if (std::exchange(start_requested_, false) && !starter_) {
         menu_.start_error.reset();
-        if (Status begun = begin_lesson(static_cast<float>(extent.x / extent.y)); !begun) {
-            if (begun.error().lost || !options_.menu) return begun;
-            menu_.start_error = begun.error();
-            screen_ = ShownScreen::menu;
-            log(begun.error().message());
-        } else {
-            menu_.first_start = false;
-        }
+        BOLT_TRY(report_start(begin_lesson(aspect)));
+    }
+    if (std::optional<Result<StartedLesson>> started = starter_ ? starter_->take() : std::nullopt) {
+        starter_.reset();
+        BOLT_TRY(report_start(enter_lesson(std::move(*started), aspect)));
     }
     if (screen_ == ShownScreen::menu && active_) BOLT_TRY(close_lesson());
-    const bool can_start = screen_ != ShownScreen::lesson && !settings_ && menu_.page == MenuPage::choices;
+    const bool chooses = screen_ == ShownScreen::menu || screen_ == ShownScreen::result;
+    const bool can_start = chooses && !settings_ && menu_.page == MenuPage::choices;
     // Enter presses the control that the keys have marked, if they have marked one, and ends the input of a
     // name.
     const bool enter_starts = !gpu_->ui->navigates_by_keys() && !gpu_->ui->edits_text();
@@ -521,6 +571,7 @@ Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent
     input_.scale = scale;
     input_.seconds = seconds;
     if (active_) BOLT_TRY(run_systems(events, extent, seconds));
+    follow_arm(events, seconds, enter_starts);
     if (close_settings) perform(ScreenAction::close_settings);
     for (const platform::InputEvent& event : events) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);

@@ -5,6 +5,8 @@
 #include <map>
 
 #include "engine/ui/ui.hpp"
+#include "game/trainer/arm_screen.hpp"
+#include "game/trainer/lesson_starter.hpp"
 #include "game/trainer/menu.hpp"
 #include "game/trainer/settings_screen.hpp"
 #include "game/trainer/tour.hpp"
@@ -35,7 +37,12 @@ struct AppOptions {
     std::function<void(const std::string&)> log;  // receives one line at a time
 };
 
-enum class ShownScreen : std::uint8_t { menu, lesson, result };
+enum class ShownScreen : std::uint8_t {
+    menu,
+    starting,  // a lesson with devices is being started
+    lesson,
+    result,
+};
 
 class App : public view::WindowContent {
   public:
@@ -77,10 +84,15 @@ class App : public view::WindowContent {
     [[nodiscard]] const Preferences& preferences() const { return preferences_; }
     [[nodiscard]] bool shows_settings() const { return settings_.has_value(); }
     [[nodiscard]] const std::optional<Error>& start_error() const { return menu_.start_error; }
+    [[nodiscard]] const ArmScreen& arm_screen() const { return arm_screen_; }
 
   private:
     struct GpuResources;
     Status begin_lesson(float aspect);
+    Status enter_lesson(Result<StartedLesson> started, float aspect);
+    Status report_start(Status begun);
+    void cancel_start();
+    void follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_answers);
     Status close_lesson();
     [[nodiscard]] LessonChoice lesson_choice() const;
     Status upload_lesson();
@@ -113,6 +125,9 @@ class App : public view::WindowContent {
     bool start_requested_ = false, end_requested_ = false;
     bool tour_requested_ = false;  // the next lesson is the tour
 
+    std::unique_ptr<LessonStarter> starter_;   // of a lesson with devices, while it starts
+    std::unique_ptr<LessonStarter> given_up_;  // an earlier one, which may still hold the devices
+    ArmScreen arm_screen_;
     std::optional<LessonContext> context_;  // of the last lesson that started
     std::filesystem::path folder_;          // of its session
     std::optional<ActiveLesson> active_;    // also while its result is shown

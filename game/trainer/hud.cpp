@@ -9,6 +9,7 @@
 
 #include "game/lesson/feedback.hpp"
 #include "game/trainer/active_lesson.hpp"
+#include "game/trainer/arm_screen.hpp"
 #include "game/trainer/controls.hpp"
 
 namespace bolt::trainer {
@@ -300,9 +301,12 @@ void draw_hint(const ActiveLesson& active, const HudText& texts, const glm::dvec
                {narrow ? 1.0F : 0.5F, 0.0F}, lines, width);
 }
 
-void draw_device_messages(const ActiveLesson& active, const glm::dvec2& size, float scale) {
-    if (!active.station) return;
+void draw_device_messages(const ActiveLesson& active, const words::Words& w, const glm::dvec2& size,
+                          float scale) {
+    // The screen about the arm has better words for what it needs.
+    if (!active.station || active.station->needs.any()) return;
     std::vector<HudLine> lines;
+    if (const auto warning = arm_warning(active.station->condition)) lines.push_back({w[*warning], warm});
     for (const std::string& trouble : active.station->troubles) lines.push_back({trouble, warm});
     text_panel("##troubles", {12.0F * scale, static_cast<float>(size.y) - 12.0F * scale}, {0.0F, 1.0F}, lines,
                0.5F * static_cast<float>(size.x));
@@ -325,7 +329,7 @@ void draw_hud(const ActiveLesson& active, const HudText& texts, const glm::dvec2
     draw_hint(active, texts, size, scale);
     draw_plot(active, *texts.words, size, scale);
     draw_effort(active, *texts.words, size, scale);
-    draw_device_messages(active, size, scale);
+    draw_device_messages(active, *texts.words, size, scale);
     draw_captions(active, *texts.words, size, scale);
 }
 

@@ -15,8 +15,8 @@ Status start_station_of(const LessonStart& start, StartedLesson& lesson, session
     session::LessonOptions& options = lesson.context.options;
     Equipment equipment = start.choice.equipment;
     equipment.force_scale = start.settings.force_scale;
-    BOLT_TRY_ASSIGN(auto station,
-                    start.start_station(lesson.context.assembly, options, equipment, start.choice.trainee));
+    BOLT_TRY_ASSIGN(auto station, start.start_station(lesson.context.assembly, options, equipment,
+                                                      start.choice.trainee, start.arm_dialog));
     lesson.active.station.emplace();
     lesson.active.station->link = std::move(station);
     const bool dragged = equipment.hand == HandMode::free || equipment.hand == HandMode::simulated_arm;

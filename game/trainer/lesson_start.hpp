@@ -40,7 +40,8 @@ joint::Law law_in_force(const LessonChoice& choice, const content::TraineeSettin
 
 // Starts a station for a lesson; trainer::start_station, or a test's.
 using StartStation = std::function<Result<std::unique_ptr<station_setup::LessonStation>>(
-    const content::Assembly&, const session::LessonOptions&, const Equipment&, const std::string& trainee)>;
+    const content::Assembly&, const session::LessonOptions&, const Equipment&, const std::string& trainee,
+    const device::ArmDialog&)>;
 
 struct LessonStart {
     LessonChoice choice;
@@ -48,6 +49,7 @@ struct LessonStart {
     session::LessonOptions options;  // those that neither choice nor settings determine
     std::filesystem::path folder;    // receives session.boltwright
     StartStation start_station;
+    device::ArmDialog arm_dialog{};
 };
 
 // The data that a lesson was started with. It outlives the lesson, because the result screen shows it.

@@ -29,6 +29,8 @@ enum class ScreenAction : std::uint8_t {
     show_computer,  // the page of the menu about this computer
     show_files,     // the page of the menu about the user's files
     close_page,
+    permit_move,  // the arm may move by itself
+    cancel_start,
     select_trainee,  // LessonChoice::trainee was edited
     quit,
 };

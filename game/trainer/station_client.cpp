@@ -97,7 +97,8 @@ Equipment default_equipment() {
 Result<std::unique_ptr<station_setup::LessonStation>> start_station(const content::Assembly& assembly,
                                                                     const session::LessonOptions& options,
                                                                     const Equipment& equipment,
-                                                                    const std::string& trainee) {
+                                                                    const std::string& trainee,
+                                                                    const device::ArmDialog& dialog) {
     const device::Timer timer = device::steady_timer();
     const bool arm = equipment.hand == HandMode::simulated_arm;
     device::VirtualPuck puck({}, timer);
@@ -111,6 +112,7 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
     request.glove = equipment.glove;
     request.trainee = trainee;
     request.force_scale = equipment.force_scale;
+    request.arm_dialog = dialog;
     if (!equipment.glove.empty() && trainee.empty())
         return fail(ErrorCode::no_device, "the wearer of the glove is not named",
                     "the trainee's name given to boltwright glove calibrate");
@@ -124,7 +126,8 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
     if (equipment.hand == HandMode::free) return station_setup::start_frame_station(station_options);
     if (!planned->devices.mover && arm) mover = std::move(simulated_arm);
     if (!planned->devices.mover && !arm) mover = std::move(puck);
-    return station_setup::start_lesson_station(std::move(station_options), std::move(mover));
+    return station_setup::start_lesson_station(std::move(station_options), std::move(mover),
+                                               dialog.permission);
 }
 
 namespace {
@@ -175,6 +178,8 @@ servo::Grip grip_of(const StationClient& client, bool closes, const StationInten
 void update_client(StationClient& client, const session::LessonSession& session) {
     client.latest = client.link->latest_tick();
     client.troubles = client.link->troubles();
+    client.needs = client.link->needs();
+    client.condition = client.link->condition();
     const station::DisplayedHand* hand = client.link->hand();
     client.gloved = hand != nullptr;
     client.glove_lost = hand != nullptr && hand->lost;

@@ -53,9 +53,9 @@ struct Equipment {
     double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force
     HandMode hand = HandMode::helped;         // if none of the devices moves the hand
 
-    [[nodiscard]] bool needs_station() const {
-        return !devices.empty() || !glove.empty() || hand != HandMode::helped;
-    }
+    // True if its start may take seconds, or until the user has prepared an arm.
+    [[nodiscard]] bool has_hardware() const { return !devices.empty() || !glove.empty(); }
+    [[nodiscard]] bool needs_station() const { return has_hardware() || hand != HandMode::helped; }
     bool operator==(const Equipment&) const = default;
 };
 
@@ -72,11 +72,12 @@ std::vector<DeviceOption> device_options(const Equipment& chosen);
 Equipment default_equipment();
 
 // Starts a station for the lesson, paused. `trainee` is the wearer of the glove. Fails if a device cannot be
-// opened, or if there is a glove but no trainee's name.
+// opened, or if there is a glove but no trainee's name. `dialog`: for an arm that must be prepared.
 Result<std::unique_ptr<station_setup::LessonStation>> start_station(const content::Assembly& assembly,
                                                                     const session::LessonOptions& options,
                                                                     const Equipment& equipment,
-                                                                    const std::string& trainee);
+                                                                    const std::string& trainee,
+                                                                    const device::ArmDialog& dialog);
 
 // The lesson's side of a station. The station's servo thread steps the ticks and serves the devices. The
 // lesson repeats every tick with its own servo, and sends its controls with every frame.
@@ -101,7 +102,11 @@ struct StationClient {
     std::optional<std::size_t> near_nut;  // nut within reach of the tool
     bool near_wrench = false;             // the resting wrench is within reach of the hand
     std::vector<std::string> troubles;
-    hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench, in the hand or at rest
+    device::Condition condition;  // of the device that moves the tool
+    device::ArmNeeds needs;       // of the device that moves the tool, after it was lost
+    bool waits_for_arm = false;   // the lesson is paused until it has what it needs
+    bool paused_before = false;   // the user had paused the lesson already
+    hand::Skeleton fingers;       // of a gloved hand, in the frame of the wrench, in the hand or at rest
     bool gloved = false;
     bool glove_lost = false;         // the glove sends no valid samples
     double nut_angle_at_grip = 0.0;  // rad, angle of the held nut when it was engaged

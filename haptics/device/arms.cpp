@@ -43,7 +43,8 @@ std::vector<ListedDevice> list_force_dimension() {
 Result<std::unique_ptr<DeviceDriver>> open_listed_force_dimension(const ListedDevice& listed,
                                                                   const OpenOptions& options) {
     BOLT_TRY_ASSIGN(auto api, load_force_dimension({listed.path}));
-    return open_force_dimension(api, {arm_index(listed.id), options.arm_may_move}, steady_timer());
+    return open_force_dimension(api, {arm_index(listed.id), options.arm_may_move, options.effector_mass},
+                                steady_timer());
 }
 
 // The vendor's library has to reserve an arm to find it, so the arm is listed where the library is present.

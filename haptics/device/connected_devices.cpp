@@ -9,6 +9,7 @@
 #include "haptics/device/arms.hpp"
 #include "haptics/device/hid_transport.hpp"
 #include "haptics/device/plugin_arms.hpp"
+#include "haptics/device/preparation.hpp"
 #include "haptics/device/space_mouse.hpp"
 #include "haptics/device/usb_force_feedback.hpp"
 #include "haptics/device/wheel.hpp"
@@ -121,6 +122,12 @@ std::vector<ListedDevice> list_arms() {
 }
 
 Result<std::unique_ptr<DeviceDriver>> open_arm(const ListedDevice& listed, const OpenOptions& options) {
+    // Also true for NaN.
+    if (!(options.effector_mass >= 0.0 && options.effector_mass <= largest_effector_mass))
+        return fail(
+            ErrorCode::usage,
+            fmt::format("the mass that is mounted on {} is {:g} kg", listed.id, options.effector_mass),
+            fmt::format("0 to {:g} kg", largest_effector_mass));
     for (const ArmVendor& vendor : arm_vendors())
         if (listed.id.starts_with(std::string(vendor.name) + ':')) return vendor.open(listed, options);
     return fail(ErrorCode::no_device, fmt::format("{} is not an arm that can be opened", listed.id),
@@ -187,14 +194,27 @@ Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const Ope
                 "a SpaceMouse or a wheel with force feedback");
 }
 
+namespace {
+
+Result<std::unique_ptr<DeviceDriver>> open_listed(const std::string& id, const OpenOptions& options) {
+    for (const ListedDevice& device : list_devices())
+        if (device.id == id) return open(device, options);
+    return fail(lost_device(fmt::format("there is no device {}", id),
+                            "a connected device; `boltwright devices` lists them"));
+}
+
+}  // namespace
+
 DeviceFactory factory_for(std::string id, const OpenOptions& given) {
     OpenOptions kept = given;
     if (!kept.waiting_arms) kept.waiting_arms = make_waiting_arms();
     return [id = std::move(id), options = std::move(kept)]() -> Result<std::unique_ptr<DeviceDriver>> {
-        for (const ListedDevice& device : list_devices())
-            if (device.id == id) return open(device, options);
-        return fail(lost_device(fmt::format("there is no device {}", id),
-                                "a connected device; `boltwright devices` lists them"));
+        if (!options.permission || !options.permission->take()) return open_listed(id, options);
+        OpenOptions permitted = options;
+        permitted.arm_may_move = true;
+        Result<std::unique_ptr<DeviceDriver>> opened = open_listed(id, permitted);
+        options.permission->end();
+        return opened;
     };
 }
 

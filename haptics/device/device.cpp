@@ -24,7 +24,8 @@ namespace {
 std::string sensing_text(const Description& d) {
     switch (d.sensing) {
         case Sensing::pose:
-            return "senses the pose of the hand in six degrees of freedom";
+            return d.senses_rotation ? "senses the pose of the hand in six degrees of freedom"
+                                     : "senses the position of the hand in three degrees of freedom";
         case Sensing::velocity:
             return "senses a commanded velocity in six degrees of freedom";
         case Sensing::turn:
@@ -66,12 +67,28 @@ force::OutputCommand clamp_to_limits(const Description& d, force::OutputCommand 
 
 std::vector<std::string> summary_lines(const Description& d) {
     std::vector<std::string> lines;
+    std::string unit = d.model.empty() ? "" : "model " + d.model;
+    if (!d.serial.empty()) unit += (unit.empty() ? "serial number " : ", serial number ") + d.serial;
+    if (!unit.empty()) lines.push_back(unit);
     lines.push_back(fmt::format("{}{}, {:.0f} times a second{}; {} button{}", sensing_text(d),
                                 reach_text(d.reach), d.rate,
                                 d.silent_at_rest || d.sensing == Sensing::velocity ? " while it moves" : "",
                                 d.buttons, d.buttons == 1 ? "" : "s"));
     lines.push_back(rendering_text(d));
     lines.insert(lines.end(), d.remarks.begin(), d.remarks.end());
+    return lines;
+}
+
+std::vector<std::string> summary_lines(const Condition& condition) {
+    std::vector<std::string> lines;
+    if (condition.calibrated)
+        lines.emplace_back(*condition.calibrated ? "calibrated: it knows its position"
+                                                 : "not calibrated: it does not know its position");
+    if (condition.heat)
+        lines.push_back(fmt::format("motors at {:.0f} % of their greatest heat{}", 100.0 * *condition.heat,
+                                    condition.rests      ? ": no force until they are cool"
+                                    : is_warm(condition) ? ": rest the arm"
+                                                         : ""));
     return lines;
 }
 
@@ -82,6 +99,22 @@ Error lost_device(std::string what, std::string expected) {
     error.expected = std::move(expected);
     error.lost = true;
     return error;
+}
+
+Error unprepared_device(std::string what, std::string expected, Preparation preparation) {
+    Error error;
+    error.code = ErrorCode::no_device;
+    error.what = std::move(what);
+    error.expected = std::move(expected);
+    error.preparation = std::move(preparation);
+    return error;
+}
+
+Error immobile_device(const std::string& name, std::string_view id) {
+    return unprepared_device(
+        name + " has to move by itself to find its position, and may not",
+        fmt::format("free room around it, then `boltwright devices --device {} --yes`", id),
+        {DeviceNeed::permission, {}});
 }
 
 }  // namespace bolt::device

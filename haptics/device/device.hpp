@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/math.hpp"
@@ -40,9 +41,11 @@ enum class Sensing : std::uint8_t {
 };
 
 struct Description {
-    std::string name;  // as the device reports it
-    std::string id;    // the same each time this unit is plugged in
+    std::string name;           // as the device reports it
+    std::string id;             // the same each time this unit is plugged in
+    std::string model, serial;  // as the device reports them; empty: it does not
     Sensing sensing = Sensing::pose;
+    bool senses_rotation = true;    // of the hand; Sensing::pose
     std::array<bool, 6> renders{};  // force along x, y, z, torque about them; magnitudes in `limits`
     force::OutputLimits limits;     // force 0 and torque 0: input only
     double rate = 1000.0;           // samples per second while the hand moves
@@ -53,6 +56,17 @@ struct Description {
     int buttons = 0;
     std::vector<std::string> remarks;  // problems and peculiarities, each with a remedy
 };
+
+// What changes while a device is open.
+struct Condition {
+    std::optional<bool>
+        calibrated;  // it knows its position; none: it needs no calibration or does not report it
+    // Of its hottest motor: 0 is cold, at 1 the device ends its force. None: it does not report it.
+    std::optional<double> heat;
+    bool rests = false;  // it renders no force until its motors are cool
+};
+inline constexpr double warm = 0.8;  // heat from which the user should rest the arm
+[[nodiscard]] inline bool is_warm(const Condition& c) { return c.rests || c.heat.value_or(0.0) >= warm; }
 
 struct Sample {
     Pose pose;                   // of the grip, device frame; Sensing::pose
@@ -66,6 +80,11 @@ struct Sample {
 // The error of a device that is gone or has let its force go: the supervisor opens it again.
 Error lost_device(std::string what, std::string expected);
 
+// The error of an arm that is connected and cannot be opened before it has what it needs.
+Error unprepared_device(std::string what, std::string expected, Preparation preparation);
+// The same for an arm that would have to move by itself and has no permission.
+Error immobile_device(const std::string& name, std::string_view id);
+
 // The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
 // lost device (DeviceSupervisor does) nor exchanges data with the servo (DeviceThread does). All calls come
 // from one thread.
@@ -78,6 +97,8 @@ class DeviceDriver {
     virtual ~DeviceDriver() = default;
 
     [[nodiscard]] virtual const Description& describe() const = 0;
+    // As of the latest read(). Does not block.
+    [[nodiscard]] virtual Condition condition() const { return {}; }
 
     // Waits at most `timeout` s for a sample; nullopt on timeout. An error means that the device is lost; the
     // caller then closes it and opens it again.
@@ -118,8 +139,10 @@ struct PuckResponse {
     double silence = 0.1;     // s without a report while deflected until the velocity becomes zero
 };
 
-// Describes a device in plain text for `boltwright devices`: one line each for what it senses, what it
-// renders, and its remarks.
+// Describes a device in plain text for `boltwright devices`: one line each for model and serial number, what
+// it senses, what it renders, and its remarks.
 std::vector<std::string> summary_lines(const Description& description);
+// Its calibration and temperature, as far as it reports them.
+std::vector<std::string> summary_lines(const Condition& condition);
 
 }  // namespace bolt::device

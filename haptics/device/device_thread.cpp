@@ -67,9 +67,11 @@ bool DeviceSupervisor::try_open(std::uint64_t number) {
     if (!opened) {
         ++report_.refusals;
         report_.trouble = opened.error().message();
+        report_.preparation = opened.error().preparation;
         return false;
     }
     ++report_.openings;
+    report_.preparation = {};
     device_ = std::move(*opened);
     report_.description = std::make_shared<const Description>(device_->describe());
     // One sample period, so that reading does not delay the next command.
@@ -93,6 +95,7 @@ void DeviceSupervisor::close() {
     // An error means that the device is already lost.
     if (renders(*report_.description) && device_->write({})) ++report_.writes;
     device_.reset();
+    report_.condition = {};
     report_.state = DeviceState::absent;
 }
 
@@ -100,6 +103,7 @@ void DeviceSupervisor::handle_loss(const Error& error) {
     ++report_.losses;
     report_.trouble = error.message();
     device_.reset();
+    report_.condition = {};
     report_.state = DeviceState::absent;
     next_try_ = timer_.now() + retry_delay_;
 }
@@ -161,6 +165,7 @@ std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> latest_
         return {};
     }
     const double now = timer_.now();
+    report_.condition = device_->condition();
     std::optional<Sample> sample = *read;
     if (sample && !is_valid(*sample)) {
         ++report_.malformed;
@@ -181,7 +186,7 @@ constexpr double report_interval = 0.1;  // s between two reports if only counte
 // True if the report must be published now.
 bool changed(const DeviceReport& now, const DeviceReport& before) {
     return now.state != before.state || now.openings != before.openings || now.losses != before.losses ||
-           now.trouble != before.trouble;
+           now.trouble != before.trouble || now.preparation != before.preparation;
 }
 
 }  // namespace
@@ -272,16 +277,30 @@ double DeviceThread::blocked_for() const {
     return shared_->timer.now() - shared_->last_return.load(std::memory_order_relaxed);
 }
 
-Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(double timeout) {
-    const double until = shared_->timer.now() + timeout;
+Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(
+    double timeout, const PreparationHandler& on_preparation) {
+    double until = shared_->timer.now() + timeout;
     while (report().openings == 0) {
+        if (on_preparation) {
+            const bool needs = report().preparation.need != DeviceNeed::none;
+            const bool waits = on_preparation(report().preparation);
+            if (!waits) until = 0.0;
+            if (waits && needs) until = shared_->timer.now() + timeout;
+        }
         if (shared_->timer.now() >= until) {
-            if (!report().trouble.empty()) return fail(ErrorCode::no_device, report().trouble);
+            if (!report().trouble.empty()) {
+                Error error;
+                error.code = ErrorCode::no_device;
+                error.what = report().trouble;
+                error.preparation = report().preparation;
+                return fail(std::move(error));
+            }
             return fail(ErrorCode::no_device, "the device does not open in time",
                         fmt::format("a connected device that opens within {:g} s", timeout));
         }
         shared_->timer.wait(5e-3);
     }
+    if (on_preparation) (void)on_preparation({});
     return report().description;
 }
 

@@ -8,6 +8,7 @@
 #include "engine/base/function_ref.hpp"
 #include "engine/base/lock_free.hpp"
 #include "haptics/device/device.hpp"
+#include "haptics/device/preparation.hpp"
 
 namespace bolt::device {
 
@@ -36,6 +37,8 @@ enum class DeviceState : std::uint8_t {
 struct DeviceReport {
     DeviceState state = DeviceState::absent;
     std::string trouble;                             // plain text with a remedy; empty: none
+    Preparation preparation;                         // what the device needs before it can be opened
+    Condition condition;                             // while open
     std::shared_ptr<const Description> description;  // from the last opening; null: never opened
     std::uint64_t openings = 0, refusals = 0;        // successful and failed attempts to open
     std::uint64_t losses = 0;                        // closed after a read or write error
@@ -129,8 +132,10 @@ class DeviceThread {
     [[nodiscard]] double blocked_for() const;
 
     // Waits until the device is open and returns its description; after `timeout` s the error says why it is
-    // not. Reads report(), so call it from the same thread.
-    Result<std::shared_ptr<const Description>> wait_until_open(double timeout);
+    // not. The time in which the device needs something and `on_preparation` waits for it does not count.
+    // Reads report(), so call it from the same thread.
+    Result<std::shared_ptr<const Description>> wait_until_open(double timeout,
+                                                               const PreparationHandler& on_preparation = {});
 
   private:
     struct Shared;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <string_view>
+#include <utility>
 
 #include "haptics/device/vendor_library.hpp"
 
@@ -59,27 +61,77 @@ Error arm_error(const ForceDimensionApi& api, const std::string& name, const cha
     return error;
 }
 
-// Force, torque, stiffness and reach are the smallest of the arms with these joints in CHAI3D
-// (CDeltaDevices). Torsion and damping are not published; these are low values of ours, not measured on arms.
+// Force, torque, stiffness and half the workspace of CHAI3D (CDeltaDevices), by the numbers of dhdc.h.
+// Damping is not published; these are low values of ours, not measured on arms. Arms of an unknown model, and
+// left- handed ones of an unknown number, get the smallest values of the arms with their joints.
+struct ModelLimits {
+    int type;
+    const char* name;
+    double force, torque, stiffness, damping, reach;
+};
+constexpr std::array models{
+    ModelLimits{63, "delta.3", 20.0, 0.0, 5000.0, 15.0, 0.15},
+    ModelLimits{33, "omega.3", 12.0, 0.0, 5000.0, 15.0, 0.075},
+    ModelLimits{34, "omega.6", 12.0, 0.0, 5000.0, 15.0, 0.075},
+    ModelLimits{36, "omega.6 (left)", 12.0, 0.0, 5000.0, 15.0, 0.075},
+    ModelLimits{35, "omega.7", 12.0, 0.0, 5000.0, 15.0, 0.075},
+    ModelLimits{37, "omega.7 (left)", 12.0, 0.0, 5000.0, 15.0, 0.075},
+    ModelLimits{104, "sigma.7", 12.0, 0.2, 4000.0, 15.0, 0.075},
+    ModelLimits{105, "sigma.7 (left)", 12.0, 0.2, 4000.0, 15.0, 0.075},
+    ModelLimits{108, "lambda.7", 12.0, 0.2, 8000.0, 15.0, 0.11},
+    ModelLimits{109, "lambda.7 (left)", 12.0, 0.2, 8000.0, 15.0, 0.11},
+    ModelLimits{60, "Falcon", 8.0, 0.0, 3000.0, 10.0, 0.04},
+};
+
+ModelLimits limits_of_joints(bool wrist, bool active) {
+    if (active) return {0, "arm, 6 joints with motors (sigma or lambda)", 12.0, 0.2, 4000.0, 15.0, 0.075};
+    if (wrist) return {0, "arm with a wrist (omega.6 or omega.7)", 12.0, 0.0, 5000.0, 15.0, 0.075};
+    return {0, "arm (delta.3, omega.3 or Falcon)", 8.0, 0.0, 3000.0, 10.0, 0.04};
+}
+
+// The text that the library reports; printable ASCII, because it is printed on terminals.
+std::string reported_name(const ForceDimensionApi& api, char id) {
+    const char* reported = api.get_name != nullptr ? api.get_name(id) : nullptr;
+    std::string name = reported != nullptr ? std::string(std::string_view(reported).substr(0, 60)) : "";
+    std::erase_if(name, [](char c) { return c < ' ' || c > '~'; });
+    return name;
+}
+
+std::string reported_serial(const ForceDimensionApi& api, char id) {
+    unsigned short serial = 0;
+    if (api.get_serial == nullptr || api.get_serial(&serial, id) < 0) return {};
+    return fmt::format("{}", serial);
+}
+
 Description describe_arm(const ForceDimensionApi& api, char id, int index) {
     Description d;
     const bool wrist = api.has_wrist(id), active = api.has_active_wrist(id);
-    d.name = active  ? "Force Dimension arm, 6 joints with motors (sigma or lambda)"
-             : wrist ? "Force Dimension arm with a wrist (omega.6 or omega.7)"
-                     : "Force Dimension arm (delta.3, omega.3 or Falcon)";
+    const int type = api.get_type != nullptr ? api.get_type(id) : -1;
+    const auto known =
+        std::find_if(models.begin(), models.end(), [&](const ModelLimits& m) { return m.type == type; });
+    const ModelLimits most = known != models.end() ? *known : limits_of_joints(wrist, active);
+    const bool renders_torque = active && most.torque > 0.0;
+    d.name = fmt::format("Force Dimension {}", most.name);
     d.id = fmt::format("force-dimension:{}", index);
-    d.renders = {true, true, true, active, active, active};
-    d.limits.force = 12.0;
-    d.limits.torque = active ? 0.2 : 0.0;
-    d.limits.stiffness = active ? 4000.0 : 5000.0;
-    d.limits.torsion = active ? 2.0 : 0.0;
-    d.limits.damping = 15.0;
-    d.limits.angular_damping = active ? 0.01 : 0.0;
+    d.model = reported_name(api, id);
+    if (d.model.empty() && known != models.end()) d.model = known->name;
+    d.serial = reported_serial(api, id);
+    d.senses_rotation = wrist;
+    d.renders = {true, true, true, renders_torque, renders_torque, renders_torque};
+    d.limits.force = most.force;
+    d.limits.torque = renders_torque ? most.torque : 0.0;
+    d.limits.stiffness = most.stiffness;
+    d.limits.torsion = renders_torque ? 2.0 : 0.0;
+    d.limits.damping = most.damping;
+    d.limits.angular_damping = renders_torque ? 0.01 : 0.0;
     d.rate = 1.0 / period;
-    d.reach = Vec3(0.075);
+    d.reach = Vec3(most.reach);
     d.buttons = 8;
     if (!wrist) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
-    if (!active) d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+    if (!renders_torque)
+        d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+    if (api.compensate_gravity == nullptr)
+        d.remarks.emplace_back("its library does not compensate the weight of the arm: install the SDK 3.17");
     return d;
 }
 
@@ -94,20 +146,16 @@ class ForceDimensionArm final : public DeviceDriver {
     ForceDimensionArm(const ForceDimensionArm&) = delete;
     ForceDimensionArm& operator=(const ForceDimensionArm&) = delete;
     ~ForceDimensionArm() override {
-        api_.set_forces(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, id_);
+        (void)send({});
         api_.brake(id_);
         api_.close(id_);
     }
 
     // Call once after the arm was opened.
-    Status enable(bool may_move) {
+    Status enable(const ForceDimensionOptions& options) {
+        BOLT_TRY(balance(options.effector_mass));
         if (!api_.is_initialized(id_)) {
-            if (!may_move)
-                return fail(
-                    ErrorCode::no_device,
-                    description_.name + " has to move by itself to find its position, and may not",
-                    fmt::format("free room around it, then `boltwright devices --device {} --may-move`",
-                                description_.id));
+            if (!options.may_move) return fail(immobile_device(description_.name, description_.id));
             if (api_.auto_init(id_) < 0) return failure("it does not find its position");
         }
         // Ends the regulation of the position; the forces stay on.
@@ -139,10 +187,33 @@ class ForceDimensionArm final : public DeviceDriver {
         sample.pose = {ours(position), ours(rotation)};
         sample.buttons = api_.get_button_mask(id_);
         sample.time = timer_.now();
+        // The library compensates the weight for the position at each call, so that it must be called also
+        // while the program sends no new force.
+        if (!std::exchange(sent_, false)) BOLT_TRY(send(command_));
         return std::optional<Sample>(sample);
     }
 
     Status write(const force::OutputCommand& command) override {
+        command_ = command;
+        sent_ = true;
+        return send(command);
+    }
+
+    [[nodiscard]] Condition condition() const override { return {true, {}, false}; }
+
+  private:
+    // Lets the library hold the weight of the arm and of what is mounted on it, also while it finds its
+    // position.
+    Status balance(double effector_mass) {
+        if (effector_mass > 0.0 && api_.set_mounted_mass != nullptr &&
+            api_.set_mounted_mass(effector_mass, id_) < 0)
+            return failure("the mass of its handle cannot be set");
+        if (api_.compensate_gravity != nullptr && api_.compensate_gravity(1, id_) < 0)
+            return failure("its weight cannot be compensated");
+        return {};
+    }
+
+    Status send(const force::OutputCommand& command) {
         const Vec3 force = theirs(command.force);
         const Vec3 torque = description_.limits.torque > 0.0 ? theirs(command.torque) : Vec3(0.0);
         if (api_.set_forces(force.x, force.y, force.z, torque.x, torque.y, torque.z, 0.0, id_) < 0)
@@ -150,7 +221,6 @@ class ForceDimensionArm final : public DeviceDriver {
         return {};
     }
 
-  private:
     [[nodiscard]] Status failure(const char* doing) const {
         return fail(arm_error(api_, description_.name, doing));
     }
@@ -172,7 +242,9 @@ class ForceDimensionArm final : public DeviceDriver {
     char id_;
     Timer timer_;
     Description description_;
-    double next_;  // s, time of the next sample
+    double next_;                   // s, time of the next sample
+    force::OutputCommand command_;  // the latest
+    bool sent_ = false;             // since the latest sample
     int since_status_ = 0;
 };
 
@@ -217,6 +289,11 @@ Result<ForceDimensionApi> load_force_dimension(const std::vector<std::filesystem
     library->find("dhdSetForceAndTorqueAndGripperForce", api.set_forces);
     library->find("dhdErrorGetLast", api.get_error);
     library->find("dhdErrorGetLastStr", api.get_error_text);
+    library->find_optional("dhdGetSystemType", api.get_type);
+    library->find_optional("dhdGetSystemName", api.get_name);
+    library->find_optional("dhdGetSerialNumber", api.get_serial);
+    library->find_optional("dhdSetGravityCompensation", api.compensate_gravity);
+    library->find_optional("dhdSetEffectorMass", api.set_mounted_mass);
     BOLT_TRY(library->check());
     return api;
 }
@@ -228,7 +305,7 @@ Result<std::unique_ptr<DeviceDriver>> open_force_dimension(const ForceDimensionA
     if (id < 0) return fail(arm_error(api, "Force Dimension arm", "it cannot be opened"));
     auto arm =
         std::make_unique<ForceDimensionArm>(api, static_cast<char>(id), options.index, std::move(timer));
-    BOLT_TRY(arm->enable(options.may_move));
+    BOLT_TRY(arm->enable(options));
     return std::unique_ptr<DeviceDriver>(std::move(arm));
 }
 

@@ -33,6 +33,12 @@ struct ForceDimensionApi {
                       char id) = nullptr;
     int (*get_error)() = nullptr;
     const char* (*get_error_text)() = nullptr;
+    // Null in a library that lacks them; the arm can be used without.
+    int (*get_type)(char id) = nullptr;
+    const char* (*get_name)(char id) = nullptr;
+    int (*get_serial)(unsigned short* serial, char id) = nullptr;
+    int (*compensate_gravity)(int on, char id) = nullptr;
+    int (*set_mounted_mass)(double kilogram, char id) = nullptr;
 };
 
 // Where the library may be: in $FDSDK, the folder of the SDK, in /usr/local/lib, or in the loader's path.
@@ -42,12 +48,14 @@ std::vector<std::filesystem::path> force_dimension_libraries();
 Result<ForceDimensionApi> load_force_dimension(const std::vector<std::filesystem::path>& candidates);
 
 struct ForceDimensionOptions {
-    int index = 0;          // of the arm, from 0
-    bool may_move = false;  // the arm may move by itself to find its position, if it has not done so yet
+    int index = 0;               // of the arm, from 0
+    bool may_move = false;       // the arm may move by itself to find its position, if it has not done so yet
+    double effector_mass = 0.0;  // kg, OpenOptions::effector_mass
 };
 
-// Opens arm `index`. Fails if it would have to move by itself and may not. The arm's name and limits follow
-// from its joints, because the limits of a model are only known for these (docs/decisions.md).
+// Opens arm `index`, which then compensates its weight; the brakes hold it when it is closed. Fails with an
+// Error::preparation if it would have to move by itself and may not. Its limits are those of its model, and
+// of its joints if the model is unknown (docs/decisions.md). The factory's limit of its speed is not changed.
 Result<std::unique_ptr<DeviceDriver>> open_force_dimension(const ForceDimensionApi& api,
                                                            const ForceDimensionOptions& options, Timer timer);
 

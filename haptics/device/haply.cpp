@@ -37,11 +37,9 @@ Error not_running(std::string_view reason) {
 }
 
 Error not_calibrated(const std::string& arm) {
-    Error error;
-    error.code = ErrorCode::no_device;
-    error.what = fmt::format("Haply Inverse3 {} is not calibrated", arm);
-    error.expected = "an arm that was placed into its inkwell and calibrated, as its light shows";
-    return error;
+    return unprepared_device(fmt::format("Haply Inverse3 {} is not calibrated", arm),
+                             "an arm that was placed into its inkwell and calibrated, as its light shows",
+                             {DeviceNeed::inkwell, {}});
 }
 
 // Waits for the first message of a connection. nullopt: it did not come in time.
@@ -69,6 +67,9 @@ Description describe_arm(const HaplyArmEntry& arm, const HaplyGripEntry* grip, i
     Description d;
     d.name = fmt::format("Haply Inverse3 {}", arm.id);
     d.id = fmt::format("haply:{}", index);
+    d.model = "Inverse3";
+    d.serial = arm.id;
+    d.senses_rotation = grip != nullptr;
     d.renders = {true, true, true, false, false, false};
     d.limits.force = 10.0;
     d.limits.torque = 0.0;
@@ -127,6 +128,9 @@ class HaplyArm final : public DeviceDriver {
     }
 
     [[nodiscard]] const Description& describe() const override { return description_; }
+
+    // An arm that loses its calibration is lost.
+    [[nodiscard]] Condition condition() const override { return {true, {}, false}; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double end = timer_.now() + timeout;

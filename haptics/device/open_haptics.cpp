@@ -18,9 +18,9 @@ namespace {
 
 // hdDefines.h. Lengths are in mm, stiffness in N/mm.
 constexpr unsigned no_arm = 0xffffffff;
-constexpr unsigned get_model = 0x2501, get_usable_box = 0x2551, get_senses = 0x2553, get_renders = 0x2554,
-                   get_calibration_style = 0x2555, get_max_stiffness = 0x2602, get_max_force = 0x2603,
-                   get_lasting_force = 0x2604;
+constexpr unsigned get_model = 0x2501, get_serial = 0x2504, get_usable_box = 0x2551, get_senses = 0x2553,
+                   get_renders = 0x2554, get_calibration_style = 0x2555, get_max_stiffness = 0x2602,
+                   get_max_force = 0x2603, get_lasting_force = 0x2604;
 constexpr unsigned style_inkwell = 4;
 constexpr unsigned short highest_priority = 0xffff;
 
@@ -66,8 +66,8 @@ Error arm_error(const OpenHapticsApi& api, const std::string& name, const char* 
 // The reported limit, at most the model's; the model's if none is reported.
 double limit(double reported, double most) { return reported > 0.0 ? std::min(reported, most) : most; }
 
-std::string model_name(const OpenHapticsApi& api) {
-    const char* reported = api.get_string(get_model);
+std::string reported_text(const OpenHapticsApi& api, unsigned what) {
+    const char* reported = api.get_string(what);
     std::string name = reported != nullptr ? std::string(std::string_view(reported).substr(0, 60)) : "";
     std::erase_if(name, [](char c) { return c < ' ' || c > '~'; });  // names are printed on terminals
     return name;
@@ -87,7 +87,7 @@ void describe_reach(const OpenHapticsApi& api, double most, ArmProperties& arm) 
 
 ArmProperties describe_arm(const OpenHapticsApi& api) {
     ArmProperties arm;
-    const std::string model = model_name(api);
+    const std::string model = reported_text(api, get_model);
     const ModelLimits& most = *std::find_if(models.begin(), models.end(), [&](const ModelLimits& m) {
         return model.find(m.mark) != std::string::npos;
     });
@@ -96,6 +96,9 @@ ArmProperties describe_arm(const OpenHapticsApi& api) {
     Description& d = arm.description;
     d.name = model.empty() ? arm_name : fmt::format("{} ({})", arm_name, model);
     d.id = "openhaptics:0";
+    d.model = model;
+    d.serial = reported_text(api, get_serial);
+    d.senses_rotation = arm.senses_rotation;
     d.renders = {true, true, true, false, false, false};
     d.limits.force = limit(get_doubles(api, get_max_force)[0], most.force);
     d.limits.torque = 0.0;
@@ -147,14 +150,20 @@ class OpenHapticsArm final : public DeviceDriver {
         if (report_.fault != 0) return failure("it cannot be started", report_.fault);
         if (report_.calibration == calibrated) return {};
         if (report_.calibration == 0) return failure("its scheduler does not run", 0);
-        const bool inkwell = (arm_.calibration_style & style_inkwell) != 0;
-        return fail(ErrorCode::no_device, arm_.description.name + " does not know its position",
-                    inkwell
-                        ? "its stylus in the inkwell: push it in, and it is calibrated at the next attempt"
-                        : "an arm that was calibrated with the vendor's program Touch_Diagnostic");
+        const std::string what = arm_.description.name + " does not know its position";
+        if ((arm_.calibration_style & style_inkwell) != 0)
+            return fail(unprepared_device(
+                what, "its stylus in the inkwell: push it in, and it is calibrated at the next attempt",
+                {DeviceNeed::inkwell, {}}));
+        return fail(ErrorCode::no_device, what,
+                    "an arm that was calibrated with the vendor's program Touch_Diagnostic");
     }
 
     [[nodiscard]] const Description& describe() const override { return arm_.description; }
+
+    [[nodiscard]] Condition condition() const override {
+        return {report_.calibration == calibrated, report_.heat, report_.warm};
+    }
 
     Result<std::optional<Sample>> read(double timeout) override {
         wait_for(timeout, [&] { return report_.number != read_ || report_.fault != 0; });

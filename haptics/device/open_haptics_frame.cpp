@@ -17,8 +17,11 @@ constexpr double max_command_age = 18e-3;
 constexpr double fade_time = 10e-3;  // s from full strength to none after an error of the forces
 constexpr double rest_time = 0.5;    // s without such an error before the force comes back
 constexpr double ramp_time = 0.5;    // s from none to full strength
-constexpr double cool = 0.7;         // heat of the motors, 0 … 1, below which a warm arm renders again
-constexpr double farthest = 2.0;     // m; a position beyond is a faulty one
+// Heat of the motors, 0 … 1. From `hot` on the forces fade, before the library ends them with an error at 1;
+// below `cool` they come back.
+constexpr double hot = 0.95, cool = 0.7;
+constexpr int heat_interval = 20;  // frames between two queries of the heat
+constexpr double farthest = 2.0;   // m; a position beyond is a faulty one
 
 // The pose in the vendor's transform, whose columns follow each other; nullopt if it makes no sense.
 std::optional<Pose> pose_in(const Doubles& m, bool with_rotation) {
@@ -92,17 +95,21 @@ void FrameCallback::take_sample(const Pose& pose, double now) {
 // A refused call does not prolong the rest, because calls are refused until the forces are enabled again.
 void FrameCallback::note_error(unsigned code, double now) {
     if (code >= warm_motors || now >= rests_until_) rests_until_ = now + rest_time;
-    is_warm_ = is_warm_ || code == warm_motors;
+    report_.warm = report_.warm || code == warm_motors;
     if (code >= first_fault) report_.fault = std::max(report_.fault, code);
 }
 
-bool FrameCallback::is_resting(double now) {
-    if (is_warm_) {
-        const Doubles heat = get_doubles(api_, get_motor_heat);  // of each motor
-        is_warm_ = std::any_of(heat.begin(), heat.end(), [](double h) { return h >= cool; });
-    }
-    return is_warm_ || now < rests_until_;
+void FrameCallback::observe_heat() {
+    if (--frames_to_heat_ > 0) return;
+    frames_to_heat_ = heat_interval;
+    double hottest = -1.0;  // of the motors that are reported
+    for (const double heat : get_doubles(api_, get_motor_heat))
+        if (heat >= 0.0) hottest = std::max(hottest, heat);
+    report_.heat = hottest >= 0.0 ? std::optional(std::min(hottest, 1.0)) : std::nullopt;
+    report_.warm = hottest >= hot || (report_.warm && hottest >= cool);
 }
+
+bool FrameCallback::is_resting(double now) { return report_.warm || now < rests_until_; }
 
 void FrameCallback::update_strength(bool renders, double elapsed) {
     if (!renders) {
@@ -115,6 +122,7 @@ void FrameCallback::update_strength(bool renders, double elapsed) {
 }
 
 void FrameCallback::render(bool has_pose, double now, double elapsed) {
+    observe_heat();
     if (report_.released) return;  // the device thread may have disabled the forces
     update_strength(has_pose && !is_resting(now), elapsed);
     commands.update();

@@ -56,10 +56,12 @@ inline constexpr double longest_frame = 15e-3;
 struct FrameReport {
     double time = 0.0;  // s, of the frame
     Sample sample;
-    std::uint64_t number = 0;  // counts the valid samples of a calibrated arm
-    unsigned calibration = 0;  // as the library reports it; 0: not checked yet
-    unsigned fault = 0;        // the error that has ended the forces for good; 0: none
-    bool released = false;     // a frame without force has ended since release()
+    std::uint64_t number = 0;    // counts the valid samples of a calibrated arm
+    unsigned calibration = 0;    // as the library reports it; 0: not checked yet
+    unsigned fault = 0;          // the error that has ended the forces for good; 0: none
+    std::optional<double> heat;  // of the hottest motor, 0 … 1
+    bool warm = false;           // the forces rest until the motors are cool
+    bool released = false;       // a frame without force has ended since release()
 };
 
 // One frame at each tick of the vendor's scheduler. The vendor owns the clock, and a late frame delays the
@@ -83,6 +85,7 @@ class FrameCallback {
     void take_sample(const Pose& pose, double now);
     void note_error(unsigned code, double now);
     bool is_resting(double now);
+    void observe_heat();
     void update_strength(bool renders, double elapsed);
     void render(bool has_pose, double now, double elapsed);
 
@@ -94,7 +97,7 @@ class FrameCallback {
     double before_;              // s, time of the last frame
     double strength_ = 1.0;      // share of the command that is rendered
     double rests_until_ = -1e9;  // s
-    bool is_warm_ = false;
+    int frames_to_heat_ = 0;     // until the heat is queried again
     std::atomic<bool> releases_ = false;
 };
 

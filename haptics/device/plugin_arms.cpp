@@ -24,7 +24,7 @@ constexpr double fastest_rate = 1000.0;        // 1/s, of calls of exchange()
 constexpr double farthest_position = 2.0;      // m
 constexpr double calibration_interval = 0.01;  // s between two calls of calibrate()
 constexpr double calibration_time = 90.0;      // s for an arm that moves by itself
-constexpr double time_for_user = 0.5;          // s until the user is asked to act
+constexpr double time_for_user = 0.5;          // s until the user is asked to act, or to be patient
 
 // Force, torque and stiffness: the largest of the arms in docs/decisions.md. Torsion, damping and angular
 // damping: the defaults of OutputLimits, which are those of an arm of that class. Reach: more than that of
@@ -119,6 +119,7 @@ Result<Description> describe_plugin_arm(const bw_arm_info_v1& info, const std::f
     d.name = clean_text({info.name, ::strnlen(info.name, sizeof info.name)});
     if (d.name.empty()) d.name = plugin_name(plugin);
     d.id = plugin_arm_id(plugin, index);
+    d.model = d.name;
     for (std::size_t i = 0; i < d.renders.size(); ++i) d.renders[i] = (info.axes >> i & 1U) != 0;
     BOLT_TRY(take_limits(info, d));
     BOLT_TRY(check_axes(d));
@@ -127,8 +128,8 @@ Result<Description> describe_plugin_arm(const bw_arm_info_v1& info, const std::f
     if (info.buttons < 0 || info.buttons > 32)
         return fail(ErrorCode::no_device, fmt::format("it has {} buttons", info.buttons), "0 to 32");
     d.buttons = info.buttons;
-    if ((info.flags & BW_ARM_SENSES_ROTATION) == 0)
-        d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
+    d.senses_rotation = (info.flags & BW_ARM_SENSES_ROTATION) != 0;
+    if (!d.senses_rotation) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
     return d;
 }
 
@@ -152,6 +153,7 @@ class PluginArm final : public DeviceDriver {
           next_(timer_.now()) {}
 
     [[nodiscard]] const Description& describe() const override { return description_; }
+    [[nodiscard]] Condition condition() const override { return {true, {}, false}; }
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double now = timer_.now();
@@ -214,58 +216,75 @@ class PluginArm final : public DeviceDriver {
 
 }  // namespace
 
+struct WaitingArm {
+    ArmProcess process;
+    double since = 0.0;  // s, when its calibration began
+};
+
 class WaitingArms {
   public:
-    std::optional<ArmProcess> take(const std::string& id) {
+    std::optional<WaitingArm> take(const std::string& id) {
         const std::lock_guard lock(mutex_);
         const auto found = arms_.find(id);
         if (found == arms_.end()) return {};
-        std::optional<ArmProcess> arm(std::move(found->second));
+        std::optional<WaitingArm> arm(std::move(found->second));
         arms_.erase(found);
         return arm;
     }
-    void keep(const std::string& id, ArmProcess arm) {
+    void keep(const std::string& id, WaitingArm arm) {
         const std::lock_guard lock(mutex_);
         arms_.insert_or_assign(id, std::move(arm));
     }
 
   private:
     std::mutex mutex_;
-    std::map<std::string, ArmProcess> arms_;
+    std::map<std::string, WaitingArm> arms_;
 };
 
 std::shared_ptr<WaitingArms> make_waiting_arms() { return std::make_shared<WaitingArms>(); }
 
 namespace {
 
-// Calls calibrate() until it is done or the user must act.
-Result<PluginReply> calibrate(ArmProcess& process, const PluginArmOptions& options, const Timer& timer) {
+// Calls calibrate() until it is done, or the user must act or be patient. An arm that moves by itself is
+// called without a pause, as the interface promises.
+Result<PluginReply> calibrate(ArmProcess& process, bool may_move, bool may_wait, const Timer& timer) {
     const double began = timer.now();
     for (;;) {
-        BOLT_TRY_ASSIGN(const PluginReply reply,
-                        process.call(PluginCall::calibrate, options.may_move ? 1 : 0));
-        const double time = reply.result == BW_ARM_NEEDS_USER ? time_for_user : calibration_time;
-        const bool goes_on = reply.result == BW_ARM_BUSY || reply.result == BW_ARM_NEEDS_USER;
+        BOLT_TRY_ASSIGN(const PluginReply reply, process.call(PluginCall::calibrate, may_move ? 1 : 0));
+        const bool busy = reply.result == BW_ARM_BUSY;
+        const bool without_pause = busy && (may_move || !may_wait);
+        const double time = without_pause ? calibration_time : time_for_user;
+        const bool goes_on = busy || reply.result == BW_ARM_NEEDS_USER;
         if (!goes_on || timer.now() - began > time) return reply;
         timer.wait(calibration_interval);
     }
 }
 
-Error calibration_error(const ArmProcess& process, const PluginReply& reply, const std::string& id) {
+// `too_late`: its calibration has taken calibration_time.
+Error calibration_error(const ArmProcess& process, const PluginReply& reply, const std::string& id,
+                        bool too_late) {
+    Error error;
     switch (reply.result) {
-        case BW_ARM_NEEDS_USER:
-            return process.error(
-                fmt::format("it waits for you: {}",
-                            clean_text({reply.text, ::strnlen(reply.text, sizeof reply.text)})),
-                "an arm that knows its position");
-        case BW_ARM_MUST_MOVE:
-            return process.error(
-                "the arm has to move by itself to find its position, and may not",
-                fmt::format("free room around it, then `boltwright devices --device {} --may-move`", id));
+        case BW_ARM_NEEDS_USER: {
+            const std::string text = clean_text({reply.text, ::strnlen(reply.text, sizeof reply.text)});
+            error = process.error("it waits for you: " + text, "an arm that knows its position");
+            error.preparation = {DeviceNeed::user, text};
+            return error;
+        }
+        case BW_ARM_MUST_MOVE: {
+            const Error immobile = immobile_device("the arm", id);
+            error = process.error(immobile.what, immobile.expected);
+            error.preparation = immobile.preparation;
+            return error;
+        }
         case BW_ARM_BUSY:
-            return process.error(
-                fmt::format("the arm has not found its position in {:g} s", calibration_time),
-                "an arm that can move freely");
+            if (too_late)
+                return process.error(
+                    fmt::format("the arm has not found its position in {:g} s", calibration_time),
+                    "an arm that can move freely");
+            error = process.error("the arm is calibrating", "patience");
+            error.preparation = {DeviceNeed::patience, {}};
+            return error;
         default:
             return process.error(fmt::format("calibrate returns {}", reply.result),
                                  "a result as boltwright_arm.h describes it");
@@ -310,25 +329,30 @@ Result<int> count_plugin_arms(const std::filesystem::path& plugin) {
 
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer) {
     const std::string id = plugin_arm_id(options.plugin, options.index);
-    std::optional<ArmProcess> process =
-        options.waiting ? options.waiting->take(id) : std::optional<ArmProcess>();
-    if (!process) {
-        BOLT_TRY_ASSIGN(process, ArmProcess::start(options.plugin));
-        BOLT_TRY(process->call(PluginCall::open, options.index));
+    std::optional<WaitingArm> arm = options.waiting ? options.waiting->take(id) : std::optional<WaitingArm>();
+    if (!arm) {
+        BOLT_TRY_ASSIGN(auto started, ArmProcess::start(options.plugin));
+        BOLT_TRY(started.call(PluginCall::open, options.index));
+        arm.emplace(WaitingArm{std::move(started), timer.now()});
     }
-    BOLT_TRY_ASSIGN(const PluginReply about, process->call(PluginCall::info));
+    ArmProcess& process = arm->process;
+    BOLT_TRY_ASSIGN(const PluginReply about, process.call(PluginCall::info));
     Result<Description> description = describe_plugin_arm(about.info, options.plugin, options.index);
-    if (!description) return fail(process->error(description.error().what, description.error().expected));
-    BOLT_TRY_ASSIGN(const PluginReply calibrated, calibrate(*process, options, timer));
+    if (!description) return fail(process.error(description.error().what, description.error().expected));
+    const bool may_wait = options.waiting != nullptr;
+    BOLT_TRY_ASSIGN(const PluginReply calibrated, calibrate(process, options.may_move, may_wait, timer));
     if (calibrated.result != BW_ARM_DONE) {
-        Error error = calibration_error(*process, calibrated, id);
-        if (calibrated.result == BW_ARM_NEEDS_USER && options.waiting)
-            options.waiting->keep(id, std::move(*process));
+        const bool too_late = !may_wait || options.may_move || timer.now() - arm->since > calibration_time;
+        Error error = calibration_error(process, calibrated, id, too_late);
+        if (calibrated.result == BW_ARM_NEEDS_USER) arm->since = timer.now();
+        const DeviceNeed need = error.preparation.need;
+        if (may_wait && (need == DeviceNeed::user || need == DeviceNeed::patience))
+            options.waiting->keep(id, std::move(*arm));
         return fail(std::move(error));
     }
-    BOLT_TRY(process->call(PluginCall::enable, 1));
+    BOLT_TRY(process.call(PluginCall::enable, 1));
     const bool senses_rotation = (about.info.flags & BW_ARM_SENSES_ROTATION) != 0;
-    return std::make_unique<PluginArm>(std::move(*process), std::move(*description), senses_rotation,
+    return std::make_unique<PluginArm>(std::move(process), std::move(*description), senses_rotation,
                                        std::move(timer));
 }
 

@@ -28,6 +28,12 @@ class VendorLibrary {
         if (function == nullptr) missing_.emplace_back(name);
     }
 
+    // The same for a symbol that older versions lack: null if it is missing.
+    template <class Function>
+    void find_optional(const char* name, Function*& function) {
+        function = reinterpret_cast<Function*>(dlsym(handle_, name));
+    }
+
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
     // Fails if find() has not found a symbol, and names it.
     [[nodiscard]] Status check() const;

@@ -77,7 +77,7 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
     if (!factory) return {};
     BOLT_TRY_ASSIGN(auto started, device::DeviceThread::start(factory, options.device_threads));
     thread = std::move(started);
-    BOLT_TRY_ASSIGN(auto found, thread->wait_until_open(options.open_timeout));
+    BOLT_TRY_ASSIGN(auto found, thread->wait_until_open(options.open_timeout, options.on_preparation));
     description = *found;
     return {};
 }

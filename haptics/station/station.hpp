@@ -50,7 +50,9 @@ struct StationOptions {
     Pose home;
     std::filesystem::path glove;    // serial port; empty: no glove
     std::optional<HandSetup> hand;  // wearer of the glove; none: the controls determine the grip
-    double open_timeout = 3.0;      // s, per device
+    double open_timeout = 3.0;      // s, per device, without the time for its preparation
+    // Called by start(); empty: a device that needs preparation is an error.
+    device::PreparationHandler on_preparation;
     device::DeviceThreadOptions device_threads{{}, 70};  // priority below the servo's
     StationControls controls;                            // initial
     servo::ThreadOptions servo;

@@ -12,7 +12,17 @@ yes nonsense | head -c 4096 >"broken/$library"
 export FDSDK=$work/sdk
 expect 0 "$arm +Force Dimension arm" "$bin/boltwright" devices
 expect 4 'has to move by itself to find its position, and may not; expected free room around it' "$bin/boltwright" devices --device $arm
-expect 0 'renders force along 3 axes, 12 N at most' "$bin/boltwright" devices --device $arm --may-move --seconds 0.2
+expect 0 'renders force along 3 axes, 12 N at most' "$bin/boltwright" devices --device $arm --yes --seconds 0.2
+expect 0 'renders force along 3 axes' "$bin/boltwright" devices --device $arm --may-move --seconds 0.2
+expect 4 'and may not; .*`boltwright devices --device force-dimension:0 --yes`' "$bin/boltwright" doctor cover-m8 --device $arm --seconds 0.5
+expect 0 'May it move\? yes \(--yes\)' "$bin/boltwright" doctor cover-m8 --device $arm --yes --seconds 0.5
+answers() {  # answers TEXT command...: on a terminal, where the text is typed after a second
+    local text=$1
+    shift
+    (sleep 1; echo "$text") | script -qec "$*" /dev/null
+}
+expect 0 'Keep hands and things clear. May it move\? \[y/N\]' answers y "$bin/boltwright" devices --device $arm --seconds 0.2
+expect 4 'and may not' answers n "$bin/boltwright" devices --device $arm --seconds 0.2
 export EMULATED_ARM_INITIALIZED=1
 expect 0 'senses the pose of the hand in six degrees of freedom' "$bin/boltwright" devices --device $arm --seconds 0.2
 FDSDK=$work/old expect 0 'has no dhdGetDeviceCount, drdOpenID' "$bin/boltwright" devices

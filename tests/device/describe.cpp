@@ -28,6 +28,12 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
           "buttons\n"
           "renders force along 3 axes, 20 N at most, as stiff as 2 N/mm; torque about 3 axes, 2 N·m at most\n"
           "its cable is worn\n");
+    arm.model = "omega.6";
+    arm.serial = "1234";
+    arm.senses_rotation = false;
+    CHECK(all(arm).find(
+              "model omega.6, serial number 1234\nsenses the position of the hand in three degrees of "
+              "freedom") == 0);
     Description wheel;
     wheel.sensing = Sensing::turn;
     wheel.silent_at_rest = true;
@@ -45,6 +51,18 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
           "senses a commanded velocity in six degrees of freedom, 125 times a second while it moves; 0 "
           "buttons\n"
           "renders no force\n");
+}
+
+TEST_CASE("Describe: the condition of an arm has a line for what it reports") {
+    using Lines = std::vector<std::string>;
+    CHECK(summary_lines(Condition{}).empty());
+    CHECK(summary_lines(Condition{true, 0.3, false}) ==
+          Lines{"calibrated: it knows its position", "motors at 30 % of their greatest heat"});
+    CHECK(summary_lines(Condition{false, 0.85, false}) ==
+          Lines{"not calibrated: it does not know its position",
+                "motors at 85 % of their greatest heat: rest the arm"});
+    CHECK(summary_lines(Condition{{}, 0.75, true}) ==
+          Lines{"motors at 75 % of their greatest heat: no force until they are cool"});
 }
 
 }  // namespace device_describe_test

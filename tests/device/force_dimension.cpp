@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
+#include "haptics/device/connected_devices.hpp"
 #include "haptics/device/vendor_library.hpp"
 #include "tests/device/driver_contract.hpp"
 #include "tools/emulate/arms/force_dimension.h"
@@ -26,6 +29,9 @@ struct Controls {
     decltype(emu_unplug)* unplug = nullptr;
     decltype(emu_in_use)* in_use = nullptr;
     decltype(emu_speed_limit)* speed_limit = nullptr;
+    decltype(emu_model)* model = nullptr;
+    decltype(emu_weight)* weight = nullptr;
+    decltype(emu_speed_limit_changes)* speed_limit_changes = nullptr;
     decltype(emu_position)* position = nullptr;
     decltype(emu_force)* force = nullptr;
     decltype(emu_moved_by_itself)* moved_by_itself = nullptr;
@@ -57,6 +63,9 @@ struct Bench {
         library->find("emu_unplug", arm.unplug);
         library->find("emu_in_use", arm.in_use);
         library->find("emu_speed_limit", arm.speed_limit);
+        library->find("emu_model", arm.model);
+        library->find("emu_weight", arm.weight);
+        library->find("emu_speed_limit_changes", arm.speed_limit_changes);
         library->find("emu_position", arm.position);
         library->find("emu_force", arm.force);
         library->find("emu_moved_by_itself", arm.moved_by_itself);
@@ -66,8 +75,8 @@ struct Bench {
         arm.reset();
         arm.initialized(1);
     }
-    Result<std::unique_ptr<DeviceDriver>> open(bool may_move = false) {
-        return open_force_dimension(api, {0, may_move}, timer);
+    Result<std::unique_ptr<DeviceDriver>> open(bool may_move = false, double mass = 0.0) {
+        return open_force_dimension(api, {0, may_move, mass}, timer);
     }
     // Reads for `seconds`, and returns the last sample.
     Sample read(DeviceDriver& device, double seconds) {
@@ -160,7 +169,7 @@ TEST_CASE("Force Dimension: an arm that does not know its position moves only if
     REQUIRE_FALSE(refused);
     CHECK(refused.error().message().find(
               "has to move by itself to find its position, and may not; expected free room around it, then "
-              "`boltwright devices --device force-dimension:0 --may-move`") != std::string::npos);
+              "`boltwright devices --device force-dimension:0 --yes`") != std::string::npos);
     CHECK(bench.arm.moved_by_itself() == 0);
     CHECK(bench.arm.open() == 0);
     CHECK(bench.open(true));
@@ -211,6 +220,99 @@ TEST_CASE("Force Dimension: an arm that another program uses names that") {
     const auto refused = bench.open();
     REQUIRE_FALSE(refused);
     CHECK(refused.error().expected == "an arm that no other program uses");
+}
+
+TEST_CASE(
+    "Force Dimension: the limits are those of the model, and the smallest of its joints if it is unknown") {
+    struct Row {
+        int type;
+        const char* name;
+        double force, torque, stiffness, reach;
+        bool active;
+    };
+    for (const Row& row :
+         {Row{63, "delta.3", 20.0, 0.0, 5000.0, 0.15, false},
+          Row{34, "omega.6", 12.0, 0.0, 5000.0, 0.075, false},
+          Row{105, "sigma.7 (left)", 12.0, 0.2, 4000.0, 0.075, true},
+          Row{108, "lambda.7", 12.0, 0.2, 8000.0, 0.11, true},
+          Row{60, "Falcon", 8.0, 0.0, 3000.0, 0.04, false},
+          Row{999, "arm, 6 joints with motors (sigma or lambda)", 12.0, 0.2, 4000.0, 0.075, true},
+          Row{-1, "arm with a wrist (omega.6 or omega.7)", 12.0, 0.0, 5000.0, 0.075, false}}) {
+        CAPTURE(row.type);
+        Bench bench;
+        bench.arm.active_wrist(row.active ? 1 : 0);
+        bench.arm.model(row.type, nullptr, -1);
+        const auto opened = bench.open();
+        REQUIRE(opened);
+        const Description& d = (*opened)->describe();
+        check_description(d);
+        CHECK(d.name == std::string("Force Dimension ") + row.name);
+        CHECK(d.limits.force == row.force);
+        CHECK(d.limits.torque == row.torque);
+        CHECK(d.limits.stiffness == row.stiffness);
+        CHECK(d.reach == Vec3(row.reach));
+        CHECK(d.serial.empty());
+    }
+}
+
+TEST_CASE(
+    "Force Dimension: model and serial number are what it reports, and a library without them is used too") {
+    Bench bench;
+    bench.arm.model(34, "omega.6\x1b[31m", 4711);
+    {
+        const auto opened = bench.open();
+        REQUIRE(opened);
+        CHECK((*opened)->describe().model == "omega.6[31m");
+        CHECK((*opened)->describe().serial == "4711");
+        CHECK((*opened)->condition().calibrated == true);
+        CHECK_FALSE((*opened)->condition().heat);
+    }
+    bench.api.get_type = nullptr;
+    bench.api.get_name = nullptr;
+    bench.api.get_serial = nullptr;
+    bench.api.compensate_gravity = nullptr;
+    bench.api.set_mounted_mass = nullptr;
+    const auto old = bench.open(false, 0.1);
+    REQUIRE(old);
+    CHECK((*old)->describe().name == "Force Dimension arm with a wrist (omega.6 or omega.7)");
+    CHECK((*old)->describe().model.empty());
+    CHECK((*old)->describe().remarks.back().find("does not compensate the weight") != std::string::npos);
+}
+
+TEST_CASE(
+    "Force Dimension: the weight of the arm and of its handle is held, also while it moves without force") {
+    for (const double known : {0.0, 0.15}) {
+        CAPTURE(known);
+        Bench bench;
+        bench.arm.weight(0.2, 0.15);
+        const auto opened = bench.open(false, known);
+        REQUIRE(opened);
+        bench.read(**opened, 2.0);
+        bench.arm.intend(0.0, 0.0, 0.05);  // 300 N/m pull it up, where it weighs more
+        const double height = bench.read(**opened, 3.0).pose.position.y;
+        // The weight that the library does not know grows by a tenth with each centimetre.
+        const double unknown = 9.81 * (0.15 - known);
+        CHECK(std::abs(height - (300.0 * 0.05 - unknown) / (300.0 + 10.0 * unknown)) < 2e-4);
+    }
+}
+
+TEST_CASE("Force Dimension: the over-speed threshold stays that of the factory") {
+    Bench bench;
+    { REQUIRE(bench.open(true)); }
+    CHECK(bench.arm.speed_limit_changes() == 0);
+}
+
+TEST_CASE("Force Dimension: a mounted mass that is not plausible is an error") {
+    const ListedDevice listed{"libdrd.so.3", "force-dimension:0", "arm", DeviceKind::arm, {}};
+    for (const double mass : {-0.1, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
+        OpenOptions options;
+        options.effector_mass = mass;
+        const auto refused = open(listed, options);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().code == ErrorCode::usage);
+        CHECK(refused.error().message().find("force-dimension:0 is") != std::string::npos);
+        CHECK(refused.error().expected == "0 to 1 kg");
+    }
 }
 
 TEST_CASE("Force Dimension: buttons") {

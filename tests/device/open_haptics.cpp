@@ -338,6 +338,29 @@ TEST_CASE(
     CHECK(greatest_step < 0.02);
 }
 
+TEST_CASE("OpenHaptics: the force of hot motors fades before the library warns, and the condition tells") {
+    Bench bench;
+    auto device = bench.opened();
+    CHECK(device->describe().model == "Touch");
+    CHECK(device->describe().serial == "2001-0042");
+    REQUIRE(bench.drive(*device, two_newton, 1.0));
+    CHECK(device->condition().calibrated == true);
+    CHECK(device->condition().heat == 0.0);
+    bench.arm.heat(0.85);
+    REQUIRE(bench.drive(*device, two_newton, 0.5));
+    CHECK(bench.force_now() == doctest::Approx(2.0));
+    CHECK(is_warm(device->condition()));
+    bench.arm.heat(0.97);
+    REQUIRE(bench.drive(*device, two_newton, 0.05));
+    CHECK(bench.force_now() == 0.0);
+    CHECK(device->condition().rests);
+    CHECK(device->condition().heat == 0.97);
+    bench.arm.heat(0.6);
+    REQUIRE(bench.drive(*device, two_newton, 0.7));
+    CHECK(bench.force_now() == doctest::Approx(2.0));
+    CHECK_FALSE(device->condition().rests);
+}
+
 TEST_CASE("OpenHaptics: an arm that is too fast or forced too hard rests for half a second and stays open") {
     for (const unsigned error : {0x201U, 0x202U, 0x203U}) {
         CAPTURE(error);
@@ -467,6 +490,7 @@ TEST_CASE("OpenHaptics: an arm that needs its inkwell says so, and is calibrated
           "OpenHaptics arm (Touch) does not know its position; expected its stylus in the inkwell: push it "
           "in, and "
           "it is calibrated at the next attempt");
+    CHECK(refused.error().preparation.need == DeviceNeed::inkwell);
     CHECK(bench.arm.open() == 0);
     CHECK(bench.arm.running() == 0);
     bench.arm.inkwell();

@@ -386,9 +386,17 @@ TEST_CASE("Plug-in: an arm that has to move by itself moves only if it may, and 
     CHECK(message(bench.open_with("must move")) ==
           "the plug-in faulty_arm: the arm has to move by itself to find its position, and may not; expected "
           "free room "
-          "around it, then `boltwright devices --device plugin:faulty_arm:0 --may-move`");
+          "around it, then `boltwright devices --device plugin:faulty_arm:0 --yes`");
     CHECK(bench.open(true));
     CHECK(bench.open_with("busy"));
+}
+
+TEST_CASE("Plug-in: an arm that calibrates for long says so, and goes on in the same process") {
+    const Bench bench;
+    const Opened first = bench.open_with("busy for long");
+    REQUIRE_FALSE(first);
+    CHECK(first.error().preparation == Preparation{DeviceNeed::patience, {}});
+    CHECK(eventually([&] { return bench.open().has_value(); }));
 }
 
 TEST_CASE("Plug-in: an arm that waits for its user stays open until he has acted") {
@@ -398,6 +406,7 @@ TEST_CASE("Plug-in: an arm that waits for its user stays open until he has acted
               "the plug-in faulty_arm: it waits for you: put the pen into its holder; expected an arm that "
               "knows its "
               "position");
+    CHECK(bench.open().error().preparation == Preparation{DeviceNeed::user, "put the pen into its holder"});
     // Another process would not have seen it.
     CHECK(bench.open_with("user acts"));
     CHECK_FALSE(bench.open());

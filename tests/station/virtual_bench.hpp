@@ -55,6 +55,9 @@ class VirtualBench final : public station_setup::LessonStation {
     [[nodiscard]] std::uint64_t lost_ticks() const override { return lost_; }
     const station::DisplayedHand* hand() override { return hand_ ? &*hand_ : nullptr; }
     std::vector<std::string> troubles() override { return troubles_; }
+    device::Condition condition() override { return condition_; }
+    device::ArmNeeds needs() override { return needs_; }
+    void permit_move() override { ++permissions_; }
     [[nodiscard]] const station::Layout& layout() const override { return layout_; }
     [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
     const servo::Timing* stop() override {
@@ -64,6 +67,9 @@ class VirtualBench final : public station_setup::LessonStation {
 
     // State of the station and its faults, set by tests.
     std::vector<std::string> troubles_;
+    device::ArmNeeds needs_;
+    device::Condition condition_;
+    int permissions_ = 0;  // that the user has given
     std::uint64_t lost_ = 0;
     std::optional<station::DisplayedHand> hand_;  // of a gloved hand
     bool unplugged_ = false;

@@ -23,7 +23,7 @@ const char* const everything = R"({
   "arm": {
     "device": "force-dimension:0",
     "mounting": {"yaw_deg": 90, "pitch_deg": -10, "roll_deg": 180},
-    "scale": 2.5, "power": 0.5,
+    "scale": 2.5, "power": 0.5, "effector_mass_kg": 0.2,
     "buttons": {"dead_man": [1, 3], "clutch": 2, "stop": 4, "reset": []},
     "limits": {"force_N": 8, "torque_Nm": 0.1, "stiffness_N_per_m": 1500, "torsion_Nm_per_rad": 5,
                "damping_Ns_per_m": 4, "angular_damping_Nms_per_rad": 0.01},
@@ -97,6 +97,7 @@ StationFile any_station(Random& random) {
         for (double Mounting::*angle : {&Mounting::yaw, &Mounting::pitch, &Mounting::roll})
             arm.mounting.*angle = to_radians(random.chance(0.3) ? 90.0 : random.uniform(-360.0, 360.0));
         maybe(arm.scale, 0.1, 20.0);
+        if (random.chance(0.5)) arm.effector_mass = random.uniform(0.001, 1.0);
         maybe(arm.power, 0.01, 10.0);
         arm.buttons = buttons();
         maybe(arm.limits.force, 0.0, 1000.0);
@@ -130,6 +131,7 @@ TEST_CASE("Station file: every member is read, and absent ones keep their defaul
     CHECK(arm.device == "force-dimension:0");
     CHECK(arm.mounting == Mounting{to_radians(90.0), to_radians(-10.0), to_radians(180.0)});
     CHECK(arm.scale == 2.5);
+    CHECK(arm.effector_mass == 0.2);
     CHECK(arm.power == 0.5);
     CHECK(arm.buttons == station::Buttons{5, 2, 8, 0});
     CHECK(arm.limits == force::LimitBounds{8.0, 0.1, 1500.0, 5.0, 4.0, 0.01});
@@ -149,7 +151,7 @@ TEST_CASE("Station file: every member is read, and absent ones keep their defaul
     CHECK(*bare == StationFile{});
     const Result<StationFile> plain = parsed(R"(, "arm": {"device": "a"}, "wheel": {"device": "w"})");
     REQUIRE(plain);
-    CHECK(*plain->arm == StationArm{"a", {}, {}, {}, {}, {}, {}});
+    CHECK(*plain->arm == StationArm{"a", {}, {}, {}, {}, {}, 0.0, {}});
     CHECK(*plain->wheel == StationWheel{"w", {}, {}});
 }
 

@@ -23,10 +23,10 @@ struct AtBench {
     AppOptions options(bool menu) {
         AppOptions o = test::options("cover-m8", menu);
         o.choice.equipment.hand = HandMode::keyboard;
-        o.start_station = [this](
-                              const content::Assembly& assembly, const session::LessonOptions& lesson_options,
-                              const Equipment& equipment,
-                              const std::string&) -> Result<std::unique_ptr<station_setup::LessonStation>> {
+        o.start_station =
+            [this](const content::Assembly& assembly, const session::LessonOptions& lesson_options,
+                   const Equipment& equipment, const std::string&,
+                   const device::ArmDialog&) -> Result<std::unique_ptr<station_setup::LessonStation>> {
             started.push_back(equipment);
             if (refuses) return fail(*refuses);
             auto prepared = session::prepare(assembly, lesson_options);

@@ -3,12 +3,15 @@
 // Signatures, order of calls and errors: dhdc.h and drdc.h of the Force Dimension SDK 3.17.
 #include "tools/emulate/arms/force_dimension.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <thread>
 
 namespace {
 
@@ -30,6 +33,11 @@ struct Arm {
     Vector measured{};
     int cause = 0, searches = 0;
     unsigned buttons = 0;
+    int type = 0, serial = 1234, speed_limit_changes = 0;  // type 0: that of its joints
+    const char* name = "omega.6";
+    double weight = 0.0, mounted = 0.0, known_mounted = 0.0;  // kg
+    bool compensates = false;
+    double compensation = 0.0;  // N along z
 };
 
 Arm arm{.initialized = std::getenv("EMULATED_ARM_INITIALIZED") != nullptr};
@@ -43,9 +51,18 @@ int refuse(int error) {
 
 void follow_clock();
 
+// Switches the arm off while the file of EMULATED_ARM_SWITCH is absent; then it forgets its position.
+void follow_switch() {
+    const char* file = std::getenv("EMULATED_ARM_SWITCH");
+    if (!has_own_clock || file == nullptr) return;
+    arm.unplugged = access(file, F_OK) != 0;
+    if (arm.unplugged) arm.open = arm.enabled = arm.initialized = false;
+}
+
 // Returns true if the arm is open and connected; otherwise sets the error of the call.
 bool reaches(char id) {
     follow_clock();
+    follow_switch();
     if (arm.open && !arm.unplugged && id == arm_id) return true;
     refuse(error_no_device);
     return false;
@@ -69,11 +86,16 @@ void brake(int cause) {
     arm.cause = cause;
 }
 
+// N along z, of this mass at the present position.
+double weight_of(double mass) { return 9.81 * mass * (1.0 + arm.position[2] / 0.1); }
+
 void step() {
     const double braking = arm.braked && !arm.unplugged ? 60.0 : 0.0;  // N·s/m, of short-circuited motors
     for (std::size_t i = 0; i < 3; ++i) {
         const double spring = arm.hand.stiffness * (arm.intention[i] - arm.position[i]);
-        const double acting = renders() ? arm.force[i] : 0.0;
+        const double lift =
+            i != 2 ? 0.0 : (renders() ? arm.compensation : 0.0) - weight_of(arm.weight + arm.mounted);
+        const double acting = lift + (renders() ? arm.force[i] : 0.0);
         const double damping = arm.hand.damping + braking;
         // Implicit in the damping.
         arm.velocity[i] =
@@ -114,7 +136,19 @@ void emu_turn(const double rotation[3][3]) {
     for (std::size_t i = 0; i < 3; ++i) std::copy(rotation[i], rotation[i] + 3, arm.rotation[i].begin());
 }
 void emu_initialized(int on) { arm.initialized = on != 0; }
-void emu_active_wrist(int on) { arm.active_wrist = on != 0; }
+void emu_active_wrist(int on) {
+    arm.active_wrist = on != 0;
+    arm.name = arm.active_wrist ? "sigma.7" : "omega.6";
+}
+void emu_model(int type, const char* name, int serial) {
+    arm.type = type;
+    arm.name = name;
+    arm.serial = serial;
+}
+void emu_weight(double of_arm, double mounted) {
+    arm.weight = of_arm;
+    arm.mounted = mounted;
+}
 void emu_buttons(unsigned mask) { arm.buttons = mask; }
 void emu_unplug(int on) {
     arm.unplugged = on != 0;
@@ -135,12 +169,19 @@ void emu_force(double force[6]) {
 int emu_moved_by_itself(void) { return arm.searches; }
 int emu_braked(void) { return arm.braked ? 1 : 0; }
 int emu_open(void) { return arm.open ? 1 : 0; }
+int emu_speed_limit_changes(void) { return arm.speed_limit_changes; }
 
-int dhdGetDeviceCount(void) { return arm.unplugged ? 0 : 1; }
+int dhdGetDeviceCount(void) {
+    follow_switch();
+    return arm.unplugged ? 0 : 1;
+}
 int drdOpenID(char index) {
+    follow_switch();
     if (index != 0 || arm.unplugged) return refuse(error_no_device);
     if (arm.in_use || arm.open) return refuse(error_in_use);
     arm.open = true;
+    arm.compensates = false;
+    arm.known_mounted = 0.0;
     arm.braked = true;
     arm.enabled = false;
     arm.force = arm.torque = {};
@@ -155,6 +196,8 @@ bool drdIsInitialized(char id) { return reaches(id) && arm.initialized; }
 int drdAutoInit(char id) {
     if (!reaches(id)) return -1;
     ++arm.searches;
+    if (const char* seconds = std::getenv("EMULATED_ARM_HOMING"); has_own_clock && seconds != nullptr)
+        std::this_thread::sleep_for(std::chrono::duration<double>(std::atof(seconds)));
     arm.position = arm.velocity = {};
     arm.initialized = true;
     return 0;
@@ -162,6 +205,32 @@ int drdAutoInit(char id) {
 int drdStop(bool, char id) {
     if (!reaches(id)) return -1;
     return arm.initialized ? 0 : refuse(error_not_ready);
+}
+int dhdGetSystemType(char id) {
+    constexpr int omega6 = 34, sigma7 = 104;
+    if (!reaches(id)) return -1;
+    return arm.type != 0 ? arm.type : arm.active_wrist ? sigma7 : omega6;
+}
+const char* dhdGetSystemName(char id) { return reaches(id) ? arm.name : nullptr; }
+int dhdGetSerialNumber(unsigned short* serial, char id) {
+    if (!reaches(id) || arm.serial < 0) return -1;
+    *serial = static_cast<unsigned short>(arm.serial);
+    return 0;
+}
+int dhdSetGravityCompensation(int on, char id) {
+    if (!reaches(id)) return -1;
+    arm.compensates = on != 0;
+    return 0;
+}
+int dhdSetEffectorMass(double kilogram, char id) {
+    if (!reaches(id)) return -1;
+    arm.known_mounted = kilogram;
+    return 0;
+}
+int dhdSetVelocityThreshold(unsigned, char id) {
+    if (!reaches(id)) return -1;
+    ++arm.speed_limit_changes;
+    return 0;
 }
 bool dhdHasWrist(char id) { return reaches(id); }
 bool dhdHasActiveWrist(char id) { return reaches(id) && arm.active_wrist; }
@@ -219,6 +288,7 @@ int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double 
         shorten(force, arm.max_force) | shorten(torque, arm.active_wrist ? arm.max_torque : 0.0);
     arm.force = force;
     arm.torque = torque;
+    arm.compensation = arm.compensates ? weight_of(arm.weight + arm.known_mounted) : 0.0;
     return saturated ? motor_saturated : 0;
 }
 int dhdErrorGetLast(void) { return last_error; }

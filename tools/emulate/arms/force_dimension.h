@@ -11,16 +11,22 @@ struct EmulatedArmHand {
     double damping;    // N·s/m
 };
 
-// An arm that is switched on and connected, has not found its position and rests at the origin, at time 0. From
-// here on its clock is emu_advance(). Without a call of emu_reset() its clock is the computer's, and it knows its
-// position from the start if EMULATED_ARM_INITIALIZED is set.
+// An arm that is switched on and connected, has not found its position and rests at the origin, at time 0.
+// From here on its clock is emu_advance(). Without a call of emu_reset() its clock is the computer's, and it
+// knows its position from the start if EMULATED_ARM_INITIALIZED is set. It takes EMULATED_ARM_HOMING seconds
+// to find it, and is switched off while EMULATED_ARM_SWITCH names a file that does not exist.
 void emu_reset(void);
 void emu_advance(double seconds);
 void emu_hand(struct EmulatedArmHand hand);
 void emu_intend(double x, double y, double z);  // where the hand wants to be
 void emu_turn(const double rotation[3][3]);     // orientation of the grip
 void emu_initialized(int on);                   // whether the arm knows its position
-void emu_active_wrist(int on);                  // whether it renders torque
+void emu_active_wrist(int on);                  // whether it renders torque: a sigma.7; otherwise an omega.6
+void emu_model(int type, const char* name, int serial);  // the name may be null
+// The weight of the arm and of what is mounted on it, kg; none by default. It grows with the height, as that
+// of an arm whose links turn. The library compensates it for the position at the last call that set the
+// forces.
+void emu_weight(double arm, double mounted);
 void emu_buttons(unsigned mask);
 void emu_unplug(int on);
 void emu_in_use(int on);         // another program has opened the arm
@@ -35,4 +41,5 @@ void emu_force(double force[6]);   // N and N·m that act on the hand now
 int emu_moved_by_itself(void);     // times that it searched its position
 int emu_braked(void);
 int emu_open(void);
+int emu_speed_limit_changes(void);  // calls that changed the over-speed threshold of the factory
 }

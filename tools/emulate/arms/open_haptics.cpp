@@ -29,9 +29,10 @@ constexpr unsigned invalid_enum = 0x100, invalid_operation = 0x102, bad_handle =
                    illegal_end = 0x401, outside_frame = 0x402, no_licence = 0x600;
 constexpr unsigned buttons = 0x2000, inkwell = 0x2002, position = 0x2050, velocity = 0x2051,
                    transform = 0x2052, angular_velocity = 0x2053, gimbal_angles = 0x2150, model = 0x2501,
-                   usable_box = 0x2551, senses = 0x2553, renders = 0x2554, calibration_style = 0x2555,
-                   max_stiffness = 0x2602, max_force = 0x2603, lasting_force = 0x2604, motor_heat = 0x2605,
-                   force = 0x2700, gimbal_torque = 0x2704, force_output = 0x4000;
+                   serial = 0x2504, usable_box = 0x2551, senses = 0x2553, renders = 0x2554,
+                   calibration_style = 0x2555, max_stiffness = 0x2602, max_force = 0x2603,
+                   lasting_force = 0x2604, motor_heat = 0x2605, force = 0x2700, gimbal_torque = 0x2704,
+                   force_output = 0x4000;
 constexpr unsigned calibrated = 0x5000, needs_update = 0x5001, needs_inkwell = 0x5002;
 constexpr unsigned no_arm = 0xffffffff, the_arm = 0;
 constexpr std::size_t most_errors = 32;
@@ -429,6 +430,7 @@ void hdGetBooleanv(unsigned what, unsigned char* out) {
 const char* hdGetString(unsigned what) {
     const std::lock_guard lock(mutex);
     if (!is_initialised()) return nullptr;
+    if (what == serial) return "2001-0042";
     if (what == model) return arm.report.model != nullptr ? arm.model.c_str() : nullptr;
     refuse(invalid_enum);
     return nullptr;

@@ -1,0 +1,44 @@
+// The screen about an arm that must be prepared: before a lesson, and in a lesson in which it was lost.
+#pragma once
+
+#include <span>
+
+#include "engine/platform/input.hpp"
+#include "game/trainer/active_lesson.hpp"
+#include "game/trainer/screens.hpp"
+#include "haptics/device/preparation.hpp"
+
+namespace bolt::trainer {
+
+// s for which the question is shown before a key answers it: the key that started the lesson may be pressed
+// twice.
+inline constexpr double question_time = 0.5;
+
+// What the screen shows, and for how long already.
+struct ArmScreen {
+    device::ArmNeeds needs;
+    bool in_lesson = false;
+    double shown = 0.0;  // s
+};
+
+// Call once a frame. A new question begins again with its time.
+void update(ArmScreen& screen, const device::ArmNeeds& needs, double seconds);
+
+// The action of a key or of the controller. `enter_answers`: Enter presses no button that the keys have
+// marked.
+ScreenAction action_of(const ArmScreen& screen, std::span<const platform::InputEvent> events,
+                       bool enter_answers);
+
+ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen);
+
+// Pauses the lesson while its arm needs something, and lets it go on afterwards, unless the user had paused
+// it.
+void pause_for_arm(StationClient& client, LessonClock& clock);
+
+// What the trainee should know of warm motors; none: they are cool, or the arm does not report it.
+std::optional<words::TextKey> arm_warning(const device::Condition& condition);
+
+// One line for the log; empty: it needs nothing.
+std::string describe(const device::ArmNeeds& needs);
+
+}  // namespace bolt::trainer

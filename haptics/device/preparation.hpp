@@ -1,0 +1,56 @@
+// What an arm needs before it can be used, and the user's permission that it may move by itself. The thread
+// that shows the question and the thread that opens the arm share the permission.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "engine/base/result.hpp"
+
+namespace bolt::device {
+
+// Holds for one attempt to open an arm, so that an arm that loses its position later must ask again. All
+// members may be called from any thread.
+class MovePermission {
+  public:
+    // For the next attempt. Call it only after the user was told to keep hands and things clear. No effect
+    // during an attempt that has the permission already.
+    void give() {
+        auto expected = State::none;
+        state_.compare_exchange_strong(expected, State::given);
+    }
+    // Begins an attempt. Returns true if it has the permission; end() then ends it.
+    [[nodiscard]] bool take() {
+        auto expected = State::given;
+        return state_.compare_exchange_strong(expected, State::taken);
+    }
+    void end() { state_.store(State::none); }
+    // True from give() to end(): the arm moves, or is about to.
+    [[nodiscard]] bool active() const { return state_.load() != State::none; }
+
+  private:
+    enum class State : std::uint8_t { none, given, taken };
+    std::atomic<State> state_{State::none};
+};
+
+// Shows the user what a device needs; DeviceNeed::none: nothing. Called every few milliseconds while the
+// device is opened, and once when it is open. Returns false to give up; the device's error then has the
+// preparation. May wait, for example for an answer.
+using PreparationHandler = std::function<bool(const Preparation& preparation)>;
+
+// How an arm reaches the user while it is opened. The default: a need is an error, and no arm moves.
+struct ArmDialog {
+    PreparationHandler on_preparation{};
+    std::shared_ptr<MovePermission> permission{};
+};
+
+// For the screen.
+struct ArmNeeds {
+    Preparation preparation;
+    bool moves = false;  // it has the permission and moves by itself, or is about to
+    [[nodiscard]] bool any() const { return preparation.need != DeviceNeed::none; }
+};
+
+}  // namespace bolt::device

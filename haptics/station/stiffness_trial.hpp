@@ -1,0 +1,67 @@
+// Measures the stiffness that an arm renders stably, with a hand on it and on this computer: a weak spring
+// around the handle becomes stiffer in steps until the handle keeps oscillating or gives energy to the hand.
+// All forces pass the output stage. Pure, of fixed dt, without clock and I/O.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/base/math.hpp"
+#include "haptics/device/device.hpp"
+#include "haptics/force/output_stage.hpp"
+
+namespace bolt::station {
+
+inline constexpr int stiffness_stages = 10;          // the last one has the stiffness that the arm announces
+inline constexpr double stiffness_stage_time = 1.0;  // s
+inline constexpr double trial_force_share =
+    0.2;  // of the arm's largest force, the most that the trial renders
+
+// Why a trial has ended.
+enum class TrialEnd : std::uint8_t {
+    none,         // it goes on
+    announced,    // the arm renders all that it announces
+    oscillation,  // a swing that a step of the spring has excited does not die away
+    energy,       // the hand gets energy from a spring at rest
+    fault,        // the output stage has blocked the force (Fault)
+};
+
+struct StiffnessTrial {
+    force::OutputLimits limits;  // of the arm, with the force of the trial
+    Vec3 direction{0.0};         // unit, of the steps
+    force::OutputStage output;
+
+    TrialEnd end = TrialEnd::none;
+    force::Fault fault = force::Fault::none;  // for TrialEnd::fault
+    int stage = 0;                            // that runs now, 0 … stiffness_stages − 1
+    double stable = 0.0;                      // N/m, largest stiffness that has passed; 0: none
+
+    // s from the first command of a step until the handle has moved visibly, one for each stage. Includes the
+    // inertia of arm and hand.
+    std::vector<double> responses;
+
+    // Of the present stage.
+    double time = 0.0;               // s since its step; 0: the force still ramps up
+    Vec3 centre{0.0}, offset{0.0};   // m, of the spring: where the stage began, and the step from there
+    std::optional<double> moved_at;  // s, of the response
+    std::vector<Vec3> early, late;   // m, positions right after the step and at the end of the stage
+    double generated = 0.0;          // J that the spring has given to the hand in the late part
+    double energy_before = 0.0;      // J, stored at the last tick
+    bool has_centre = false;
+};
+
+// The arm renders a force along at least one axis.
+StiffnessTrial begin_stiffness_trial(const device::Description& arm);
+
+// One tick of dt. Returns the command for the arm. The trial goes on only while `input.enabled` is set; when
+// it comes back, the stage begins again. After the end the command falls to zero.
+force::OutputCommand step(StiffnessTrial& trial, const force::PortInput& input, double dt);
+
+// N/m, of a stage.
+double stiffness_of(const StiffnessTrial& trial, int stage);
+
+// s, of the responses; none: no step has moved the handle.
+std::optional<double> median_response(const StiffnessTrial& trial);
+
+}  // namespace bolt::station
