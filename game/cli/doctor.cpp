@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -181,9 +182,12 @@ void add_doctor(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<DoctorOptions>();
     CLI::App* doctor = app.add_subcommand(
         "doctor",
-        "Check this machine: GPUs, windows and the timing of the servo. With --device or --glove: run a "
-        "station with them and assess whether it is good enough for training (exit code 0) or not (1); needs "
-        "no display and no GPU");
+        "Check this machine: GPUs, windows and the timing of the servo. With --device or --glove: examine "
+        "each "
+        "device (model, limits, rate, delays, the stiffness that it renders stably here), run a station with "
+        "them and assess whether it is good enough for training (exit code 0) or not (1); needs no display "
+        "and "
+        "no GPU");
     TrialOptions& station = options->station;
     doctor
         ->add_option("assembly", station.assembly, "Assembly that the servo simulates: folder, file or name")
@@ -210,9 +214,10 @@ void add_doctor(CLI::App& app, int& exit_code) {
                      "Folder of calibrations; default: the user's data folder")
         ->needs(trainee);
     doctor
-        ->add_flag("--yes", station.yes,
-                   "Answers the questions whether an arm may move by itself, which a terminal asks: keep the "
-                   "room around it free")
+        ->add_flag(
+            "--yes", station.yes,
+            "Answers the questions whether an arm may move by itself and push the hand, which a terminal "
+            "asks: keep the room around it free, and hold its handle and its button")
         ->needs(device);
     doctor
         ->add_option("--seconds", options->seconds,
@@ -220,8 +225,11 @@ void add_doctor(CLI::App& app, int& exit_code) {
         ->check(CLI::Range(0.0, 3600.0));
     doctor->callback([&exit_code, options] {
         if (options->station.any()) {
-            options->station.seconds = options->seconds.value_or(options->station.seconds);
-            exit_code = try_station(options->station);
+            TrialOptions& tried = options->station;
+            tried.seconds = options->seconds.value_or(tried.seconds);
+            const Status checked = check_devices(
+                {tried.devices, tried.wheel_config_file, std::min(tried.seconds, 1.0), tried.yes});
+            exit_code = checked ? try_station(tried) : print_error(checked.error());
             return;
         }
         const Status drawing = examine_drawing();
