@@ -55,6 +55,16 @@ void catch_interruption();
 // True if the program was requested to end.
 [[nodiscard]] bool interrupted();
 
+// Opens each of these devices, examines it, and prints what it finds; asks before an arm pushes the hand.
+// `yes`: the answer to all questions. Fails if a device cannot be used.
+struct DeviceCheckRequest {
+    std::vector<std::string> devices;  // ids
+    std::string wheel_config_file;     // empty: the defaults
+    double seconds = 1.0;              // in which samples are counted
+    bool yes = false;
+};
+Status check_devices(const DeviceCheckRequest& request);
+
 // One line for boltwright doctor: the number of USB devices, of those that cannot be used, and of serial
 // ports.
 std::string devices_line();

@@ -12,6 +12,7 @@
 #include "engine/base/result.hpp"
 #include "game/cli/arm_questions.hpp"
 #include "game/cli/commands.hpp"
+#include "game/station/device_check.hpp"
 #include "game/station/station_setup.hpp"
 #include "haptics/device/connected_devices.hpp"
 #include "haptics/device/device.hpp"
@@ -23,6 +24,7 @@ namespace bolt::cli {
 namespace {
 
 constexpr double open_timeout = 3.0;  // s
+constexpr int device_priority = 70;   // as in a station
 
 struct DevicesOptions {
     std::string device, glove, wheel_config_file;
@@ -75,19 +77,32 @@ std::string port_list(const std::vector<std::filesystem::path>& found) {
     return text;
 }
 
-// Opens the device and reads it for options.seconds. Returns its description and its sample rate.
-Result<std::string> examine_device(const DevicesOptions& options) {
-    BOLT_TRY(station_setup::find_device(device::list_devices(true), options.device));
+struct OpenDevice {
+    device::DeviceThread thread;
+    std::shared_ptr<const device::Description> description;
+};
+
+// Opens the device and asks what an arm needs for that.
+Result<OpenDevice> open_device(const std::string& id, const std::string& wheel_config_file, bool yes) {
+    BOLT_TRY(station_setup::find_device(device::list_devices(true), id));
     device::WheelConfig wheel_config;
-    if (!options.wheel_config_file.empty()) {
-        BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(options.wheel_config_file));
+    if (!wheel_config_file.empty()) {
+        BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(wheel_config_file));
         wheel_config = read;
     }
-    const device::ArmDialog dialog = terminal_dialog(options.yes);
+    const device::ArmDialog dialog = terminal_dialog(yes);
     device::OpenOptions opening{wheel_config};
     opening.permission = dialog.permission;
-    BOLT_TRY_ASSIGN(auto thread, device::DeviceThread::start(device::factory_for(options.device, opening)));
-    BOLT_TRY_ASSIGN(const auto description, thread.wait_until_open(open_timeout, dialog.on_preparation));
+    BOLT_TRY_ASSIGN(auto thread,
+                    device::DeviceThread::start(device::factory_for(id, opening), {{}, device_priority}));
+    BOLT_TRY_ASSIGN(auto description, thread.wait_until_open(open_timeout, dialog.on_preparation));
+    return OpenDevice{std::move(thread), std::move(description)};
+}
+
+// Opens the device and reads it for options.seconds. Returns its description and its sample rate.
+Result<std::string> examine_device(const DevicesOptions& options) {
+    BOLT_TRY_ASSIGN(OpenDevice device, open_device(options.device, options.wheel_config_file, options.yes));
+    device::DeviceThread& thread = device.thread;
     const device::Timer timer = device::steady_timer();
     const std::uint64_t before = thread.snapshot().number;
     timer.wait(options.seconds);
@@ -95,16 +110,33 @@ Result<std::string> examine_device(const DevicesOptions& options) {
     const device::DeviceReport& report = thread.report();
     if (report.state != device::DeviceState::usable)
         return fail(ErrorCode::no_device,
-                    report.trouble.empty() ? description->name + " sends nothing" : report.trouble);
-    std::string text = fmt::format("{}  {}\n", options.device, description->name);
-    for (const std::string& line : device::summary_lines(*description)) text += fmt::format("  {}\n", line);
-    for (const std::string& line : device::summary_lines(report.condition))
-        text += fmt::format("  {}\n", line);
+                    report.trouble.empty() ? device.description->name + " sends nothing" : report.trouble);
+    std::string text = fmt::format("{}  {}\n", options.device, device.description->name);
+    for (const auto& lines :
+         {device::summary_lines(*device.description), device::summary_lines(report.condition)})
+        for (const std::string& line : lines) text += fmt::format("  {}\n", line);
     if (options.seconds > 0.0)
         text += fmt::format("  sent {:.0f} samples a second{}\n", received / options.seconds,
                             received < 1.0 ? "; it is at rest" : "");
     if (report.malformed > 0) text += fmt::format("  {} malformed reports\n", report.malformed);
     return text;
+}
+
+// Whether the user agrees that the device pushes the hand, and if not, why its stiffness is not measured.
+station_setup::DeviceCheckOptions ask_for_stiffness(const device::Description& d, bool yes) {
+    station_setup::DeviceCheckOptions options;
+    const double force = station_setup::trial_force(d);
+    if (force <= 0.0) return options;
+    options.pushes = ask(
+        fmt::format(
+            "{} pushes the hand with {:.1f} N at most, for about {:.0f} s. Hold its handle in the middle of "
+            "its reach{}. May it push?",
+            d.name, force, station::stiffness_stages * station::stiffness_stage_time,
+            d.buttons > 0 ? ", and its button 1" : ""),
+        yes);
+    options.no_stiffness = has_terminal() ? "it may not push the hand"
+                                          : "it would push the hand, and nobody was asked; --yes permits it";
+    return options;
 }
 
 Result<std::string> examine_glove(const std::string& port, double seconds) {
@@ -147,6 +179,19 @@ int run_devices(const DevicesOptions& options) {
 }
 
 }  // namespace
+
+Status check_devices(const DeviceCheckRequest& request) {
+    for (const std::string& id : request.devices) {
+        BOLT_TRY_ASSIGN(OpenDevice device, open_device(id, request.wheel_config_file, request.yes));
+        station_setup::DeviceCheckOptions options = ask_for_stiffness(*device.description, request.yes);
+        options.seconds = request.seconds;
+        catch_interruption();
+        options.stop = [] { return interrupted(); };
+        BOLT_TRY_ASSIGN(const auto check, station_setup::check_device(device.thread, options));
+        BOLT_TRY(print(station_setup::device_check_report(check)));
+    }
+    return {};
+}
 
 std::string devices_line() {
     std::size_t usable = 0, unusable = 0;

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -203,8 +204,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
     CLI::App* doctor = app.add_subcommand(
         "doctor",
         "Check this machine: GPUs, windows and the timing of the servo. With --device, --glove or --station: "
-        "run a station with them and assess whether it is good enough for training (exit code 0) or not (1); "
-        "needs "
+        "examine each device (model, limits, rate, delays, the stiffness that it renders stably here), run a "
+        "station with them and assess whether it is good enough for training (exit code 0) or not (1); needs "
         "no display and no GPU");
     TrialOptions& station = options->station;
     doctor
@@ -232,8 +233,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
         ->needs(trainee);
     doctor->add_flag(
         "--yes", station.yes,
-        "Answers the questions whether an arm may move by itself, which a terminal asks: keep the "
-        "room around it free");
+        "Answers the questions whether an arm may move by itself and push the hand, which a terminal "
+        "asks: keep the room around it free, and hold its handle and its button");
     doctor
         ->add_option("--seconds", options->seconds,
                      "Duration of the trial (5), or of the timing at each rate of the servo (2; 0: none)")
@@ -250,7 +251,10 @@ void add_doctor(CLI::App& app, int& exit_code) {
         }
         if (named.any()) {
             options->station.seconds = options->seconds.value_or(options->station.seconds);
-            exit_code = try_station(options->station);
+            TrialOptions& tried = options->station;
+            const Status checked = check_devices(
+                {tried.devices, tried.wheel_config_file, std::min(tried.seconds, 1.0), tried.yes});
+            exit_code = checked ? try_station(tried) : print_error(checked.error());
             return;
         }
         const Status drawing = examine_drawing();

@@ -124,7 +124,11 @@ Status DeviceSupervisor::write(const ForceCommand& requested, double now) {
     // A new command is written even if its force is unchanged: some devices drop the force when writes stop.
     if (!(forces && is_new) && !(!forces && may_hold_force_)) return {};
     if (stale && requested.enabled && rendering_) ++report_.lapses;
+    const double begun = timer_.now();
     BOLT_TRY(device_->write(command));
+    const double taken = timer_.now() - begun;
+    report_.write_time += taken;
+    report_.longest_write = std::max(report_.longest_write, taken);
     ++report_.writes;
     may_hold_force_ = rendering_ = forces;
     return {};

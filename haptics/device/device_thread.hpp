@@ -45,7 +45,8 @@ struct DeviceReport {
     std::uint64_t silences = 0;                      // closed after reopen_after s of silence
     std::uint64_t samples = 0, malformed = 0;
     std::uint64_t writes = 0;
-    std::uint64_t lapses = 0;  // command timeouts while a force was rendered
+    double write_time = 0.0, longest_write = 0.0;  // s that the driver took for them
+    std::uint64_t lapses = 0;                      // command timeouts while a force was rendered
 };
 
 // Keeps one device usable: opens it, reopens it with exponential backoff after a loss or silence, reports the

@@ -109,7 +109,7 @@ TEST_CASE("Station check: a map that the device cannot follow is a warning") {
     bench.facts.arm = device::Description{};
     (*bench.facts.arm)->sensing = device::Sensing::velocity;
     (*bench.facts.arm)->limits.force = (*bench.facts.arm)->limits.torque = 0.0;
-    bench.station.arm = content::StationArm{"puck", {}, 2.0, {}, {}, {}, {}};
+    bench.station.arm = content::StationArm{"puck", {}, 2.0, {}, {}, {}, 0.0, {}};
     CHECK(bench.text() == "  warning: arm: scale and power have no effect: the device senses a velocity\n");
 }
 

@@ -10,8 +10,10 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <limits>
 #include <thread>
+#include <utility>
 
 namespace {
 
@@ -37,10 +39,24 @@ struct Arm {
     const char* name = "omega.6";
     double weight = 0.0, mounted = 0.0, known_mounted = 0.0;  // kg
     bool compensates = false;
-    double compensation = 0.0;  // N along z
+    double compensation = 0.0;                          // N along z
+    double delay = 0.0;                                 // s from a call until its force acts
+    std::deque<std::pair<double, Vector>> under_way{};  // when it acts, and the force
 };
 
-Arm arm{.initialized = std::getenv("EMULATED_ARM_INITIALIZED") != nullptr};
+unsigned held_buttons() {
+    const char* mask = std::getenv("EMULATED_ARM_BUTTONS");
+    return mask != nullptr ? static_cast<unsigned>(std::atoi(mask)) : 0U;
+}
+
+double given_delay() {
+    const char* seconds = std::getenv("EMULATED_ARM_DELAY");
+    return seconds != nullptr ? std::atof(seconds) : 0.0;
+}
+
+Arm arm{.initialized = std::getenv("EMULATED_ARM_INITIALIZED") != nullptr,
+        .buttons = held_buttons(),
+        .delay = given_delay()};
 bool has_own_clock = true;
 thread_local int last_error = no_error;
 
@@ -68,6 +84,12 @@ bool reaches(char id) {
     return false;
 }
 
+// The force that has arrived.
+void take_over_forces() {
+    for (; !arm.under_way.empty() && arm.under_way.front().first <= arm.time; arm.under_way.pop_front())
+        arm.force = arm.under_way.front().second;
+}
+
 bool renders() { return arm.open && arm.enabled && !arm.braked && !arm.unplugged; }
 
 double length(const Vector& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -90,6 +112,7 @@ void brake(int cause) {
 double weight_of(double mass) { return 9.81 * mass * (1.0 + arm.position[2] / 0.1); }
 
 void step() {
+    take_over_forces();
     const double braking = arm.braked && !arm.unplugged ? 60.0 : 0.0;  // N·s/m, of short-circuited motors
     for (std::size_t i = 0; i < 3; ++i) {
         const double spring = arm.hand.stiffness * (arm.intention[i] - arm.position[i]);
@@ -286,7 +309,10 @@ int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double 
     Vector force{fx, fy, fz}, torque{tx, ty, tz};
     const bool saturated =
         shorten(force, arm.max_force) | shorten(torque, arm.active_wrist ? arm.max_torque : 0.0);
-    arm.force = force;
+    if (arm.delay > 0.0)
+        arm.under_way.emplace_back(arm.time + arm.delay, force);
+    else
+        arm.force = force;
     arm.torque = torque;
     arm.compensation = arm.compensates ? weight_of(arm.weight + arm.known_mounted) : 0.0;
     return saturated ? motor_saturated : 0;

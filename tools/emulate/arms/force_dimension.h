@@ -14,7 +14,8 @@ struct EmulatedArmHand {
 // An arm that is switched on and connected, has not found its position and rests at the origin, at time 0.
 // From here on its clock is emu_advance(). Without a call of emu_reset() its clock is the computer's, and it
 // knows its position from the start if EMULATED_ARM_INITIALIZED is set. It takes EMULATED_ARM_HOMING seconds
-// to find it, and is switched off while EMULATED_ARM_SWITCH names a file that does not exist.
+// to find it, and is switched off while EMULATED_ARM_SWITCH names a file that does not exist. Its buttons are
+// EMULATED_ARM_BUTTONS.
 void emu_reset(void);
 void emu_advance(double seconds);
 void emu_hand(struct EmulatedArmHand hand);

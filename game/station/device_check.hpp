@@ -1,0 +1,47 @@
+// Examines one device on this computer: its rate, the delays that can be measured without a hand, and the
+// stiffness that it renders stably with a hand on it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "haptics/device/device_thread.hpp"
+#include "haptics/servo/servo_thread.hpp"
+#include "haptics/station/stiffness_trial.hpp"
+
+namespace bolt::station_setup {
+
+struct DeviceCheck {
+    device::Description description;
+    device::Condition condition;  // at the end
+    double seconds = 0.0;         // in which samples were counted
+    std::uint64_t samples = 0, malformed = 0;
+    servo::Histogram age;  // from the driver's reading of a sample until a tick of the servo took it
+    // Calls of the driver that wrote a command, and their duration, s.
+    std::uint64_t writes = 0;
+    double mean_write = 0.0, longest_write = 0.0;
+    std::optional<station::StiffnessTrial> stiffness;
+    std::string no_stiffness;  // why it was not measured
+};
+
+struct DeviceCheckOptions {
+    double seconds = 1.0;  // in which samples are counted
+    // Measure the stiffness: the user has agreed that the arm pushes the hand. Otherwise `no_stiffness` says
+    // why not.
+    bool pushes = false;
+    std::string no_stiffness;
+    std::function<bool()> stop;  // true: the user has interrupted it
+};
+
+// The largest force of the measurement of the stiffness, N; 0: the device renders no force.
+double trial_force(const device::Description& description);
+
+// Examines an open device, which is left without force. Fails if the device is lost or no thread can be
+// created.
+Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheckOptions& options);
+
+// Lines for the terminal, with what exactly was measured.
+std::string device_check_report(const DeviceCheck& check);
+
+}  // namespace bolt::station_setup
