@@ -59,7 +59,9 @@ Error arm_error(const ForceDimensionApi& api, const std::string& name, const cha
 }
 
 // Force, torque, stiffness and reach are the smallest of the arms with these joints in CHAI3D
-// (CDeltaDevices). Torsion and damping are not published; these are low values of ours, not measured on arms.
+// (CDeltaDevices); an arm without a wrist may be a Falcon. Torsion and damping are not published; these are
+// low values of ours, not measured on arms. With a damping of 15 N·s/m the steps of a Falcon's encoders (64
+// µm) change the force by up to 14 % of its greatest in a millisecond (bolt-arm-validation), with 5 by 9 %.
 Description describe_arm(const ForceDimensionApi& api, char id, int index) {
     Description d;
     const bool wrist = api.has_wrist(id), active = api.has_active_wrist(id);
@@ -68,11 +70,11 @@ Description describe_arm(const ForceDimensionApi& api, char id, int index) {
                      : "Force Dimension arm (delta.3, omega.3 or Falcon)";
     d.id = fmt::format("force-dimension:{}", index);
     d.renders = {true, true, true, active, active, active};
-    d.limits.force = 12.0;
+    d.limits.force = wrist ? 12.0 : 8.0;
     d.limits.torque = active ? 0.2 : 0.0;
-    d.limits.stiffness = active ? 4000.0 : 5000.0;
+    d.limits.stiffness = active ? 4000.0 : wrist ? 5000.0 : 3000.0;
     d.limits.torsion = active ? 2.0 : 0.0;
-    d.limits.damping = 15.0;
+    d.limits.damping = wrist ? 15.0 : 5.0;
     d.limits.angular_damping = active ? 0.01 : 0.0;
     d.rate = 1.0 / period;
     d.reach = Vec3(0.075);
