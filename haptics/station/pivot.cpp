@@ -47,9 +47,11 @@ int nut_to_pivot_about(const servo::Setup& setup, const StationState& s) {
     return found;
 }
 
-bool is_held_back(const Pose& commanded, const Pose& tool) {
-    return glm::length(tool.position - commanded.position) > held_back ||
-           glm::length(turn_between(tool.orientation, commanded.orientation)) > held_back_turn;
+// On a nut the wrench must go on turning, until its jaw fits.
+bool is_held_back(const Pose& commanded, const servo::Output& output) {
+    return !output.touched.is_nut() &&
+           (glm::length(output.tool.position - commanded.position) > held_back ||
+            glm::length(turn_between(output.tool.orientation, commanded.orientation)) > held_back_turn);
 }
 
 // The pose `last`, square to the bolt, except that it turns by `most` rad at most.
@@ -77,7 +79,7 @@ void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationSt
     const Pivot pivot{nut.seat, nut.axis};
     const Vec3 grip = force::grip_point(s.workspace, s.workspace.tool);
     const double length = s.workspace.grip_distance;
-    const double turn = is_held_back(last, s.output.tool) ? 0.0 : pivot_rate * dt;
+    const double turn = is_held_back(last, s.output) ? 0.0 : pivot_rate * dt;
     force::realign(layout.workspace, s.workspace, s.hand,
                    s.output.joint >= 0 ? force::pivoted(pivot, s.output.tool, length, grip)
                                        : squared(last, pivot, length, grip, turn));

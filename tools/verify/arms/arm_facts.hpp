@@ -56,7 +56,7 @@ inline constexpr std::size_t grip_count = 4;
 // No hand, a loose, a usual and a stiff grip. The first one is the worst case: only the arm's own friction
 // damps it.
 const std::array<HandGrip, grip_count>& hand_grips();
-inline constexpr std::size_t no_hand = 0, usual_grip = 2;
+inline constexpr std::size_t loose_grip = 1, usual_grip = 2;
 
 device::ArmParameters parameters_of(const ArmFacts& arm, const HandGrip& grip);
 

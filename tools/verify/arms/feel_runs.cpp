@@ -167,10 +167,10 @@ Outcome worse(const Outcome& a, const Outcome& b) {
     return w;
 }
 
-std::vector<Press> find_presses(Workplace& place) {
+std::vector<Press> find_presses(Workplace& place, std::uint64_t seed) {
     const servo::Setup setup = session::make_setup(place.assembly, place.assembly.law, {}, 1, 1e-3);
     std::vector<Press> presses;
-    Random random(2018, 41);
+    Random random(seed, 41);
     const collision::Box& casing = place.state.tool_contact->world.shapes.front().solid.box;
     for (const std::string_view name : {"face", "corner", "edge", "side", "near a bolt"})
         for (int tried = 0; tried < most_tries; ++tried) {

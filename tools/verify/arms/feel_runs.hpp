@@ -41,7 +41,8 @@ struct Press {
 };
 // A level wrench onto the flange, a corner of its jaw, its handle over an edge, and sideways against the
 // casing.
-std::vector<Press> find_presses(Workplace& place);
+inline constexpr std::uint64_t usual_presses = 2018;
+std::vector<Press> find_presses(Workplace& place, std::uint64_t seed = usual_presses);
 
 // A motion of the wrench on a nut.
 enum class Pull : std::uint8_t {
