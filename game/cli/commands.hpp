@@ -31,7 +31,8 @@ struct TrialOptions {
     std::vector<std::string> devices;
     std::string station_file, wheel_config_file, glove, trainee, calibrations;
     double seconds = 5.0;
-    bool yes = false;  // answers questions before an arm moves
+    bool examine_devices = false;  // report on each device before the trial
+    bool yes = false;              // answers questions before an arm moves
 
     [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty() || !station_file.empty(); }
 };

@@ -12,6 +12,7 @@
 
 #include "content/format/assembly.hpp"
 #include "content/station/station_file.hpp"
+#include "content/station/wheel_config_file.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "engine/gpu/device.hpp"
@@ -98,6 +99,12 @@ Result<station_setup::StationRequest> request_of(const TrialOptions& options) {
     return request;
 }
 
+// A mistake in the wheel's configuration is reported before a device is opened.
+Status examine_devices(const TrialOptions& options, const std::vector<std::string>& devices) {
+    if (!options.wheel_config_file.empty()) BOLT_TRY(content::load_wheel_config(options.wheel_config_file));
+    return check_devices({devices, options.wheel_config_file, std::min(options.seconds, 1.0), options.yes});
+}
+
 }  // namespace
 
 int try_station(const TrialOptions& options) {
@@ -105,6 +112,10 @@ int try_station(const TrialOptions& options) {
     if (!loaded.ok()) return print_error(loaded.errors);
     Result<station_setup::StationRequest> request = request_of(options);
     if (!request) return print_error(request.error());
+    if (options.examine_devices) {
+        const Status examined = examine_devices(options, request->devices);
+        if (!examined) return print_error(examined.error());
+    }
     device::VirtualPuck still({}, device::steady_timer());  // used if no device moves the tool
     request->fallback_mover = still.factory();
 
@@ -252,9 +263,8 @@ void add_doctor(CLI::App& app, int& exit_code) {
         if (named.any()) {
             options->station.seconds = options->seconds.value_or(options->station.seconds);
             TrialOptions& tried = options->station;
-            const Status checked = check_devices(
-                {tried.devices, tried.wheel_config_file, std::min(tried.seconds, 1.0), tried.yes});
-            exit_code = checked ? try_station(tried) : print_error(checked.error());
+            tried.examine_devices = true;
+            exit_code = try_station(tried);
             return;
         }
         const Status drawing = examine_drawing();

@@ -14,6 +14,9 @@ using force::Pivot;
 constexpr double pivot_radius = 0.08, pivot_above = 0.06, pivot_below = 0.02;
 constexpr double pivot_alignment = 0.7;  // cosine of the largest angle between the tool's normal and the bolt
 constexpr double pivot_rate = 1.0;  // rad/s, at most, at which the wrench turns to a bolt that it comes near
+// m and rad by which obstacles hold a wrench back that no longer turns to a bolt: it would push the hand
+// away, with energy that the hand did not put in.
+constexpr double held_back = 0.3e-3, held_back_turn = 5e-3;
 
 // The distance of a jaw at `tool` from the axis of this nut's bolt, m, if it is near the nut, wherever that
 // is on its thread; otherwise infinity. `slack`: factor on the distances.
@@ -44,15 +47,22 @@ int nut_to_pivot_about(const servo::Setup& setup, const StationState& s) {
     return found;
 }
 
-// The pose `last`, square to the bolt, except that it turns no faster than pivot_rate.
-Pose squared(const Pose& last, const Pivot& pivot, double grip_distance, const Vec3& grip, double dt) {
+// On a nut the wrench must go on turning, until its jaw fits.
+bool is_held_back(const Pose& commanded, const servo::Output& output) {
+    return !output.touched.is_nut() &&
+           (glm::length(output.tool.position - commanded.position) > held_back ||
+            glm::length(turn_between(output.tool.orientation, commanded.orientation)) > held_back_turn);
+}
+
+// The pose `last`, square to the bolt, except that it turns by `most` rad at most.
+Pose squared(const Pose& last, const Pivot& pivot, double grip_distance, const Vec3& grip, double most) {
     const Vec3 normal = last.orientation * Vec3(0.0, 0.0, 1.0);
     const Vec3 axis = glm::dot(normal, pivot.axis) < 0.0 ? -pivot.axis : pivot.axis;
     const Quat to_axis =
         glm::normalize(Quat(1.0 + glm::dot(normal, axis), glm::cross(normal, axis)));  // the shortest turn
     const Pose upright{last.position, glm::normalize(to_axis * last.orientation)};
     const Pose there = force::pivoted(pivot, upright, grip_distance, grip);
-    const Vec3 turn = force::clamp_length(turn_between(last.orientation, there.orientation), pivot_rate * dt);
+    const Vec3 turn = force::clamp_length(turn_between(last.orientation, there.orientation), most);
     Pose tool{grip, glm::normalize(rotation(turn) * last.orientation)};
     tool.position -= tool.orientation * Vec3(grip_distance, 0.0, 0.0);
     return tool;
@@ -69,9 +79,10 @@ void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationSt
     const Pivot pivot{nut.seat, nut.axis};
     const Vec3 grip = force::grip_point(s.workspace, s.workspace.tool);
     const double length = s.workspace.grip_distance;
+    const double turn = is_held_back(last, s.output) ? 0.0 : pivot_rate * dt;
     force::realign(layout.workspace, s.workspace, s.hand,
                    s.output.joint >= 0 ? force::pivoted(pivot, s.output.tool, length, grip)
-                                       : squared(last, pivot, length, grip, dt));
+                                       : squared(last, pivot, length, grip, turn));
 }
 
 }  // namespace bolt::station

@@ -33,6 +33,21 @@ Status check(const Layout& layout) {
     return {};
 }
 
+namespace {
+
+// A larger change of force in a millisecond is felt as a blow. Contacts are designed for it up to 0.5 m/s
+// (haptics/proxy/coupling), but a hand that reaches without looking hits the casing at 0.8 m/s.
+constexpr double largest_force_step = 0.1;  // share of the greatest force, per millisecond
+constexpr double millisecond = 1e-3;  // s
+
+force::OutputLimits limited_steps(force::OutputLimits limits) {
+    limits.force_rate = std::min(limits.force_rate, largest_force_step * limits.force / millisecond);
+    limits.torque_rate = std::min(limits.torque_rate, largest_force_step * limits.torque / millisecond);
+    return limits;
+}
+
+}  // namespace
+
 double grip_distance_of(const Layout& layout, double handle_length) {
     const bool pose = layout.mover && layout.mover->sensing == Sensing::pose;
     return pose && limits_of(layout).torque <= 0.0 ? handle_length : 0.0;
@@ -45,7 +60,7 @@ force::OutputLimits limits_of(const Layout& layout) {
         force::OutputLimits mover = layout.mover->limits;
         if (!renders_force(*layout.mover)) mover.force = 0.0;
         if (!renders_torque(*layout.mover)) mover.torque = 0.0;
-        limits = force::in_assembly(layout.workspace, mover);
+        limits = force::in_assembly(layout.workspace, limited_steps(mover));
     }
     limits.release -= transport_delay;
     if (!layout.wheel) return limits;

@@ -50,8 +50,8 @@ void check(const Played& played) {
     CHECK(played.losses == 0);
     CHECK(played.felt.force <= limits.force * (1.0 + 1e-6));
     CHECK(played.felt.torque <= limits.torque * (1.0 + 1e-6));
-    // In one tick, and once more in the tick that a watchdog lets go.
-    CHECK(played.felt.force_step <= 1.1e-3 * limits.force_rate);
+    // The station limits it to a tenth; a driver that fades the force of warm motors adds a little.
+    CHECK(played.felt.force_step <= 0.11 * limits.force);
     // A tight joint is felt.
     CHECK(played.felt.force_on_bolt > 0.5 * limits.force);
     if (limits.torque > 0.0) CHECK(played.felt.torque_on_bolt > 0.5 * limits.torque);

@@ -1,0 +1,165 @@
+#include "tools/verify/arms/approaches.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "game/motion/path_planning.hpp"
+#include "game/session/lesson_session.hpp"
+#include "haptics/collision/narrow_phase.hpp"
+
+namespace bolt::arm_validation {
+
+namespace {
+
+// A person reaches at about 0.35 m/s in the mean; aim and settling are chosen for a hand that is guided by
+// memory (8 mm: the error of a hand that reaches without seeing, van Beers et al. 1999, in game/motion).
+constexpr double mean_speed = 0.35, least_duration = 0.4, settling = 0.3;  // m/s, s, s
+constexpr double aim_error = 8e-3, tilt_error = 0.05;                      // m, rad; standard deviations
+constexpr double nearest_start = 0.13, farthest_start = 0.20;              // m from the nut
+constexpr double lowest_start = to_radians(15.0), highest_start = to_radians(75.0);  // above the nut's plane
+constexpr double at_nut = 0.010;       // m from the middle of the jaw to the middle of the nut
+constexpr double beside_nut = 0.030;   // m; contacts nearer than this belong to the placing of the jaw
+constexpr double felt_bump = 0.2;      // N
+constexpr double between_bumps = 0.1;  // s
+constexpr double raise = 0.04;  // m above the place of a failed attempt, from where the hand tries again
+constexpr int attempts = 4;
+constexpr int most_starts = 200;
+
+bool is_free(servo::ToolContact& contact, const Pose& pose) {
+    constexpr double band = 5e-3;
+    std::array<collision::Contact, proxy::max_contacts> found;
+    return collision::find_contacts(contact.world, contact.wrench, pose, band, contact.narrow_phase, found)
+               .count == 0;
+}
+
+struct Task {
+    std::size_t joint = 0;
+    Vec3 nut{0.0};  // m, its middle
+    Vec3 axis{0.0};
+    Quat orientation{1.0, 0.0, 0.0, 0.0};  // of the wrench on the nut
+    Pose start;
+};
+
+Task draw_task(Workplace& place, Random& random) {
+    const servo::Setup setup = session::make_setup(place.assembly, place.assembly.law, {}, 1, 1e-3);
+    servo::ToolContact& contact = *place.state.tool_contact;
+    Task task;
+    task.joint = std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(setup.nuts.size())),
+                          setup.nuts.size() - 1);
+    const servo::NutGeometry& nut = setup.nuts[task.joint];
+    const double angle = place.state.joints[task.joint].nut.angle;
+    const motion::GripAngle grip =
+        motion::choose_grip(setup, &contact, task.joint, angle, angle, 1.0, to_radians(30.0));
+    task.nut = servo::nut_centre(nut, angle);
+    task.axis = nut.axis;
+    task.orientation = motion::tool_orientation(nut, grip.handle, grip.flipped);
+    for (int i = 0; i < most_starts; ++i) {
+        const double around = random.uniform(0.0, 2.0 * pi),
+                     above = random.uniform(lowest_start, highest_start);
+        const Vec3 to = std::cos(above) * (std::cos(around) * nut.e1 + std::sin(around) * nut.e2) +
+                        std::sin(above) * nut.axis;
+        const Quat turned = rotation(tilt_error * Vec3(random.normal(), random.normal(), random.normal()));
+        task.start = {task.nut + random.uniform(nearest_start, farthest_start) * to,
+                      glm::normalize(turned * task.orientation)};
+        if (is_free(contact, task.start)) break;
+    }
+    return task;
+}
+
+class Reach {
+  public:
+    Reach(ArmRig& rig, const Task& task) : rig_(rig), task_(task), before_(rig.output().tool.position) {
+        approach_.straight = glm::distance(task.nut, before_);
+    }
+
+    // Moves the hand to `to` with minimum jerk and lets it settle; ends early at the nut.
+    void move(const Pose& to) {
+        const Pose from = rig_.output().tool;
+        const double way = glm::distance(from.position, to.position);
+        const double duration = std::max(way / mean_speed, least_duration), begin = rig_.time;
+        while (!approach_.reached && rig_.time - begin < duration + settling) {
+            const double s = minimum_jerk((rig_.time - begin) / duration);
+            rig_.arm.intention = rig_.device_pose(motion::arc_pose(from, to, s, Vec3(0.0)));
+            rig_.tick();
+            note();
+        }
+    }
+    Approach finish() {
+        approach_.force = rig_.record.greatest_force;
+        approach_.rate = rig_.record.step;
+        approach_.time = rig_.time;
+        return approach_;
+    }
+    [[nodiscard]] bool reached() const { return approach_.reached; }
+
+  private:
+    void note() {
+        const servo::Output& output = rig_.output();
+        approach_.way += glm::distance(output.tool.position, before_);
+        before_ = output.tool.position;
+        const double left = glm::distance(before_, task_.nut), force = rig_.contact_force();
+        approach_.contact_force = std::max(approach_.contact_force, force);
+        const bool touches = force > felt_bump && output.touched != collision::ObstacleId() &&
+                             !(output.touched == collision::ObstacleId::nut(task_.joint));
+        if (touches && left > beside_nut) {
+            if (rig_.time - last_touch_ > between_bumps) ++approach_.bumps;
+            last_touch_ = rig_.time;
+        }
+        approach_.reached = left < at_nut;
+    }
+
+    ArmRig& rig_;
+    const Task& task_;
+    Vec3 before_;  // m, where the jaw was
+    double last_touch_ = -1.0;
+    Approach approach_;
+};
+
+}  // namespace
+
+Approach run_approach(Workplace& place, const ArmFacts& arm, std::uint64_t seed, bool guided) {
+    Random random(seed, 77);
+    const Task task = draw_task(place, random);
+    RigOptions options;
+    options.arm = &arm;
+    options.grip = hand_grips()[usual_grip];
+    options.tool = task.start;
+    options.guided_joint = guided ? static_cast<int>(task.joint) : -1;
+    ArmRig rig(place, options);
+    Reach reach(rig, task);
+    for (int i = 0; i < attempts && !reach.reached(); ++i) {
+        // Drawn in every attempt, so that the attempts of both variants have the same errors.
+        const Vec3 error = aim_error * Vec3(random.normal(), random.normal(), random.normal());
+        const Quat turned = rotation(tilt_error * Vec3(random.normal(), random.normal(), random.normal()));
+        if (i > 0)
+            reach.move({rig.output().tool.position + raise * task.axis, rig.output().tool.orientation});
+        reach.move({task.nut + error, glm::normalize(turned * task.orientation)});
+    }
+    return reach.finish();
+}
+
+ApproachSummary summarize(std::span<const Approach> approaches) {
+    ApproachSummary s;
+    s.count = approaches.size();
+    std::vector<double> ways, times, forces, rates;
+    for (const Approach& a : approaches) {
+        s.missed += !a.reached;
+        s.bumps += a.bumps / static_cast<double>(std::max<std::size_t>(s.count, 1));
+        forces.push_back(a.contact_force);
+        rates.push_back(a.rate);
+        if (!a.reached) continue;
+        ways.push_back(a.way / a.straight);
+        times.push_back(a.time);
+    }
+    s.way_ratio = quantile(ways, 0.5);
+    s.time = quantile(times, 0.5);
+    s.force_median = quantile(forces, 0.5);
+    s.force_p95 = quantile(forces, 0.95);
+    s.force_max = quantile(forces, 1.0);
+    s.rate_p95 = quantile(rates, 0.95);
+    s.rate_max = quantile(rates, 1.0);
+    return s;
+}
+
+}  // namespace bolt::arm_validation

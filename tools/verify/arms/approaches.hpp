@@ -1,0 +1,37 @@
+// The complaint of the 2018 paper, replayed: a hand that does not see the nut reaches for it with the wrench,
+// hits the casing on its way, and feels a jerk. With and without the guiding force.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "tools/verify/arms/arm_rig.hpp"
+
+namespace bolt::arm_validation {
+
+struct Approach {
+    bool reached = false;        // the jaw came to the nut
+    double way = 0.0;            // m of the wrench until then, or in all
+    double straight = 0.0;       // m from the start to the nut
+    double time = 0.0;           // s until then, or in all
+    int bumps = 0;               // contacts with anything but the nut
+    double contact_force = 0.0;  // N, the largest force of contact on the hand
+    double force = 0.0;          // N, the largest force on the hand, guiding included
+    double rate = 0.0;           // N, the largest change of the force in a millisecond
+};
+
+// One reach: straight from a seeded place around a seeded nut, with minimum jerk at the speed of a person,
+// and an error of aim. If the jaw does not come to the nut, the hand tries again from where it is.
+Approach run_approach(Workplace& place, const ArmFacts& arm, std::uint64_t seed, bool guided);
+
+struct ApproachSummary {
+    std::size_t count = 0, missed = 0;
+    double way_ratio = 0.0, time = 0.0;  // medians of those that reached the nut: way / straight line, s
+    double bumps = 0.0;                  // mean
+    double force_median = 0.0, force_p95 = 0.0, force_max = 0.0;  // N, of contact
+    double rate_p95 = 0.0, rate_max = 0.0;                        // N in a millisecond
+};
+ApproachSummary summarize(std::span<const Approach> approaches);
+
+}  // namespace bolt::arm_validation

@@ -1,0 +1,63 @@
+// The arms that Boltwright drives, as the validation emulates them: what their drivers announce, and what is
+// published of their mechanics.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "haptics/device/device.hpp"
+#include "haptics/device/simulated_arm.hpp"
+
+namespace bolt::arm_validation {
+
+// How well a figure is known.
+enum class Origin : std::uint8_t {
+    published,   // read at the source that is named
+    unverified,  // attributed to the maker's data sheet, which could not be read again for this table
+    assumed,     // no figure was found: a value of ours on the side that makes instability more likely
+};
+
+struct Fact {
+    double value = 0.0;
+    Origin origin = Origin::assumed;
+    std::string_view source{};  // empty if assumed
+};
+
+// SI units. The inertia and the resolution of the rotation matter only for arms that sense rotations.
+struct ArmFacts {
+    std::string_view key;   // for the command line
+    std::string_view name;  // for the tables
+    device::Description (*announced)() = nullptr;
+    bool senses_rotation = true;
+    Fact mass;             // kg, apparent at the grip
+    Fact friction;         // N, dry
+    Fact encoder;          // m, one step at the grip
+    Fact inertia;          // kg·m², of the wrist about the grip
+    Fact angular_encoder;  // rad
+};
+
+std::span<const ArmFacts> arm_table();
+const ArmFacts* find_arm(std::string_view key);  // null: none
+
+// The hand that holds the arm: mass, damper and spring to its intended pose (Hogan, as in simulated_arm.hpp).
+// The masses of hand and arm add up.
+struct HandGrip {
+    std::string_view name;
+    double mass = 0.0, damping = 0.0, stiffness = 0.0;                     // kg, N·s/m, N/m
+    double inertia = 0.0, angular_damping = 0.0, angular_stiffness = 0.0;  // kg·m², N·m·s/rad, N·m/rad
+    bool pushes_only =
+        false;  // nobody holds the arm: a spring so soft that it pushes with one constant force
+};
+
+inline constexpr std::size_t grip_count = 4;
+// No hand, a loose, a usual and a stiff grip. The first one is the worst case: only the arm's own friction
+// damps it.
+const std::array<HandGrip, grip_count>& hand_grips();
+inline constexpr std::size_t loose_grip = 1, usual_grip = 2;
+
+device::ArmParameters parameters_of(const ArmFacts& arm, const HandGrip& grip);
+
+}  // namespace bolt::arm_validation

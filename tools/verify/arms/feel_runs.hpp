@@ -1,0 +1,60 @@
+// What a hand does with the wrench to test an arm: it presses, shakes and rests on the casing, and pulls at a
+// tightened nut. Criteria as in tests/stability: no net energy out of the device, and no trembling that
+// lasts.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "tools/verify/arms/arm_rig.hpp"
+
+namespace bolt::arm_validation {
+
+struct Outcome {
+    Record record;
+    // m, of the grip within 40 ms, straight motion left out: after the hand's last motion, and a second
+    // later.
+    double early_swing = 0.0, late_swing = 0.0;
+    bool touched = false;  // the obstacle or the nut was felt at all
+    bool held = true;      // by a hand
+};
+
+// J. Energy that may be out of the device at any time, and at the end if no hand holds the arm: the credit
+// that the passivity controller gives. Into a held arm a hand must have put more than it gets back.
+inline constexpr double energy_at_any_time = 1e-3, energy_of_free_arm = force::max_credit;
+inline constexpr double perceptible_swing = 100e-6;  // m
+
+bool gives_energy(const Outcome& outcome);
+bool trembles(const Outcome& outcome);
+bool is_stable(const Outcome& outcome);
+// % of the greatest force or torque, whichever is more, in a millisecond.
+double step_percent(const Outcome& outcome, const device::Description& arm);
+// The worse of both in each respect.
+Outcome worse(const Outcome& a, const Outcome& b);
+
+// A motion of the wrench onto the casing.
+struct Press {
+    std::string_view name;
+    Pose start;             // of the wrench, in the assembly's frame; free
+    Vec3 direction{0.0};    // unit
+    double distance = 0.0;  // m from the start to the contact
+};
+// A level wrench onto the flange, a corner of its jaw, its handle over an edge, and sideways against the
+// casing.
+inline constexpr std::uint64_t usual_presses = 2018;
+std::vector<Press> find_presses(Workplace& place, std::uint64_t seed = usual_presses);
+
+// A motion of the wrench on a nut.
+enum class Pull : std::uint8_t {
+    hold,       // pulls with less than the nut needs to turn, shakes, and rests
+    breakaway,  // until the nut turns
+    yield,      // until the bolt yields
+    slip_off,   // with a jaw that holds the nut by its rim, until it slips off
+};
+inline constexpr std::string_view pull_names[] = {"hold", "breakaway", "yield", "slip off"};
+
+// `options.tool` and `guided_joint` are ignored.
+Outcome run_press(Workplace& place, RigOptions options, const Press& press);
+Outcome run_pull(Workplace& place, RigOptions options, Pull pull);
+
+}  // namespace bolt::arm_validation

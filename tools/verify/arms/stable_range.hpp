@@ -1,0 +1,37 @@
+// The largest stiffness that an arm renders stably (its Z-width), by bisection over hands and motions.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "tools/verify/arms/feel_runs.hpp"
+
+namespace bolt::arm_validation {
+
+enum class Spring : std::uint8_t {
+    contact,  // the coupling: wrench and casing
+    nut,      // the wrench on a tightened nut, as torque or as force at the grip
+};
+
+// Factors on the stiffness in use between which the search looks, and their ratio at which it stops.
+inline constexpr double least_factor = 1.0 / 16.0, greatest_factor = 16.0, search_ratio = 1.06;
+
+struct StableRange {
+    double used = 0.0;    // N/m or N·m/rad as the device feels it
+    double stable = 0.0;  // the largest stable one that was found; 0: not even `least_factor` of the used one
+    bool open = false;    // stable even at `greatest_factor`
+};
+
+struct RangeQuery {
+    const ArmFacts* arm = nullptr;
+    Spring spring = Spring::contact;
+    bool controller = true;
+    bool held = true;  // by a loose, a usual and a stiff grip; false: by no hand
+};
+
+// The motions of the hand must be find_presses() of the same place. Assumes that a stiffer spring is never
+// more stable; the ratio of two tested factors bounds what a violation could hide.
+StableRange stable_range(Workplace& place, const RangeQuery& query, std::span<const Press> presses);
+
+}  // namespace bolt::arm_validation
