@@ -78,7 +78,7 @@ void add_devices(const Facts& facts, std::vector<Finding>& all) {
         if (listed.kind == device::DeviceKind::other) continue;
         any = true;
         force = force || listed.kind != device::DeviceKind::puck;
-        if (listed.trouble) {
+        if (!listed.usable()) {
             // The error says what to do.
             all.push_back({Severity::limited,
                            "finding.device_refused",

@@ -1,7 +1,9 @@
 // The trainer with an arm that must be prepared, before a lesson and in the middle of one.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <thread>
 
 #include "tests/station/virtual_bench.hpp"

@@ -144,9 +144,10 @@ struct bw_arm_v1 {
     int (*info)(struct bw_arm* arm, struct bw_arm_info_v1* info);
 
     /* Lets the arm find its position. Called every 10 ms (with pauses of a second at most while the user
-       must act, or while may_move is 0) until it returns BW_ARM_DONE, which an arm that knows its position returns at once. It should
-       not block. With `may_move` other than 0 the user has kept the room around the arm free, and it may move
-       by itself for 90 s. While it returns BW_ARM_NEEDS_USER, the user reads the text of last_error. */
+       must act, or while may_move is 0) until it returns BW_ARM_DONE, which an arm that knows its position
+       returns at once. It should not block. With `may_move` other than 0 the user has kept the room around
+       the arm free, and it may move by itself for 90 s. While it returns BW_ARM_NEEDS_USER, the user reads
+       the text of last_error. */
     int (*calibrate)(struct bw_arm* arm, int may_move);
 
     /* Switches the motors on (1), with zero force, or off (0). Returns BW_ARM_DONE or BW_ARM_ERROR. */
