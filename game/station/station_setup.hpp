@@ -51,9 +51,9 @@ Result<DeviceSelection> select_devices(std::span<const device::ListedDevice> con
 DeviceSelection select_any_devices(std::span<const device::ListedDevice> connected);
 std::vector<std::string> ids_of(const DeviceSelection& selection);
 
-// Adds the devices of a station file to those that the command line names, which are used instead if there
-// are any. Fails if a device of the file is connected and cannot have its role, or with ErrorCode::usage if a
-// named device has the role of another one in the file: its settings are for that one.
+// If `ids` is empty, sets it to the devices of the station file. Fails if a device of the file is connected
+// and cannot have its role, or with ErrorCode::usage if one of `ids` has the role of another device in the
+// file: its settings are for that one.
 Status add_devices_of(const content::StationFile& station, std::span<const device::ListedDevice> connected,
                       std::vector<std::string>& ids);
 
@@ -74,8 +74,8 @@ Result<content::GloveCalibration> find_calibration(const std::string& trainee,
                                                    const std::filesystem::path& folder = {});
 
 // The pose of the wrist, in the tool's frame, of a hand around the handle at `along` m from the jaw, thumb
-// towards the jaw, palm on the side of the tool's normal. The nearest pose to a natural grip at which closing
-// the hand grasps the handle.
+// towards the jaw, palm on the side of the tool's normal. Of the poses near a natural grip, the one at which
+// the most closures of the hand grasp the handle; of equal ones the nearest.
 Pose wrist_at_handle(const hand::Hand& hand, const collision::ToolShape& tool, double along);
 
 // The gloved hand at the assembly's wrench. Fails if the wrench has no contact model.

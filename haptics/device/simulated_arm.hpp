@@ -28,7 +28,7 @@ struct ArmParameters {
 
 struct Arm {
     ArmParameters parameters;
-    Pose pose;       // of the tool
+    Pose pose;       // of the grip, device frame
     Pose intention;  // intended pose
     Vec3 velocity{0.0};
     Vec3 angular_velocity{0.0};
@@ -74,8 +74,8 @@ class SimulatedArm {
     std::shared_ptr<Shared> shared_;
 };
 
-// The arm of `train --device simulated-arm`: force and stiffness of an omega.7 (its published 12 N; the
-// stiffness lower, for the hand is a spring of 300 N/m), without torque, and without an edge of its reach.
+// The arm of `train --device simulated-arm`: the force of an omega.7 (12 N), a lower stiffness, because the
+// hand is a spring of 300 N/m, no torque, and no edge of its reach.
 Description simulated_arm_description();
 ArmParameters simulated_arm_parameters();
 

@@ -59,23 +59,23 @@ struct Pivot {
 
 // The pose of a wrench on a bolt whose handle the hand holds at `grip_point`, `grip_distance` m from the jaw:
 // the pose `held`, turned about the bolt so that the handle points to the grip point, and moved so that it
-// ends there. The wrist may turn freely in the hand, because a device without torque cannot hold it. Only
-// moves `held` if the grip point is on the axis.
+// ends there. The wrist may turn freely in the hand, because a device without torque cannot hold it. If the
+// grip point is on the axis, `held` is moved and not turned.
 Pose pivoted(const Pivot& pivot, const Pose& held, double grip_distance, const Vec3& grip_point);
 
 // The smallest scale, at least 1, at which the end of a wrench of `handle_length` m that points to the user
-// swings by 60° within the device's reach (m, half the workspace along each axis). A reach of 0 is
-// unknown: 1.
+// swings by 60° within 90 % of the device's reach (m, half the workspace along each axis), of which x and z
+// count. A reach of 0 is unknown: 1.
 double fitted_scale(const Vec3& reach, double handle_length);
 
 // The reach (m, half the workspace) along the axes to which `turn` turns those of the device, through its
-// middle. 0: unknown, as it is for the device along an axis that counts.
+// middle. 0 if the reach along a device axis that contributes is unknown.
 Vec3 turned_reach(const Quat& turn, const Vec3& reach);
 
 OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& state,
                         const OutputCommand& on_tool);
 
-// The device's limits in the assembly's units; the output stage works on that side of the map.
+// The device's limits in the assembly's units; the output stage works in these.
 OutputLimits in_assembly(const WorkspaceMap& workspace, const OutputLimits& device);
 
 // Renders a bolt's torque on a device with a smaller range: scaled so that the largest torque of the lesson

@@ -56,11 +56,12 @@ DisplayedHand display(const HandSetup& setup, const HandState& state);
 struct HandStatus {
     bool held = false, lost = false;
 };
-// Messages on problems of the glove, its connection or its wearer, worst first. `worn` is the side that is
+// Messages on problems of the glove, its connection or its wearer. `worn` is the side that is
 // calibrated.
 std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const hand::GloveReport& report);
 
-// Runs the gloved hand on its own thread between those of the glove and the servo. All calls are wait-free.
+// Runs the gloved hand on its own thread between those of the glove and the servo. set_tool() and grip()
+// never wait.
 class HandThread {
   public:
     // Owns the driver and reads its samples.

@@ -15,7 +15,7 @@ namespace bolt::station {
 // Statistics of the data between a device and the servo, counted by the servo's ticks.
 struct LinkStats {
     std::uint64_t samples = 0;
-    double silence = 0.0, longest_silence = 0.0;       // s since the last sample, valid or not
+    double silence = 0.0, longest_silence = 0.0;       // s since the last valid sample
     double largest_force = 0.0, largest_torque = 0.0;  // N, N·m, that were sent
 };
 
@@ -88,7 +88,7 @@ class Station {
     // The gloved hand for display; null: none. For one calling thread.
     const DisplayedHand* hand();
 
-    // Messages on present problems, worst first, at most 0.1 s old.
+    // Messages on present problems of mover, wheel, output and glove, in this order, at most 0.1 s old.
     std::vector<std::string> troubles();
 
     // Reports of the devices and the glove, null if absent, and the link statistics of the latest tick. For

@@ -59,7 +59,7 @@ void check(const Played& played) {
 
 }  // namespace
 
-TEST_CASE("Arm lessons: the whole reducer with each vendor's arm") {
+TEST_CASE("Arm lessons: a trainee finishes the reducer on each vendor's arm, with a score of 95 or more") {
     for (const auto& make : {+[] { return force_dimension_arm(false); }, +[] { return open_haptics_arm(); },
                              +[] { return haply_arm(); }}) {
         const Played played = play(*make(), "zq350");
@@ -68,14 +68,16 @@ TEST_CASE("Arm lessons: the whole reducer with each vendor's arm") {
     }
 }
 
-TEST_CASE("Arm lessons: a cover with an arm that has motors in its wrist") {
+TEST_CASE(
+    "Arm lessons: a trainee finishes a cover on an arm with motors in its wrist, with a score of 95 or "
+    "more") {
     const Played played = play(*force_dimension_arm(true), "cover-m8");
     check(played);
     CHECK(played.outcome.result.score >= 95.0);
 }
 
 // A mouse moves the hand, and its user corrects what he sees.
-TEST_CASE("Arm lessons: a nut and a whole cover with the simulated arm") {
+TEST_CASE("Arm lessons: a trainee finishes a nut and a cover on the simulated arm") {
     const Played nut = play(*simulated_arm(), "first-nut");
     check(nut);
     CHECK(nut.outcome.result.score >= 95.0);
