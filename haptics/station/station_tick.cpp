@@ -38,7 +38,7 @@ namespace {
 // A larger change of force in a millisecond is felt as a blow. Contacts are designed for it up to 0.5 m/s
 // (haptics/proxy/coupling), but a hand that reaches without looking hits the casing at 0.8 m/s.
 constexpr double largest_force_step = 0.1;  // share of the greatest force, per millisecond
-constexpr double millisecond = 1e-3;  // s
+constexpr double millisecond = 1e-3;        // s
 
 force::OutputLimits limited_steps(force::OutputLimits limits) {
     limits.force_rate = std::min(limits.force_rate, largest_force_step * limits.force / millisecond);
