@@ -1,7 +1,7 @@
 // Errors as values: Error, Result, and their propagation and output.
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,32 +18,25 @@ enum class ErrorCode {
     no_device = 4,    // a requested device or GPU is missing
 };
 
-// What a device needs before it can be opened. Once it has that, the same attempt succeeds.
-enum class DeviceNeed : std::uint8_t {
-    none,
-    permission,  // to move by itself, so that it finds its position
-    inkwell,     // its stylus or handle in the inkwell, where it is calibrated
-    user,        // what Preparation::instruction says
-    patience,    // it calibrates itself without a visible movement
-};
-
-struct Preparation {
-    DeviceNeed need = DeviceNeed::none;
-    std::string instruction;  // of the device, for DeviceNeed::user
-    bool operator==(const Preparation&) const = default;
+// Facts about an error, for the code that handles it. The library that makes the error derives its own type.
+struct ErrorDetail {
+    ErrorDetail() = default;
+    ErrorDetail(const ErrorDetail&) = default;
+    ErrorDetail& operator=(const ErrorDetail&) = default;
+    virtual ~ErrorDetail() = default;
 };
 
 // States what is wrong, where, and what was expected instead.
 struct Error {
     ErrorCode code = ErrorCode::failed;
-    std::string what;           // one clause that states what is wrong: "is an object"
-    std::string expected;       // "an array", or a question "did you mean \"size\"?"; may be empty
-    std::string file;           // empty if no file is involved
-    int line = 0;               // 1-based; 0: unknown
-    int column = 0;             // 1-based, in characters (Unicode code points); 0: unknown
-    std::string pointer;        // JSON pointer (RFC 6901) of the value; may be empty
-    bool lost = false;          // a device that worked before has disappeared; reopening it may succeed
-    Preparation preparation{};  // of a device that is connected and cannot be opened yet
+    std::string what;      // one clause that states what is wrong: "is an object"
+    std::string expected;  // "an array", or a question "did you mean \"size\"?"; may be empty
+    std::string file;      // empty if no file is involved
+    int line = 0;          // 1-based; 0: unknown
+    int column = 0;        // 1-based, in characters (Unicode code points); 0: unknown
+    std::string pointer;   // JSON pointer (RFC 6901) of the value; may be empty
+    bool lost = false;     // a device that worked before has disappeared; reopening it may succeed
+    std::shared_ptr<const ErrorDetail> detail{};  // null: none
 
     // Returns "<file>:<line>:<column>: <pointer>: <what>; expected <expected>" without the unknown parts. The
     // word "expected" is left out if the field already begins with "expected" or "did you mean".

@@ -1,25 +1,26 @@
-#include "game/cli/arm_questions.hpp"
-
+// Questions on the terminal before an arm moves or pushes.
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <iostream>
 #include <string>
 
+#include "game/cli/commands.hpp"
+
 namespace bolt::cli {
 
 namespace {
 
-std::string request_text(const Preparation& needed) {
+std::string request_text(const device::Preparation& needed) {
     switch (needed.need) {
-        case DeviceNeed::inkwell:
+        case device::DeviceNeed::inkwell:
             return "Put the arm's handle into its inkwell, and wait until it is calibrated.";
-        case DeviceNeed::user:
+        case device::DeviceNeed::user:
             return "The arm waits for you: " + needed.instruction;
-        case DeviceNeed::patience:
+        case device::DeviceNeed::patience:
             return "The arm is calibrating.";
-        case DeviceNeed::none:
-        case DeviceNeed::permission:
+        case device::DeviceNeed::none:
+        case device::DeviceNeed::permission:
             break;
     }
     return {};
@@ -45,9 +46,9 @@ device::ArmDialog terminal_dialog(bool yes) {
     device::ArmDialog questions;
     questions.permission = std::make_shared<device::MovePermission>();
     questions.on_preparation = [yes, permission = questions.permission,
-                                shown = Preparation()](const Preparation& needed) mutable {
-        if (needed.need == DeviceNeed::none || permission->active()) return true;
-        if (needed.need == DeviceNeed::permission) {
+                                shown = device::Preparation()](const device::Preparation& needed) mutable {
+        if (needed.need == device::DeviceNeed::none || permission->active()) return true;
+        if (needed.need == device::DeviceNeed::permission) {
             if (!ask(
                     "The arm moves by itself to find its position. Keep hands and things clear. May it move?",
                     yes))
@@ -55,7 +56,7 @@ device::ArmDialog terminal_dialog(bool yes) {
             permission->give();
             return true;
         }
-        if (needed.need == DeviceNeed::patience) return true;
+        if (needed.need == device::DeviceNeed::patience) return true;
         if (!has_terminal()) return false;
         if (needed != shown) fmt::print(stderr, "{}\n", request_text(needed));
         shown = needed;

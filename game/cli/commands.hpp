@@ -2,12 +2,17 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/result.hpp"
+#include "haptics/device/preparation.hpp"
 
 namespace CLI {
 class App;
+}
+namespace bolt::station_setup {
+struct StationRequest;
 }
 
 namespace bolt::cli {
@@ -31,15 +36,25 @@ struct TrialOptions {
     std::vector<std::string> devices;
     std::string station_file, wheel_config_file, glove, trainee, calibrations;
     double seconds = 5.0;
-    bool examine_devices = false;  // report on each device before the trial
-    bool yes = false;              // answers questions before an arm moves
+    bool yes = false;  // answers questions before an arm moves or pushes
 
     [[nodiscard]] bool any() const { return !devices.empty() || !glove.empty() || !station_file.empty(); }
 };
 
-// Runs the trial and prints its messages and report. Returns the exit code: 0 if the station is fit for
-// training, 1 if it is not, or the code of the error that prevented the trial.
+// Examines the devices, runs the trial, and prints messages and reports. Returns the exit code: 0 if the
+// station is fit for training, 1 if it is not, or the code of the error that prevented the trial.
 int try_station(const TrialOptions& options);
+
+// True if a person sees the standard error output and can answer.
+bool has_terminal();
+
+// Asks `question`, which ends with a question mark, and waits for the answer. `yes`: the option --yes, which
+// answers it. False without a terminal and without --yes.
+bool ask(std::string_view question, bool yes);
+
+// For a station or a device thread. Without a terminal an arm that needs more than permission is an error at
+// once, because nobody is there to put its handle into the inkwell.
+device::ArmDialog terminal_dialog(bool yes);
 
 // Opens the menu in a window, as the desktop's entry does. Each lesson gets a folder in
 // user_data_folder()/sessions.
@@ -56,15 +71,9 @@ void catch_interruption();
 // True if the program was requested to end.
 [[nodiscard]] bool interrupted();
 
-// Opens each of these devices, examines it, and prints what it finds; asks before an arm pushes the hand.
+// Opens each device of the request, examines it, and prints a report; asks before an arm pushes the hand.
 // `yes`: the answer to all questions. Fails if a device cannot be used.
-struct DeviceCheckRequest {
-    std::vector<std::string> devices;  // ids
-    std::string wheel_config_file;     // empty: the defaults
-    double seconds = 1.0;              // in which samples are counted
-    bool yes = false;
-};
-Status check_devices(const DeviceCheckRequest& request);
+Status check_devices(const station_setup::StationRequest& request, double seconds, bool yes);
 
 // One line for boltwright doctor: the number of USB devices, of those that cannot be used, and of serial
 // ports.

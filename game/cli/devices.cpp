@@ -6,11 +6,11 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <bit>
 #include <memory>
 
 #include "content/station/wheel_config_file.hpp"
 #include "engine/base/result.hpp"
-#include "game/cli/arm_questions.hpp"
 #include "game/cli/commands.hpp"
 #include "game/station/device_check.hpp"
 #include "game/station/station_setup.hpp"
@@ -82,16 +82,17 @@ struct OpenDevice {
     std::shared_ptr<const device::Description> description;
 };
 
-// Opens the device and asks what an arm needs for that.
-Result<OpenDevice> open_device(const std::string& id, const std::string& wheel_config_file, bool yes) {
+Result<device::OpenOptions> with_wheel_config(const std::string& file, device::OpenOptions options) {
+    if (file.empty()) return options;
+    BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(file));
+    options.wheel = read;
+    return options;
+}
+
+// Opens the device, and asks for the needs of an arm.
+Result<OpenDevice> open_device(const std::string& id, device::OpenOptions opening, bool yes) {
     BOLT_TRY(station_setup::find_device(device::list_devices(true), id));
-    device::WheelConfig wheel_config;
-    if (!wheel_config_file.empty()) {
-        BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(wheel_config_file));
-        wheel_config = read;
-    }
     const device::ArmDialog dialog = terminal_dialog(yes);
-    device::OpenOptions opening{wheel_config};
     opening.permission = dialog.permission;
     BOLT_TRY_ASSIGN(auto thread,
                     device::DeviceThread::start(device::factory_for(id, opening), {{}, device_priority}));
@@ -101,7 +102,8 @@ Result<OpenDevice> open_device(const std::string& id, const std::string& wheel_c
 
 // Opens the device and reads it for options.seconds. Returns its description and its sample rate.
 Result<std::string> examine_device(const DevicesOptions& options) {
-    BOLT_TRY_ASSIGN(OpenDevice device, open_device(options.device, options.wheel_config_file, options.yes));
+    BOLT_TRY_ASSIGN(const auto opening, with_wheel_config(options.wheel_config_file, {}));
+    BOLT_TRY_ASSIGN(OpenDevice device, open_device(options.device, opening, options.yes));
     device::DeviceThread& thread = device.thread;
     const device::Timer timer = device::steady_timer();
     const std::uint64_t before = thread.snapshot().number;
@@ -122,21 +124,22 @@ Result<std::string> examine_device(const DevicesOptions& options) {
     return text;
 }
 
-// Whether the user agrees that the device pushes the hand, and if not, why its stiffness is not measured.
-station_setup::DeviceCheckOptions ask_for_stiffness(const device::Description& d, bool yes) {
-    station_setup::DeviceCheckOptions options;
-    const double force = station_setup::trial_force(d);
-    if (force <= 0.0) return options;
+// Asks whether the device may push the hand. If not, the options give the reason why its stiffness is not
+// measured.
+void ask_for_stiffness(const device::Description& d, bool yes, station_setup::DeviceCheckOptions& options) {
+    const double force = station_setup::trial_force(d, options.bounds);
+    if (force <= 0.0) return;
     options.pushes = ask(
         fmt::format(
             "{} pushes the hand with {:.1f} N at most, for about {:.0f} s. Hold its handle in the middle of "
             "its reach{}. May it push?",
             d.name, force, station::stiffness_stages * station::stiffness_stage_time,
-            d.buttons > 0 ? ", and its button 1" : ""),
+            d.buttons > 0 && options.dead_man != 0
+                ? fmt::format(", and its button {}", std::countr_zero(options.dead_man) + 1)
+                : ""),
         yes);
     options.no_stiffness = has_terminal() ? "it may not push the hand"
                                           : "it would push the hand, and nobody was asked; --yes permits it";
-    return options;
 }
 
 Result<std::string> examine_glove(const std::string& port, double seconds) {
@@ -180,11 +183,21 @@ int run_devices(const DevicesOptions& options) {
 
 }  // namespace
 
-Status check_devices(const DeviceCheckRequest& request) {
+Status check_devices(const station_setup::StationRequest& request, double seconds, bool yes) {
+    const content::StationFile& station = request.station;
     for (const std::string& id : request.devices) {
-        BOLT_TRY_ASSIGN(OpenDevice device, open_device(id, request.wheel_config_file, request.yes));
-        station_setup::DeviceCheckOptions options = ask_for_stiffness(*device.description, request.yes);
-        options.seconds = request.seconds;
+        device::OpenOptions opening;
+        station_setup::DeviceCheckOptions options;
+        options.seconds = seconds;
+        if (station.arm && station.arm->device == id) {
+            opening.effector_mass = station.arm->effector_mass;
+            options.bounds = station.arm->limits;
+            options.dead_man = station.arm->buttons.value_or(station::Buttons{}).dead_man;
+        }
+        if (station.wheel && station.wheel->device == id) opening.wheel = station.wheel->config;
+        BOLT_TRY_ASSIGN(opening, with_wheel_config(request.wheel_config_file, opening));
+        BOLT_TRY_ASSIGN(OpenDevice device, open_device(id, opening, yes));
+        ask_for_stiffness(*device.description, yes, options);
         catch_interruption();
         options.stop = [] { return interrupted(); };
         BOLT_TRY_ASSIGN(const auto check, station_setup::check_device(device.thread, options));

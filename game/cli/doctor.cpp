@@ -12,14 +12,12 @@
 
 #include "content/format/assembly.hpp"
 #include "content/station/station_file.hpp"
-#include "content/station/wheel_config_file.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
 #include "engine/platform/window.hpp"
-#include "game/cli/arm_questions.hpp"
 #include "game/cli/commands.hpp"
 #include "game/computer/computer.hpp"
 #include "game/station/station_check.hpp"
@@ -99,12 +97,6 @@ Result<station_setup::StationRequest> request_of(const TrialOptions& options) {
     return request;
 }
 
-// A mistake in the wheel's configuration is reported before a device is opened.
-Status examine_devices(const TrialOptions& options, const std::vector<std::string>& devices) {
-    if (!options.wheel_config_file.empty()) BOLT_TRY(content::load_wheel_config(options.wheel_config_file));
-    return check_devices({devices, options.wheel_config_file, std::min(options.seconds, 1.0), options.yes});
-}
-
 }  // namespace
 
 int try_station(const TrialOptions& options) {
@@ -112,10 +104,8 @@ int try_station(const TrialOptions& options) {
     if (!loaded.ok()) return print_error(loaded.errors);
     Result<station_setup::StationRequest> request = request_of(options);
     if (!request) return print_error(request.error());
-    if (options.examine_devices) {
-        const Status examined = examine_devices(options, request->devices);
-        if (!examined) return print_error(examined.error());
-    }
+    const Status examined = check_devices(*request, std::min(options.seconds, 1.0), options.yes);
+    if (!examined) return print_error(examined.error());
     device::VirtualPuck still({}, device::steady_timer());  // used if no device moves the tool
     request->fallback_mover = still.factory();
 
@@ -263,7 +253,6 @@ void add_doctor(CLI::App& app, int& exit_code) {
         if (named.any()) {
             options->station.seconds = options->seconds.value_or(options->station.seconds);
             TrialOptions& tried = options->station;
-            tried.examine_devices = true;
             exit_code = try_station(tried);
             return;
         }

@@ -22,7 +22,7 @@ struct StationArguments {
     bool force = false;
 };
 
-// What the device reports; none: the selection has none in this role.
+// The description that the device reports; none: the selection has no device in this role.
 Result<std::optional<device::Description>> reported_by(const std::optional<device::ListedDevice>& listed) {
     if (!listed) return std::optional<device::Description>();
     BOLT_TRY_ASSIGN(auto description, station_setup::read_description(listed->id, {}));

@@ -16,7 +16,7 @@ constexpr double check_interval = 0.02;  // s between two looks at the trial
 constexpr double button_timeout = 5.0;   // s without the button until the trial is given up
 constexpr double release_time = 0.05;    // s in which the force ends and the device has taken that
 
-// What the ticks of the servo exchange with the thread that waits for them.
+// Data that the servo thread and the thread that waits for it exchange.
 struct CheckedDevice {
     device::DeviceThread& thread;
     device::Timer timer = device::steady_timer();
@@ -24,7 +24,7 @@ struct CheckedDevice {
     std::uint64_t number = 0;  // of the last sample
     std::uint64_t samples = 0;
     std::optional<station::StiffnessTrial> trial{};  // of the servo thread
-    bool has_button = false;
+    std::uint32_t dead_man = 0;                      // mask; 0: the device has no such button
     std::atomic<bool> held = false, ended = false;
 
     void tick(const servo::Deadline& deadline) {
@@ -38,7 +38,7 @@ struct CheckedDevice {
             servo::add(age, static_cast<std::int64_t>(1e9 * (timer.now() - snapshot.sample.time)));
         number = snapshot.number;
         if (!trial) return;
-        input.enabled = snapshot.usable && (!has_button || (snapshot.sample.buttons & 1U) != 0);
+        input.enabled = snapshot.usable && (dead_man == 0 || (snapshot.sample.buttons & dead_man) != 0);
         held = input.enabled;
         thread.command(station::step(*trial, input, tick_time), true);
         ended = trial->end != station::TrialEnd::none;
@@ -108,8 +108,9 @@ std::string stiffness_report(const DeviceCheck& check) {
 
 }  // namespace
 
-double trial_force(const device::Description& description) {
-    return station::renders_force(description) ? station::trial_force_share * description.limits.force : 0.0;
+double trial_force(const device::Description& description, const force::LimitBounds& bounds) {
+    const double greatest = force::lowered(description.limits, bounds).force;
+    return station::renders_force(description) ? station::trial_force_share * greatest : 0.0;
 }
 
 Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheckOptions& options) {
@@ -118,6 +119,7 @@ Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheck
     if (!thread.report().description)
         return fail(ErrorCode::no_device, "the device is not open", "an open device");
     check.description = *thread.report().description;
+    check.description.limits = force::lowered(check.description.limits, options.bounds);
     const double begun = checked.timer.now();
     {
         BOLT_TRY_ASSIGN(const auto servo, run_ticks(checked));
@@ -127,11 +129,11 @@ Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheck
     check.seconds = checked.timer.now() - begun;
     check.samples = checked.samples;
     check.no_stiffness = options.no_stiffness;
-    if (trial_force(check.description) <= 0.0) {
+    if (trial_force(check.description, {}) <= 0.0) {
         check.no_stiffness = "it renders no force";
     } else if (options.pushes) {
         checked.trial = station::begin_stiffness_trial(check.description);
-        checked.has_button = check.description.buttons > 0;
+        checked.dead_man = check.description.buttons > 0 ? options.dead_man : 0;
         BOLT_TRY_ASSIGN(check.no_stiffness, wait_for_trial(checked, options.stop));
         if (check.no_stiffness.empty()) check.stiffness = std::move(checked.trial);
     }

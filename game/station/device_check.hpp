@@ -31,11 +31,14 @@ struct DeviceCheckOptions {
     // why not.
     bool pushes = false;
     std::string no_stiffness;
+    force::LimitBounds bounds;  // of the station file
+    std::uint32_t dead_man =
+        1;  // mask of the buttons that permit the force; a device without them needs none
     std::function<bool()> stop;  // true: the user has interrupted it
 };
 
 // The largest force of the measurement of the stiffness, N; 0: the device renders no force.
-double trial_force(const device::Description& description);
+double trial_force(const device::Description& description, const force::LimitBounds& bounds);
 
 // Examines an open device, which is left without force. Fails if the device is lost or no thread can be
 // created.

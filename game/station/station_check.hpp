@@ -10,9 +10,9 @@ struct StationFinding {
     std::string text;
 };
 
-// What was found of the devices that a station file names.
+// Descriptions of the devices that a station file names.
 struct StationFacts {
-    // What the device reports, or why it cannot be opened; none: the file names no such device.
+    // The description that the device reports, or why it cannot be opened; none: the file names no device.
     std::optional<Result<device::Description>> arm, wheel;
     Status glove;                    // why its port cannot be used
     std::vector<std::string> tools;  // of all assemblies that are found

@@ -157,7 +157,7 @@ class LessonStation {
     [[nodiscard]] virtual std::uint64_t lost_ticks() const = 0;  // dropped because they were not read in time
     virtual const station::DisplayedHand* hand() = 0;            // null: no gloved hand
     virtual std::vector<std::string> troubles() = 0;             // messages on the present problems
-    // What the device that moves the tool needs before it can be opened again, after it was lost.
+    // Needs of the device that moves the tool before it can be opened again, after it was lost.
     virtual device::ArmNeeds needs() { return {}; }
     virtual device::Condition condition() { return {}; }  // of that device
     virtual void permit_move() {}  // to that device, for its next attempt (device::MovePermission)

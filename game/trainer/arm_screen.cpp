@@ -7,21 +7,21 @@ namespace bolt::trainer {
 namespace {
 
 bool asks(const device::ArmNeeds& needs) {
-    return needs.preparation.need == DeviceNeed::permission && !needs.moves;
+    return needs.preparation.need == device::DeviceNeed::permission && !needs.moves;
 }
 
 std::string request_of(const words::Words& words, const device::ArmNeeds& needs) {
     if (needs.moves) return words["arm.moves"];
     switch (needs.preparation.need) {
-        case DeviceNeed::permission:
+        case device::DeviceNeed::permission:
             return words["arm.permission"];
-        case DeviceNeed::inkwell:
+        case device::DeviceNeed::inkwell:
             return words["arm.inkwell"];
-        case DeviceNeed::user:
+        case device::DeviceNeed::user:
             return words::format_text(words, "arm.user", {{"text", needs.preparation.instruction}});
-        case DeviceNeed::patience:
+        case device::DeviceNeed::patience:
             return words["arm.calibrates"];
-        case DeviceNeed::none:
+        case device::DeviceNeed::none:
             break;
     }
     return words["arm.starting"];
@@ -94,15 +94,15 @@ std::optional<words::TextKey> arm_warning(const device::Condition& condition) {
 std::string describe(const device::ArmNeeds& needs) {
     if (needs.moves) return "the arm may move by itself";
     switch (needs.preparation.need) {
-        case DeviceNeed::permission:
+        case device::DeviceNeed::permission:
             return "the arm asks whether it may move by itself";
-        case DeviceNeed::inkwell:
+        case device::DeviceNeed::inkwell:
             return "the arm needs its inkwell";
-        case DeviceNeed::user:
+        case device::DeviceNeed::user:
             return "the arm waits for the user: " + needs.preparation.instruction;
-        case DeviceNeed::patience:
+        case device::DeviceNeed::patience:
             return "the arm calibrates itself";
-        case DeviceNeed::none:
+        case device::DeviceNeed::none:
             break;
     }
     return {};

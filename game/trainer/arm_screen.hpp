@@ -14,7 +14,7 @@ namespace bolt::trainer {
 // twice.
 inline constexpr double question_time = 0.5;
 
-// What the screen shows, and for how long already.
+// The needs on the screen, and how long it has shown them.
 struct ArmScreen {
     device::ArmNeeds needs;
     bool in_lesson = false;
@@ -31,11 +31,10 @@ ScreenAction action_of(const ArmScreen& screen, std::span<const platform::InputE
 
 ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen);
 
-// Pauses the lesson while its arm needs something, and lets it go on afterwards, unless the user had paused
-// it.
+// Pauses the lesson while its arm needs something, and resumes it afterwards, unless the user had paused it.
 void pause_for_arm(StationClient& client, LessonClock& clock);
 
-// What the trainee should know of warm motors; none: they are cool, or the arm does not report it.
+// The text about warm motors; none: they are cool, or the arm does not report their heat.
 std::optional<words::TextKey> arm_warning(const device::Condition& condition);
 
 // One line for the log; empty: it needs nothing.

@@ -7,7 +7,9 @@ namespace bolt::trainer {
 LessonStarter::LessonStarter(LessonStart start, std::unique_ptr<LessonStarter> before)
     : before_(std::move(before)) {
     start.arm_dialog.permission = permission_;
-    start.arm_dialog.on_preparation = [this](const Preparation& preparation) { return show(preparation); };
+    start.arm_dialog.on_preparation = [this](const device::Preparation& preparation) {
+        return show(preparation);
+    };
     thread_ = std::jthread([this, begun = std::move(start)] {
         before_.reset();
         result_.emplace(given_up_ ? fail(ErrorCode::failed, "the start was given up") : start_lesson(begun));
@@ -17,7 +19,7 @@ LessonStarter::LessonStarter(LessonStart start, std::unique_ptr<LessonStarter> b
 
 LessonStarter::~LessonStarter() { give_up(); }
 
-bool LessonStarter::show(const Preparation& preparation) {
+bool LessonStarter::show(const device::Preparation& preparation) {
     const std::lock_guard lock(mutex_);
     preparation_ = preparation;
     return !given_up_;

@@ -30,13 +30,13 @@ class LessonStarter {
     void give_up();      // the devices are released as soon as possible
 
   private:
-    bool show(const Preparation& preparation);
+    bool show(const device::Preparation& preparation);
 
     std::unique_ptr<LessonStarter> before_;
     std::shared_ptr<device::MovePermission> permission_ = std::make_shared<device::MovePermission>();
     std::atomic<bool> given_up_ = false, done_ = false;
     mutable std::mutex mutex_;
-    Preparation preparation_;                      // under the mutex
+    device::Preparation preparation_;              // under the mutex
     std::optional<Result<StartedLesson>> result_;  // of the thread until done_
     std::jthread thread_;                          // last, so that it ends before the other members
 };

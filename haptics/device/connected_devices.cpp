@@ -9,7 +9,6 @@
 #include "haptics/device/arms.hpp"
 #include "haptics/device/hid_transport.hpp"
 #include "haptics/device/plugin_arms.hpp"
-#include "haptics/device/preparation.hpp"
 #include "haptics/device/space_mouse.hpp"
 #include "haptics/device/usb_force_feedback.hpp"
 #include "haptics/device/wheel.hpp"

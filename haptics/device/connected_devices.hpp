@@ -11,8 +11,7 @@
 
 namespace bolt::device {
 
-class MovePermission;  // preparation.hpp
-class WaitingArms;     // plugin_arms.hpp
+class WaitingArms;  // plugin_arms.hpp
 
 enum class DeviceKind : std::uint8_t {
     arm,    // through its vendor's library or service (arms.hpp); renders forces
@@ -38,7 +37,9 @@ struct ListedDevice {
     std::optional<Error> trouble;  // why it cannot be used, with a remedy
 
     // False if it cannot be opened. An arm that only needs its preparation can.
-    [[nodiscard]] bool usable() const { return !trouble || trouble->preparation.need != DeviceNeed::none; }
+    [[nodiscard]] bool usable() const {
+        return !trouble || preparation_of(*trouble).need != DeviceNeed::none;
+    }
 };
 
 // The devices connected now; with `others` also unsupported ones such as keyboards.

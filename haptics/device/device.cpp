@@ -106,7 +106,7 @@ Error unprepared_device(std::string what, std::string expected, Preparation prep
     error.code = ErrorCode::no_device;
     error.what = std::move(what);
     error.expected = std::move(expected);
-    error.preparation = std::move(preparation);
+    set_preparation(error, std::move(preparation));
     return error;
 }
 

@@ -13,6 +13,7 @@
 
 #include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
+#include "haptics/device/preparation.hpp"
 #include "haptics/force/output_limits.hpp"
 
 namespace bolt::device {
@@ -57,11 +58,11 @@ struct Description {
     std::vector<std::string> remarks;  // problems and peculiarities, each with a remedy
 };
 
-// What changes while a device is open.
+// The state of an open device, as far as the device reports it.
 struct Condition {
-    std::optional<bool>
-        calibrated;  // it knows its position; none: it needs no calibration or does not report it
-    // Of its hottest motor: 0 is cold, at 1 the device ends its force. None: it does not report it.
+    // It knows its position; none: it needs no calibration or does not report it.
+    std::optional<bool> calibrated;
+    // 0 … 1, of its hottest motor: at 1 the device ends its force. None: it does not report it.
     std::optional<double> heat;
     bool rests = false;  // it renders no force until its motors are cool
 };

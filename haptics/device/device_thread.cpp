@@ -67,7 +67,7 @@ bool DeviceSupervisor::try_open(std::uint64_t number) {
     if (!opened) {
         ++report_.refusals;
         report_.trouble = opened.error().message();
-        report_.preparation = opened.error().preparation;
+        report_.preparation = preparation_of(opened.error());
         return false;
     }
     ++report_.openings;
@@ -296,7 +296,7 @@ Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(
                 Error error;
                 error.code = ErrorCode::no_device;
                 error.what = report().trouble;
-                error.preparation = report().preparation;
+                set_preparation(error, report().preparation);
                 return fail(std::move(error));
             }
             return fail(ErrorCode::no_device, "the device does not open in time",

@@ -53,9 +53,10 @@ struct ForceDimensionOptions {
     double effector_mass = 0.0;  // kg, OpenOptions::effector_mass
 };
 
-// Opens arm `index`, which then compensates its weight; the brakes hold it when it is closed. Fails with an
-// Error::preparation if it would have to move by itself and may not. Its limits are those of its model, and
-// of its joints if the model is unknown (docs/decisions.md). The factory's limit of its speed is not changed.
+// Opens arm `index`, which then compensates its weight; the brakes hold it when it is closed. If it would
+// have to move by itself and may not, the error has DeviceNeed::permission. Its limits are those of its
+// model, and of its joints if the model is unknown (docs/decisions.md). The factory's limit of its speed is
+// not changed.
 Result<std::unique_ptr<DeviceDriver>> open_force_dimension(const ForceDimensionApi& api,
                                                            const ForceDimensionOptions& options, Timer timer);
 

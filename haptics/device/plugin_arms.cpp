@@ -245,8 +245,8 @@ std::shared_ptr<WaitingArms> make_waiting_arms() { return std::make_shared<Waiti
 
 namespace {
 
-// Calls calibrate() until it is done, or the user must act or be patient. An arm that moves by itself is
-// called without a pause, as the interface promises.
+// Polls calibrate() every 10 ms until it is done, or the user must act or be patient. An arm that moves by
+// itself gets calibration_time, as the interface promises.
 Result<PluginReply> calibrate(ArmProcess& process, bool may_move, bool may_wait, const Timer& timer) {
     const double began = timer.now();
     for (;;) {
@@ -268,13 +268,13 @@ Error calibration_error(const ArmProcess& process, const PluginReply& reply, con
         case BW_ARM_NEEDS_USER: {
             const std::string text = clean_text({reply.text, ::strnlen(reply.text, sizeof reply.text)});
             error = process.error("it waits for you: " + text, "an arm that knows its position");
-            error.preparation = {DeviceNeed::user, text};
+            set_preparation(error, {DeviceNeed::user, text});
             return error;
         }
         case BW_ARM_MUST_MOVE: {
             const Error immobile = immobile_device("the arm", id);
             error = process.error(immobile.what, immobile.expected);
-            error.preparation = immobile.preparation;
+            error.detail = immobile.detail;
             return error;
         }
         case BW_ARM_BUSY:
@@ -283,7 +283,7 @@ Error calibration_error(const ArmProcess& process, const PluginReply& reply, con
                     fmt::format("the arm has not found its position in {:g} s", calibration_time),
                     "an arm that can move freely");
             error = process.error("the arm is calibrating", "patience");
-            error.preparation = {DeviceNeed::patience, {}};
+            set_preparation(error, {DeviceNeed::patience, {}});
             return error;
         default:
             return process.error(fmt::format("calibrate returns {}", reply.result),
@@ -345,7 +345,7 @@ Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& op
         const bool too_late = !may_wait || options.may_move || timer.now() - arm->since > calibration_time;
         Error error = calibration_error(process, calibrated, id, too_late);
         if (calibrated.result == BW_ARM_NEEDS_USER) arm->since = timer.now();
-        const DeviceNeed need = error.preparation.need;
+        const DeviceNeed need = preparation_of(error).need;
         if (may_wait && (need == DeviceNeed::user || need == DeviceNeed::patience))
             options.waiting->keep(id, std::move(*arm));
         return fail(std::move(error));

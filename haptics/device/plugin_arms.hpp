@@ -35,9 +35,10 @@ struct PluginArmOptions {
     std::shared_ptr<WaitingArms> waiting{};  // null: an arm that waits for its user is closed
 };
 
-// Opens arm `index`. Fails with an Error::preparation if it would have to move by itself and may not, if the
-// user must act, or, with `waiting`, if it calibrates for longer than half a second. With `waiting` the arm
-// stays open in the last two cases and goes on with its calibration when it is opened again.
+// Opens arm `index`. The error has a need (preparation_of()) if the arm would have to move by itself and may
+// not, if the user must act, or, with `waiting` and without `may_move`, if it calibrates for longer than half
+// a second. With `waiting` the arm stays open in the last two cases and continues its calibration when it is
+// opened again.
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer);
 
 }  // namespace bolt::device

@@ -1,15 +1,48 @@
-// What an arm needs before it can be used, and the user's permission that it may move by itself. The thread
-// that shows the question and the thread that opens the arm share the permission.
+// The needs of an arm before it can be used, such as the user's permission to move by itself. The thread that
+// shows the question and the thread that opens the arm share the permission.
 #pragma once
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "engine/base/result.hpp"
 
 namespace bolt::device {
+
+// A need of a connected device that cannot be opened yet. Once it is met, the same attempt succeeds.
+enum class DeviceNeed : std::uint8_t {
+    none,
+    permission,  // to move by itself, so that it finds its position
+    inkwell,     // its stylus or handle in the inkwell, where it is calibrated
+    user,        // the action that Preparation::instruction names
+    patience,    // it calibrates itself without a visible movement
+};
+
+struct Preparation {
+    DeviceNeed need = DeviceNeed::none;
+    std::string instruction;  // of the device, for DeviceNeed::user
+    bool operator==(const Preparation&) const = default;
+};
+
+struct PreparationDetail : ErrorDetail {
+    Preparation preparation;
+};
+
+inline void set_preparation(Error& error, Preparation preparation) {
+    auto detail = std::make_shared<PreparationDetail>();
+    detail->preparation = std::move(preparation);
+    error.detail = std::move(detail);
+}
+
+// The preparation that an attempt to open a device lacked; DeviceNeed::none: it failed for another reason.
+inline Preparation preparation_of(const Error& error) {
+    const auto* detail = dynamic_cast<const PreparationDetail*>(error.detail.get());
+    return detail != nullptr ? detail->preparation : Preparation{};
+}
 
 // Holds for one attempt to open an arm, so that an arm that loses its position later must ask again. All
 // members may be called from any thread.

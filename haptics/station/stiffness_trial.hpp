@@ -20,7 +20,7 @@ inline constexpr double trial_force_share =
 
 // Why a trial has ended.
 enum class TrialEnd : std::uint8_t {
-    none,         // it goes on
+    none,         // it continues
     announced,    // the arm renders all that it announces
     oscillation,  // a swing that a step of the spring has excited does not die away
     energy,       // the hand gets energy from a spring at rest
@@ -41,7 +41,7 @@ struct StiffnessTrial {
     // inertia of arm and hand.
     std::vector<double> responses;
 
-    // Of the present stage.
+    // The present stage:
     double time = 0.0;               // s since its step; 0: the force still ramps up
     Vec3 centre{0.0}, offset{0.0};   // m, of the spring: where the stage began, and the step from there
     std::optional<double> moved_at;  // s, of the response
@@ -54,8 +54,8 @@ struct StiffnessTrial {
 // The arm renders a force along at least one axis.
 StiffnessTrial begin_stiffness_trial(const device::Description& arm);
 
-// One tick of dt. Returns the command for the arm. The trial goes on only while `input.enabled` is set; when
-// it comes back, the stage begins again. After the end the command falls to zero.
+// One tick of dt. Returns the command for the arm. The trial advances only while `input.enabled` is set;
+// after an interruption the stage begins again. After the end the command falls to zero.
 force::OutputCommand step(StiffnessTrial& trial, const force::PortInput& input, double dt);
 
 // N/m, of a stage.

@@ -46,6 +46,9 @@ check 'it has the lower limit' grep -q 'of at most 5 N' tried.txt
 check 'its dead-man switch is that of the file' grep -q 'only while button 3 of' tried.txt
 check 'doctor tries it too' tried doctor cover-m8 --station low.json
 check 'with the lower limit' grep -q 'of at most 5 N' tried.txt
+"${run[@]}" doctor cover-m8 --station low.json --seconds 0.3 --yes > pushed.txt 2>&1
+check 'its stiffness is tried with a fifth of the lower limit' grep -q 'pushes the hand with 1.0 N at most' pushed.txt
+check 'while the button of the file is held' grep -q 'and its button 3' pushed.txt
 check 'a limit above is reported' tried station try high.json --assembly cover-m8
 check 'as a warning' grep -q 'warning: arm: the limit force_N is 30' tried.txt
 expect 3 '/arm/limits/force' "${run[@]}" station try wrong.json

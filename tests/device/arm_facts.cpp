@@ -43,7 +43,7 @@ constexpr Model models[] = {{"omega3", false, false, [](char) { return 33; }},
                             {"falcon", false, false, [](char) { return 60; }},
                             {"sigma7", true, true, [](char) { return 104; }},
                             {"lambda7", true, true, [](char) { return 108; }},
-                            // Of an unknown number: the weakest with these joints.
+                            // An unknown number: the weakest arm with these joints.
                             {"falcon", false, false, [](char) { return 9999; }},
                             {"omega7", true, false, [](char) { return 9999; }},
                             {"sigma7", true, true, [](char) { return 9999; }}};

@@ -293,7 +293,7 @@ TEST_CASE("Haply: an arm that is not calibrated asks for it, when it is listed a
         "calibrated, as its light shows";
     CHECK(listed->front().trouble->message() == text);
     CHECK(bench.trouble_of_opening().message() == text);
-    CHECK(bench.trouble_of_opening().preparation.need == DeviceNeed::inkwell);
+    CHECK(preparation_of(bench.trouble_of_opening()).need == DeviceNeed::inkwell);
     CHECK(bench.arm->commands() == 0);
 }
 

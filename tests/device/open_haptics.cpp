@@ -490,7 +490,7 @@ TEST_CASE("OpenHaptics: an arm that needs its inkwell says so, and is calibrated
           "OpenHaptics arm (Touch) does not know its position; expected its stylus in the inkwell: push it "
           "in, and "
           "it is calibrated at the next attempt");
-    CHECK(refused.error().preparation.need == DeviceNeed::inkwell);
+    CHECK(preparation_of(refused.error()).need == DeviceNeed::inkwell);
     CHECK(bench.arm.open() == 0);
     CHECK(bench.arm.running() == 0);
     bench.arm.inkwell();

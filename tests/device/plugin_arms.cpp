@@ -395,7 +395,7 @@ TEST_CASE("Plug-in: an arm that calibrates for long says so, and goes on in the 
     const Bench bench;
     const Opened first = bench.open_with("busy for long");
     REQUIRE_FALSE(first);
-    CHECK(first.error().preparation == Preparation{DeviceNeed::patience, {}});
+    CHECK(preparation_of(first.error()) == Preparation{DeviceNeed::patience, {}});
     CHECK(eventually([&] { return bench.open().has_value(); }));
 }
 
@@ -406,7 +406,8 @@ TEST_CASE("Plug-in: an arm that waits for its user stays open until he has acted
               "the plug-in faulty_arm: it waits for you: put the pen into its holder; expected an arm that "
               "knows its "
               "position");
-    CHECK(bench.open().error().preparation == Preparation{DeviceNeed::user, "put the pen into its holder"});
+    CHECK(preparation_of(bench.open().error()) ==
+          Preparation{DeviceNeed::user, "put the pen into its holder"});
     // Another process would not have seen it.
     CHECK(bench.open_with("user acts"));
     CHECK_FALSE(bench.open());

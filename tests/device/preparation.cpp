@@ -1,4 +1,4 @@
-// What an arm needs before it can be opened: who permits it to move, for how long, and how it is reported.
+// The needs of an arm before it can be opened: permission to move, its duration, and the report.
 #include "haptics/device/preparation.hpp"
 
 #include <doctest/doctest.h>
@@ -148,7 +148,7 @@ TEST_CASE("Preparation: waiting for it does not count as time in which the devic
     const auto given_up = refused->wait_until_open(
         60.0, [](const Preparation& needed) { return needed.need == DeviceNeed::none; });
     REQUIRE_FALSE(given_up);
-    CHECK(given_up.error().preparation == Preparation{DeviceNeed::user, "wave"});
+    CHECK(preparation_of(given_up.error()) == Preparation{DeviceNeed::user, "wave"});
     CHECK(given_up.error().message() == "an arm is calibrated; expected a sign");
 }
 

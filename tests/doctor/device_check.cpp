@@ -64,7 +64,7 @@ TEST_CASE("Device check: a device without force is examined without its stiffnes
     auto thread = device::DeviceThread::start(puck.factory());
     REQUIRE(thread);
     REQUIRE(thread->wait_until_open(60.0));
-    CHECK(trial_force(**thread->wait_until_open(0.0)) == 0.0);
+    CHECK(trial_force(**thread->wait_until_open(0.0), {}) == 0.0);
     DeviceCheckOptions options;
     options.seconds = 0.05;
     options.pushes = true;

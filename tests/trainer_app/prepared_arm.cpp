@@ -21,21 +21,21 @@ namespace {
 struct UnpreparedArm {
     std::atomic<test::VirtualBench*> bench = nullptr;
     std::mutex mutex;
-    Preparation needed{DeviceNeed::permission, {}};  // under the mutex
+    device::Preparation needed{device::DeviceNeed::permission, {}};  // under the mutex
     std::atomic<int> moved = 0;
     std::atomic<bool> homing = false;  // until the test lets the arm arrive
 
-    void need(const Preparation& preparation) {
+    void need(const device::Preparation& preparation) {
         const std::lock_guard lock(mutex);
         needed = preparation;
     }
-    Preparation now() {
+    device::Preparation now() {
         const std::lock_guard lock(mutex);
         return needed;
     }
     // False: the user has given up.
     bool prepare(const device::ArmDialog& dialog) {
-        while (now().need != DeviceNeed::none) {
+        while (now().need != device::DeviceNeed::none) {
             if (!dialog.on_preparation(now())) return false;
             if (dialog.permission->take()) {
                 ++moved;
@@ -146,14 +146,14 @@ TEST_CASE("Trainer with an unprepared arm: Escape and the button lead back, and 
 TEST_CASE(
     "Trainer with an unprepared arm: in its inkwell it goes on by itself, and its own words are shown") {
     UnpreparedArm arm;
-    arm.need({DeviceNeed::inkwell, {}});
+    arm.need({device::DeviceNeed::inkwell, {}});
     HeadlessTrainer driver(arm.options());
     start(driver);
     driver.frame({press_of(platform::Key::enter)});
     driver.wait(1.0);
     CHECK(driver.app().screen() == ShownScreen::starting);
     CHECK_FALSE(shows(driver, "arm.move"));
-    arm.need({DeviceNeed::user, "fold the elbow 折"});
+    arm.need({device::DeviceNeed::user, "fold the elbow 折"});
     REQUIRE(frames_until(driver, [&] {
         return driver.app().arm_screen().needs.preparation.instruction == "fold the elbow 折";
     }));
@@ -196,7 +196,7 @@ TEST_CASE(
         }
     };
     pass(0.5);
-    bench.needs_ = {{DeviceNeed::permission, {}}, false};
+    bench.needs_ = {{device::DeviceNeed::permission, {}}, false};
     pass(0.8);
     const double stopped = driver.lesson().session->time();
     CHECK(driver.lesson().clock.paused);
@@ -229,7 +229,7 @@ TEST_CASE(
     CHECK_FALSE(arm_warning(driver.lesson().station->condition));
     // A pause of the user outlasts it.
     pass(0.2, {press_of(platform::Key::escape)});
-    bench.needs_ = {{DeviceNeed::inkwell, {}}, false};
+    bench.needs_ = {{device::DeviceNeed::inkwell, {}}, false};
     pass(0.3);
     bench.needs_ = {};
     pass(0.3);

@@ -8,7 +8,8 @@ namespace {
 
 using device::Description;
 
-// What the drivers in haptics/device announce. tests/device/arm_facts.cpp compares these with the drivers.
+// Descriptions as the drivers in haptics/device announce them. tests/device/arm_facts.cpp compares these with
+// the drivers.
 Description announced(double force, double torque, const char* name) {
     Description d;
     d.name = d.id = name;

@@ -21,7 +21,7 @@ struct Workplace {
 // Fails if the assembly is invalid or has no contact models.
 Result<Workplace> load_workplace(const std::string& assembly);
 
-// What the arm did to the hand. Forces are those of the device.
+// Effects of the arm on the hand. Forces are those of the device.
 struct Record {
     double energy = 0.0, greatest_energy = 0.0;  // J out of the device: the last value and the maximum
     double greatest_force = 0.0, greatest_torque = 0.0;  // N, N·m

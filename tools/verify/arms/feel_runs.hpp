@@ -1,5 +1,5 @@
-// What a hand does with the wrench to test an arm: it presses, shakes and rests on the casing, and pulls at a
-// tightened nut. Criteria as in tests/stability: no net energy out of the device, and no trembling that
+// A hand tests an arm with the wrench: it presses, shakes and rests on the casing, and pulls at a tightened
+// nut. Criteria as in tests/stability: no net energy out of the device, and no trembling that
 // lasts.
 #pragma once
 
