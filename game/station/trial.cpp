@@ -126,8 +126,6 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
     station.set_controls(controls);
     const double frames =
         station.glove_report() == nullptr ? 0.0 : static_cast<double>(station.glove_report()->frames);
-    // The devices have sent samples since they were opened.
-    const station::StationLinkStats before = station.link_stats();
     std::uint64_t enabled = 0;
     bool held = false;
     const auto poll = [&] {
@@ -156,8 +154,6 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
     if (planned.devices.mover)
         trial.mover = tried(station.layout().mover, station.link_stats().mover, station.mover_report());
     trial.wheel = tried(station.layout().wheel, station.link_stats().wheel, station.wheel_report());
-    if (trial.mover) trial.mover->stats.samples -= before.mover.samples;
-    if (trial.wheel) trial.wheel->stats.samples -= before.wheel.samples;
     trial.timing = station.servo().timing();
     trial.privileges = station.servo().privileges();
     trial.rate = 1.0 / station.setup().dt;

@@ -14,14 +14,16 @@ namespace bolt::station {
 
 // Statistics of the data between a device and the servo, counted by the servo's ticks.
 struct LinkStats {
-    std::uint64_t samples = 0;
+    std::uint64_t samples = 0;                         // since the first one that a tick saw
     double silence = 0.0, longest_silence = 0.0;       // s since the last valid sample
     double largest_force = 0.0, largest_torque = 0.0;  // N, N·m, that were sent
+    std::uint64_t first = 0;                           // number of that sample; 0: none yet
 };
 
 // Call after each tick with the device's link and the command that was sent.
 inline void count(LinkStats& stats, const DeviceLink& link, const force::OutputCommand& sent) {
-    stats.samples = link.number;
+    if (stats.first == 0) stats.first = link.number;
+    stats.samples = link.number - stats.first;
     stats.silence = link.silence;
     stats.longest_silence = std::max(stats.longest_silence, link.silence);
     stats.largest_force = std::max(stats.largest_force, glm::length(sent.force));
