@@ -75,7 +75,8 @@ ControlNames puck_controls(const words::Words& words, const std::string& button,
 ControlNames keyboard_controls(const words::Words& words, const std::string& button,
                                const std::string& tool_key);
 
-// Glove: takes the controls of the device that moves the hand, and replaces those that the fingers perform.
+// Glove or gripper: takes the controls of the device that moves the hand, and replaces those that the fingers
+// perform.
 ControlNames glove_controls(const words::Words& words, ControlNames moved_by);
 
 // Hints become more explicit the longer the work makes no progress, and do not flicker.

@@ -93,7 +93,7 @@ void place_hand(SceneWorld& world, const Postures& postures, const ToolAndHand& 
     const hand::Skeleton goal = state.gloved != nullptr ? *state.gloved
                                 : state.wrench          ? handle_posture(postures, state.grip, state.effort)
                                 : state.pinches         ? pinch_posture(postures, state.effort)
-                                                        : postures.open;
+                                                : interpolate(postures.open, postures.on_nut, state.closing);
     world.view<SkinnedHand, Transform>().each(
         [&](ecs::Entity entity, SkinnedHand& fingers, Transform& transform) {
             if (world.find<GhostPart>(entity) != nullptr) return;
@@ -125,6 +125,7 @@ void placement_system(SceneWorld& world, const PlacementContext& context) {
     held.wrench = hand.wrench;
     held.rest = hand.rest;
     held.pinches = hand.pinches;
+    held.closing = hand.closing;
     held.fingers = glove != nullptr ? hand.rest
                                     : frame_towards(hand.pose, context.shoulder, -wrist_share * hand.twisted);
     held.grip = context.grip;

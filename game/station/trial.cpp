@@ -175,6 +175,7 @@ std::string describe_station(station::Layout layout, const DeviceSelection& devi
         text += fmt::format("  {}  {}: {}\n", d->id, d->name, describe(role));
         for (const std::string& line : device::summary_lines(*d)) text += fmt::format("    {}\n", line);
         forces = forces || renders(d);
+        if (d->senses_gripper) with_button.push_back(fmt::format("the gripper of {}", d->name));
         if (d->buttons > 0 && buttons.dead_man != 0)
             with_button.push_back(
                 fmt::format("button {} of {}", std::countr_zero(buttons.dead_man) + 1, d->name));

@@ -38,7 +38,8 @@ lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys
     lesson::ControlNames names = keyboard ? lesson::keyboard_controls(words, closes, tool)
                                  : feels  ? lesson::device_controls(words, closes, tool)
                                           : lesson::puck_controls(words, closes, tool);
-    return station->link->hand() != nullptr ? lesson::glove_controls(words, std::move(names)) : names;
+    const bool fingers = station->link->hand() != nullptr || (layout.mover && layout.mover->senses_gripper);
+    return fingers ? lesson::glove_controls(words, std::move(names)) : names;
 }
 
 // Adds every character that the interface may draw to its font.

@@ -161,12 +161,18 @@ bool pinches(const hand::Skeleton& hand) {
     return glm::distance(hand.position[hand::thumb_tip], hand.position[hand::index_tip]) < pinch_distance;
 }
 
+bool has_gripper(const StationClient& client) {
+    const station::Layout& layout = client.link->layout();
+    return layout.mover && layout.mover->senses_gripper;
+}
+
 // Grip of a hand without a glove, or of the fingers of a gloved hand; the station determines when a gloved
 // hand holds the wrench.
 servo::Grip grip_of(const StationClient& client, bool closes, const StationIntent& intent) {
     const bool has_wrench =
         (client.gloved ? client.latest.input.grip : client.controls.grip) == servo::Grip::wrench;
     const bool engaged = client.latest.output.joint >= 0;
+    if (has_wrench && !client.gloved && has_gripper(client) && !closes) return servo::Grip::none;
     if (has_wrench && !client.gloved)
         return intent.toggle_wrench && !engaged ? servo::Grip::none : servo::Grip::wrench;
     if (has_wrench) return servo::Grip::none;
@@ -222,6 +228,7 @@ WorkingHand hand_of(const StationClient& client) {
     hand.action = engaged ? HandAction::holding : hand.nut ? HandAction::lowering : HandAction::resting;
     hand.pose = hand.to = client.latest.tool;
     hand.rest = client.latest.wrench_rest.value_or(client.rest);
+    if (has_gripper(client)) hand.closing = 1.0 - client.latest.gripper.opening;
     if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
         hand.room = std::max(
             0.0, forearm_range - std::abs(client.latest.output.nut_angle - client.nut_angle_at_grip));

@@ -82,9 +82,9 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
 // The lesson's side of a station. The station's servo thread steps the ticks and serves the devices. The
 // lesson repeats every tick with its own servo, and sends its controls with every frame.
 //
-// The hand closes by a device's button, the space bar or a glove. It takes the wrench if it closes beside it,
-// and holds a nut with the fingers if it closes beside a nut. A key lays the wrench down; a gloved hand
-// opens.
+// The hand closes by a device's button or gripper, the space bar or a glove. It takes the wrench if it closes
+// beside it, and holds a nut with the fingers if it closes beside a nut. A key lays the wrench down; a gloved
+// hand and a gripper open.
 
 struct StationClient {
     std::unique_ptr<station_setup::LessonStation> link;

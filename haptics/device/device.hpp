@@ -55,6 +55,7 @@ struct Description {
     Vec3 reach{0.0};
     Vec3 axis{0.0, 0.0, 1.0};  // unit, of Sensing::turn
     int buttons = 0;
+    bool senses_gripper = false;       // jaws for thumb and finger; Sensing::pose
     std::vector<std::string> remarks;  // problems and peculiarities, each with a remedy
 };
 
@@ -75,6 +76,7 @@ struct Sample {
     Vec3 angular_velocity{0.0};  // rad/s
     double turn = 0.0;           // rad, right-handed about the axis; Sensing::turn
     std::uint32_t buttons = 0;   // bit i: button i is pressed
+    double gripper = 1.0;        // 0 closed … 1 fully open; Description::senses_gripper
     double time = 0.0;           // s, when it was read, on the caller's clock
 };
 

@@ -29,6 +29,8 @@ constexpr std::array brake_causes{"",
 constexpr int time_guard = 1;        // result: the device has sent nothing new
 constexpr double period = 1e-3;      // s between two samples
 constexpr int status_interval = 20;  // samples between two queries of the status
+// rad, of a fully open gripper: the limit of CHAI3D (CDeltaDevices) for omega.7, sigma.7 and lambda.7.
+constexpr double gripper_range = to_radians(30.0);
 
 // The vendor's frame has x to the user, y to the right and z up.
 Vec3 ours(const Vec3& theirs) { return {theirs.y, theirs.z, theirs.x}; }
@@ -128,6 +130,7 @@ Description describe_arm(const ForceDimensionApi& api, char id, int index) {
     d.rate = 1.0 / period;
     d.reach = Vec3(most.reach);
     d.buttons = 8;
+    d.senses_gripper = api.has_gripper != nullptr && api.get_gripper_angle != nullptr && api.has_gripper(id);
     if (!wrist) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
     if (!renders_torque)
         d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
@@ -187,6 +190,7 @@ class ForceDimensionArm final : public DeviceDriver {
         Sample sample;
         sample.pose = {ours(position), ours(rotation)};
         sample.buttons = api_.get_button_mask(id_);
+        if (description_.senses_gripper) BOLT_TRY(read_gripper(sample));
         sample.time = timer_.now();
         // The library compensates the weight for the position at each call, so that it must be called also
         // while the program sends no new force.
@@ -203,6 +207,13 @@ class ForceDimensionArm final : public DeviceDriver {
     [[nodiscard]] Condition condition() const override { return {true, {}, false}; }
 
   private:
+    Status read_gripper(Sample& sample) const {
+        double angle = 0.0;
+        if (api_.get_gripper_angle(&angle, id_) < 0) return failure("its gripper cannot be read");
+        sample.gripper = std::clamp(std::abs(angle) / gripper_range, 0.0, 1.0);
+        return {};
+    }
+
     // Lets the library hold the weight of the arm and of what is mounted on it, also while it finds its
     // position.
     Status balance(double effector_mass) {
@@ -290,6 +301,8 @@ Result<ForceDimensionApi> load_force_dimension(const std::vector<std::filesystem
     library->find("dhdSetForceAndTorqueAndGripperForce", api.set_forces);
     library->find("dhdErrorGetLast", api.get_error);
     library->find("dhdErrorGetLastStr", api.get_error_text);
+    library->find_optional("dhdHasGripper", api.has_gripper);
+    library->find_optional("dhdGetGripperAngleRad", api.get_gripper_angle);
     library->find_optional("dhdGetSystemType", api.get_type);
     library->find_optional("dhdGetSystemName", api.get_name);
     library->find_optional("dhdGetSerialNumber", api.get_serial);

@@ -34,6 +34,8 @@ struct ForceDimensionApi {
     int (*get_error)() = nullptr;
     const char* (*get_error_text)() = nullptr;
     // Null in a library that lacks them; the arm can be used without.
+    bool (*has_gripper)(char id) = nullptr;
+    int (*get_gripper_angle)(double* radian, char id) = nullptr;  // negative on a left-handed arm
     int (*get_type)(char id) = nullptr;
     const char* (*get_name)(char id) = nullptr;
     int (*get_serial)(unsigned short* serial, char id) = nullptr;

@@ -128,6 +128,7 @@ Result<Description> describe_plugin_arm(const bw_arm_info_v1& info, const std::f
     if (info.buttons < 0 || info.buttons > 32)
         return fail(ErrorCode::no_device, fmt::format("it has {} buttons", info.buttons), "0 to 32");
     d.buttons = info.buttons;
+    d.senses_gripper = (info.flags & BW_ARM_SENSES_GRIPPER) != 0;
     d.senses_rotation = (info.flags & BW_ARM_SENSES_ROTATION) != 0;
     if (!d.senses_rotation) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
     return d;
@@ -140,6 +141,7 @@ const char* fault_of(const bw_arm_state_v1& state, const Pose& pose) {
     // Also true for NaN.
     if (!(std::abs(glm::dot(pose.orientation, pose.orientation) - 1.0) < 1e-2))
         return "it reports an orientation that is no unit quaternion";
+    if (!std::isfinite(state.gripper)) return "it reports an opening of its gripper that is not finite";
     return state.size == sizeof state ? nullptr : "it has changed the size of its state";
 }
 
@@ -202,6 +204,7 @@ class PluginArm final : public DeviceDriver {
         sample.pose.orientation = glm::normalize(sample.pose.orientation);
         const std::uint64_t buttons = (std::uint64_t{1} << static_cast<unsigned>(description_.buttons)) - 1;
         sample.buttons = state.buttons & static_cast<std::uint32_t>(buttons);
+        if (description_.senses_gripper) sample.gripper = std::clamp(state.gripper, 0.0, 1.0);
         sample.time = timer_.now();
         return std::optional<Sample>(sample);
     }

@@ -237,6 +237,11 @@ void update_wrench_rest(const Layout& layout, StationState& s, servo::Grip grip,
     if (!has && !s.wrench_rest) s.wrench_rest = had && s.output.joint >= 0 ? s.output.tool : *rest;
 }
 
+void update_gripper(Gripper& gripper, double opening) {
+    gripper.opening = opening;
+    gripper.closed = opening < (gripper.closed ? gripper_opens_above : gripper_closes_below);
+}
+
 // Updates the links. Returns the controls combined with the devices' buttons.
 StationControls merge_buttons(const Layout& layout, StationState& s, const StationInputs& inputs,
                               double elapsed) {
@@ -254,6 +259,10 @@ StationControls merge_buttons(const Layout& layout, StationState& s, const Stati
     if (layout.mover) {
         update_link(*layout.mover, s.mover, inputs.mover, elapsed);
         press(s.mover, inputs.mover, layout.mover_buttons);
+        if (layout.mover->senses_gripper && s.mover.usable) {
+            update_gripper(s.gripper, inputs.mover.sample.gripper);
+            s.dead_man_pressed |= s.gripper.closed;
+        }
     }
     if (layout.wheel) {
         update_link(*layout.wheel, s.wheel, inputs.wheel, elapsed);
@@ -435,7 +444,7 @@ StationStep step(const Layout& layout, const servo::Setup& setup, StationState& 
     done.paused = inputs.controls.pause;
     done.commands =
         done.paused ? pause_tick(layout, setup, s, inputs) : tick(layout, setup, s, servo, inputs);
-    done.tick = {number, s.input, s.output, s.workspace.tool, s.wrench_rest, s.dead_man_pressed};
+    done.tick = {number, s.input, s.output, s.workspace.tool, s.wrench_rest, s.dead_man_pressed, s.gripper};
     return done;
 }
 

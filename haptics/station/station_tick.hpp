@@ -123,6 +123,15 @@ struct StationInputs {
     std::uint64_t missed = 0;                    // deadlines of the servo without a tick since the last tick
 };
 
+// The gripper of the mover. A closed one closes the trainee's hand: it also counts as the dead-man switch.
+struct Gripper {
+    double opening = 1.0;  // 0 closed … 1 fully open
+    bool closed = false;
+};
+// Openings at which an open gripper counts as closed, and a closed one as open. Chosen values: a hand that
+// holds the handle of a wrench is half closed, and must not lose it by trembling.
+inline constexpr double gripper_closes_below = 0.35, gripper_opens_above = 0.55;
+
 // The state of the connection to one device.
 struct DeviceLink {
     // Numbers of the last sample and of the opening of the device that it belongs to.
@@ -137,6 +146,7 @@ struct StationState {
     DeviceLink mover, wheel;
     force::WorkspaceState workspace;  // `tool` is the pose commanded by the hand
     Pose hand;                        // last pose of the mover, in its frame
+    Gripper gripper;                  // last sample of the mover's
     double wheel_angle = 0.0;         // rad, last sample of the wheel
     Vec3 bolt_axis{0.0, 1.0, 0.0};    // unit, of the bolt that the wheel turns or turned last
     double wheel_fade = 0.0;          // 0 … 1, share of the bolt's torque that the wheel renders
@@ -152,7 +162,7 @@ struct StationState {
     std::uint32_t checkpoints_to_save = 0;
     std::uint8_t checkpoint_to_restore = 0;  // 0: none
     bool stopped_in_pause = false;           // a stop pressed in a pause takes effect afterwards
-    bool dead_man_pressed = false;           // by a button of a device, in this tick
+    bool dead_man_pressed = false;           // by a button or the gripper of a device, in this tick
     servo::Input input;                      // of the last tick
     servo::Output output;
 };
@@ -199,7 +209,8 @@ struct StationTick {
     Pose tool;  // pose commanded by the hand, in the assembly's frame
     // Pose of the wrench while no hand holds it (StationControls::wrench_rest).
     std::optional<Pose> wrench_rest;
-    bool dead_man_pressed = false;  // by a button of a device
+    bool dead_man_pressed = false;  // by a button or the gripper of a device
+    Gripper gripper;
 };
 
 struct StationStep {

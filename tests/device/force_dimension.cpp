@@ -30,6 +30,7 @@ struct Controls {
     decltype(emu_in_use)* in_use = nullptr;
     decltype(emu_speed_limit)* speed_limit = nullptr;
     decltype(emu_model)* model = nullptr;
+    decltype(emu_gripper)* gripper = nullptr;
     decltype(emu_weight)* weight = nullptr;
     decltype(emu_speed_limit_changes)* speed_limit_changes = nullptr;
     decltype(emu_position)* position = nullptr;
@@ -64,6 +65,7 @@ struct Bench {
         library->find("emu_in_use", arm.in_use);
         library->find("emu_speed_limit", arm.speed_limit);
         library->find("emu_model", arm.model);
+        library->find("emu_gripper", arm.gripper);
         library->find("emu_weight", arm.weight);
         library->find("emu_speed_limit_changes", arm.speed_limit_changes);
         library->find("emu_position", arm.position);
@@ -321,6 +323,28 @@ TEST_CASE("Force Dimension: buttons") {
     REQUIRE(opened);
     bench.arm.buttons(5);
     CHECK(bench.read(**opened, 0.01).buttons == 5);
+}
+
+TEST_CASE("Force Dimension: a gripper is read as a share of its range, of a left hand too") {
+    constexpr int omega6 = 34, omega7 = 35, omega7_left = 37;
+    Bench bench;
+    bench.arm.gripper(0.25);
+    for (const int type : {omega7, omega7_left}) {
+        CAPTURE(type);
+        bench.arm.model(type, "omega.7", 1);
+        auto opened = bench.open();
+        REQUIRE(opened);
+        CHECK((*opened)->describe().senses_gripper);
+        CHECK(bench.read(**opened, 0.01).gripper == doctest::Approx(0.25).epsilon(1e-4));
+        bench.arm.gripper(7.0);
+        CHECK(bench.read(**opened, 0.01).gripper == 1.0);
+        bench.arm.gripper(0.25);
+    }
+    bench.arm.model(omega6, "omega.6", 1);
+    auto opened = bench.open();
+    REQUIRE(opened);
+    CHECK_FALSE((*opened)->describe().senses_gripper);
+    CHECK(bench.read(**opened, 0.01).gripper == 1.0);
 }
 
 }  // namespace device_force_dimension_test

@@ -292,6 +292,33 @@ TEST_CASE("Plug-in: only an arm that senses rotation turns the tool, by a unit q
     CHECK(bad.error().what == "the plug-in faulty_arm: it reports an orientation that is no unit quaternion");
 }
 
+TEST_CASE("Plug-in: the opening of a gripper counts only on an arm that senses it, clamped and finite") {
+    const Bench bench;
+    auto opened = bench.open_with("");  // the arm reports an opening of 0.25
+    REQUIRE(opened);
+    CHECK_FALSE((*opened)->describe().senses_gripper);
+    auto sample = read_many(**opened);
+    REQUIRE(sample);
+    CHECK(sample->gripper == 1.0);
+    opened->reset();
+    opened = bench.open_with("senses gripper");
+    REQUIRE(opened);
+    CHECK((*opened)->describe().senses_gripper);
+    sample = read_many(**opened);
+    REQUIRE(sample);
+    CHECK(sample->gripper == 0.25);
+    bench.show("wide gripper");
+    sample = read_many(**opened);
+    REQUIRE(sample);
+    CHECK(sample->gripper == 1.0);
+    bench.show("NaN gripper");
+    const auto bad = read_many(**opened);
+    REQUIRE_FALSE(bad);
+    CHECK(bad.error().lost);
+    CHECK(bad.error().what ==
+          "the plug-in faulty_arm: it reports an opening of its gripper that is not finite");
+}
+
 TEST_CASE("Plug-in: buttons that the arm does not have are not pressed") {
     const Bench bench;
     const auto opened = bench.open_with("all buttons");

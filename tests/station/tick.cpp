@@ -30,6 +30,39 @@ TEST_CASE("Station: the tool begins at home wherever the hand is, and follows it
     CHECK(glm::length(rig.tool().position - (layout.home.position + Vec3(0, 0, -0.03))) < 1e-9);
 }
 
+TEST_CASE("Station: a closed gripper is the dead-man switch, and opens only when the hand opens clearly") {
+    Layout layout = with_arm();
+    layout.mover->senses_gripper = true;
+    Rig rig(layout);
+    rig.inputs.controls.dead_man = false;
+    const auto enabled_at = [&](double opening) {
+        rig.inputs.mover.sample.gripper = opening;
+        rig.tick();
+        CHECK(rig.state.gripper.opening == opening);
+        CHECK(rig.state.input.enabled == rig.state.gripper.closed);
+        return rig.state.input.enabled;
+    };
+    CHECK_FALSE(enabled_at(1.0));
+    CHECK_FALSE(enabled_at(gripper_closes_below + 0.01));
+    CHECK(enabled_at(gripper_closes_below - 0.01));
+    CHECK(enabled_at(gripper_opens_above - 0.01));
+    CHECK_FALSE(enabled_at(gripper_opens_above + 0.01));
+    CHECK(enabled_at(0.0));
+    // A lost arm keeps what the hand holds, without force.
+    rig.inputs.mover.usable = rig.mover_speaks = false;
+    rig.inputs.mover.sample.gripper = 1.0;
+    rig.tick();
+    CHECK(rig.state.gripper.closed);
+    CHECK_FALSE(rig.state.input.enabled);
+    // The sample of an arm without a gripper does not count.
+    layout.mover->senses_gripper = false;
+    Rig without(layout);
+    without.inputs.controls.dead_man = false;
+    without.inputs.mover.sample.gripper = 0.0;
+    without.tick();
+    CHECK_FALSE(without.state.input.enabled);
+}
+
 TEST_CASE("Station: after a clutch, a loss or a reconnection the tool stays and follows from there") {
     Rig rig(with_arm());
     rig.ticks(10);

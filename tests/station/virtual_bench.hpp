@@ -33,6 +33,12 @@ class VirtualBench final : public station_setup::LessonStation {
         state_ = station::initial_state(layout_);
     }
 
+    // Gives the device a gripper, open.
+    void add_gripper() {
+        layout_.mover->senses_gripper = true;
+        gripper_ = 1.0;
+    }
+
     // Advances the time by `seconds`.
     void advance(double seconds) {
         owed_ += seconds;
@@ -72,6 +78,7 @@ class VirtualBench final : public station_setup::LessonStation {
     int permissions_ = 0;  // that the user has given
     std::uint64_t lost_ = 0;
     std::optional<station::DisplayedHand> hand_;  // of a gloved hand
+    double gripper_ = 1.0;                        // 0 closed … 1 open
     bool unplugged_ = false;
     bool garbles_ = false;  // the record of the next tick deviates from the tick itself
 
@@ -85,6 +92,7 @@ class VirtualBench final : public station_setup::LessonStation {
         mailboxes_.snapshots.update();
         inputs.mover = mailboxes_.snapshots.latest();
         inputs.mover.usable = inputs.mover.usable && !unplugged_;
+        inputs.mover.sample.gripper = gripper_;
         inputs.controls = controls_;
         inputs.commands = commands_;
         if (hand_) inputs.hand_grip = hand_->held ? servo::Grip::wrench : servo::Grip::none;

@@ -27,6 +27,9 @@ namespace fs = std::filesystem;
 
 constexpr double frame_time = 0.02;  // s
 
+// How the hand closes.
+enum class Closes { by_space_bar, in_glove, by_gripper };
+
 // The station and the lesson that repeats its ticks.
 struct StationLesson {
     content::Assembly assembly;
@@ -43,7 +46,7 @@ struct StationLesson {
     std::vector<std::string> mistakes;
 
     explicit StationLesson(const std::string& name, lesson::Mode mode = lesson::Mode::guided,
-                           bool gloved = false) {
+                           Closes closes = Closes::by_space_bar) {
         content::LoadedAssembly loaded = content::load_assembly(name);
         REQUIRE(loaded.ok());
         assembly = std::move(loaded.assembly);
@@ -56,7 +59,8 @@ struct StationLesson {
         auto made = std::make_unique<test::VirtualBench>(std::move(*one), options);
         bench = made.get();
         client.link = std::move(made);
-        if (gloved) {
+        if (closes == Closes::by_gripper) bench->add_gripper();
+        if (closes == Closes::in_glove) {
             station::DisplayedHand hand;
             hand.has_frame = true;
             bench->wear(hand, Pose{Vec3(0.12, 0.02, -0.03), rotation(Vec3(0.1, 0.2, 1.5))});
@@ -133,9 +137,11 @@ class KeyboardTrainee {
 
   private:
     // Holds keys for a frame. A gloved hand pinches instead of pressing the space bar, except with the wrench
-    // in the hand, where the space bar lets a nut attract the wrench.
+    // in the hand, where the space bar lets a nut attract the wrench. A gripper closes instead, and stays
+    // closed on the wrench.
     void hold_for_frame(std::set<Key> keys) {
         if (lesson_.client.gloved && !lesson_.has_wrench()) lesson_.pinch(keys.erase(Key::space) > 0);
+        if (with_gripper()) lesson_.bench->gripper_ = keys.erase(Key::space) > 0 || holds_wrench_ ? 0.1 : 1.0;
 
         lesson_.hold(keys);
         lesson_.next_frame();
@@ -174,8 +180,11 @@ class KeyboardTrainee {
         }
         lift_off();
     }
+    [[nodiscard]] bool with_gripper() const { return lesson_.bench->layout().mover->senses_gripper; }
     void lay_down() {
-        lesson_.intent.toggle_wrench = true;
+        lesson_.intent.toggle_wrench = !with_gripper();
+        holds_wrench_ = false;
+        if (with_gripper()) hold_for_frame({});
         if (lesson_.client.gloved) lesson_.bench->hand_->held = false;
     }
     void take_wrench() {
@@ -183,6 +192,7 @@ class KeyboardTrainee {
         go_to(rest * Vec3(0.1, 0.0, 0.1), 0.02, 6.0);
         go_to(rest * Vec3(0.1, 0.0, 0.03), 0.01, 4.0);
         if (lesson_.client.gloved) lesson_.bench->hand_->held = true;
+        holds_wrench_ = true;
         for (int i = 0; i < 5; ++i) hold_for_frame({Key::space});
         hold_for_frame({});
         REQUIRE(lesson_.has_wrench());
@@ -242,6 +252,7 @@ class KeyboardTrainee {
     }
 
     StationLesson& lesson_;
+    bool holds_wrench_ = false;
 };
 
 // The session file replays bit for bit and ends at the same step.
@@ -281,7 +292,7 @@ TEST_CASE("Station client: a lesson is played by keyboard at a station with its 
 }
 
 TEST_CASE("Station client: a gloved hand pinches and spins nuts, takes the wrench and releases it") {
-    StationLesson lesson_run("cover-m8", lesson::Mode::guided, true);
+    StationLesson lesson_run("cover-m8", lesson::Mode::guided, Closes::in_glove);
     REQUIRE(lesson_run.client.gloved);
     KeyboardTrainee trainee(lesson_run);
     trainee.play(test::sanitized ? 60.0 : 400.0, test::sanitized ? 1 : SIZE_MAX);
@@ -295,6 +306,24 @@ TEST_CASE("Station client: a gloved hand pinches and spins nuts, takes the wrenc
         return test::skip_rest("the lesson after its first step takes minutes under a sanitizer");
     CHECK(finished->result.finished);
     CHECK(finished->result.score > 80.0);
+}
+
+TEST_CASE("Station client: a gripper takes the wrench by closing and releases it by opening") {
+    StationLesson lesson_run("cover-m8", lesson::Mode::guided, Closes::by_gripper);
+    KeyboardTrainee trainee(lesson_run);
+    trainee.play(test::sanitized ? 60.0 : 400.0, test::sanitized ? 1 : SIZE_MAX);
+    if (!lesson_run.status) FAIL(lesson_run.status.error().message());
+    const auto finished = lesson_run.session->finish(lesson_run.world);
+    REQUIRE(finished);
+    CHECK(lesson_run.session->lesson().current >= 1);
+    if (test::sanitized)
+        return test::skip_rest("the lesson after its first step takes minutes under a sanitizer");
+    CHECK(finished->result.finished);
+    CHECK(finished->result.score > 80.0);
+    // The fingers on the screen follow the gripper.
+    lesson_run.bench->gripper_ = 0.75;
+    lesson_run.frames(0.2);
+    CHECK(hand_of(lesson_run.client).closing == 0.25);
 }
 
 TEST_CASE("Station client: a difference between the station's and the lesson's servo is an error at once") {

@@ -109,7 +109,9 @@ class PluginServer {
         functions_->exchange(arm_, &nothing, &state);
     }
 
-    static bw_arm_state_v1 blank_state() { return {sizeof(bw_arm_state_v1), 0, {}, {1.0, 0.0, 0.0, 0.0}}; }
+    static bw_arm_state_v1 blank_state() {
+        return {sizeof(bw_arm_state_v1), 0, {}, {1.0, 0.0, 0.0, 0.0}, 1.0};
+    }
 
     PluginReply answer(const PluginRequest& request) {
         PluginReply reply;

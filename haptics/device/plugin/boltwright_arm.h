@@ -83,6 +83,7 @@ extern "C" {
 
 /* Bits of bw_arm_info_v1.flags. */
 #define BW_ARM_SENSES_ROTATION 1u /* without it, the tool keeps its orientation */
+#define BW_ARM_SENSES_GRIPPER 2u  /* jaws for thumb and finger, which close and open the trainee's hand */
 
 /* An open arm. The plug-in defines this structure as it likes. */
 struct bw_arm;
@@ -92,7 +93,7 @@ struct bw_arm;
 struct bw_arm_info_v1 {
     uint32_t size;   /* bytes, set by Boltwright */
     uint32_t axes;   /* BW_ARM_FORCE_X | ... */
-    uint32_t flags;  /* BW_ARM_SENSES_ROTATION */
+    uint32_t flags;  /* BW_ARM_SENSES_ROTATION | ... */
     int32_t buttons; /* 0 to 32 */
     /* Time from exchange() until its wrench acts on the hand and the state shows it, in ms, rounded up: 0 or
        1, at a rate of 1000 also 2. Boltwright adds its own. If it is too small, forces may oscillate. */
@@ -125,6 +126,7 @@ struct bw_arm_state_v1 {
     double position[3];    /* m */
     double orientation[4]; /* unit quaternion w, x, y, z; 1, 0, 0, 0: the grip's axes are ours. Boltwright
                               sets it to this before each call */
+    double gripper; /* 0 closed to 1 fully open; other values are clamped. With BW_ARM_SENSES_GRIPPER */
 };
 
 /* The functions of a plug-in; each must be there. The table must stay unchanged until the process ends. */

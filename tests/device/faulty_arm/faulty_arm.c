@@ -93,6 +93,7 @@ static int faulty_info(struct bw_arm* a, struct bw_arm_info_v1* about) {
     if (shows("buttons")) about->buttons = 33;
     if (shows("long name")) memset(about->name, 'x', sizeof about->name);
     if (shows("senses rotation")) about->flags = BW_ARM_SENSES_ROTATION;
+    if (shows("senses gripper")) about->flags = BW_ARM_SENSES_GRIPPER;
     if (shows("input only")) about->axes = 0;
     if (shows("strong")) {
         about->axes = 63;
@@ -154,6 +155,7 @@ static int faulty_exchange(struct bw_arm* a, const struct bw_arm_wrench_v1* wren
     if (shows("bad turn")) state->orientation[0] = 0.5;
     if (shows("senses rotation")) /* a quarter turn about z, of almost unit length */
         state->orientation[0] = state->orientation[3] = 0.7072;
+    state->gripper = shows("NaN gripper") ? 0.0 / 0.0 : shows("wide gripper") ? 3.0 : 0.25;
     if (shows("all buttons")) state->buttons = 0xffffffffu;
     return BW_ARM_DONE;
 }

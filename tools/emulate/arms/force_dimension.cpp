@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <deque>
 #include <limits>
+#include <span>
 #include <thread>
 #include <utility>
 
@@ -24,6 +25,9 @@ constexpr int time_guard = 1, motor_saturated = 2, cause_speed = 2, cause_softwa
 constexpr double encoder_step = 10e-6;  // m
 constexpr double dt = 25e-6;            // s
 constexpr char arm_id = 0;
+constexpr double open_gripper = 0.5236;  // rad, 30°
+constexpr std::array types_with_gripper{35, 37, 104, 105, 108, 109};
+constexpr std::array left_handed_types{36, 37, 105, 109};
 
 struct Arm {
     EmulatedArmHand hand{0.5, 300.0, 12.0};
@@ -35,6 +39,7 @@ struct Arm {
     Vector measured{};
     int cause = 0, searches = 0;
     unsigned buttons = 0;
+    double gripper = 1.0;                                  // 0 closed … 1 fully open
     int type = 0, serial = 1234, speed_limit_changes = 0;  // type 0: that of its joints
     const char* name = "omega.6";
     double weight = 0.0, mounted = 0.0, known_mounted = 0.0;  // kg
@@ -63,6 +68,15 @@ thread_local int last_error = no_error;
 int refuse(int error) {
     last_error = error;
     return -1;
+}
+
+int type_of_arm() {
+    constexpr int omega6 = 34, sigma7 = 104;
+    return arm.type != 0 ? arm.type : arm.active_wrist ? sigma7 : omega6;
+}
+
+bool is_among(std::span<const int> types) {
+    return std::find(types.begin(), types.end(), type_of_arm()) != types.end();
 }
 
 void follow_clock();
@@ -173,6 +187,7 @@ void emu_weight(double of_arm, double mounted) {
     arm.mounted = mounted;
 }
 void emu_buttons(unsigned mask) { arm.buttons = mask; }
+void emu_gripper(double opening) { arm.gripper = opening; }
 void emu_unplug(int on) {
     arm.unplugged = on != 0;
     if (on != 0) arm.open = arm.enabled = false;
@@ -229,11 +244,7 @@ int drdStop(bool, char id) {
     if (!reaches(id)) return -1;
     return arm.initialized ? 0 : refuse(error_not_ready);
 }
-int dhdGetSystemType(char id) {
-    constexpr int omega6 = 34, sigma7 = 104;
-    if (!reaches(id)) return -1;
-    return arm.type != 0 ? arm.type : arm.active_wrist ? sigma7 : omega6;
-}
+int dhdGetSystemType(char id) { return reaches(id) ? type_of_arm() : -1; }
 const char* dhdGetSystemName(char id) { return reaches(id) ? arm.name : nullptr; }
 int dhdGetSerialNumber(unsigned short* serial, char id) {
     if (!reaches(id) || arm.serial < 0) return -1;
@@ -300,6 +311,13 @@ int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double ro
         std::copy(arm.rotation[i].begin(), arm.rotation[i].end(), rotation[i]);
     }
     return arm.stale ? time_guard : 0;
+}
+bool dhdHasGripper(char id) { return reaches(id) && is_among(types_with_gripper); }
+bool dhdIsLeftHanded(char id) { return reaches(id) && is_among(left_handed_types); }
+int dhdGetGripperAngleRad(double* radian, char id) {
+    if (!dhdHasGripper(id)) return -1;
+    *radian = (is_among(left_handed_types) ? -1.0 : 1.0) * open_gripper * arm.gripper;
+    return 0;
 }
 unsigned dhdGetButtonMask(char id) { return reaches(id) ? arm.buttons : 0U; }
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz,

@@ -29,6 +29,7 @@ void emu_model(int type, const char* name, int serial);  // the name may be null
 // forces.
 void emu_weight(double arm, double mounted);
 void emu_buttons(unsigned mask);
+void emu_gripper(double opening);  // 0 closed … 1 fully open; a model with a gripper: an omega.7 or a sigma.7
 void emu_unplug(int on);
 void emu_in_use(int on);         // another program has opened the arm
 void emu_speed_limit(double v);  // m/s above which it brakes; 2 by default
