@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include "game/station/station_setup.hpp"
@@ -144,12 +145,15 @@ double distance_to_handle(const Vec3& point, const Pose& wrench, double length) 
     return glm::distance(local, Vec3(std::clamp(local.x, 0.0, length), 0.0, 0.0));
 }
 
+Vec3 nut_at(const session::LessonSession& session, std::size_t joint) {
+    return servo::nut_centre(session.setup().nuts[joint], session.state().joints[joint].nut.angle);
+}
+
 std::optional<std::size_t> nearest_nut(const session::LessonSession& session, const Vec3& tool,
                                        double within) {
     std::optional<std::size_t> nearest;
     for (std::size_t i = 0; i < session.setup().nuts.size(); ++i) {
-        const Vec3 nut = servo::nut_centre(session.setup().nuts[i], session.state().joints[i].nut.angle);
-        const double distance = glm::distance(nut, tool);
+        const double distance = glm::distance(nut_at(session, i), tool);
         if (distance >= within) continue;
         within = distance;
         nearest = i;
@@ -176,7 +180,7 @@ servo::Grip grip_of(const StationClient& client, bool closes, const StationInten
     if (has_wrench && !client.gloved)
         return intent.toggle_wrench && !engaged ? servo::Grip::none : servo::Grip::wrench;
     if (has_wrench) return servo::Grip::none;
-    const bool takes = (closes && !client.hand_closed) || intent.toggle_wrench;
+    const bool takes = (closes && !client.hand_closed && !client.nut_is_nearer) || intent.toggle_wrench;
     if (!client.gloved && takes && client.near_wrench && !engaged) return servo::Grip::wrench;
     return closes && client.near_nut ? servo::Grip::fingers : servo::Grip::none;
 }
@@ -192,10 +196,14 @@ void update_client(StationClient& client, const session::LessonSession& session)
     if (hand != nullptr && hand->has_frame) client.fingers = hand->joints;
     const double within = client.near_nut ? nut_release_distance : nut_capture_distance;
     client.near_nut = nearest_nut(session, client.latest.output.tool.position, within);
-    client.near_wrench =
-        client.latest.wrench_rest &&
-        distance_to_handle(client.latest.tool.position, *client.latest.wrench_rest,
-                           session.setup().wrench.handle_length) < station::handle_capture_distance;
+    const Vec3& hand_at = client.latest.tool.position;
+    const double to_wrench =
+        client.latest.wrench_rest
+            ? distance_to_handle(hand_at, *client.latest.wrench_rest, session.setup().wrench.handle_length)
+            : std::numeric_limits<double>::infinity();
+    client.near_wrench = to_wrench < station::handle_capture_distance;
+    client.nut_is_nearer =
+        client.near_nut && glm::distance(hand_at, nut_at(session, *client.near_nut)) < to_wrench;
 }
 
 // Sends one-time commands: checkpoints, undo, and moves of the tool to its initial pose.

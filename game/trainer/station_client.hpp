@@ -101,6 +101,7 @@ struct StationClient {
     bool hand_closed = false;             // in the previous frame
     std::optional<std::size_t> near_nut;  // nut within reach of the tool
     bool near_wrench = false;             // the resting wrench is within reach of the hand
+    bool nut_is_nearer = false;           // than the wrench, of both within reach: the hand closes on the nut
     std::vector<std::string> troubles;
     device::Condition condition;  // of the device that moves the tool
     device::ArmNeeds needs;       // of the device that moves the tool, after it was lost

@@ -166,7 +166,7 @@ std::unique_ptr<HeldArm> haply_arm() {
     return arm;
 }
 
-std::unique_ptr<HeldArm> force_dimension_arm(bool active) {
+std::unique_ptr<HeldArm> force_dimension_arm(bool active, ArmClock clock) {
     auto arm = std::make_unique<HeldArm>();
     const auto c = std::make_shared<ForceDimensionControls>();
     auto library = emulated(BOLT_EMULATED_FORCE_DIMENSION);
@@ -184,16 +184,10 @@ std::unique_ptr<HeldArm> force_dimension_arm(bool active) {
     library.find("emu_millimetres", c->millimetres);
     library.find("emu_force", c->force);
     REQUIRE(library.check());
-    c->reset();
+    if (clock == ArmClock::virtual_time) c->reset();
     c->initialized(1);
     c->active_wrist(active ? 1 : 0);
-    const auto api = device::load_force_dimension({BOLT_EMULATED_FORCE_DIMENSION});
-    REQUIRE(api);
     arm->name = active ? "Force Dimension, motors in the wrist" : "Force Dimension";
-    arm->timer = advancing_timer(c->now, c->advance);
-    arm->open = [api = *api, timer = arm->timer] {
-        return device::open_force_dimension(api, {0, false}, timer);
-    };
     arm->intend = [c](const Pose& pose) {
         const Vec3 at = theirs(pose.position);
         c->intend(at.x, at.y, at.z);
@@ -211,6 +205,13 @@ std::unique_ptr<HeldArm> force_dimension_arm(bool active) {
         c->force(out);
         return force::OutputCommand{ours(out), ours(out + 3)};
     };
+    if (clock == ArmClock::computer) return arm;
+    const auto api = device::load_force_dimension({BOLT_EMULATED_FORCE_DIMENSION});
+    REQUIRE(api);
+    arm->timer = advancing_timer(c->now, c->advance);
+    arm->open = [api = *api, timer = arm->timer] {
+        return device::open_force_dimension(api, {0, false}, timer);
+    };
     arm->faults = {{"unplugged", [c] { c->unplug(1); }, [c] { c->unplug(0); }},
                    {"braked", [c] { c->speed_limit(0.0); }, [c] { c->speed_limit(2.0); }},
                    {"stale frames", [c] { c->stale(1); }, [c] { c->stale(0); }},
@@ -219,7 +220,7 @@ std::unique_ptr<HeldArm> force_dimension_arm(bool active) {
     return arm;
 }
 
-std::unique_ptr<HeldArm> open_haptics_arm() {
+std::unique_ptr<HeldArm> open_haptics_arm(ArmClock clock) {
     auto arm = std::make_unique<HeldArm>();
     const auto c = std::make_shared<OpenHapticsControls>();
     auto library = emulated(BOLT_EMULATED_OPEN_HAPTICS);
@@ -237,12 +238,8 @@ std::unique_ptr<HeldArm> open_haptics_arm() {
     library.find("emu_hd_switch_off", c->switch_off);
     library.find("emu_hd_force", c->force);
     REQUIRE(library.check());
-    c->reset();
-    const auto api = device::load_open_haptics({BOLT_EMULATED_OPEN_HAPTICS});
-    REQUIRE(api);
+    if (clock == ArmClock::virtual_time) c->reset();
     arm->name = "OpenHaptics";
-    arm->timer = advancing_timer(c->now, c->advance);
-    arm->open = [api = *api, timer = arm->timer] { return device::open_open_haptics(api, timer); };
     arm->intend = [c](const Pose& pose) {
         const Vec3 at = pose.position + touch_centre;
         c->intend(at.x, at.y, at.z);
@@ -262,6 +259,11 @@ std::unique_ptr<HeldArm> open_haptics_arm() {
         c->force(out);
         return force::OutputCommand{{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
     };
+    if (clock == ArmClock::computer) return arm;
+    const auto api = device::load_open_haptics({BOLT_EMULATED_OPEN_HAPTICS});
+    REQUIRE(api);
+    arm->timer = advancing_timer(c->now, c->advance);
+    arm->open = [api = *api, timer = arm->timer] { return device::open_open_haptics(api, timer); };
     arm->faults = {
         {"unplugged", [c] { c->unplug(1); }, [c] { c->unplug(0); }},
         {"too fast", [c] { c->speed_limit(0.0); }, [c] { c->speed_limit(2.0); }},
