@@ -31,11 +31,11 @@ check 'the header of plug-ins and its example are installed' test -s /usr/includ
 check 'the process of plug-ins is installed' test -x /usr/lib/boltwright/bolt-arm-host
 cat >/tmp/play.sh <<'P'
 cd
-Xvfb :7 -screen 0 1280x800x24 >/dev/null 2>&1 &
+Xvfb -displayfd 3 -screen 0 1280x800x24 3>display >/dev/null 2>&1 &
 screen=$!
 trap 'kill $screen' EXIT
-export DISPLAY=:7
-sleep 2
+for _ in $(seq 40); do [[ -s display ]] && break; sleep 0.5; done
+export DISPLAY=:$(cat display)
 $(sed -n 's/^Exec=//p' /usr/share/applications/boltwright.desktop) 2>log >/dev/null &
 player=$!
 for _ in $(seq 120); do window=$(xdotool search --pid $player 2>/dev/null | tail -1) && [[ -n $window ]] && break; sleep 0.5; done
