@@ -24,6 +24,13 @@ constexpr MistakeRow mistake_rows[] = {
     {MistakeKind::broken, "mistake.broken", "mistake.broken.do"},
 };
 
+void show(MistakeState& mistakes, Mistake mistake) {
+    mistakes.shown = std::move(mistake);
+    mistakes.shown_for = 0.0;
+}
+
+}  // namespace
+
 std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event) {
     for (const MistakeRow& row : mistake_rows) {
         if (row.kind != event.mistake) continue;
@@ -43,13 +50,6 @@ std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event
     }
     return std::nullopt;
 }
-
-void show(MistakeState& mistakes, Mistake mistake) {
-    mistakes.shown = std::move(mistake);
-    mistakes.shown_for = 0.0;
-}
-
-}  // namespace
 
 void add_event(MistakeState& mistakes, const Lesson& lesson, const LessonEvent& event) {
     if (lesson.mode == Mode::assessment) return;

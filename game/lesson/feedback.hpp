@@ -61,6 +61,10 @@ struct Mistake {
     std::vector<words::TextArgument> arguments;
 };
 
+// The mistake of this event, in the state of the lesson right after it; none: the event is no mistake, or the
+// lesson has no due joint to name.
+std::optional<Mistake> mistake_of(const Lesson& lesson, const LessonEvent& event);
+
 // The mistake on screen, which stays there for mistake_duration. An assessment shows no mistakes.
 struct MistakeState {
     std::optional<Mistake> shown;

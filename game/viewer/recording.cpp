@@ -15,8 +15,19 @@ std::vector<Mark> marks_of(const std::vector<lesson::LessonEvent>& events, doubl
     for (const lesson::LessonEvent& event : events)
         if (event.kind == lesson::EventKind::step_begin || event.kind == lesson::EventKind::mistake)
             marks.push_back({static_cast<double>(event.tick) * dt, event.joint,
-                             event.kind == lesson::EventKind::mistake, event});
+                             event.kind == lesson::EventKind::mistake, event, std::nullopt});
     return marks;
+}
+
+// Adds the explanations of the mistakes of this tick.
+void explain_mistakes(std::vector<Mark>& marks, const session::ReplayTick& tick) {
+    for (const lesson::LessonEvent& event : tick.lesson.events) {
+        if (event.kind != lesson::EventKind::mistake) continue;
+        for (Mark& mark : marks)
+            if (mark.mistake && mark.event.tick == event.tick && mark.joint == event.joint &&
+                mark.event.text == event.text)
+                mark.explanation = lesson::mistake_of(tick.lesson, event);
+    }
 }
 
 }  // namespace
@@ -76,6 +87,7 @@ Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& 
                 return event.kind == lesson::EventKind::step_begin ||
                        event.kind == lesson::EventKind::step_end || event.kind == lesson::EventKind::undo;
             };
+            explain_mistakes(recording->marks, tick);
             const std::vector<lesson::LessonEvent>& events_now = tick.lesson.events;
             if (recording->lessons.empty() || std::any_of(events_now.begin(), events_now.end(), changes_step))
                 keep_lesson(tick.lesson);

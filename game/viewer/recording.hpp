@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "game/analysis/session_data.hpp"
+#include "game/lesson/feedback.hpp"
 #include "game/session/replay.hpp"
 #include "game/world/world.hpp"
 
@@ -17,6 +18,7 @@ struct Mark {
     int joint = -1;     // index; −1: none
     bool mistake = false;
     lesson::LessonEvent event;
+    std::optional<lesson::Mistake> explanation;  // of a mistake, for any language
 };
 
 // The components of the simulation at one moment (game/world/world.hpp).

@@ -229,7 +229,10 @@ void Viewer::draw_time_line(float scale) {
     }
     draw.AddCircleFilled({x_of(time_), middle}, 7.0F * scale, now_color);
     if (ImGui::IsItemHovered() && nearest != nullptr) {
-        const std::string text = nearest->mistake ? nearest->event.text : step_text(*nearest);
+        const std::string text = nearest->explanation
+                                     ? lesson::mistake_text(options_.words, *nearest->explanation)
+                                 : nearest->mistake ? nearest->event.text
+                                                    : step_text(*nearest);
         ImGui::SetTooltip("%.1f s  %s", nearest->time, text.c_str());
     }
 }

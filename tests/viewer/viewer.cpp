@@ -126,6 +126,23 @@ TEST_CASE("Recording: a chapter for each step that began, in order, and neighbou
     CHECK(recording->chapter_at(chapters[2] + 0.1)->time == chapters[2]);
 }
 
+TEST_CASE("Recording: each mistake is explained in the language of the viewer") {
+    const std::unique_ptr<Recording> recording = need(replay_session(recorded()));
+    const words::LoadedWords german = words::load_words(words::words_folder(), "de");
+    REQUIRE(german.ok());
+    std::size_t mistakes = 0;
+    for (const Mark& mark : recording->marks) {
+        if (!mark.mistake) continue;
+        ++mistakes;
+        REQUIRE_MESSAGE(mark.explanation, mark.event.text);
+        CHECK(mark.explanation->joint == mark.joint);
+        const std::string text = lesson::mistake_text(german.words, *mark.explanation);
+        CHECK_FALSE(text.empty());
+        CHECK(text != mark.event.text);
+    }
+    CHECK(mistakes > 0);
+}
+
 TEST_CASE("Recording: a session without a tick is an error") {
     const Folder folder;
     const auto file = folder / "empty.boltwright";
