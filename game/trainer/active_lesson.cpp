@@ -57,7 +57,7 @@ DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active,
     DragScene scene;
     scene.screen = screen;
     scene.wrench = hand_of(active).wrench;
-    scene.tool = scene.wrench ? tool_of(active).pose : client.latest.tool;
+    scene.tool = scene.wrench ? tool_of(active).pose : client.latest.commanded_tool;
     scene.points_at_reachable = active.pointer.on_wrench || active.pointer.nut.has_value();
     scene.engaged = client.latest.output.joint >= 0;
     if (const auto nut = hand_of(active).nut)

@@ -185,10 +185,10 @@ void update_client(StationClient& client, const session::LessonSession& session)
     client.glove_lost = hand != nullptr && hand->lost;
     if (hand != nullptr && hand->has_frame) client.fingers = hand->joints;
     const double within = client.near_nut ? nut_release_distance : nut_capture_distance;
-    client.near_nut = nearest_nut(session, client.latest.output.tool.position, within);
+    client.near_nut = nearest_nut(session, client.latest.output.constrained_tool.position, within);
     client.near_wrench =
         client.latest.wrench_rest &&
-        distance_to_handle(client.latest.tool.position, *client.latest.wrench_rest,
+        distance_to_handle(client.latest.commanded_tool.position, *client.latest.wrench_rest,
                            session.setup().wrench.handle_length) < station::handle_capture_distance;
 }
 
@@ -220,7 +220,7 @@ WorkingHand hand_of(const StationClient& client) {
     hand.nut =
         engaged ? std::optional(static_cast<std::size_t>(client.latest.output.joint)) : client.near_nut;
     hand.action = engaged ? HandAction::holding : hand.nut ? HandAction::lowering : HandAction::resting;
-    hand.pose = hand.to = client.latest.tool;
+    hand.pose = hand.to = client.latest.commanded_tool;
     hand.rest = client.latest.wrench_rest.value_or(client.rest);
     if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
         hand.room = std::max(
@@ -260,7 +260,7 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
     // A nut attracts the tool only while the hand is closed.
     const auto attracting_nut =
         leads ? std::optional(due->joint)
-              : nearest_nut(session, client.latest.output.tool.position, attraction_range);
+              : nearest_nut(session, client.latest.output.constrained_tool.position, attraction_range);
     controls.approach_joint =
         attracting_nut && closes ? static_cast<std::int16_t>(*attracting_nut) : std::int16_t{-1};
     controls.click_setting = static_cast<float>(lesson::wrench_setting(session.lesson()));

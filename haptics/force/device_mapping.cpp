@@ -21,7 +21,7 @@ void realign(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, const
     const Quat turn = to_viewer(w, s);
     s.centre = grip_point(s, tool) - w.scale * (turn * device.position);
     s.grip = glm::normalize(glm::conjugate(turn * device.orientation) * tool.orientation);
-    s.tool = tool;
+    s.commanded_tool = tool;
 }
 
 WorkspaceState align_workspace(const WorkspaceMap& w, const Pose& device, const Pose& tool) {
@@ -38,14 +38,14 @@ Pose to_assembly(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, b
     const double step = w.fade > 0.0 ? dt / w.fade : 1.0;
     s.share = std::clamp(s.share + (clutch ? -step : step), 0.0, 1.0);
     if (clutch) {
-        realign(w, s, device, s.tool);
+        realign(w, s, device, s.commanded_tool);
     } else {
         const Quat turn = to_viewer(w, s);
-        s.tool.orientation = glm::normalize(turn * device.orientation * s.grip);
-        s.tool.position = s.centre + w.scale * (turn * device.position) -
-                          s.tool.orientation * Vec3(s.grip_distance, 0.0, 0.0);
+        s.commanded_tool.orientation = glm::normalize(turn * device.orientation * s.grip);
+        s.commanded_tool.position = s.centre + w.scale * (turn * device.position) -
+                                    s.commanded_tool.orientation * Vec3(s.grip_distance, 0.0, 0.0);
     }
-    return s.tool;
+    return s.commanded_tool;
 }
 
 Pose pivoted(const Pivot& pivot, const Pose& held, double grip_distance, const Vec3& grip_point) {

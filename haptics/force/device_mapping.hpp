@@ -33,8 +33,8 @@ struct WorkspaceState {
     // m from the tool's origin along its x to the point that follows the device: 0 for fingers and for a
     // device with torque; the length of the wrench for a device whose force acts at the end of the handle.
     double grip_distance = 0.0;
-    Pose tool;           // in the assembly's frame, at the last tick
-    double share = 1.0;  // 0 … 1, share of the force that is rendered
+    Pose commanded_tool;  // in the assembly's frame, at the last tick
+    double share = 1.0;   // 0 … 1, share of the force that is rendered
 };
 
 // Returns the state in which the device pose `device` maps to the tool pose `tool`.

@@ -1,7 +1,7 @@
 // The servo tick: a pure step of fixed dt. No clock, lock, allocation or I/O; the same inputs give the same
 // bits.
 //
-//   1 device pose → wrench pose, constrained by obstacles   tool_contact.hpp
+//   1 commanded pose → constrained pose of the tool         tool_contact.hpp
 //   2 engagement of a nut                                   engagement.hpp
 //   3 nut and joint: angle, stage, torque                   joint/group.hpp
 //   4 force of the nut on the hand, or the guiding force    force/guide.hpp

@@ -15,7 +15,7 @@ hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const han
         state.number = sample.number;
         hand::update(state.gloved, setup.wearer, sample.frame, sample.time);
     }
-    const Pose wrist = inverse(tool.actual) * tool.commanded * setup.wrist;
+    const Pose wrist = inverse(tool.constrained_tool) * tool.commanded_tool * setup.wrist;
     return hand::update_grasp(state.grasp, setup.grasp, setup.tool, setup.wearer.hand,
                               {fresh, state.gloved.angles, wrist}, dt);
 }

@@ -24,8 +24,8 @@ struct HandSetup {
 
 // In the assembly's frame.
 struct ToolPoses {
-    Pose commanded;  // by the mover
-    Pose actual;     // constrained by obstacles
+    Pose commanded_tool;    // from the device that moves the tool
+    Pose constrained_tool;  // that contacts permit
 };
 
 struct HandState {
@@ -44,7 +44,7 @@ constexpr servo::Grip grip_of(const HandState& state) {
     return state.grasp.held ? servo::Grip::wrench : servo::Grip::none;
 }
 
-// For display, in the frame of the tool: combine it with servo::Output::tool of any tick.
+// For display, in the frame of the tool: combine it with servo::Output::constrained_tool of any tick.
 struct DisplayedHand {
     hand::Skeleton joints;
     hand::Side side = hand::Side::right;

@@ -39,7 +39,8 @@ int nut_to_pivot_about(const servo::Setup& setup, const StationState& s) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         const double preference = static_cast<int>(i) == s.pivot_joint ? 1.5 : 1.0;
-        const double distance = distance_if_near(setup.nuts[i], s.output.tool, preference) / preference;
+        const double distance =
+            distance_if_near(setup.nuts[i], s.output.constrained_tool, preference) / preference;
         if (distance >= least) continue;
         least = distance;
         found = static_cast<int>(i);
@@ -50,8 +51,9 @@ int nut_to_pivot_about(const servo::Setup& setup, const StationState& s) {
 // On a nut the wrench must go on turning, until its jaw fits.
 bool is_held_back(const Pose& commanded, const servo::Output& output) {
     return !output.touched.is_nut() &&
-           (glm::length(output.tool.position - commanded.position) > held_back ||
-            glm::length(turn_between(output.tool.orientation, commanded.orientation)) > held_back_turn);
+           (glm::length(output.constrained_tool.position - commanded.position) > held_back ||
+            glm::length(turn_between(output.constrained_tool.orientation, commanded.orientation)) >
+                held_back_turn);
 }
 
 // The pose `last`, square to the bolt, except that it turns by `most` rad at most.
@@ -77,11 +79,11 @@ void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationSt
     if (s.pivot_joint < 0) return;
     const servo::NutGeometry& nut = setup.nuts[static_cast<std::size_t>(s.pivot_joint)];
     const Pivot pivot{nut.seat, nut.axis};
-    const Vec3 grip = force::grip_point(s.workspace, s.workspace.tool);
+    const Vec3 grip = force::grip_point(s.workspace, s.workspace.commanded_tool);
     const double length = s.workspace.grip_distance;
     const double turn = is_held_back(last, s.output) ? 0.0 : pivot_rate * dt;
-    force::realign(layout.workspace, s.workspace, s.hand,
-                   s.output.joint >= 0 ? force::pivoted(pivot, s.output.tool, length, grip)
+    force::realign(layout.workspace, s.workspace, s.mover_pose,
+                   s.output.joint >= 0 ? force::pivoted(pivot, s.output.constrained_tool, length, grip)
                                        : squared(last, pivot, length, grip, turn));
 }
 

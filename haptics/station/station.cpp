@@ -57,8 +57,8 @@ struct Station::Shared {
         count(stats.wheel, station.wheel, output.wheel);
         link_stats.write(stats);
         if (hand)
-            hand->set_tool({held_tool_pose(layout, setup, station, inputs.controls),
-                            station.wrench_rest.value_or(station.output.tool)});
+            hand->set_tool({tool_commanded_by_glove(layout, setup, station, inputs.controls),
+                            station.wrench_rest.value_or(station.output.constrained_tool)});
         latest_tick.write(done.tick);
         if (!done.paused && !ticks.push(done.tick)) lost_ticks.fetch_add(1, std::memory_order_relaxed);
         return true;

@@ -129,16 +129,17 @@ double angular_velocity_factor(const servo::Setup& setup, const StationState& s)
 void integrate_velocity(const Layout& layout, const servo::Setup& setup, StationState& s,
                         const device::Sample& sample, const Quat& view, double dt) {
     const Quat turn = view * layout.workspace.turn;
-    Pose& tool = s.workspace.tool;
+    Pose& tool = s.workspace.commanded_tool;
     tool.position += turn * sample.velocity * dt;
     const Vec3 turned_on = angular_velocity_factor(setup, s) * (turn * sample.angular_velocity) * dt;
     tool.orientation = glm::normalize(rotation(turned_on) * tool.orientation);
-    const Pose& held_back = s.output.tool;
-    tool.position = held_back.position + force::clamp_length(tool.position - held_back.position, max_lead);
-    const Vec3 turned = turn_between(held_back.orientation, tool.orientation);
+    const Pose& constrained_tool = s.output.constrained_tool;
+    tool.position =
+        constrained_tool.position + force::clamp_length(tool.position - constrained_tool.position, max_lead);
+    const Vec3 turned = turn_between(constrained_tool.orientation, tool.orientation);
     if (glm::length(turned) > max_angular_lead)
-        tool.orientation =
-            glm::normalize(rotation(force::clamp_length(turned, max_angular_lead)) * held_back.orientation);
+        tool.orientation = glm::normalize(rotation(force::clamp_length(turned, max_angular_lead)) *
+                                          constrained_tool.orientation);
 }
 
 bool on_bolt(const StationState& s) { return s.output.joint >= 0; }
@@ -154,7 +155,7 @@ void set_heading_and_grip(const Layout& layout, StationState& s, const Quat& hea
     if (heading == s.workspace.heading && grip_distance == s.workspace.grip_distance) return;
     s.workspace.heading = heading;
     s.workspace.grip_distance = grip_distance;
-    force::realign(layout.workspace, s.workspace, s.hand, s.workspace.tool);
+    force::realign(layout.workspace, s.workspace, s.mover_pose, s.workspace.commanded_tool);
 }
 
 // Returns true if a hand cannot have moved from one sample to the next: the position is measured anew, or one
@@ -175,11 +176,11 @@ void move(const Layout& layout, const servo::Setup& setup, StationState& s, cons
         return;
     }
     if (s.mover.fresh) {
-        const bool jumped = has_jumped(*layout.mover, s.hand, snapshot.sample.pose);
-        s.hand = snapshot.sample.pose;
+        const bool jumped = has_jumped(*layout.mover, s.mover_pose, snapshot.sample.pose);
+        s.mover_pose = snapshot.sample.pose;
         // The tool stays where it is and follows from there.
         if (snapshot.opening != s.mover.opening || jumped) {
-            force::realign(layout.workspace, s.workspace, s.hand, s.workspace.tool);
+            force::realign(layout.workspace, s.workspace, s.mover_pose, s.workspace.commanded_tool);
             s.workspace.share = s.mover.force_share = 0.0;
         }
         s.mover.opening = snapshot.opening;
@@ -187,14 +188,14 @@ void move(const Layout& layout, const servo::Setup& setup, StationState& s, cons
     if (s.mover.number == 0) return;
     const bool away = clutch || !s.mover.usable;
     set_heading_and_grip(layout, s, heading_of(view), s.workspace.grip_distance);
-    const Pose last = s.workspace.tool;
-    force::to_assembly(layout.workspace, s.workspace, s.hand, away, dt);
+    const Pose last = s.workspace.commanded_tool;
+    force::to_assembly(layout.workspace, s.workspace, s.mover_pose, away, dt);
     if (!away) pivot_about_bolt(layout, setup, s, last, dt);
 }
 
 // Moves the tool; it follows the hand from there.
 void place_tool(const Layout& layout, StationState& s, const Pose& tool) {
-    force::realign(layout.workspace, s.workspace, s.hand, tool);
+    force::realign(layout.workspace, s.workspace, s.mover_pose, tool);
 }
 
 // +1 if the wheel's angle counts counter-clockwise as the user sees it, −1 otherwise. The user looks at the
@@ -213,7 +214,7 @@ void turn(const Layout& layout, const servo::Setup& setup, StationState& s, cons
     const servo::NutGeometry& nut = setup.nuts[static_cast<std::size_t>(s.output.joint)];
     const Vec3 centre = servo::nut_centre(nut, s.output.nut_angle);
     const Quat turned = glm::angleAxis(rotation_sense(*layout.wheel) * by, nut.axis);
-    Pose tool = s.workspace.tool;
+    Pose tool = s.workspace.commanded_tool;
     tool.position = centre + turned * (tool.position - centre);
     tool.orientation = glm::normalize(turned * tool.orientation);
     place_tool(layout, s, tool);
@@ -233,8 +234,9 @@ void update_wrench_rest(const Layout& layout, StationState& s, servo::Grip grip,
     if (has) s.wrench_rest.reset();
     // The hand stays in place; from now on the device moves its fingertips.
     if (had && !has && layout.wrist && controls.bare_wrist)
-        place_tool(layout, s, s.workspace.tool * *layout.wrist * inverse(*controls.bare_wrist));
-    if (!has && !s.wrench_rest) s.wrench_rest = had && s.output.joint >= 0 ? s.output.tool : *rest;
+        place_tool(layout, s, s.workspace.commanded_tool * *layout.wrist * inverse(*controls.bare_wrist));
+    if (!has && !s.wrench_rest)
+        s.wrench_rest = had && s.output.joint >= 0 ? s.output.constrained_tool : *rest;
 }
 
 // Updates the links. Returns the controls combined with the devices' buttons.
@@ -299,7 +301,7 @@ force::OutputCommand part(const force::OutputCommand& whole, double share) {
 StationState initial_state(const Layout& layout) {
     StationState state;
     state.workspace = force::align_workspace(layout.workspace, {}, layout.home);
-    state.output.tool = layout.home;
+    state.output.constrained_tool = layout.home;
     return state;
 }
 
@@ -321,7 +323,7 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
     update_wrench_rest(layout, s, grip, controls);
 
     servo::Input input;
-    input.device = servo::commanded_tool(s.workspace.tool);
+    input.commanded_tool = servo::to_commanded_tool(s.workspace.commanded_tool);
     input.grip = grip;
     input.undo = next_undo(s);
     input.setting = controls.click_setting;
@@ -346,7 +348,7 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
 void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
                  const StationInputs& inputs, servo::Input& input) {
     if (!layout.mover || layout.mover->sensing != Sensing::velocity || renders_force(*layout.mover)) return;
-    Pose& tool = s.workspace.tool;
+    Pose& tool = s.workspace.commanded_tool;
     const int held = s.output.joint;
     const int joint = held < 0 && s.mover.usable && input.enabled ? inputs.controls.approach_joint : -1;
     // A held nut carries the tool along as it descends.
@@ -357,7 +359,7 @@ void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& 
         s.carrying_point = at;
     }
     s.carrying_joint = held;
-    const servo::ToolPose now = servo::at_pose(s.workspace.tool);
+    const servo::ToolPose now = servo::at_pose(s.workspace.commanded_tool);
     const auto free = [&](const Vec3& from, const Vec3& to) {
         return !servo.tool_contact || !servo::occluded(*servo.tool_contact, from, to, joint);
     };
@@ -368,7 +370,7 @@ void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& 
     tool.position += approach_speed * setup.dt * guiding.force;
     tool.orientation =
         glm::normalize(rotation(approach_turn_speed * setup.dt * guiding.torque) * tool.orientation);
-    input.device = servo::commanded_tool(tool);
+    input.commanded_tool = servo::to_commanded_tool(tool);
     s.input = input;
 }
 
@@ -403,15 +405,16 @@ DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationStat
     return map_output(layout, setup, state, servo::tick(setup, servo, input));
 }
 
-Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const StationState& s,
-                    const StationControls& controls) {
+Pose tool_commanded_by_glove(const Layout& layout, const servo::Setup& setup, const StationState& s,
+                             const StationControls& controls) {
     const bool bare = s.wrench_rest && layout.wrist && controls.bare_wrist;
     if (bare) {
-        const Vec3 tip = inverse(*s.wrench_rest) * s.workspace.tool.position;
+        const Vec3 tip = inverse(*s.wrench_rest) * s.workspace.commanded_tool.position;
         const Vec3 nearest(std::clamp(tip.x, 0.0, setup.wrench.handle_length), 0.0, 0.0);
         if (glm::distance(tip, nearest) < handle_capture_distance) return *s.wrench_rest;
     }
-    return bare ? s.workspace.tool * *controls.bare_wrist * inverse(*layout.wrist) : s.workspace.tool;
+    return bare ? s.workspace.commanded_tool * *controls.bare_wrist * inverse(*layout.wrist)
+                : s.workspace.commanded_tool;
 }
 
 DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& s,
@@ -435,7 +438,7 @@ StationStep step(const Layout& layout, const servo::Setup& setup, StationState& 
     done.paused = inputs.controls.pause;
     done.commands =
         done.paused ? pause_tick(layout, setup, s, inputs) : tick(layout, setup, s, servo, inputs);
-    done.tick = {number, s.input, s.output, s.workspace.tool, s.wrench_rest, s.dead_man_pressed};
+    done.tick = {number, s.input, s.output, s.workspace.commanded_tool, s.wrench_rest, s.dead_man_pressed};
     return done;
 }
 

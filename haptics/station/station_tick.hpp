@@ -135,12 +135,12 @@ struct DeviceLink {
 
 struct StationState {
     DeviceLink mover, wheel;
-    force::WorkspaceState workspace;  // `tool` is the pose commanded by the hand
-    Pose hand;                        // last pose of the mover, in its frame
-    double wheel_angle = 0.0;         // rad, last sample of the wheel
-    Vec3 bolt_axis{0.0, 1.0, 0.0};    // unit, of the bolt that the wheel turns or turned last
-    double wheel_fade = 0.0;          // 0 … 1, share of the bolt's torque that the wheel renders
-    bool restarting = false;          // after a stall or a pause: no force until the output stage is at zero
+    force::WorkspaceState workspace;
+    Pose mover_pose;                // last one, in the mover's frame
+    double wheel_angle = 0.0;       // rad, last sample of the wheel
+    Vec3 bolt_axis{0.0, 1.0, 0.0};  // unit, of the bolt that the wheel turns or turned last
+    double wheel_fade = 0.0;        // 0 … 1, share of the bolt's torque that the wheel renders
+    bool restarting = false;        // after a stall or a pause: no force until the output stage is at zero
     // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest.
     std::optional<Pose> wrench_rest;
     int pivot_joint = -1;  // joint whose bolt the wrench pivots about; −1: none
@@ -179,11 +179,11 @@ void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& 
 DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const servo::Output& output);
 
-// The tool pose that a gloved hand commands, or would command if it held the tool (ToolPoses::commanded). A
-// bare hand within handle_capture_distance of the wrench snaps to its handle: without touch nobody can place
-// fingers around it to the millimetre.
-Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const StationState& state,
-                    const StationControls& controls);
+// The tool pose that a gloved hand commands, or would command if it held the tool
+// (ToolPoses::commanded_tool). A bare hand within handle_capture_distance of the wrench snaps to its handle:
+// without touch nobody can place fingers around it to the millimetre.
+Pose tool_commanded_by_glove(const Layout& layout, const servo::Setup& setup, const StationState& state,
+                             const StationControls& controls);
 inline constexpr double handle_capture_distance = 0.10;  // m from the handle's centre line to the fingertips
 
 // Replaces tick() while StationControls::pause is set: reads the devices and returns zero commands.
@@ -196,7 +196,7 @@ struct StationTick {
     std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted
     servo::Input input;
     servo::Output output;
-    Pose tool;  // pose commanded by the hand, in the assembly's frame
+    Pose commanded_tool;  // in the assembly's frame
     // Pose of the wrench while no hand holds it (StationControls::wrench_rest).
     std::optional<Pose> wrench_rest;
     bool dead_man_pressed = false;  // by a button of a device

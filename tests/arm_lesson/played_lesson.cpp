@@ -115,8 +115,8 @@ void PlayedLesson::tick() {
     const bool waits = hand_rests || clutching_ || settling_ > 0.0;
     settling_ = std::max(0.0, settling_ - dt);
     if (!waits) {
-        intention_ =
-            trainee_->intend(session_->setup(), session_->state(), session_->lesson(), state_.workspace.tool);
+        intention_ = trainee_->intend(session_->setup(), session_->state(), session_->lesson(),
+                                      state_.workspace.commanded_tool);
         (void)trainee_->take_events();
     }
     if (!hand_rests) move_hand(intention_);
@@ -159,7 +159,8 @@ void PlayedLesson::measure(const station::StationTick& before) {
     last_force_ = on_hand.force;
     if (number_ > 1)
         felt_.largest_tool_jump =
-            std::max(felt_.largest_tool_jump, glm::distance(before.tool.position, latest_.tool.position));
+            std::max(felt_.largest_tool_jump,
+                     glm::distance(before.commanded_tool.position, latest_.commanded_tool.position));
 }
 
 session::LessonOutcome PlayedLesson::finish() {

@@ -62,13 +62,13 @@ TEST_CASE(
             REQUIRE(state);
             CHECK(state->tool_contact.has_value());
             servo::Input input;
-            input.device = servo::commanded_tool(planned->options.home);
+            input.commanded_tool = servo::to_commanded_tool(planned->options.home);
             input.enabled = true;
             input.grip = servo::Grip::wrench;
             servo::Output output;
             for (int i = 0; i < 700; ++i) output = servo::tick(setup, *state, input);
             CHECK(output.joint == 0);
-            CHECK(glm::length(output.tool.position - planned->options.home.position) < 0.5e-3);
+            CHECK(glm::length(output.constrained_tool.position - planned->options.home.position) < 0.5e-3);
             CHECK(glm::length(output.force) < 1.0);
             CHECK((output.clamp > 1000.0) == tight);
         }
@@ -86,7 +86,7 @@ TEST_CASE("Planned station: without obstacles, and on another nut") {
     Result<servo::State> state = planned->options.state(setup);
     REQUIRE(state);
     servo::Input input;
-    input.device = servo::commanded_tool(planned->options.home);
+    input.commanded_tool = servo::to_commanded_tool(planned->options.home);
     input.grip = servo::Grip::wrench;
     input.enabled = true;
     servo::tick(setup, *state, input);

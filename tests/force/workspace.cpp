@@ -54,7 +54,7 @@ TEST_CASE("WorkspaceMap: the clutch holds the tool, and releasing it moves nothi
     const WorkspaceMap w = any_workspace(random);
     Pose device{any(random), rotation(any(random))};
     WorkspaceState s = align_workspace(w, device, {any(random), rotation(any(random))});
-    Pose last = s.tool;
+    Pose last = s.commanded_tool;
     bool clutch = false;
     double moved = 0.0;
     for (int i = 0; i < 20'000; ++i) {

@@ -216,7 +216,7 @@ TEST_CASE("Servo: a NaN pose at 40 kN releases the nut, which stays, and the tor
     REQUIRE(glm::length(output.torque) > 0.5);
     const double stands_at = state.joints[0].nut.angle;
     Input lost = test::holding(Grip::wrench, test::tool_at(nut, Vec3(0.0), angle));
-    lost.device.position[1] = std::nanf("");
+    lost.commanded_tool.position[1] = std::nanf("");
     double last = output.torque.y;
     for (int i = 0; i < 200; ++i) {
         output = tick(setup, state, lost);

@@ -42,7 +42,7 @@ inline servo::Input holding(servo::Grip grip, const servo::CommandedTool& comman
     servo::Input input;
     input.enabled = true;
     input.grip = grip;
-    input.device = commanded;
+    input.commanded_tool = commanded;
     return input;
 }
 

@@ -172,7 +172,7 @@ TEST_CASE(
     rig.inputs.controls.wrench_rest = Pose{Vec3(0.0, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};
     rig.inputs.controls.bare_wrist = Pose{Vec3(0.02, 0.1, 0.05), rotation(Vec3(-1.0, 0.2, 0.3))};
     const auto wrist = [&] {
-        return held_tool_pose(layout, rig.setup, rig.state, rig.inputs.controls) * *layout.wrist;
+        return tool_commanded_by_glove(layout, rig.setup, rig.state, rig.inputs.controls) * *layout.wrist;
     };
     rig.inputs.hand_grip = servo::Grip::none;
     rig.ticks(5);

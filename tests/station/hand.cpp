@@ -98,19 +98,20 @@ TEST_CASE(
         hand::joints(worn.plan.wearer.hand, worn.state.grasp.closure.angles, worn.plan.wrist);
     CHECK(apart(display(worn.plan, worn.state).joints, open) < 1e-12);
     // An obstacle holds the tool 0.1 m below the hand.
-    worn.place.actual.position -= Vec3(0.0, 0.1, 0.0);
+    worn.place.constrained_tool.position -= Vec3(0.0, 0.1, 0.0);
     worn.send(test::raw_open(), 0.1);
-    const Vec3 palm = worn.place.actual * display(worn.plan, worn.state).joints.position[hand::palm];
+    const Vec3 palm =
+        worn.place.constrained_tool * display(worn.plan, worn.state).joints.position[hand::palm];
     CHECK(glm::length(palm - somewhere * open.position[hand::palm]) < 1e-12);
     // The hand cannot grasp the tool from a distance. Once it holds it, the displayed hand follows the tool.
     worn.send(test::raw_closed(), 0.5);
     CHECK(!display(worn.plan, worn.state).held);
-    worn.place.actual = somewhere;
+    worn.place.constrained_tool = somewhere;
     worn.send(test::raw_closed(), 0.5);
     const DisplayedHand closed = display(worn.plan, worn.state);
     CHECK(closed.held);
     CHECK(apart(closed.joints, open) > 0.03);
-    worn.place.actual.position -= Vec3(0.0, 0.1, 0.0);
+    worn.place.constrained_tool.position -= Vec3(0.0, 0.1, 0.0);
     worn.send(test::raw_closed(), 0.5);
     CHECK(apart(display(worn.plan, worn.state).joints, closed.joints) < 1e-4);
 }

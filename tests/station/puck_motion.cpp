@@ -37,12 +37,12 @@ TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stop
         CHECK(rig.tool().position.y == doctest::Approx(0.1).epsilon(1e-3));
     }
     SUBCASE("the hand leads a blocked tool by at most max_lead") {
-        const Pose held = rig.state.output.tool;
+        const Pose held = rig.state.output.constrained_tool;
         rig.inputs.mover.sample.velocity = Vec3(0.3, 0, 0);
         for (int i = 0; i < 1000; ++i) {
             ++rig.inputs.mover.number;
             read_inputs(rig.layout, rig.setup, rig.state, rig.inputs);
-            rig.state.output.tool = held;
+            rig.state.output.constrained_tool = held;
         }
         CHECK(glm::length(rig.tool().position - held.position) == doctest::Approx(max_lead).epsilon(0.05));
         const Vec3 turned = turn_between(held.orientation, rig.tool().orientation);

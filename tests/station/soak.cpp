@@ -149,13 +149,13 @@ class Soak {
         const double phase = std::fmod(now_, 20.0);
         const double height = phase < 2.0 ? 0.1 : phase < 17.0 ? 0.0 : 0.1;
         const Vec3 at = servo::nut_centre(nut, servo_.joints[0].nut.angle) + height * nut.axis;
-        const Pose& tool = state_.workspace.tool;
+        const Pose& tool = state_.workspace.commanded_tool;
         const double azimuth = setup_.wrench.head_angle + servo_.joints[0].nut.angle;
         const servo::ToolPose wanted = servo::pose_of(test::tool_at(nut, at, azimuth));
         const Vec3 turn =
             state_.output.joint >= 0 ? Vec3(0.0) : turn_between(tool.orientation, wanted.orientation);
         device::Sample sample;
-        const Pose& hand = state_.hand;
+        const Pose& hand = state_.mover_pose;
         sample.pose.position = hand.position + force::clamp_length(at - tool.position, 0.02);
         sample.pose.orientation = glm::normalize(rotation(force::clamp_length(turn, 0.1)) * hand.orientation);
         return sample;
@@ -239,7 +239,7 @@ class Soak {
     void update_gloved_hand() {
         move_hand();
         const bool held = hand_.grasp.held, lost = hand_.grasp.lost, fresh = sample_.number != hand_.number;
-        const ToolPoses place{state_.workspace.tool, state_.output.tool};
+        const ToolPoses place{state_.workspace.commanded_tool, state_.output.constrained_tool};
         hand::GraspEvent event{};
         const test::Forbidden forbidden = test::forbidden_in(
             [&] { event = update_hand(hand_setup_, hand_, sample_, place, hand_interval * dt); });
@@ -282,7 +282,7 @@ class Soak {
         const force::Fault fault = state_.output.fault;
         if (fault == force::Fault::none) faulty_since_ = now_;
         // A sample that is off moves no tool.
-        const Vec3 tool = state_.workspace.tool.position;
+        const Vec3 tool = state_.workspace.commanded_tool.position;
         statistics_.largest_step = std::max(statistics_.largest_step, glm::distance(tool, tool_));
         tool_ = tool;
         for (MonitoredDevice* w : {&arm_, &wheel_}) {

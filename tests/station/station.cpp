@@ -93,7 +93,7 @@ TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in ord
         for (StationTick tick; station->next_tick(tick); ++ticks) {
             in_order = in_order && tick.number > number;
             number = tick.number;
-            height = tick.input.device.position[1];
+            height = tick.input.commanded_tool.position[1];
         }
         return height > 0.4F && station->latest_tick().input.enabled &&
                station->latest_tick().input.guide == 1;
@@ -127,7 +127,8 @@ TEST_CASE("Station: every command reaches the servo once and in order; a full qu
         return saved >= rounds;
     }));
     CHECK(saved == rounds);
-    CHECK(glm::distance(station->latest_tick().tool.position, Vec3(0.001 * rounds, 0.4, 0.0)) < 1e-9);
+    CHECK(glm::distance(station->latest_tick().commanded_tool.position, Vec3(0.001 * rounds, 0.4, 0.0)) <
+          1e-9);
     station->stop();
     for (std::size_t i = 0; i < command_queue_capacity; ++i) REQUIRE(station->send(SaveCheckpoint{}));
     const Status full = station->send(SaveCheckpoint{});
@@ -145,7 +146,7 @@ TEST_CASE("Station: an unplugged device is reported and stops the tool; it resum
     station->set_controls(controls);
     const auto height = [&] {
         puck.set_input({Vec3(0, 1, 0), Vec3(0.0), 0});
-        return station->latest_tick().input.device.position[1];
+        return station->latest_tick().input.commanded_tool.position[1];
     };
     REQUIRE(eventually([&] { return height() > 0.32F; }));
     CHECK(eventually([&] { return height() > 0.32F && station->troubles().empty(); }));

@@ -22,7 +22,7 @@ TEST_CASE("Station: the tool begins at home wherever the hand is, and follows it
     rig.hand() = {Vec3(0.05, -0.02, 0.01), rotation(Vec3(0.3, 0, 0))};
     rig.tick();
     CHECK(glm::length(rig.tool().position - layout.home.position) < 1e-12);
-    CHECK(glm::length(rig.state.input.device.position[1] - 0.3F) < 1e-6F);
+    CHECK(glm::length(rig.state.input.commanded_tool.position[1] - 0.3F) < 1e-6F);
     for (int i = 0; i < 100; ++i) {
         rig.hand().position.x += 1e-4;
         rig.tick();

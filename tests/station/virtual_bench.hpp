@@ -93,7 +93,7 @@ class VirtualBench final : public station_setup::LessonStation {
         commands_.clear();
         mailboxes_.commands.write({done.commands.mover, true, ++command_number_});
         newest_ = done.tick;
-        if (std::exchange(garbles_, false)) newest_.input.device.position[0] += 1e-3F;
+        if (std::exchange(garbles_, false)) newest_.input.commanded_tool.position[0] += 1e-3F;
         if (!done.paused) ticks_.push_back(newest_);
     }
 

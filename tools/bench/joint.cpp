@@ -128,12 +128,12 @@ void servo_tick_12_joints(benchmark::State& state) {
     input.enabled = true;
     input.grip = servo::Grip::fingers;
     const Vec3 centre = servo::nut_centre(setup.nuts[0], 0.0);
-    for (int i = 0; i < 3; ++i) input.device.position[i] = static_cast<float>(centre[i]);
+    for (int i = 0; i < 3; ++i) input.commanded_tool.position[i] = static_cast<float>(centre[i]);
     double t = 0.0;
     for (auto _ : state) {
         t += 1e-3;
-        input.device.orientation[0] = static_cast<float>(std::cos(t));
-        input.device.orientation[2] = static_cast<float>(std::sin(t));
+        input.commanded_tool.orientation[0] = static_cast<float>(std::cos(t));
+        input.commanded_tool.orientation[2] = static_cast<float>(std::sin(t));
         benchmark::DoNotOptimize(servo::tick(setup, servo, input));
     }
 }
