@@ -62,7 +62,7 @@ struct StationFile {
 };
 
 // N/m, least value of the bound on stiffness: a softer spring could not hold the tool.
-inline constexpr double least_stiffness = 50.0;
+inline constexpr double min_stiffness = 50.0;
 
 // Errors name `file`, line and column.
 Result<StationFile> parse_station(std::string_view text, const std::string& file);

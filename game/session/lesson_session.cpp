@@ -33,7 +33,7 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     description.jaw_tip = assembly.wrench.jaw_tip;
     description.head_angle = assembly.wrench.head_angle;
     description.handle_length = assembly.wrench.handle_length;
-    description.greatest_torque = highest_torque;
+    description.max_torque = highest_torque;
     description.click_swing = assembly.wrench.click_swing;
     description.click_accuracy = assembly.wrench.click_accuracy;
     description.limits = limits;

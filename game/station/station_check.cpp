@@ -157,7 +157,7 @@ content::StationFile station_of(const device::Description* mover, const device::
         arm.buttons = buttons_of(*mover);
         if (station::renders_force(*mover)) {
             arm.limits.force = mover->limits.force;
-            if (mover->limits.stiffness >= content::least_stiffness)
+            if (mover->limits.stiffness >= content::min_stiffness)
                 arm.limits.stiffness = mover->limits.stiffness;
         }
         if (station::renders_torque(*mover)) arm.limits.torque = mover->limits.torque;

@@ -133,8 +133,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int longest_latency_timer = 2;  // ms
-constexpr double glove_timeout = 6.0;     // s; the handshake sends each query up to three times
+constexpr int max_latency_timer = 2;   // ms
+constexpr double glove_timeout = 6.0;  // s; the handshake sends each query up to three times
 
 // Offset, m, and rotation about y, rad, of an enclosed flat bar along x from the wrist of an average right
 // hand.
@@ -193,7 +193,7 @@ Result<hand::GloveIdentity> wait_for_glove(hand::GloveDriver& driver, const fs::
 
 std::string adapter_warning(const fs::path& port) {
     const auto ms = hand::latency_timer_ms(port);
-    if (!ms || *ms <= longest_latency_timer) return {};
+    if (!ms || *ms <= max_latency_timer) return {};
     return fmt::format(
         "its adapter delays bytes by {} ms: install the udev rule (60-boltwright.rules) and reconnect it",
         *ms);

@@ -213,11 +213,11 @@ std::vector<std::string> unfit_reasons(const StationTrial& trial) {
         const double silence = (*tried)->stats.longest_silence;
         // The supervisor reports longer silences and losses. A device that sends nothing at rest is never
         // silent.
-        if (renders((*tried)->description) && !d.silent_at_rest && silence > d.limits.silence &&
+        if (renders((*tried)->description) && !d.silent_at_rest && silence > d.limits.max_silence &&
             silence < supervisor_silence && (*tried)->losses == 0)
             reasons.push_back(
                 fmt::format("{} was silent for {:.0f} ms; its force is released after {:.0f} ms", d.name,
-                            1e3 * silence, 1e3 * d.limits.silence));
+                            1e3 * silence, 1e3 * d.limits.max_silence));
     }
     const servo::HostAssessment host = servo::assess_host(trial.timing, trial.rate);
     reasons.insert(reasons.end(), host.reasons.begin(),

@@ -16,7 +16,7 @@ namespace bolt::device {
 
 namespace {
 
-constexpr int most_arms = 16;  // of one vendor
+constexpr int max_arms = 16;  // of one vendor
 
 // The entry of a library that is present and cannot be used.
 ListedDevice unusable_arm(std::string_view vendor, const char* name, Error trouble) {
@@ -33,7 +33,7 @@ std::vector<ListedDevice> list_force_dimension() {
             arms.push_back(unusable_arm("force-dimension", name, api.error()));
         return arms;
     }
-    const int count = std::clamp(api->get_device_count(), 0, most_arms);
+    const int count = std::clamp(api->get_device_count(), 0, max_arms);
     for (int i = 0; i < count; ++i)
         arms.push_back(
             {api->library.string(), fmt::format("force-dimension:{}", i), name, DeviceKind::arm, {}});

@@ -122,11 +122,11 @@ std::vector<ListedDevice> list_arms() {
 
 Result<std::unique_ptr<DeviceDriver>> open_arm(const ListedDevice& listed, const OpenOptions& options) {
     // Also true for NaN.
-    if (!(options.effector_mass >= 0.0 && options.effector_mass <= largest_effector_mass))
+    if (!(options.effector_mass >= 0.0 && options.effector_mass <= max_effector_mass))
         return fail(
             ErrorCode::usage,
             fmt::format("the mass that is mounted on {} is {:g} kg", listed.id, options.effector_mass),
-            fmt::format("0 to {:g} kg", largest_effector_mass));
+            fmt::format("0 to {:g} kg", max_effector_mass));
     for (const ArmVendor& vendor : arm_vendors())
         if (listed.id.starts_with(std::string(vendor.name) + ':')) return vendor.open(listed, options);
     return fail(ErrorCode::no_device, fmt::format("{} is not an arm that can be opened", listed.id),

@@ -110,23 +110,23 @@ Description describe_arm(const ForceDimensionApi& api, char id, int index) {
     const int type = api.get_type != nullptr ? api.get_type(id) : -1;
     const auto known =
         std::find_if(models.begin(), models.end(), [&](const ModelLimits& m) { return m.type == type; });
-    const ModelLimits most = known != models.end() ? *known : limits_of_joints(wrist, active);
-    const bool renders_torque = active && most.torque > 0.0;
-    d.name = fmt::format("Force Dimension {}", most.name);
+    const ModelLimits bounds = known != models.end() ? *known : limits_of_joints(wrist, active);
+    const bool renders_torque = active && bounds.torque > 0.0;
+    d.name = fmt::format("Force Dimension {}", bounds.name);
     d.id = fmt::format("force-dimension:{}", index);
     d.model = reported_name(api, id);
     if (d.model.empty() && known != models.end()) d.model = known->name;
     d.serial = reported_serial(api, id);
     d.senses_rotation = wrist;
     d.renders = {true, true, true, renders_torque, renders_torque, renders_torque};
-    d.limits.force = most.force;
-    d.limits.torque = renders_torque ? most.torque : 0.0;
-    d.limits.stiffness = most.stiffness;
+    d.limits.force = bounds.force;
+    d.limits.torque = renders_torque ? bounds.torque : 0.0;
+    d.limits.stiffness = bounds.stiffness;
     d.limits.torsion = renders_torque ? 2.0 : 0.0;
-    d.limits.damping = most.damping;
+    d.limits.damping = bounds.damping;
     d.limits.angular_damping = renders_torque ? 0.01 : 0.0;
     d.rate = 1.0 / period;
-    d.reach = Vec3(most.reach);
+    d.reach = Vec3(bounds.reach);
     d.buttons = 8;
     if (!wrist) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
     if (!renders_torque)

@@ -24,7 +24,7 @@ constexpr double connect_timeout = 1.0;    // s, of an arm that is opened
 constexpr double version_timeout = 0.2;    // s
 constexpr double command_lifetime = 0.02;  // s after which a force becomes zero
 constexpr double poll_interval = 2e-4;     // s between two looks for a new state
-constexpr int most_events = 16;            // that are read between two exchanges
+constexpr int max_events = 16;             // that are read between two exchanges
 constexpr int event_port_offset = 10020 - 10001;
 constexpr int old_http_port_offset = 10000 - 10001;  // of services before 3.5
 
@@ -231,7 +231,7 @@ class HaplyArm final : public DeviceDriver {
 
     // Fails if an event says that the arm renders no more force.
     Status check_events() {
-        for (int i = 0; i < most_events && connection_.events; ++i) {
+        for (int i = 0; i < max_events && connection_.events; ++i) {
             const auto message = connection_.events->receive(0.0);
             if (!message) connection_.events.reset();
             if (!message || !*message) break;

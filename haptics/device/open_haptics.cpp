@@ -64,7 +64,7 @@ Error arm_error(const OpenHapticsApi& api, const std::string& name, const char* 
 }
 
 // The reported limit, at most the model's; the model's if none is reported.
-double limit(double reported, double most) { return reported > 0.0 ? std::min(reported, most) : most; }
+double limit(double reported, double max) { return reported > 0.0 ? std::min(reported, max) : max; }
 
 std::string reported_text(const OpenHapticsApi& api, unsigned what) {
     const char* reported = api.get_string(what);
@@ -75,20 +75,21 @@ std::string reported_text(const OpenHapticsApi& api, unsigned what) {
 
 // Half the workspace and its centre, from the box that the arm reports; a cube about the origin if that makes
 // no sense.
-void describe_reach(const OpenHapticsApi& api, double most, ArmProperties& arm) {
+void describe_reach(const OpenHapticsApi& api, double max_reach, ArmProperties& arm) {
     const Doubles box = get_doubles(api, get_usable_box);
-    arm.description.reach = Vec3(most);
+    arm.description.reach = Vec3(max_reach);
     const Vec3 low = mm * Vec3(box[0], box[1], box[2]), high = mm * Vec3(box[3], box[4], box[5]);
     const Vec3 half = 0.5 * (high - low), centre = 0.5 * (low + high);
-    if (!finite(half) || std::min({half.x, half.y, half.z}) <= 0.0 || !(glm::length(centre) < most)) return;
-    arm.description.reach = glm::min(half, Vec3(most));
+    if (!finite(half) || std::min({half.x, half.y, half.z}) <= 0.0 || !(glm::length(centre) < max_reach))
+        return;
+    arm.description.reach = glm::min(half, Vec3(max_reach));
     arm.centre = centre;
 }
 
 ArmProperties describe_arm(const OpenHapticsApi& api) {
     ArmProperties arm;
     const std::string model = reported_text(api, get_model);
-    const ModelLimits& most = *std::find_if(models.begin(), models.end(), [&](const ModelLimits& m) {
+    const ModelLimits& bounds = *std::find_if(models.begin(), models.end(), [&](const ModelLimits& m) {
         return model.find(m.mark) != std::string::npos;
     });
     arm.senses_rotation = get_integer(api, get_senses) >= 6;
@@ -100,16 +101,16 @@ ArmProperties describe_arm(const OpenHapticsApi& api) {
     d.serial = reported_text(api, get_serial);
     d.senses_rotation = arm.senses_rotation;
     d.renders = {true, true, true, false, false, false};
-    d.limits.force = limit(get_doubles(api, get_max_force)[0], most.force);
+    d.limits.force = limit(get_doubles(api, get_max_force)[0], bounds.force);
     d.limits.torque = 0.0;
-    d.limits.stiffness = limit(1e3 * get_doubles(api, get_max_stiffness)[0], most.stiffness);
+    d.limits.stiffness = limit(1e3 * get_doubles(api, get_max_stiffness)[0], bounds.stiffness);
     d.limits.torsion = 0.0;
-    d.limits.damping = most.damping;
+    d.limits.damping = bounds.damping;
     d.limits.angular_damping = 0.0;
     d.limits.delay = 2;  // a command waits in the mailbox for the next frame
     d.rate = 1.0 / frame_time;
-    d.buttons = most_buttons;
-    describe_reach(api, most.reach, arm);
+    d.buttons = max_buttons;
+    describe_reach(api, bounds.reach, arm);
     if (!arm.senses_rotation) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
     // The library wants torques of the gimbal's motors, and the directions of these are not confirmed: a
     // wrong sign would push the hand instead of resisting it.
@@ -168,7 +169,7 @@ class OpenHapticsArm final : public DeviceDriver {
     Result<std::optional<Sample>> read(double timeout) override {
         wait_for(timeout, [&] { return report_.number != read_ || report_.fault != 0; });
         if (report_.fault != 0) return fail(lost());
-        if (timer_.now() - report_.time > open_haptics::longest_frame) api_.disable(force_output);
+        if (timer_.now() - report_.time > open_haptics::max_frame_age) api_.disable(force_output);
         if (report_.number == read_) return std::optional<Sample>{};
         read_ = report_.number;
         return std::optional<Sample>(report_.sample);

@@ -63,7 +63,7 @@ void FrameCallback::run_frame() {
     const double now = timer_.now();
     const double elapsed = std::max(now - before_, 0.0);
     before_ = report_.time = now;
-    if (elapsed > longest_frame) strength_ = 0.0;
+    if (elapsed > max_frame_age) strength_ = 0.0;
     api_.begin_frame(id_);
     if (report_.calibration == calibrated) {
         const std::optional<Pose> pose = pose_in(get_doubles(api_, get_transform), arm_.senses_rotation);
@@ -85,7 +85,7 @@ void FrameCallback::calibrate() {
 }
 
 void FrameCallback::take_sample(const Pose& pose, double now) {
-    constexpr unsigned known_buttons = (1U << most_buttons) - 1U;
+    constexpr unsigned known_buttons = (1U << max_buttons) - 1U;
     report_.sample.pose = {pose.position - arm_.centre, pose.orientation};
     report_.sample.buttons = static_cast<unsigned>(get_integer(api_, get_buttons)) & known_buttons;
     report_.sample.time = now;

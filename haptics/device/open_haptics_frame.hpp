@@ -17,7 +17,7 @@ inline constexpr unsigned warm_motors = 0x200, first_fault = 0x300, already_init
                           no_licence = 0x600;
 
 inline constexpr double frame_time = 1e-3;  // s, the scheduler's period
-inline constexpr int most_buttons = 4;
+inline constexpr int max_buttons = 4;
 
 using Doubles = std::array<double, 16>;  // room for the longest value, the transform
 
@@ -28,8 +28,8 @@ int get_integer(const OpenHapticsApi& api, unsigned what);
 // Takes the errors off the stack and passes their codes to `note`, the newest first.
 template <class Note>
 void take_errors(const OpenHapticsApi& api, const Note& note) {
-    constexpr int most = 100;  // a broken library would keep the vendor's thread here
-    for (int i = 0; i < most; ++i) {
+    constexpr int max_errors = 100;  // a broken library would keep the vendor's thread here
+    for (int i = 0; i < max_errors; ++i) {
         const unsigned code = api.get_error().code;
         if (code == 0) return;
         note(code);
@@ -51,7 +51,7 @@ struct TimedCommand {
 
 // s without a frame after which the device thread switches the forces off, because the library keeps
 // rendering the last one. The first frame after it switches them on again, and the force grows from zero.
-inline constexpr double longest_frame = 15e-3;
+inline constexpr double max_frame_age = 15e-3;
 
 struct FrameReport {
     double time = 0.0;  // s, of the frame

@@ -55,7 +55,7 @@ void step(Arm& arm, const force::OutputCommand& command, double dt) {
 namespace {
 
 constexpr double sample_period = 1e-3;   // s between two samples
-constexpr int most_late_steps = 20;      // of one read; a longer gap is left out
+constexpr int max_late_steps = 20;       // of one read; a longer gap is left out
 constexpr double rounding = 1e-9;        // s
 constexpr double input_timeout = 0.25;   // s without set_motion() until the buttons count as released
 constexpr double smoothing_time = 0.02;  // s in which the intention follows the mouse: about a frame
@@ -99,7 +99,7 @@ class SimulatedArmDevice final : public DeviceDriver {
         if (due > timeout + rounding) return std::optional<Sample>{};
         const double now = shared_->timer.now();
         follow(now);
-        const int late = std::min(static_cast<int>((now - next_) / sample_period), most_late_steps);
+        const int late = std::min(static_cast<int>((now - next_) / sample_period), max_late_steps);
         for (int i = 0; i <= std::max(late, 0); ++i) advance();
         next_ = std::max(next_ + sample_period, now);
         const Arm& arm = shared_->arm;

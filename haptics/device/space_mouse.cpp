@@ -104,11 +104,11 @@ class SpaceMouse : public DeviceDriver {
 }  // namespace
 
 PuckRates rates_of(const SixAxisState& state, const PuckResponse& response) {
-    const auto rate = [&](std::size_t axis, double most) {
+    const auto rate = [&](std::size_t axis, double max_rate) {
         const double deflection = std::clamp(state.deflection[axis], -1.0, 1.0);
         const double response_share =
             std::max(std::abs(deflection) - response.dead_zone, 0.0) / (1.0 - response.dead_zone);
-        return std::copysign(most * response_share * response_share, deflection);
+        return std::copysign(max_rate * response_share * response_share, deflection);
     };
     // 3Dconnexion: x right, y towards the user, z down.
     const double v = response.speed, w = response.turn_speed;

@@ -153,7 +153,7 @@ DeviceFactory recorded(Description description, Recording recording, Timer timer
 
 namespace {
 
-constexpr double longest_step = 0.5e-3;  // s
+constexpr double max_step_time = 0.5e-3;  // s
 // s without a read or write after which the hand jumps to the intended pose.
 constexpr double idle_reset = 0.05;
 
@@ -266,7 +266,7 @@ void SimulatedDevice::advance() {
         turn_rate_ = 0.0;
         begun_ = true;
     } else if (now > time_) {
-        const auto steps = static_cast<int>(std::ceil((now - time_) / longest_step));
+        const auto steps = static_cast<int>(std::ceil((now - time_) / max_step_time));
         const double dt = (now - time_) / steps;
         const Sample intended = options_.script(now);
         for (int i = 0; i < steps; ++i) step(intended, dt);

@@ -113,11 +113,10 @@ constexpr double share = 0.8;  // of the device's range that the largest torque 
 
 }  // namespace
 
-TorqueRendering make_torque_rendering(const OutputLimits& limits, double greatest_torque,
-                                      double handle_length) {
-    const double greatest = std::max(greatest_torque, 1.0);
-    if (limits.torque > 0.0) return {std::min(1.0, share * limits.torque / greatest), 0.0};
-    return {0.0, std::min(1.0 / handle_length, share * limits.force / greatest)};
+TorqueRendering make_torque_rendering(const OutputLimits& limits, double max_torque, double handle_length) {
+    const double range = std::max(max_torque, 1.0);
+    if (limits.torque > 0.0) return {std::min(1.0, share * limits.torque / range), 0.0};
+    return {0.0, std::min(1.0 / handle_length, share * limits.force / range)};
 }
 
 OutputCommand render_torque(const TorqueRendering& r, double torque, const Vec3& axis, const Vec3& handle) {

@@ -86,10 +86,9 @@ struct TorqueRendering {
     double as_force = 0.0;  // N at the grip per N·m; the physical value is 1/handle length
 };
 
-// The scales never exceed the physical values. `greatest_torque` in N·m, less than 1 counts as 1;
-// `handle_length` in m.
-TorqueRendering make_torque_rendering(const OutputLimits& limits, double greatest_torque,
-                                      double handle_length);
+// The scales never exceed the physical values. `max_torque`: the largest torque of the lesson, N·m; less than
+// 1 counts as 1; `handle_length` in m.
+TorqueRendering make_torque_rendering(const OutputLimits& limits, double max_torque, double handle_length);
 
 // `torque` in N·m about `axis` (unit): positive torque, which resists tightening of a right-hand thread,
 // turns the hand about +axis. `handle` is the unit vector from the bolt to the grip.

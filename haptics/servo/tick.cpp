@@ -252,14 +252,15 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
     port.missed = input.missed;
     port.stop = input.stop;
     port.reset = input.reset;
-    const force::OutputCommand limited = force::render(setup.limits, state.output, port, request, setup.dt);
+    const force::OutputCommand limited =
+        force::render(setup.limits, state.output_stage, port, request, setup.dt);
     output.constrained_tool = {constrained_tool.position, constrained_tool.orientation};
     output.contacts = state.tool_contact ? static_cast<std::uint16_t>(state.tool_contact->last_step.contacts)
                                          : std::uint16_t{0};
     output.touched = state.tool_contact ? state.tool_contact->touched : collision::ObstacleId();
     output.force = limited.force;
     output.torque = limited.torque;
-    output.fault = state.output.watchdog.fault;
+    output.fault = state.output_stage.watchdog.fault;
     ++state.tick;
     return output;
 }
@@ -281,7 +282,7 @@ force::GuideGoal goal_at(const Setup& setup, std::span<const joint::JointState> 
     goal.target.point = nut_centre(nut, angle);
     goal.target.axis = nut.axis;
     // The ball that the target's own nut and bolt end fill; its corners are 0.58 across_flats away.
-    goal.target.shell = 1.2 * std::max(nut.height, nut.across_flats);
+    goal.target.bounding_radius = 1.2 * std::max(nut.height, nut.across_flats);
     // Tightening a right-hand thread turns about −axis.
     goal.hexagon = {nut.axis, std::cos(angle) * nut.e1 - std::sin(angle) * nut.e2,
                     std::sin(angle) * nut.e1 + std::cos(angle) * nut.e2};

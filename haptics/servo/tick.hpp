@@ -42,7 +42,7 @@ struct State {
     ReleaseFade release_fade;
     force::OutputCommand guiding_command;  // guiding force and torque of the last tick
     force::GuideState guide;
-    force::OutputStage output;
+    force::OutputStage output_stage;
     std::optional<ToolContact> tool_contact;              // none: no contact simulation
     std::array<Checkpoint, max_checkpoints> checkpoints;  // ring buffer
     std::uint32_t checkpoint_count = 0;  // saved since the beginning, less those that undo discarded

@@ -47,7 +47,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr auto poll_period = std::chrono::milliseconds(2);  // adds at most this delay to a sample
-constexpr double longest_step = 0.02;  // s without a sample after which the hand is updated all the same
+constexpr double max_step_time = 0.02;  // s without a sample after which the hand is updated all the same
 
 double seconds_since(SteadyClock::time_point then) {
     return std::chrono::duration<double>(SteadyClock::now() - then).count();
@@ -70,7 +70,7 @@ struct HandThread::Shared {
         for (auto last = SteadyClock::now(); !stop.stop_requested();) {
             const hand::GloveSample& sample = driver.sample();
             const double dt = seconds_since(last);
-            if (sample.number == state.number && dt < longest_step) {
+            if (sample.number == state.number && dt < max_step_time) {
                 std::this_thread::sleep_for(poll_period);
                 continue;
             }

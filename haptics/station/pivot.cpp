@@ -10,7 +10,8 @@ namespace {
 using force::Pivot;
 
 // m from a bolt's axis, and above and below its nut's way, within which the wrench pivots about the bolt;
-// half more to leave it. The guiding force aligns the jaw from the same distance (GuidingParameters::near).
+// half more to leave it. The guiding force aligns the jaw from the same distance
+// (GuidingParameters::alignment_distance).
 constexpr double pivot_radius = 0.08, pivot_above = 0.06, pivot_below = 0.02;
 constexpr double pivot_alignment = 0.7;  // cosine of the largest angle between the tool's normal and the bolt
 constexpr double pivot_rate = 1.0;  // rad/s, at most, at which the wrench turns to a bolt that it comes near
@@ -56,15 +57,15 @@ bool is_held_back(const Pose& commanded, const servo::Output& output) {
                 held_back_turn);
 }
 
-// The pose `last`, square to the bolt, except that it turns by `most` rad at most.
-Pose squared(const Pose& last, const Pivot& pivot, double grip_distance, const Vec3& grip, double most) {
+// The pose `last`, square to the bolt, except that it turns by `max_turn` rad at most.
+Pose squared(const Pose& last, const Pivot& pivot, double grip_distance, const Vec3& grip, double max_turn) {
     const Vec3 normal = last.orientation * Vec3(0.0, 0.0, 1.0);
     const Vec3 axis = glm::dot(normal, pivot.axis) < 0.0 ? -pivot.axis : pivot.axis;
     const Quat to_axis =
         glm::normalize(Quat(1.0 + glm::dot(normal, axis), glm::cross(normal, axis)));  // the shortest turn
     const Pose upright{last.position, glm::normalize(to_axis * last.orientation)};
     const Pose there = force::pivoted(pivot, upright, grip_distance, grip);
-    const Vec3 turn = force::clamp_length(turn_between(last.orientation, there.orientation), most);
+    const Vec3 turn = force::clamp_length(turn_between(last.orientation, there.orientation), max_turn);
     Pose tool{grip, glm::normalize(rotation(turn) * last.orientation)};
     tool.position -= tool.orientation * Vec3(grip_distance, 0.0, 0.0);
     return tool;

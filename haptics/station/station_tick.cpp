@@ -37,12 +37,12 @@ namespace {
 
 // A larger change of force in a millisecond is felt as a blow. Contacts are designed for it up to 0.5 m/s
 // (haptics/proxy/coupling), but a hand that reaches without looking hits the casing at 0.8 m/s.
-constexpr double largest_force_step = 0.1;  // share of the greatest force, per millisecond
-constexpr double millisecond = 1e-3;        // s
+constexpr double max_force_step = 0.1;  // share of the greatest force, per millisecond
+constexpr double millisecond = 1e-3;    // s
 
 force::OutputLimits limited_steps(force::OutputLimits limits) {
-    limits.force_rate = std::min(limits.force_rate, largest_force_step * limits.force / millisecond);
-    limits.torque_rate = std::min(limits.torque_rate, largest_force_step * limits.torque / millisecond);
+    limits.force_rate = std::min(limits.force_rate, max_force_step * limits.force / millisecond);
+    limits.torque_rate = std::min(limits.torque_rate, max_force_step * limits.torque / millisecond);
     return limits;
 }
 
@@ -84,11 +84,11 @@ using device::DeviceSnapshot;
 constexpr double servo_stall = 0.010;
 // Chosen for a tool that approaches a nut by itself: 12 cm/s from 8 cm on, slower than a user who pushes it
 // away.
-constexpr force::GuidingParameters approach_guiding{.gain = 0.25, .greatest = 3.0, .torque = 0.2};
-constexpr double approach_speed = 0.04;      // m/s per N of the guiding law
-constexpr double approach_turn_speed = 3.0;  // rad/s per N·m; slower than a user who turns the tool
-constexpr double largest_deflection = to_radians(2.5);  // of the wrench, at the largest torque
-constexpr double wheel_fade_time = 0.05;                // s in which a wheel's torque fades in and out
+constexpr force::GuidingParameters approach_guiding{.gain = 0.25, .max_force = 3.0, .max_torque = 0.2};
+constexpr double approach_speed = 0.04;             // m/s per N of the guiding law
+constexpr double approach_turn_speed = 3.0;         // rad/s per N·m; slower than a user who turns the tool
+constexpr double max_deflection = to_radians(2.5);  // of the wrench, at the largest torque
+constexpr double wheel_fade_time = 0.05;            // s in which a wheel's torque fades in and out
 
 bool renders(const Description& d) { return renders_force(d) || renders_torque(d); }
 
@@ -99,11 +99,12 @@ void update_link(const Description& d, DeviceLink& link, const DeviceSnapshot& s
     link.silence = link.fresh ? 0.0 : link.silence + elapsed;
     if (link.fresh) link.number = snapshot.number;
     const force::OutputLimits& limits = d.limits;
-    if (!link.usable || link.silence > limits.silence) {
+    if (!link.usable || link.silence > limits.max_silence) {
         // As in the watchdog, the force is zero `release` after the last sample.
         const double release = limits.release - transport_delay;
-        const double most = std::max(0.0, (release - link.silence - elapsed) / (release - limits.silence));
-        link.force_share = link.usable ? std::min(link.force_share, most) : 0.0;
+        const double max_share =
+            std::max(0.0, (release - link.silence - elapsed) / (release - limits.max_silence));
+        link.force_share = link.usable ? std::min(link.force_share, max_share) : 0.0;
     } else {
         link.force_share = std::min(1.0, link.force_share + elapsed / limits.ramp_up);
     }
@@ -120,8 +121,8 @@ bool has_current_data(const Description& d, const DeviceLink& link) {
 double angular_velocity_factor(const servo::Setup& setup, const StationState& s) {
     if (s.output.joint < 0) return 1.0;
     if (s.input.grip == servo::Grip::fingers) return finger_velocity_factor;
-    const double greatest = setup.wrench.stiffness * largest_deflection;
-    return 1.0 / (1.0 + torque_slowdown * std::abs(s.output.wrench_torque) / greatest);
+    const double max_torque = setup.wrench.stiffness * max_deflection;
+    return 1.0 / (1.0 + torque_slowdown * std::abs(s.output.wrench_torque) / max_torque);
 }
 
 // Integrates the velocity that the device senses into the tool's pose, at most the permitted lead ahead of

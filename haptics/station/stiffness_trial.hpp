@@ -30,7 +30,7 @@ enum class TrialEnd : std::uint8_t {
 struct StiffnessTrial {
     force::OutputLimits limits;  // of the arm, with the force of the trial
     Vec3 direction{0.0};         // unit, of the steps
-    force::OutputStage output;
+    force::OutputStage output_stage;
 
     TrialEnd end = TrialEnd::none;
     force::Fault fault = force::Fault::none;  // for TrialEnd::fault

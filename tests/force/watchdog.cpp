@@ -23,7 +23,7 @@ struct Device {
     PortInput input;
     Device() { input.enabled = true; }
 
-    bool step() { return watch(limits, state, input, true, dt); }
+    bool step() { return update_watchdog(limits, state, input, true, dt); }
     // Moves along x at `speed` (m/s) for `ticks`; returns the last result of step().
     bool move(double speed, int ticks) {
         bool may = false;
@@ -184,7 +184,7 @@ TEST_CASE("Watchdog: excess speed is a fault within 20 ms, until it falls to hal
 TEST_CASE("Watchdog: a request that is not finite is a fault") {
     Device device;
     device.move(0.1, 10);
-    CHECK_FALSE(watch(device.limits, device.state, device.input, false, dt));
+    CHECK_FALSE(update_watchdog(device.limits, device.state, device.input, false, dt));
     CHECK(device.state.fault == Fault::bad_request);
     CHECK(device.ticks_until(true) == 100);
 }

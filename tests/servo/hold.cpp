@@ -157,7 +157,7 @@ TEST_CASE("Hold: an angle that changes faster than any hand releases the nut and
 }
 
 TEST_CASE("Servo: an empty hand is guided to the nut's centre with k over the distance") {
-    CHECK(Held().setup.guiding.greatest == 3.0);
+    CHECK(Held().setup.guiding.max_force == 3.0);
     for (std::int16_t guide = 0; guide < 2; ++guide) {
         Held held;
         const NutGeometry& nut = held.setup.nuts[static_cast<std::size_t>(guide)];

@@ -36,7 +36,7 @@ TEST_CASE("Station: a pause renders no force and moves nothing; afterwards force
         }
         CHECK(last > 1.0);
         CHECK(glm::length(rig.tool().position - before.position) < 1e-9);
-        CHECK(rig.servo.output.watchdog.counts[static_cast<std::size_t>(force::Fault::jumped)] == 0);
+        CHECK(rig.servo.output_stage.watchdog.counts[static_cast<std::size_t>(force::Fault::jumped)] == 0);
     }
     SUBCASE("a stop pressed during the pause is a fault afterwards") {
         rig.layout.mover_buttons.stop = 16;

@@ -121,7 +121,7 @@ void servo_tick_12_joints(benchmark::State& state) {
     description.jaw = 0.0242;
     description.head_angle = 0.26;
     description.handle_length = 0.23;
-    description.greatest_torque = 200.0;
+    description.max_torque = 200.0;
     const servo::Setup setup = servo::make_setup(description);
     servo::State servo = servo::initial_state(setup);
     servo::Input input;
