@@ -63,8 +63,8 @@ DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active,
     if (const auto nut = hand_of(active).nut)
         scene.nut = force::Pivot{world::nut_centre(world, setup, *nut), setup.nuts[*nut].axis};
     const station::Layout& layout = client.link->layout();
-    scene.handle_length = layout.grip_distance;
-    scene.device = viewer_heading(active) * layout.workspace.turn;
+    scene.handle_length = layout.lever_arm;
+    scene.device = viewer_heading(active) * layout.workspace.rotation;
     scene.scale = layout.workspace.scale;
     return scene;
 }

@@ -187,8 +187,8 @@ void update_client(StationClient& client, const session::LessonSession& session)
     const double within = client.near_nut ? nut_release_distance : nut_capture_distance;
     client.near_nut = nearest_nut(session, client.latest.output.constrained_tool.position, within);
     client.near_wrench =
-        client.latest.wrench_rest &&
-        distance_to_handle(client.latest.commanded_tool.position, *client.latest.wrench_rest,
+        client.latest.resting_wrench &&
+        distance_to_handle(client.latest.commanded_tool.position, *client.latest.resting_wrench,
                            session.setup().wrench.handle_length) < station::handle_capture_distance;
 }
 
@@ -221,7 +221,7 @@ WorkingHand hand_of(const StationClient& client) {
         engaged ? std::optional(static_cast<std::size_t>(client.latest.output.joint)) : client.near_nut;
     hand.action = engaged ? HandAction::holding : hand.nut ? HandAction::lowering : HandAction::resting;
     hand.pose = hand.to = client.latest.commanded_tool;
-    hand.rest = client.latest.wrench_rest.value_or(client.rest);
+    hand.rest = client.latest.resting_wrench.value_or(client.rest);
     if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
         hand.room = std::max(
             0.0, forearm_range - std::abs(client.latest.output.nut_angle - client.nut_angle_at_grip));
@@ -245,7 +245,7 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
     const bool closes = client.keyboard.button_down() || client.latest.dead_man_pressed ||
                         (client.gloved && !held && pinches(client.fingers));
     controls.pause = intent.paused;
-    controls.wrench_rest = client.rest;
+    controls.wrench_rest_pose = client.rest;
     controls.bare_wrist = client.bare_wrist;
     controls.grip = grip_of(client, closes, intent);
     // A glove that sends no valid samples keeps the wrench, but releases the dead-man switch.

@@ -28,7 +28,7 @@ std::string sensing_text(const Description& d) {
                                      : "senses the position of the hand in three degrees of freedom";
         case Sensing::velocity:
             return "senses a commanded velocity in six degrees of freedom";
-        case Sensing::turn:
+        case Sensing::angle:
             return "senses the angle of its one axis";
     }
     return {};
@@ -86,7 +86,7 @@ std::vector<std::string> summary_lines(const Condition& condition) {
                                                  : "not calibrated: it does not know its position");
     if (condition.heat)
         lines.push_back(fmt::format("motors at {:.0f} % of their greatest heat{}", 100.0 * *condition.heat,
-                                    condition.rests      ? ": no force until they are cool"
+                                    condition.cooling    ? ": no force until they are cool"
                                     : is_warm(condition) ? ": rest the arm"
                                                          : ""));
     return lines;

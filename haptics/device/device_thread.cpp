@@ -53,8 +53,8 @@ bool DeviceSupervisor::is_valid(const Sample& s) const {
                    std::abs(glm::dot(s.pose.orientation, s.pose.orientation) - 1.0) < 1e-2;
         case Sensing::velocity:
             return finite(s.velocity) && finite(s.angular_velocity);
-        case Sensing::turn:
-            return std::isfinite(s.turn);
+        case Sensing::angle:
+            return std::isfinite(s.angle);
     }
     return false;
 }
@@ -144,7 +144,7 @@ void DeviceSupervisor::track_silence(bool received, double now) {
         report_.trouble.clear();
         return;
     }
-    if (!expects_samples() || now - last_sample_ < options_.silence) return;
+    if (!expects_samples() || now - last_sample_ < options_.max_silence) return;
     report_.state = DeviceState::silent;
     const std::string trouble = report_.description->name + " is connected but sends no valid samples";
     if (report_.trouble != trouble) report_.trouble = trouble;

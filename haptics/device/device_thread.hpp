@@ -17,7 +17,7 @@ struct SupervisorOptions {
     // s without a new command until the force is released. With one poll and one write on top, the device
     // lets go after 20 ms at the latest.
     double command_timeout = 0.015;
-    double silence = 0.25;      // s without a valid sample until this is reported
+    double max_silence = 0.25;  // s without a valid sample until this is reported
     double reopen_after = 1.0;  // s of silence until the device is reopened
 };
 

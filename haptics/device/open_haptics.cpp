@@ -163,7 +163,7 @@ class OpenHapticsArm final : public DeviceDriver {
     [[nodiscard]] const Description& describe() const override { return arm_.description; }
 
     [[nodiscard]] Condition condition() const override {
-        return {report_.calibration == calibrated, report_.heat, report_.warm};
+        return {report_.calibration == calibrated, report_.heat, report_.cooling};
     }
 
     Result<std::optional<Sample>> read(double timeout) override {

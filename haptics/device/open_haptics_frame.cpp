@@ -15,7 +15,7 @@ constexpr unsigned get_buttons = 0x2000, get_transform = 0x2052, get_motor_heat 
 // ends 20 ms after the last command.
 constexpr double max_command_age = 18e-3;
 constexpr double fade_time = 10e-3;  // s from full strength to none after an error of the forces
-constexpr double rest_time = 0.5;    // s without such an error before the force comes back
+constexpr double pause_time = 0.5;   // s without such an error before the force comes back
 constexpr double ramp_time = 0.5;    // s from none to full strength
 // Heat of the motors, 0 … 1. From `hot` on the forces fade, before the library ends them with an error at 1;
 // below `cool` they come back.
@@ -92,10 +92,10 @@ void FrameCallback::take_sample(const Pose& pose, double now) {
     ++report_.number;
 }
 
-// A refused call does not prolong the rest, because calls are refused until the forces are enabled again.
+// A refused call does not prolong the pause, because calls are refused until the forces are enabled again.
 void FrameCallback::note_error(unsigned code, double now) {
-    if (code >= warm_motors || now >= rests_until_) rests_until_ = now + rest_time;
-    report_.warm = report_.warm || code == warm_motors;
+    if (code >= warm_motors || now >= paused_until_) paused_until_ = now + pause_time;
+    report_.cooling = report_.cooling || code == warm_motors;
     if (code >= first_fault) report_.fault = std::max(report_.fault, code);
 }
 
@@ -106,10 +106,10 @@ void FrameCallback::observe_heat() {
     for (const double heat : get_doubles(api_, get_motor_heat))
         if (heat >= 0.0) hottest = std::max(hottest, heat);
     report_.heat = hottest >= 0.0 ? std::optional(std::min(hottest, 1.0)) : std::nullopt;
-    report_.warm = hottest >= hot || (report_.warm && hottest >= cool);
+    report_.cooling = hottest >= hot || (report_.cooling && hottest >= cool);
 }
 
-bool FrameCallback::is_resting(double now) { return report_.warm || now < rests_until_; }
+bool FrameCallback::is_paused(double now) { return report_.cooling || now < paused_until_; }
 
 void FrameCallback::update_strength(bool renders, double elapsed) {
     if (!renders) {
@@ -124,7 +124,7 @@ void FrameCallback::update_strength(bool renders, double elapsed) {
 void FrameCallback::render(bool has_pose, double now, double elapsed) {
     observe_heat();
     if (report_.released) return;  // the device thread may have disabled the forces
-    update_strength(has_pose && !is_resting(now), elapsed);
+    update_strength(has_pose && !is_paused(now), elapsed);
     commands.update();
     const TimedCommand& command = commands.latest();
     const bool releases = releases_.load(std::memory_order_relaxed);

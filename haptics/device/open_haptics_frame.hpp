@@ -60,7 +60,7 @@ struct FrameReport {
     unsigned calibration = 0;    // as the library reports it; 0: not checked yet
     unsigned fault = 0;          // the error that has ended the forces for good; 0: none
     std::optional<double> heat;  // of the hottest motor, 0 … 1
-    bool warm = false;           // the forces rest until the motors are cool
+    bool cooling = false;        // no force until the motors are cool
     bool released = false;       // a frame without force has ended since release()
 };
 
@@ -84,7 +84,7 @@ class FrameCallback {
     void calibrate();
     void take_sample(const Pose& pose, double now);
     void note_error(unsigned code, double now);
-    bool is_resting(double now);
+    bool is_paused(double now);
     void observe_heat();
     void update_strength(bool renders, double elapsed);
     void render(bool has_pose, double now, double elapsed);
@@ -94,10 +94,10 @@ class FrameCallback {
     ArmProperties arm_;
     Timer timer_;
     FrameReport report_;
-    double before_;              // s, time of the last frame
-    double strength_ = 1.0;      // share of the command that is rendered
-    double rests_until_ = -1e9;  // s
-    int frames_to_heat_ = 0;     // until the heat is queried again
+    double before_;               // s, time of the last frame
+    double strength_ = 1.0;       // share of the command that is rendered
+    double paused_until_ = -1e9;  // s
+    int frames_to_heat_ = 0;      // until the heat is queried again
     std::atomic<bool> releases_ = false;
 };
 

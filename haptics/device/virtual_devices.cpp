@@ -187,11 +187,11 @@ class SimulatedDevice::Connection final : public DeviceDriver {
         due_ = std::max(due_, device_.now_.time - 1.0 / describe().rate) + 1.0 / describe().rate;
         Sample sample = device_.now_;
         if (device_.is_active(InjectedFault::not_a_number))
-            sample.pose.position.y = sample.velocity.y = sample.turn =
+            sample.pose.position.y = sample.velocity.y = sample.angle =
                 std::numeric_limits<double>::quiet_NaN();
         if (device_.is_active(InjectedFault::jumped)) {
             sample.pose.position += Vec3(0.5, 0.0, 0.0);
-            sample.turn += 3.0;
+            sample.angle += 3.0;
         }
         return sample;
     }
@@ -281,11 +281,12 @@ void SimulatedDevice::advance() {
 void SimulatedDevice::step(const Sample& intended, double dt) {
     const HandImpedance& hand = *options_.hand;
     const force::OutputCommand force = rendered();
-    if (options_.description.sensing == Sensing::turn) {
-        const double torque = hand.torsion * (intended.turn - now_.turn) - hand.angular_damping * turn_rate_ +
+    if (options_.description.sensing == Sensing::angle) {
+        const double torque = hand.torsion * (intended.angle - now_.angle) -
+                              hand.angular_damping * turn_rate_ +
                               glm::dot(force.torque, options_.description.axis);
         turn_rate_ += torque / hand.inertia * dt;
-        now_.turn += turn_rate_ * dt;
+        now_.angle += turn_rate_ * dt;
         return;
     }
     const Vec3 input =

@@ -24,14 +24,14 @@ bool update_motion(const OutputLimits& limits, WatchdogState& s, const Pose& pos
     const auto ticks = static_cast<double>(s.ticks_since_sample);
     Motion& m = s.motion;
     m.shift = pose.position - s.last.position;
-    m.turn = turn_between(s.last.orientation, pose.orientation);
+    m.rotation = turn_between(s.last.orientation, pose.orientation);
     s.last = pose;
-    if (glm::length(m.shift) > limits.jump * ticks || glm::length(m.turn) > limits.angular_jump * ticks) {
+    if (glm::length(m.shift) > limits.jump * ticks || glm::length(m.rotation) > limits.angular_jump * ticks) {
         m = {};
         return false;
     }
     const double elapsed = ticks * dt;
-    const Vec3 velocity = m.shift / elapsed, angular_velocity = m.turn / elapsed;
+    const Vec3 velocity = m.shift / elapsed, angular_velocity = m.rotation / elapsed;
     const double smooth = 1.0 - std::exp(-elapsed / smoothing);
     m.velocity += smooth * (velocity - m.velocity);
     m.angular_velocity += smooth * (angular_velocity - m.angular_velocity);
@@ -141,7 +141,7 @@ void add_applied_work(const OutputLimits& limits, PassivityState& s, const Motio
     if (!motion.fresh && !motion.begins) return;
     if (motion.fresh)
         s.balance -=
-            (glm::dot(s.applied.force, motion.shift) + glm::dot(s.applied.torque, motion.turn)) / s.ticks;
+            (glm::dot(s.applied.force, motion.shift) + glm::dot(s.applied.torque, motion.rotation)) / s.ticks;
     s.applied = {};
     s.ticks = 0.0;
 }

@@ -40,10 +40,10 @@ struct PortInput {
 // Motion of the device since the previous sample.
 struct Motion {
     Vec3 shift{0.0};             // m
-    Vec3 turn{0.0};              // rad
+    Vec3 rotation{0.0};          // rad, axis times angle
     Vec3 velocity{0.0};          // m/s, smoothed over 1.5 ms
     Vec3 angular_velocity{0.0};  // rad/s
-    bool fresh = false;          // a new sample; false: shift and turn are of an earlier one
+    bool fresh = false;          // a new sample; false: shift and rotation are of an earlier one
     bool begins = false;         // the first sample: it starts a motion and has none itself
 };
 

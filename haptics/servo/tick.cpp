@@ -125,8 +125,8 @@ double relative_work(const force::OutputCommand& help, const Pose& commanded_bef
 
 // The aligning torque for a device that renders none, as a force at the end of the wrench: a wrench near a
 // bolt turns with the end of its handle.
-force::OutputCommand as_force_at_grip(const Setup& setup, const force::OutputCommand& help,
-                                      const ToolPose& tool) {
+force::OutputCommand as_force_at_lever_end(const Setup& setup, const force::OutputCommand& help,
+                                           const ToolPose& tool) {
     if (setup.wrench.handle_length <= 0.0) return help;
     return {help.force + glm::cross(help.torque, tool.handle) / setup.wrench.handle_length, Vec3(0.0)};
 }
@@ -195,9 +195,9 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
     const int engaged_before = state.engagement.joint;
     const bool held_by_spring_before = engaged_before >= 0 && !held_by_contact(state);
     if (state.tool_contact && grip == Grip::wrench)
-        update_jaw_grip(setup, state.joints, state.rounded, constrained_tool, state.engagement);
+        update_jaw_engagement(setup, state.joints, state.rounded, constrained_tool, state.engagement);
     else
-        update_engagement(setup, state.joints, constrained_tool, grip, state.engagement);
+        update_pose_engagement(setup, state.joints, constrained_tool, grip, state.engagement);
 
     const int engaged = state.engagement.joint;
     update_setting(setup, state.engagement, input.setting);
@@ -215,7 +215,7 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
         force::guide(setup.guiding, state.guide, guided_tool(setup, constrained_tool),
                      goal_at(setup, state.joints, guides ? input.guide : -1), free, setup.dt);
     if (setup.limits.torque <= 0.0 && grip == Grip::wrench)
-        help.command = as_force_at_grip(setup, help.command, constrained_tool);
+        help.command = as_force_at_lever_end(setup, help.command, constrained_tool);
     state.guiding_command = help.command;
     if (held_by_spring_before && engaged != engaged_before) state.release_fade = {state.hold_target, 1.0};
     if (!constrained_tool.valid || !input.enabled) state.release_fade.share = 0.0;
@@ -244,8 +244,8 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
         }
     force::PortInput port;
     // A device without torque output applies its force at the grip.
-    const double grip_offset = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
-    port.pose = {commanded_tool.position + grip_offset * commanded_tool.handle, commanded_tool.orientation};
+    const double lever_arm = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
+    port.pose = {commanded_tool.position + lever_arm * commanded_tool.handle, commanded_tool.orientation};
     port.valid = commanded_tool.valid;
     port.enabled = input.enabled;
     port.fresh = input.fresh;

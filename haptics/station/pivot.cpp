@@ -17,7 +17,7 @@ constexpr double pivot_alignment = 0.7;  // cosine of the largest angle between 
 constexpr double pivot_rate = 1.0;  // rad/s, at most, at which the wrench turns to a bolt that it comes near
 // m and rad by which obstacles hold a wrench back that no longer turns to a bolt: it would push the hand
 // away, with energy that the hand did not put in.
-constexpr double held_back = 0.3e-3, held_back_turn = 5e-3;
+constexpr double held_back = 0.3e-3, held_back_angle = 5e-3;
 
 // The distance of a jaw at `tool` from the axis of this nut's bolt, m, if it is near the nut, wherever that
 // is on its thread; otherwise infinity. `slack`: factor on the distances.
@@ -54,20 +54,20 @@ bool is_held_back(const Pose& commanded, const servo::Output& output) {
     return !output.touched.is_nut() &&
            (glm::length(output.constrained_tool.position - commanded.position) > held_back ||
             glm::length(turn_between(output.constrained_tool.orientation, commanded.orientation)) >
-                held_back_turn);
+                held_back_angle);
 }
 
 // The pose `last`, square to the bolt, except that it turns by `max_turn` rad at most.
-Pose squared(const Pose& last, const Pivot& pivot, double grip_distance, const Vec3& grip, double max_turn) {
+Pose squared(const Pose& last, const Pivot& pivot, double lever_arm, const Vec3& lever_end, double max_turn) {
     const Vec3 normal = last.orientation * Vec3(0.0, 0.0, 1.0);
     const Vec3 axis = glm::dot(normal, pivot.axis) < 0.0 ? -pivot.axis : pivot.axis;
     const Quat to_axis =
         glm::normalize(Quat(1.0 + glm::dot(normal, axis), glm::cross(normal, axis)));  // the shortest turn
     const Pose upright{last.position, glm::normalize(to_axis * last.orientation)};
-    const Pose there = force::pivoted(pivot, upright, grip_distance, grip);
+    const Pose there = force::pivoted(pivot, upright, lever_arm, lever_end);
     const Vec3 turn = force::clamp_length(turn_between(last.orientation, there.orientation), max_turn);
-    Pose tool{grip, glm::normalize(rotation(turn) * last.orientation)};
-    tool.position -= tool.orientation * Vec3(grip_distance, 0.0, 0.0);
+    Pose tool{lever_end, glm::normalize(rotation(turn) * last.orientation)};
+    tool.position -= tool.orientation * Vec3(lever_arm, 0.0, 0.0);
     return tool;
 }
 
@@ -75,17 +75,18 @@ Pose squared(const Pose& last, const Pivot& pivot, double grip_distance, const V
 
 void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationState& s, const Pose& last,
                       double dt) {
-    const bool wrench = s.input.grip == servo::Grip::wrench && s.workspace.grip_distance > 0.0;
+    const bool wrench = s.input.grip == servo::Grip::wrench && s.workspace.lever_arm > 0.0;
     s.pivot_joint = wrench ? nut_to_pivot_about(setup, s) : -1;
     if (s.pivot_joint < 0) return;
     const servo::NutGeometry& nut = setup.nuts[static_cast<std::size_t>(s.pivot_joint)];
     const Pivot pivot{nut.seat, nut.axis};
-    const Vec3 grip = force::grip_point(s.workspace, s.workspace.commanded_tool);
-    const double length = s.workspace.grip_distance;
-    const double turn = is_held_back(last, s.output) ? 0.0 : pivot_rate * dt;
+    const Vec3 lever_end = force::lever_end(s.workspace, s.workspace.commanded_tool);
+    const double lever_arm = s.workspace.lever_arm;
+    const double max_turn = is_held_back(last, s.output) ? 0.0 : pivot_rate * dt;
     force::realign(layout.workspace, s.workspace, s.mover_pose,
-                   s.output.joint >= 0 ? force::pivoted(pivot, s.output.constrained_tool, length, grip)
-                                       : squared(last, pivot, length, grip, turn));
+                   s.output.joint >= 0
+                       ? force::pivoted(pivot, s.output.constrained_tool, lever_arm, lever_end)
+                       : squared(last, pivot, lever_arm, lever_end, max_turn));
 }
 
 }  // namespace bolt::station

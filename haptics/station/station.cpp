@@ -58,7 +58,7 @@ struct Station::Shared {
         link_stats.write(stats);
         if (hand)
             hand->set_tool({tool_commanded_by_glove(layout, setup, station, inputs.controls),
-                            station.wrench_rest.value_or(station.output.constrained_tool)});
+                            station.resting_wrench.value_or(station.output.constrained_tool)});
         latest_tick.write(done.tick);
         if (!done.paused && !ticks.push(done.tick)) lost_ticks.fetch_add(1, std::memory_order_relaxed);
         return true;
@@ -85,11 +85,11 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
 // With the power 1/scale a force on the tool is as large on the hand.
 force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& options) {
     force::WorkspaceMap map;
-    map.turn = glm::normalize(options.workspace.turn);
+    map.rotation = glm::normalize(options.workspace.rotation);
     if (!layout.mover || layout.mover->sensing != device::Sensing::pose) return map;
-    const Vec3 reach = force::turned_reach(map.turn, layout.mover->reach);
+    const Vec3 reach = force::rotated_reach(map.rotation, layout.mover->reach);
     map.scale = options.workspace.scale.value_or(force::fitted_scale(reach, options.handle_length));
-    map.power = options.workspace.power.value_or(1.0 / map.scale);
+    map.power_ratio = options.workspace.power_ratio.value_or(1.0 / map.scale);
     return map;
 }
 
@@ -106,7 +106,7 @@ Result<Layout> make_layout(const StationOptions& options, std::optional<device::
     layout.home = options.home;
     BOLT_TRY(check(layout));
     layout.workspace = make_workspace(layout, options);
-    layout.grip_distance = grip_distance_of(layout, options.handle_length);
+    layout.lever_arm = lever_arm_of(layout, options.handle_length);
     return layout;
 }
 

@@ -38,9 +38,9 @@ struct StationLinkStats {
 struct WorkspaceOptions {
     // Unit, from the device's frame to the user's: not the identity if the device is mounted at another angle
     // than its maker intends.
-    Quat turn{1.0, 0.0, 0.0, 0.0};
-    std::optional<double> scale;  // none: fitted to the mover's reach
-    std::optional<double> power;  // none: 1/scale, so that forces keep their magnitude
+    Quat rotation{1.0, 0.0, 0.0, 0.0};
+    std::optional<double> scale;        // none: fitted to the mover's reach
+    std::optional<double> power_ratio;  // none: 1/scale, so that forces keep their magnitude
 };
 
 struct StationOptions {
@@ -63,7 +63,7 @@ struct StationOptions {
     std::function<Result<servo::State>(const servo::Setup& setup)> state;  // empty: servo::initial_state
 };
 
-// The layout of these devices: workspace and grip distance from the options, or fitted to the devices. The
+// The layout of these devices: workspace and lever arm from the options, or fitted to the devices. The
 // mover's limits are lowered here, before anything uses them. Fails as check().
 Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
                            std::optional<device::Description> wheel);

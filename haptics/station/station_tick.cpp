@@ -23,11 +23,11 @@ bool renders_torque(const Description& d) {
 Status check(const Layout& layout) {
     if (!layout.mover && !layout.wheel)
         return fail(ErrorCode::no_device, "station: no device is selected", "a device that moves the tool");
-    if (layout.mover && layout.mover->sensing == Sensing::turn)
+    if (layout.mover && layout.mover->sensing == Sensing::angle)
         return fail(ErrorCode::no_device,
                     "station: " + layout.mover->name + " turns about one axis and cannot move the tool",
                     "that device as the wheel, and another device or the mouse as the mover");
-    if (layout.wheel && layout.wheel->sensing != Sensing::turn)
+    if (layout.wheel && layout.wheel->sensing != Sensing::angle)
         return fail(ErrorCode::no_device, "station: " + layout.wheel->name + " is not a wheel",
                     "a device that turns about one axis; this one can be the mover");
     return {};
@@ -48,7 +48,7 @@ force::OutputLimits limited_steps(force::OutputLimits limits) {
 
 }  // namespace
 
-double grip_distance_of(const Layout& layout, double handle_length) {
+double lever_arm_of(const Layout& layout, double handle_length) {
     const bool pose = layout.mover && layout.mover->sensing == Sensing::pose;
     return pose && limits_of(layout).torque <= 0.0 ? handle_length : 0.0;
 }
@@ -86,7 +86,7 @@ constexpr double servo_stall = 0.010;
 // away.
 constexpr force::GuidingParameters approach_guiding{.gain = 0.25, .max_force = 3.0, .max_torque = 0.2};
 constexpr double approach_speed = 0.04;             // m/s per N of the guiding law
-constexpr double approach_turn_speed = 3.0;         // rad/s per N·m; slower than a user who turns the tool
+constexpr double approach_angular_speed = 3.0;      // rad/s per N·m; slower than a user who turns the tool
 constexpr double max_deflection = to_radians(2.5);  // of the wrench, at the largest torque
 constexpr double wheel_fade_time = 0.05;            // s in which a wheel's torque fades in and out
 
@@ -129,10 +129,10 @@ double angular_velocity_factor(const servo::Setup& setup, const StationState& s)
 // the constrained pose.
 void integrate_velocity(const Layout& layout, const servo::Setup& setup, StationState& s,
                         const device::Sample& sample, const Quat& view, double dt) {
-    const Quat turn = view * layout.workspace.turn;
+    const Quat to_assembly = view * layout.workspace.rotation;
     Pose& tool = s.workspace.commanded_tool;
-    tool.position += turn * sample.velocity * dt;
-    const Vec3 turned_on = angular_velocity_factor(setup, s) * (turn * sample.angular_velocity) * dt;
+    tool.position += to_assembly * sample.velocity * dt;
+    const Vec3 turned_on = angular_velocity_factor(setup, s) * (to_assembly * sample.angular_velocity) * dt;
     tool.orientation = glm::normalize(rotation(turned_on) * tool.orientation);
     const Pose& constrained_tool = s.output.constrained_tool;
     tool.position =
@@ -152,10 +152,10 @@ Quat heading_of(const Quat& view) {
 }
 
 // Changes what the tool's motion follows, without moving the tool.
-void set_heading_and_grip(const Layout& layout, StationState& s, const Quat& heading, double grip_distance) {
-    if (heading == s.workspace.heading && grip_distance == s.workspace.grip_distance) return;
+void set_heading_and_lever_arm(const Layout& layout, StationState& s, const Quat& heading, double lever_arm) {
+    if (heading == s.workspace.heading && lever_arm == s.workspace.lever_arm) return;
     s.workspace.heading = heading;
-    s.workspace.grip_distance = grip_distance;
+    s.workspace.lever_arm = lever_arm;
     force::realign(layout.workspace, s.workspace, s.mover_pose, s.workspace.commanded_tool);
 }
 
@@ -169,8 +169,8 @@ bool has_jumped(const Description& mover, const Pose& before, const Pose& now) {
                limits.angular_jump + limits.angular_speed * between;
 }
 
-void move(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
-          const Quat& view, bool clutch, double dt) {
+void move_by_mover(const Layout& layout, const servo::Setup& setup, StationState& s,
+                   const DeviceSnapshot& snapshot, const Quat& view, bool clutch, double dt) {
     if (layout.mover->sensing == Sensing::velocity) {
         if (s.mover.usable && s.mover.silence < velocity_timeout && !clutch)
             integrate_velocity(layout, setup, s, snapshot.sample, view, dt);
@@ -188,7 +188,7 @@ void move(const Layout& layout, const servo::Setup& setup, StationState& s, cons
     }
     if (s.mover.number == 0) return;
     const bool away = clutch || !s.mover.usable;
-    set_heading_and_grip(layout, s, heading_of(view), s.workspace.grip_distance);
+    set_heading_and_lever_arm(layout, s, heading_of(view), s.workspace.lever_arm);
     const Pose last = s.workspace.commanded_tool;
     force::to_assembly(layout.workspace, s.workspace, s.mover_pose, away, dt);
     if (!away) pivot_about_bolt(layout, setup, s, last, dt);
@@ -205,12 +205,12 @@ double rotation_sense(const Description& wheel) {
     return glm::dot(wheel.axis, Vec3(0.0, 1.0, 1.0)) < 0.0 ? -1.0 : 1.0;
 }
 
-void turn(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
-          bool clutch) {
+void turn_by_wheel(const Layout& layout, const servo::Setup& setup, StationState& s,
+                   const DeviceSnapshot& snapshot, bool clutch) {
     if (!s.wheel.fresh) return;
-    const double by = snapshot.opening == s.wheel.opening ? snapshot.sample.turn - s.wheel_angle : 0.0;
+    const double by = snapshot.opening == s.wheel.opening ? snapshot.sample.angle - s.wheel_angle : 0.0;
     s.wheel.opening = snapshot.opening;
-    s.wheel_angle = snapshot.sample.turn;
+    s.wheel_angle = snapshot.sample.angle;
     if (!on_bolt(s) || clutch || by == 0.0 || !std::isfinite(by)) return;
     const servo::NutGeometry& nut = setup.nuts[static_cast<std::size_t>(s.output.joint)];
     const Vec3 centre = servo::nut_centre(nut, s.output.nut_angle);
@@ -222,22 +222,22 @@ void turn(const Layout& layout, const servo::Setup& setup, StationState& s, cons
 }
 
 // A wrench that is taken starts at its rest pose. A wrench released on a nut stays there; released elsewhere
-// it returns to StationControls::wrench_rest.
-void update_wrench_rest(const Layout& layout, StationState& s, servo::Grip grip,
-                        const StationControls& controls) {
-    const std::optional<Pose>& rest = controls.wrench_rest;
+// it returns to StationControls::wrench_rest_pose.
+void update_resting_wrench(const Layout& layout, StationState& s, servo::Grip grip,
+                           const StationControls& controls) {
+    const std::optional<Pose>& rest = controls.wrench_rest_pose;
     if (!rest) return;
     const bool had = s.input.grip == servo::Grip::wrench, has = grip == servo::Grip::wrench;
-    if (has && !had && s.wrench_rest) {
-        place_tool(layout, s, *s.wrench_rest);
+    if (has && !had && s.resting_wrench) {
+        place_tool(layout, s, *s.resting_wrench);
         s.workspace.share = 0.0;
     }
-    if (has) s.wrench_rest.reset();
+    if (has) s.resting_wrench.reset();
     // The hand stays in place; from now on the device moves its fingertips.
     if (had && !has && layout.wrist && controls.bare_wrist)
         place_tool(layout, s, s.workspace.commanded_tool * *layout.wrist * inverse(*controls.bare_wrist));
-    if (!has && !s.wrench_rest)
-        s.wrench_rest = had && s.output.joint >= 0 ? s.output.constrained_tool : *rest;
+    if (!has && !s.resting_wrench)
+        s.resting_wrench = had && s.output.joint >= 0 ? s.output.constrained_tool : *rest;
 }
 
 // Updates the links. Returns the controls combined with the devices' buttons.
@@ -311,17 +311,17 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
     const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
     const StationControls controls = merge_buttons(layout, s, inputs, elapsed);
     receive(s, inputs.commands);
-    if (layout.mover) move(layout, setup, s, inputs.mover, controls.view, controls.clutch, elapsed);
-    if (layout.wheel) turn(layout, setup, s, inputs.wheel, controls.clutch);
+    if (layout.mover) move_by_mover(layout, setup, s, inputs.mover, controls.view, controls.clutch, elapsed);
+    if (layout.wheel) turn_by_wheel(layout, setup, s, inputs.wheel, controls.clutch);
     if (s.tool_to_place) {
         place_tool(layout, s, *s.tool_to_place);
         s.tool_to_place.reset();
         s.workspace.share = 0.0;
     }
     const servo::Grip grip = grip_of(inputs);
-    set_heading_and_grip(layout, s, s.workspace.heading,
-                         grip == servo::Grip::wrench ? layout.grip_distance : 0.0);
-    update_wrench_rest(layout, s, grip, controls);
+    set_heading_and_lever_arm(layout, s, s.workspace.heading,
+                              grip == servo::Grip::wrench ? layout.lever_arm : 0.0);
+    update_resting_wrench(layout, s, grip, controls);
 
     servo::Input input;
     input.commanded_tool = servo::to_commanded_tool(s.workspace.commanded_tool);
@@ -370,7 +370,7 @@ void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& 
             .command;
     tool.position += approach_speed * setup.dt * guiding.force;
     tool.orientation =
-        glm::normalize(rotation(approach_turn_speed * setup.dt * guiding.torque) * tool.orientation);
+        glm::normalize(rotation(approach_angular_speed * setup.dt * guiding.torque) * tool.orientation);
     input.commanded_tool = servo::to_commanded_tool(tool);
     s.input = input;
 }
@@ -408,11 +408,11 @@ DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationStat
 
 Pose tool_commanded_by_glove(const Layout& layout, const servo::Setup& setup, const StationState& s,
                              const StationControls& controls) {
-    const bool bare = s.wrench_rest && layout.wrist && controls.bare_wrist;
+    const bool bare = s.resting_wrench && layout.wrist && controls.bare_wrist;
     if (bare) {
-        const Vec3 tip = inverse(*s.wrench_rest) * s.workspace.commanded_tool.position;
+        const Vec3 tip = inverse(*s.resting_wrench) * s.workspace.commanded_tool.position;
         const Vec3 nearest(std::clamp(tip.x, 0.0, setup.wrench.handle_length), 0.0, 0.0);
-        if (glm::distance(tip, nearest) < handle_capture_distance) return *s.wrench_rest;
+        if (glm::distance(tip, nearest) < handle_capture_distance) return *s.resting_wrench;
     }
     return bare ? s.workspace.commanded_tool * *controls.bare_wrist * inverse(*layout.wrist)
                 : s.workspace.commanded_tool;
@@ -423,9 +423,9 @@ DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, Stati
     const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
     receive(s, inputs.commands);
     s.stopped_in_pause = merge_buttons(layout, s, inputs, elapsed).stop;
-    if (layout.mover) move(layout, setup, s, inputs.mover, inputs.controls.view, true, elapsed);
+    if (layout.mover) move_by_mover(layout, setup, s, inputs.mover, inputs.controls.view, true, elapsed);
     if (layout.wheel) {
-        if (s.wheel.fresh) s.wheel_angle = inputs.wheel.sample.turn;
+        if (s.wheel.fresh) s.wheel_angle = inputs.wheel.sample.angle;
         s.wheel.opening = inputs.wheel.opening;
     }
     s.restarting = true;
@@ -439,7 +439,7 @@ StationStep step(const Layout& layout, const servo::Setup& setup, StationState& 
     done.paused = inputs.controls.pause;
     done.commands =
         done.paused ? pause_tick(layout, setup, s, inputs) : tick(layout, setup, s, servo, inputs);
-    done.tick = {number, s.input, s.output, s.workspace.commanded_tool, s.wrench_rest, s.dead_man_pressed};
+    done.tick = {number, s.input, s.output, s.workspace.commanded_tool, s.resting_wrench, s.dead_man_pressed};
     return done;
 }
 

@@ -30,15 +30,15 @@ struct Buttons {
 struct Layout {
     std::optional<device::Description> mover;  // moves the tool: Sensing::pose or velocity
     Buttons mover_buttons;
-    // Turns the wrench on its bolt and renders the torque: Sensing::turn. With a wheel the mover renders
+    // Turns the wrench on its bolt and renders the torque: Sensing::angle. With a wheel the mover renders
     // forces only.
     std::optional<device::Description> wheel;
     Buttons wheel_buttons;
-    force::WorkspaceMap workspace;  // of the mover; for a device that senses velocity only `turn` applies
+    force::WorkspaceMap workspace;  // of the mover; for a device that senses velocity only `rotation` applies
     Pose home;                      // initial pose of the tool in the assembly's frame
     // m from the wrench's jaw to the point of its handle that the mover's handle stands for
-    // (grip_distance_of()).
-    double grip_distance = 0.0;
+    // (lever_arm_of()).
+    double lever_arm = 0.0;
     std::optional<Pose> wrist;  // of a gloved hand that holds the tool, in the tool's frame
 };
 
@@ -52,7 +52,7 @@ inline constexpr double transport_delay = 2e-3;
 // The length of the wrench, `handle_length` m, if the mover senses the pose of the hand and no device renders
 // torque: its force then acts at the end of the wrench. Otherwise 0: the mover's handle stands for the jaw,
 // and turns about the bolt.
-double grip_distance_of(const Layout& layout, double handle_length);
+double lever_arm_of(const Layout& layout, double handle_length);
 
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
 force::OutputLimits limits_of(const Layout& layout);
@@ -79,7 +79,7 @@ struct StationControls {
     bool pause = false;  // no servo tick and no force; the tool stands still while the hand may move
     // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open
     // hand.
-    std::optional<Pose> wrench_rest{};
+    std::optional<Pose> wrench_rest_pose{};
     // Pose of the wrist relative to the fingertips of the same hand, used while a gloved hand holds no
     // wrench. If set, the pose that the device commands is that of the fingertips. If none, it is that of the
     // tool that the hand would hold.
@@ -141,8 +141,8 @@ struct StationState {
     Vec3 bolt_axis{0.0, 1.0, 0.0};  // unit, of the bolt that the wheel turns or turned last
     double wheel_fade = 0.0;        // 0 … 1, share of the bolt's torque that the wheel renders
     bool restarting = false;        // after a stall or a pause: no force until the output stage is at zero
-    // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest.
-    std::optional<Pose> wrench_rest;
+    // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest_pose.
+    std::optional<Pose> resting_wrench;
     int pivot_joint = -1;  // joint whose bolt the wrench pivots about; −1: none
     force::GuideState approach_guide;
     int carrying_joint = -1;   // joint whose nut moves the tool along (see move_to_nut()); −1: none
@@ -197,8 +197,8 @@ struct StationTick {
     servo::Input input;
     servo::Output output;
     Pose commanded_tool;  // in the assembly's frame
-    // Pose of the wrench while no hand holds it (StationControls::wrench_rest).
-    std::optional<Pose> wrench_rest;
+    // Pose of the wrench while no hand holds it (StationControls::wrench_rest_pose).
+    std::optional<Pose> resting_wrench;
     bool dead_man_pressed = false;  // by a button of a device
 };
 

@@ -58,9 +58,9 @@ void PlayedLesson::serve() { device::run_once(*supervisor_, mailboxes_, snapshot
 
 Pose PlayedLesson::device_pose(const Pose& tool) const {
     const force::WorkspaceState& w = state_.workspace;
-    const Quat back = glm::conjugate(w.heading * layout_.workspace.turn);
-    return {back * (force::grip_point(w, tool) - w.centre) / layout_.workspace.scale,
-            glm::normalize(back * tool.orientation * glm::conjugate(w.grip))};
+    const Quat back = glm::conjugate(w.heading * layout_.workspace.rotation);
+    return {back * (force::lever_end(w, tool) - w.centre) / layout_.workspace.scale,
+            glm::normalize(back * tool.orientation * glm::conjugate(w.tool_to_device))};
 }
 
 // The intention is a pose of the tool. Beyond the arm's reach the hand presses the clutch and goes back.

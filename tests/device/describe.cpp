@@ -35,7 +35,7 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
               "model omega.6, serial number 1234\nsenses the position of the hand in three degrees of "
               "freedom") == 0);
     Description wheel;
-    wheel.sensing = Sensing::turn;
+    wheel.sensing = Sensing::angle;
     wheel.silent_at_rest = true;
     wheel.renders[5] = true;
     wheel.limits.force = 0.0;

@@ -353,12 +353,12 @@ TEST_CASE("OpenHaptics: the force of hot motors fades before the library warns, 
     bench.arm.heat(0.97);
     REQUIRE(bench.drive(*device, two_newton, 0.05));
     CHECK(bench.force_now() == 0.0);
-    CHECK(device->condition().rests);
+    CHECK(device->condition().cooling);
     CHECK(device->condition().heat == 0.97);
     bench.arm.heat(0.6);
     REQUIRE(bench.drive(*device, two_newton, 0.7));
     CHECK(bench.force_now() == doctest::Approx(2.0));
-    CHECK_FALSE(device->condition().rests);
+    CHECK_FALSE(device->condition().cooling);
 }
 
 TEST_CASE("OpenHaptics: an arm that is too fast or forced too hard rests for half a second and stays open") {

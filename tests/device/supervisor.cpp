@@ -295,10 +295,10 @@ TEST_CASE(
 }
 
 TEST_CASE("DeviceSupervisor: devices that are silent at rest may rest indefinitely") {
-    for (const Sensing sensing : {Sensing::velocity, Sensing::turn}) {
+    for (const Sensing sensing : {Sensing::velocity, Sensing::angle}) {
         Description description = test::arm();
         description.sensing = sensing;
-        description.silent_at_rest = sensing == Sensing::turn;
+        description.silent_at_rest = sensing == Sensing::angle;
         SupervisedDevice supervised(description, {{InjectedFault::silent, 0.0, 100.0}});
         supervised.until(10.0);
         CHECK(supervised.supervisor.report().state == DeviceState::usable);

@@ -40,7 +40,7 @@ TEST_CASE("Passivity: the balance is the work of the applied force and torque") 
         for (int i = 0; i < 200; ++i) {
             const Motion motion = moved(1e-3 * any(), 1e-3 * any());
             const OutputCommand& had = sent[sent.size() - 1 - static_cast<std::size_t>(delay)];
-            work += glm::dot(had.force, motion.shift) + glm::dot(had.torque, motion.turn);
+            work += glm::dot(had.force, motion.shift) + glm::dot(had.torque, motion.rotation);
             add_applied_work(limits, s, motion, 1.0);
             REQUIRE(s.balance == doctest::Approx(-work));
             sent.push_back({any(), any()});

@@ -67,7 +67,7 @@ TEST_CASE("Watchdog: the motion has shift, turn and velocity") {
             glm::normalize(rotation(Vec3(0, 0, 2e-3)) * device.input.pose.orientation);
         device.step();
     }
-    CHECK(device.state.motion.turn.z == doctest::Approx(2e-3));
+    CHECK(device.state.motion.rotation.z == doctest::Approx(2e-3));
     CHECK(device.state.motion.angular_velocity.z == doctest::Approx(2.0).epsilon(1e-4));
     // After a silent tick and a missed one the turn covers three ticks; the velocity is unchanged.
     device.input.fresh = false;
@@ -78,7 +78,7 @@ TEST_CASE("Watchdog: the motion has shift, turn and velocity") {
     device.input.pose.orientation =
         glm::normalize(rotation(Vec3(0, 0, 6e-3)) * device.input.pose.orientation);
     device.step();
-    CHECK(device.state.motion.turn.z == doctest::Approx(6e-3));
+    CHECK(device.state.motion.rotation.z == doctest::Approx(6e-3));
     CHECK(device.state.motion.angular_velocity.z == doctest::Approx(2.0).epsilon(1e-4));
 }
 

@@ -43,7 +43,7 @@ TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
         plug, [](emulate::EmulatedPuck& p) { p.deflection = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}; });
     const Sample pushed = last_sample(**device, 0.1);
     CHECK(pushed.velocity.x == doctest::Approx(PuckResponse{}.speed));
-    CHECK(pushed.angular_velocity.y == doctest::Approx(PuckResponse{}.turn_speed));
+    CHECK(pushed.angular_velocity.y == doctest::Approx(PuckResponse{}.angular_speed));
     with<emulate::EmulatedPuck>(plug, [](emulate::EmulatedPuck& p) {
         p.deflection = {};
         p.buttons = 1;

@@ -167,7 +167,7 @@ class Soak {
         if (now_ > turned_at_) wheel_at_ += direction_ * 1.0 * (now_ - turned_at_);
         turned_at_ = now_;
         device::Sample sample;
-        sample.turn = wheel_at_;
+        sample.angle = wheel_at_;
         return sample;
     }
 

@@ -180,7 +180,7 @@ class KeyboardTrainee {
         if (lesson_.client.gloved) lesson_.bench->hand_->held = false;
     }
     void take_wrench() {
-        const Pose rest = lesson_.client.latest.wrench_rest.value_or(lesson_.client.rest);
+        const Pose rest = lesson_.client.latest.resting_wrench.value_or(lesson_.client.rest);
         go_to(rest * Vec3(0.1, 0.0, 0.1), 0.02, 6.0);
         go_to(rest * Vec3(0.1, 0.0, 0.03), 0.01, 4.0);
         if (lesson_.client.gloved) lesson_.bench->hand_->held = true;
