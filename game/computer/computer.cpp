@@ -82,7 +82,7 @@ void add_devices(const Facts& facts, std::vector<Finding>& all) {
             // The error says what to do.
             all.push_back({Severity::limited,
                            "finding.device_refused",
-                           {{"name", listed.name}, why(*listed.trouble)},
+                           {{"name", listed.name}, why(*listed.error)},
                            {}});
             continue;
         }

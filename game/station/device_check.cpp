@@ -139,8 +139,9 @@ Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheck
     }
     const device::DeviceReport& report = thread.report();
     if (report.state != device::DeviceState::usable)
-        return fail(ErrorCode::no_device,
-                    report.trouble.empty() ? check.description.name + " sends nothing" : report.trouble);
+        return fail(ErrorCode::no_device, report.fault_message.empty()
+                                              ? check.description.name + " sends nothing"
+                                              : report.fault_message);
     check.condition = report.condition;
     check.malformed = report.malformed;
     check.writes = report.writes;

@@ -209,7 +209,7 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     StationClient& client = *active.station;
     const bool had_wrench = hand_of(active).wrench;
-    client.link->pass(frame.seconds);
+    client.link->step(frame.seconds);
     for (station::StationTick tick; continues(active) && frame.status && client.link->next_tick(tick);) {
         const bool free = contact_of(active).joint < 0;
         frame.status = active.session->repeat(world, tick.input, tick.output);

@@ -123,11 +123,11 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
     station_options.controls.pause = true;
     station_setup::VirtualMover mover;
     if (!planned->devices.mover) station_options.mover_buttons = {1, 0, 0, 0};
-    if (equipment.hand == HandMode::free) return station_setup::start_frame_station(station_options);
+    if (equipment.hand == HandMode::free) return station_setup::start_frame_stepped_station(station_options);
     if (!planned->devices.mover && arm) mover = std::move(simulated_arm);
     if (!planned->devices.mover && !arm) mover = std::move(puck);
-    return station_setup::start_lesson_station(std::move(station_options), std::move(mover),
-                                               dialog.permission);
+    return station_setup::start_threaded_station(std::move(station_options), std::move(mover),
+                                                 dialog.permission);
 }
 
 namespace {
@@ -177,7 +177,7 @@ servo::Grip grip_of(const StationClient& client, bool closes, const StationInten
 
 void update_client(StationClient& client, const session::LessonSession& session) {
     client.latest = client.link->latest_tick();
-    client.troubles = client.link->troubles();
+    client.troubles = client.link->fault_messages();
     client.needs = client.link->needs();
     client.condition = client.link->condition();
     const station::DisplayedHand* hand = client.link->hand();

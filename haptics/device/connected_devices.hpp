@@ -34,12 +34,10 @@ struct ListedDevice {
     std::string id;
     std::string name;
     DeviceKind kind = DeviceKind::other;
-    std::optional<Error> trouble;  // why it cannot be used, with a remedy
+    std::optional<Error> error;  // why it cannot be used, with a remedy
 
     // False if it cannot be opened. An arm that only needs its preparation can.
-    [[nodiscard]] bool usable() const {
-        return !trouble || preparation_of(*trouble).need != DeviceNeed::none;
-    }
+    [[nodiscard]] bool usable() const { return !error || preparation_of(*error).need != DeviceNeed::none; }
 };
 
 // The devices connected now; with `others` also unsupported ones such as keyboards.

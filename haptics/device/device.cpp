@@ -92,7 +92,7 @@ std::vector<std::string> summary_lines(const Condition& condition) {
     return lines;
 }
 
-Error lost_device(std::string what, std::string expected) {
+Error lost_device_error(std::string what, std::string expected) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = std::move(what);
@@ -101,7 +101,7 @@ Error lost_device(std::string what, std::string expected) {
     return error;
 }
 
-Error unprepared_device(std::string what, std::string expected, Preparation preparation) {
+Error unprepared_device_error(std::string what, std::string expected, Preparation preparation) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = std::move(what);
@@ -110,8 +110,8 @@ Error unprepared_device(std::string what, std::string expected, Preparation prep
     return error;
 }
 
-Error immobile_device(const std::string& name, std::string_view id) {
-    return unprepared_device(
+Error immobile_device_error(const std::string& name, std::string_view id) {
+    return unprepared_device_error(
         name + " has to move by itself to find its position, and may not",
         fmt::format("free room around it, then `boltwright devices --device {} --yes`", id),
         {DeviceNeed::permission, {}});

@@ -81,12 +81,12 @@ struct Sample {
 };
 
 // The error of a device that is gone or has let its force go: the supervisor opens it again.
-Error lost_device(std::string what, std::string expected);
+Error lost_device_error(std::string what, std::string expected);
 
 // The error of an arm that is connected and cannot be opened before it has what it needs.
-Error unprepared_device(std::string what, std::string expected, Preparation preparation);
+Error unprepared_device_error(std::string what, std::string expected, Preparation preparation);
 // The same for an arm that would have to move by itself and has no permission.
-Error immobile_device(const std::string& name, std::string_view id);
+Error immobile_device_error(const std::string& name, std::string_view id);
 
 // The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
 // lost device (DeviceSupervisor does) nor exchanges data with the servo (DeviceThread does). All calls come

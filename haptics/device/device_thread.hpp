@@ -36,7 +36,7 @@ enum class DeviceState : std::uint8_t {
 
 struct DeviceReport {
     DeviceState state = DeviceState::absent;
-    std::string trouble;                             // plain text with a remedy; empty: none
+    std::string fault_message;                       // plain text with a remedy; empty: none
     Preparation preparation;                         // what the device needs before it can be opened
     Condition condition;                             // while open
     std::shared_ptr<const Description> description;  // from the last opening; null: never opened

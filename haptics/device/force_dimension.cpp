@@ -156,7 +156,7 @@ class ForceDimensionArm final : public DeviceDriver {
     Status enable(const ForceDimensionOptions& options) {
         BOLT_TRY(balance(options.effector_mass));
         if (!api_.is_initialized(id_)) {
-            if (!options.may_move) return fail(immobile_device(description_.name, description_.id));
+            if (!options.may_move) return fail(immobile_device_error(description_.name, description_.id));
             if (api_.auto_init(id_) < 0) return failure("it does not find its position");
         }
         // Ends the regulation of the position; the forces stay on.
@@ -233,10 +233,10 @@ class ForceDimensionArm final : public DeviceDriver {
         if (api_.get_status(status.data(), id_) < 0) return failure("its status cannot be read");
         if (status[status_force] != 0) return {};
         const auto cause = static_cast<std::size_t>(std::max(status[status_cause], 0));
-        return fail(
-            lost_device(fmt::format("{} has braked{}{}", description_.name, cause > 0 ? ": " : "",
-                                    cause < brake_causes.size() ? brake_causes[cause] : "unknown cause"),
-                        "a hand that moves it slowly"));
+        return fail(lost_device_error(
+            fmt::format("{} has braked{}{}", description_.name, cause > 0 ? ": " : "",
+                        cause < brake_causes.size() ? brake_causes[cause] : "unknown cause"),
+            "a hand that moves it slowly"));
     }
 
     ForceDimensionApi api_;

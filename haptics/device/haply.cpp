@@ -37,9 +37,10 @@ Error not_running(std::string_view reason) {
 }
 
 Error not_calibrated(const std::string& arm) {
-    return unprepared_device(fmt::format("Haply Inverse3 {} is not calibrated", arm),
-                             "an arm that was placed into its inkwell and calibrated, as its light shows",
-                             {DeviceNeed::inkwell, {}});
+    return unprepared_device_error(
+        fmt::format("Haply Inverse3 {} is not calibrated", arm),
+        "an arm that was placed into its inkwell and calibrated, as its light shows",
+        {DeviceNeed::inkwell, {}});
 }
 
 // Waits for the first message of a connection. nullopt: it did not come in time.
@@ -210,8 +211,8 @@ class HaplyArm final : public DeviceDriver {
                 --unanswered_;
                 BOLT_TRY(publish(*message));
             } else if (waited >= answer_timeout) {
-                return fail(lost_device("the Haply service no longer answers",
-                                        fmt::format("an answer within {:g} s", answer_timeout)));
+                return fail(lost_device_error("the Haply service no longer answers",
+                                              fmt::format("an answer within {:g} s", answer_timeout)));
             } else if (waited >= command_lifetime && !released) {
                 released = true;
                 BOLT_TRY(send(Vec3(0.0)));
@@ -236,8 +237,8 @@ class HaplyArm final : public DeviceDriver {
             if (!message) connection_.events.reset();
             if (!message || !*message) break;
             if (const auto loss = loss_in_haply_event(**message, connection_.arm))
-                return fail(lost_device(description_.name + " " + *loss,
-                                        "an arm that is connected by USB and moved slowly"));
+                return fail(lost_device_error(description_.name + " " + *loss,
+                                              "an arm that is connected by USB and moved slowly"));
         }
         return {};
     }
@@ -290,7 +291,7 @@ Result<std::vector<HaplyListing>> list_haply(const HaplyService& service, double
     if (!*inventory) return listed;
     for (const HaplyArmEntry& arm : (*inventory)->arms) {
         listed.push_back({arm.id, {}});
-        if (!arm.calibrated) listed.back().trouble = not_calibrated(arm.id);
+        if (!arm.calibrated) listed.back().error = not_calibrated(arm.id);
     }
     return listed;
 }
@@ -302,8 +303,8 @@ Result<std::unique_ptr<DeviceDriver>> open_haply(const HaplyService& service, in
     if (!inventory) return fail(not_running(service.states.text() + ": sends no list of its devices"));
     const auto i = static_cast<std::size_t>(std::max(index, 0));
     if (i >= inventory->arms.size())
-        return fail(lost_device(fmt::format("the Haply service has no arm {}", index),
-                                "an Inverse3 that is switched on and connected by USB"));
+        return fail(lost_device_error(fmt::format("the Haply service has no arm {}", index),
+                                      "an Inverse3 that is switched on and connected by USB"));
     Connection connection{std::move(*socket), {}, inventory->arms[i], {}};
     if (!connection.arm.calibrated) return fail(not_calibrated(connection.arm.id));
     if (i < inventory->grips.size()) connection.grip = inventory->grips[i];

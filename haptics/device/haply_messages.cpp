@@ -226,14 +226,14 @@ Result<HaplyState> parse_haply_state(std::string_view message, const HaplyArmEnt
     BOLT_TRY_ASSIGN(const Json json, parse_object(message));
     BOLT_TRY_ASSIGN(const Json* device, find_device(json, "inverse3", arm.id));
     if (device == nullptr)
-        return fail(lost_device(fmt::format("Haply Inverse3 {} is not connected any more", arm.id),
-                                "an arm that is switched on and connected by USB"));
+        return fail(lost_device_error(fmt::format("Haply Inverse3 {} is not connected any more", arm.id),
+                                      "an arm that is switched on and connected by USB"));
     // States may leave the status out.
     if (const Json* status = find_member(device, "status"); find_member(status, "calibrated") != nullptr) {
         BOLT_TRY_ASSIGN(const bool calibrated, read_boolean(status, "status", "calibrated"));
         if (!calibrated)
-            return fail(lost_device(fmt::format("Haply Inverse3 {} is not calibrated any more", arm.id),
-                                    "an arm that was calibrated in its inkwell"));
+            return fail(lost_device_error(fmt::format("Haply Inverse3 {} is not calibrated any more", arm.id),
+                                          "an arm that was calibrated in its inkwell"));
     }
     const Json* values = find_member(device, "state");
     HaplyState state;

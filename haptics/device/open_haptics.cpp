@@ -153,7 +153,7 @@ class OpenHapticsArm final : public DeviceDriver {
         if (report_.calibration == 0) return failure("its scheduler does not run", 0);
         const std::string what = arm_.description.name + " does not know its position";
         if ((arm_.calibration_style & style_inkwell) != 0)
-            return fail(unprepared_device(
+            return fail(unprepared_device_error(
                 what, "its stylus in the inkwell: push it in, and it is calibrated at the next attempt",
                 {DeviceNeed::inkwell, {}}));
         return fail(ErrorCode::no_device, what,

@@ -272,7 +272,7 @@ Error calibration_error(const ArmProcess& process, const PluginReply& reply, con
             return error;
         }
         case BW_ARM_MUST_MOVE: {
-            const Error immobile = immobile_device("the arm", id);
+            const Error immobile = immobile_device_error("the arm", id);
             error = process.error(immobile.what, immobile.expected);
             error.detail = immobile.detail;
             return error;

@@ -158,7 +158,7 @@ constexpr double max_step_time = 0.5e-3;  // s
 constexpr double idle_reset = 0.05;
 
 tl::unexpected<Error> unplugged(const Description& description) {
-    return fail(lost_device(description.name + " is not plugged in", "a connected device"));
+    return fail(lost_device_error(description.name + " is not plugged in", "a connected device"));
 }
 
 }  // namespace
@@ -231,9 +231,9 @@ DeviceFactory SimulatedDevice::factory() {
     };
 }
 
-void SimulatedDevice::inject(const FaultInterval& trouble) {
+void SimulatedDevice::inject(const FaultInterval& fault) {
     std::erase_if(options_.faults, [now = timer_.now()](const FaultInterval& t) { return t.until < now; });
-    options_.faults.push_back(trouble);
+    options_.faults.push_back(fault);
 }
 
 const FaultInterval* SimulatedDevice::find(InjectedFault what) const {

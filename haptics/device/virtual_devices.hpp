@@ -88,7 +88,7 @@ class SimulatedDevice {
     SimulatedDevice(SimulatedDeviceOptions design, Timer timer);
 
     [[nodiscard]] DeviceFactory factory();
-    void inject(const FaultInterval& trouble);
+    void inject(const FaultInterval& fault);
 
     // For observers: the force at the hand now, and the true pose of the hand.
     [[nodiscard]] force::OutputCommand rendered() const;

@@ -33,7 +33,7 @@ DisplayedHand display(const HandSetup& setup, const HandState& state) {
 std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const hand::GloveReport& report) {
     std::vector<std::string> messages;
     if (hand.lost) messages.emplace_back(hand::message_for(hand::GraspEvent::glove_lost, hand.held));
-    if (report.trouble[0] != '\0') messages.emplace_back(report.trouble.data());
+    if (report.fault_message[0] != '\0') messages.emplace_back(report.fault_message.data());
     if (report.handshakes > 0 && report.identity.hand != worn)
         messages.emplace_back(
             worn == hand::Side::left
@@ -112,7 +112,7 @@ const DisplayedHand& HandThread::displayed() {
 
 const hand::GloveReport& HandThread::report() { return shared_->driver.report(); }
 
-std::vector<std::string> HandThread::troubles() {
+std::vector<std::string> HandThread::fault_messages() {
     HandStatus status;
     status.lost = shared_->lost.load(std::memory_order_acquire);
     status.held = shared_->held.load(std::memory_order_relaxed);

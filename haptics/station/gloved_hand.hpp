@@ -56,7 +56,7 @@ DisplayedHand display(const HandSetup& setup, const HandState& state);
 struct HandStatus {
     bool held = false, lost = false;
 };
-// Messages on problems of the glove, its connection or its wearer. `worn` is the side that is
+// Messages on faults of the glove, its connection or its wearer. `worn` is the side that is
 // calibrated.
 std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const hand::GloveReport& report);
 
@@ -77,8 +77,8 @@ class HandThread {
 
     // For one calling thread each.
     const DisplayedHand& displayed();
-    std::vector<std::string> troubles();
-    const hand::GloveReport& report();  // for the thread that calls troubles()
+    std::vector<std::string> fault_messages();
+    const hand::GloveReport& report();  // for the thread that calls fault_messages()
 
   private:
     struct Shared;

@@ -162,12 +162,12 @@ const StationTick& Station::latest_tick() {
 bool Station::next_tick(StationTick& tick) { return shared_->ticks.pop(tick); }
 std::uint64_t Station::lost_ticks() const { return shared_->lost_ticks.load(std::memory_order_relaxed); }
 
-std::vector<std::string> Station::troubles() {
+std::vector<std::string> Station::fault_messages() {
     std::vector<std::string> messages;
     for (auto* thread : {&shared_->mover, &shared_->wheel}) {
         if (!thread->has_value()) continue;
         const device::DeviceReport& report = (*thread)->report();
-        if (!report.trouble.empty()) messages.push_back(report.trouble);
+        if (!report.fault_message.empty()) messages.push_back(report.fault_message);
         if (report.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
             messages.push_back(report.description->name + " hangs: unplug it and plug it in again");
     }
@@ -177,10 +177,10 @@ std::vector<std::string> Station::troubles() {
     if (tick.input.enabled && fault != force::Fault::none &&
         (fault != force::Fault::silent || messages.empty()))
         messages.emplace_back(force::name(fault));
-    if (shared_->glove && shared_->glove->report().trouble[0] != '\0')
-        messages.emplace_back(shared_->glove->report().trouble.data());
+    if (shared_->glove && shared_->glove->report().fault_message[0] != '\0')
+        messages.emplace_back(shared_->glove->report().fault_message.data());
     if (shared_->hand)
-        for (std::string& trouble : shared_->hand->troubles()) messages.push_back(std::move(trouble));
+        for (std::string& message : shared_->hand->fault_messages()) messages.push_back(std::move(message));
     return messages;
 }
 

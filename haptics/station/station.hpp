@@ -78,7 +78,7 @@ class Station {
     Station& operator=(Station&&) noexcept;
     ~Station();  // stops; the devices are left at zero force
 
-    // Each of the following is for one calling thread; latest_tick() and troubles() for the same one.
+    // Each of the following is for one calling thread; latest_tick() and fault_messages() for the same one.
     void set_controls(const StationControls& controls);
     // Queues a command for the next tick. Fails if the queue is full, which means that the servo thread does
     // not run; the command is then not queued.
@@ -90,11 +90,11 @@ class Station {
     // The gloved hand for display; null: none. For one calling thread.
     const DisplayedHand* hand();
 
-    // Messages on present problems of mover, wheel, output and glove, in this order, at most 0.1 s old.
-    std::vector<std::string> troubles();
+    // Messages on present faults of mover, wheel, output and glove, in this order, at most 0.1 s old.
+    std::vector<std::string> fault_messages();
 
     // Reports of the devices and the glove, null if absent, and the link statistics of the latest tick. For
-    // the thread that calls troubles().
+    // the thread that calls fault_messages().
     const device::DeviceReport* mover_report();
     const device::DeviceReport* wheel_report();
     const hand::GloveReport* glove_report();

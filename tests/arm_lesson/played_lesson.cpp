@@ -29,7 +29,7 @@ PlayedLesson::PlayedLesson(HeldArm& arm, const content::Assembly& assembly, sess
     now_ = arm_.timer.now();
     while (!supervisor_->report().description) {
         serve();
-        REQUIRE_MESSAGE(arm_.timer.now() < now_ + 5.0, supervisor_->report().trouble);
+        REQUIRE_MESSAGE(arm_.timer.now() < now_ + 5.0, supervisor_->report().fault_message);
     }
     auto own = session::prepare(assembly, options);
     auto recorded = session::prepare(assembly, options);

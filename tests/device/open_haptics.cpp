@@ -202,7 +202,7 @@ TEST_CASE("OpenHaptics: an arm is listed without a call that reserves it") {
     CHECK(arms[0].id == "openhaptics:0");
     CHECK(arms[0].name == "OpenHaptics arm");
     CHECK(arms[0].path == link);
-    CHECK_FALSE(arms[0].trouble);
+    CHECK_FALSE(arms[0].error);
     CHECK(bench.arm.initialisations() == 0);
 }
 

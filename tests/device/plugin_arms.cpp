@@ -500,7 +500,7 @@ TEST_CASE("Plug-in: arms are listed with their ids or with what is wrong, and op
     CHECK(arms[0].name == "faulty_arm, an arm of a plug-in");
     CHECK(arms[1].id == "plugin:sample_arm:0");
     CHECK(arms[1].kind == DeviceKind::arm);
-    CHECK_FALSE(arms[1].trouble);
+    CHECK_FALSE(arms[1].error);
     CHECK(open(arms[1]));
     bench.show("many");
     CHECK(list().size() == 17);
@@ -509,8 +509,8 @@ TEST_CASE("Plug-in: arms are listed with their ids or with what is wrong, and op
     bench.show("no count");
     arms = list();
     REQUIRE(arms.size() == 2);
-    REQUIRE(arms[0].trouble);
-    CHECK(arms[0].trouble->message() ==
+    REQUIRE(arms[0].error);
+    CHECK(arms[0].error->message() ==
           "the plug-in faulty_arm: count: no?USB?; expected an arm that is switched on and connected");
     CHECK_FALSE(open(arms[0]));
 }
@@ -523,10 +523,10 @@ TEST_CASE("Plug-in: on its thread, a crash is a loss with its reason, and the ar
     CHECK(eventually([&] { return thread->snapshot().usable; }));
     bench.show("crash in exchange");
     CHECK(eventually(
-        [&] { return thread->report().trouble.find("crashed in exchange") != std::string::npos; }));
+        [&] { return thread->report().fault_message.find("crashed in exchange") != std::string::npos; }));
     CHECK(thread->report().losses >= 1);
     bench.show("");
-    CHECK(eventually([&] { return thread->snapshot().usable && thread->report().trouble.empty(); }));
+    CHECK(eventually([&] { return thread->snapshot().usable && thread->report().fault_message.empty(); }));
 }
 
 }  // namespace device_plugin_arms_test

@@ -35,7 +35,7 @@ TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
     CHECK(l.kind == DeviceKind::puck);
     CHECK(l.name == "Emulated SpaceMouse");
     CHECK(l.path.starts_with("/dev/hidraw"));
-    REQUIRE_MESSAGE(!l.trouble, (l.trouble ? l.trouble->message() : ""));
+    REQUIRE_MESSAGE(!l.error, (l.error ? l.error->message() : ""));
     auto device = factory_for(l.id)();
     REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
     CHECK((*device)->describe().sensing == Sensing::velocity);

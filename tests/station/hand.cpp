@@ -121,13 +121,13 @@ TEST_CASE("Gloved hand: messages name its problems, worst first") {
     CHECK(messages({}, hand::Side::right, report).empty());
     report.handshakes = 1;
     CHECK(messages({}, hand::Side::right, report).empty());
-    std::strcpy(report.trouble.data(), "the port is gone");
+    std::strcpy(report.fault_message.data(), "the port is gone");
     const std::vector<std::string> lost = messages({true, true}, hand::Side::right, report);
     REQUIRE(lost.size() == 2);
     CHECK(lost[0].find("stays in your hand") != std::string::npos);
     CHECK(lost[1] == "the port is gone");
     CHECK(messages({false, true}, hand::Side::right, report)[0].find("stays") == std::string::npos);
-    report.trouble[0] = '\0';
+    report.fault_message[0] = '\0';
     report.identity.hand = hand::Side::left;
     REQUIRE(messages({}, hand::Side::right, report).size() == 1);
     CHECK(messages({}, hand::Side::right, report)[0].find("is a left one") != std::string::npos);

@@ -43,8 +43,8 @@ bool mutes(InjectedFault what) {
 struct MonitoredDevice {
     test::VirtualLine line;
     Random random;
-    device::FaultInterval trouble{InjectedFault::silent, -1.0, -1.0};  // the latest one; it may be over
-    double healthy_since = 0.0;                                        // s, end of the latest fault
+    device::FaultInterval fault{InjectedFault::silent, -1.0, -1.0};  // the latest one; it may be over
+    double healthy_since = 0.0;                                      // s, end of the latest fault
     double undisturbed = 0.0;  // s, time from which no fault delays a write
     bool recovered = true;     // usable since the end of the latest fault
     std::array<std::uint64_t, device::injected_fault_count> counts{};
@@ -57,19 +57,19 @@ struct MonitoredDevice {
         : line(std::move(design)), random(seed) {}
 
     void advance(double now) {
-        if (now >= trouble.until && now > healthy_since + 0.1 && random.chance(dt / 4.0)) {
+        if (now >= fault.until && now > healthy_since + 0.1 && random.chance(dt / 4.0)) {
             const auto kind = static_cast<InjectedFault>(random.bits() % device::injected_fault_count);
             // 1 ms to 3 s, uniform in the logarithm.
             const double lasts = 1e-3 * std::exp(random.uniform() * std::log(3000.0));
-            trouble = {kind, now, now + lasts};
-            line.thing.inject(trouble);
+            fault = {kind, now, now + lasts};
+            line.thing.inject(fault);
             ++counts[static_cast<std::size_t>(kind)];
             recovered = false;
         }
-        if (now < trouble.until) {
-            healthy_since = trouble.until;
-            if (trouble.what == InjectedFault::stuck || trouble.what == InjectedFault::slow)
-                undisturbed = trouble.until + device::slow_write_time;
+        if (now < fault.until) {
+            healthy_since = fault.until;
+            if (fault.what == InjectedFault::stuck || fault.what == InjectedFault::slow)
+                undisturbed = fault.until + device::slow_write_time;
         }
         line.until(now);
     }
@@ -287,7 +287,7 @@ class Soak {
         tool_ = tool;
         for (MonitoredDevice* w : {&arm_, &wheel_}) {
             const char* who = w == &arm_ ? "arm" : "wheel";
-            const device::FaultInterval& t = w->trouble;
+            const device::FaultInterval& t = w->fault;
             const force::OutputCommand rendered = w->line.thing.rendered();
             const force::OutputCommand& command = w == &arm_ ? commands_.mover : commands_.wheel;
             const auto is = [&](const char* what) { return fmt::format("{} {}", who, what); };
@@ -303,10 +303,10 @@ class Soak {
                     statistics_.require(false, is("is lost and renders a force"), now_);
                 if (t.what == InjectedFault::stuck && since > force_timeout && !hangs && !is_zero(command))
                     statistics_.require(false, is("is stuck and gets a force command"), now_);
-                if (mutes(t.what) && since > report_timeout && w->line.report().trouble.empty())
+                if (mutes(t.what) && since > report_timeout && w->line.report().fault_message.empty())
                     statistics_.require(false, is("is lost and not reported"), now_);
                 if (t.what == InjectedFault::stuck && since > report_timeout && w == &arm_ && !hangs &&
-                    w->line.report().trouble.empty() && state_.output.fault == force::Fault::none &&
+                    w->line.report().fault_message.empty() && state_.output.fault == force::Fault::none &&
                     state_.output.joint < 0)
                     statistics_.require(false, is("is stuck and not reported"), now_);
             } else if (!w->recovered) {

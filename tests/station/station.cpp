@@ -67,9 +67,9 @@ StationOptions plan_of(device::DeviceFactory mover) {
     return plan;
 }
 
-std::string joined_lines(const std::vector<std::string>& troubles) {
+std::string joined_lines(const std::vector<std::string>& messages) {
     std::string all;
-    for (const std::string& trouble : troubles) all += trouble + "\n";
+    for (const std::string& message : messages) all += message + "\n";
     return all;
 }
 
@@ -149,11 +149,11 @@ TEST_CASE("Station: an unplugged device is reported and stops the tool; it resum
         return station->latest_tick().input.commanded_tool.position[1];
     };
     REQUIRE(eventually([&] { return height() > 0.32F; }));
-    CHECK(eventually([&] { return height() > 0.32F && station->troubles().empty(); }));
+    CHECK(eventually([&] { return height() > 0.32F && station->fault_messages().empty(); }));
     cable->plugged = false;
     REQUIRE(eventually([&] { return station->latest_tick().output.fault == force::Fault::silent; }));
     REQUIRE(eventually(
-        [&] { return joined_lines(station->troubles()).find("plug it in") != std::string::npos; }));
+        [&] { return joined_lines(station->fault_messages()).find("plug it in") != std::string::npos; }));
     REQUIRE(eventually([&] { return station->link_stats().mover.longest_silence > 0.3; }));
     CHECK(station->link_stats().mover.samples > 0);
     CHECK(station->mover_report()->losses == 1);
@@ -161,7 +161,7 @@ TEST_CASE("Station: an unplugged device is reported and stops the tool; it resum
     for (int i = 0; i < 20; ++i) CHECK(height() == stands);
     cable->plugged = true;
     REQUIRE(eventually([&] { return height() > stands + 0.02F; }));
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
     CHECK(station->latest_tick().output.fault == force::Fault::none);
 }
 
@@ -170,12 +170,13 @@ TEST_CASE("Station: a driver that hangs is reported, although its thread is bloc
     const auto cable = std::make_shared<Cable>();
     Result<Station> station = Station::start(plan_of(on_cable(cable, puck.factory())));
     REQUIRE(station);
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
     cable->hangs = true;
-    REQUIRE(eventually(
-        [&] { return joined_lines(station->troubles()).find("hangs: unplug it") != std::string::npos; }));
+    REQUIRE(eventually([&] {
+        return joined_lines(station->fault_messages()).find("hangs: unplug it") != std::string::npos;
+    }));
     cable->hangs = false;
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
 }
 
 TEST_CASE("Station: the glove has its own thread, and its problems are reported") {
@@ -191,11 +192,12 @@ TEST_CASE("Station: the glove has its own thread, and its problems are reported"
     CHECK(station->wheel_report() == nullptr);
     REQUIRE(eventually([&] { return station->glove()->sample().number > 5; }));
     line->stall(true);
-    REQUIRE(eventually([&] { return joined_lines(station->troubles()).find("glove") != std::string::npos; }));
+    REQUIRE(eventually(
+        [&] { return joined_lines(station->fault_messages()).find("glove") != std::string::npos; }));
     REQUIRE(eventually([&] { return station->glove_report()->longest_silence > 0.5; }));
     CHECK(station->glove_report()->frames > 5);
     line->stall(false);
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
 }
 
 TEST_CASE(
@@ -227,8 +229,9 @@ TEST_CASE(
     }));
 
     line->stall(true);
-    REQUIRE(eventually(
-        [&] { return joined_lines(station->troubles()).find("stays in your hand") != std::string::npos; }));
+    REQUIRE(eventually([&] {
+        return joined_lines(station->fault_messages()).find("stays in your hand") != std::string::npos;
+    }));
     line->set_raw(test::raw_open());  // not received: the glove is lost
     const std::uint64_t then = station->latest_tick().number;
     bool kept = true;
@@ -240,7 +243,7 @@ TEST_CASE(
     CHECK(kept);
     line->set_raw(test::raw_closed());
     line->stall(false);
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
     CHECK(grip() == servo::Grip::wrench);
     line->set_raw(test::raw_open());
     REQUIRE(eventually([&] { return grip() == servo::Grip::none; }));
@@ -257,7 +260,7 @@ TEST_CASE("Station: a glove of the wrong side is reported; a gloved hand without
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
     REQUIRE(eventually(
-        [&] { return joined_lines(station->troubles()).find("is a left one") != std::string::npos; }));
+        [&] { return joined_lines(station->fault_messages()).find("is a left one") != std::string::npos; }));
     StationOptions bare = plan_of(puck.factory());
     bare.hand = test::hand_at_bar();
     CHECK_FALSE(Station::start(std::move(bare)));

@@ -54,7 +54,7 @@ class VirtualBench final : public station_setup::LessonStation {
     const station::StationTick& latest_tick() override { return newest_; }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return lost_; }
     const station::DisplayedHand* hand() override { return hand_ ? &*hand_ : nullptr; }
-    std::vector<std::string> troubles() override { return troubles_; }
+    std::vector<std::string> fault_messages() override { return troubles_; }
     device::Condition condition() override { return condition_; }
     device::ArmNeeds needs() override { return needs_; }
     void permit_move() override { ++permissions_; }
