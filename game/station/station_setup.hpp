@@ -113,8 +113,8 @@ struct PlannedStation {
     bool obstacles = false;                                // the assembly has contact models
 };
 
-// Takes over what a station file says about the devices of `planned`, by their ids: the map, the limits and
-// the buttons go to its options, and the wheel's configuration is returned.
+// Applies the settings of a station file to those devices of `planned` whose ids it names: the map, the
+// limits and the buttons go to the options. Returns the configuration of the wheel.
 device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned);
 
 // Fails for an invalid request before it opens a device; opens only the glove, to query its identity. The
@@ -170,7 +170,7 @@ class LessonStation {
     virtual const servo::Timing* stop() = 0;
 };
 
-// The pretended device that mouse and keyboard move if no device moves the tool; monostate: none.
+// The virtual device that mouse and keyboard move if no device moves the tool; monostate: none.
 using VirtualMover = std::variant<std::monostate, device::VirtualPuck, device::SimulatedArm>;
 
 // Starts the station on its own threads. `permission`: of the device that moves the tool; may be null.

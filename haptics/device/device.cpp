@@ -82,8 +82,7 @@ std::vector<std::string> summary_lines(const Description& d) {
 std::vector<std::string> summary_lines(const Condition& condition) {
     std::vector<std::string> lines;
     if (condition.calibrated)
-        lines.emplace_back(*condition.calibrated ? "calibrated: it knows its position"
-                                                 : "not calibrated: it does not know its position");
+        lines.emplace_back(*condition.calibrated ? "calibrated" : "not calibrated: its position is unknown");
     if (condition.heat)
         lines.push_back(fmt::format("motors at {:.0f} % of their greatest heat{}", 100.0 * *condition.heat,
                                     condition.cooling    ? ": no force until they are cool"

@@ -55,12 +55,12 @@ struct Description {
     Vec3 reach{0.0};
     Vec3 axis{0.0, 0.0, 1.0};  // unit, of Sensing::angle
     int buttons = 0;
-    std::vector<std::string> remarks;  // problems and peculiarities, each with a remedy
+    std::vector<std::string> remarks;  // restrictions and peculiarities, each with a remedy
 };
 
 // The state of an open device, as far as the device reports it.
 struct Condition {
-    // It knows its position; none: it needs no calibration or does not report it.
+    // Its position is calibrated; none: it needs no calibration or does not report it.
     std::optional<bool> calibrated;
     // 0 … 1, of its hottest motor: at 1 the device ends its force. None: it does not report it.
     std::optional<double> heat;
@@ -80,7 +80,7 @@ struct Sample {
     double time = 0.0;           // s, when it was read, on the caller's clock
 };
 
-// The error of a device that is gone or has let its force go: the supervisor opens it again.
+// The error of a device that is disconnected or has ended its force: the supervisor opens it again.
 Error lost_device_error(std::string what, std::string expected);
 
 // The error of an arm that is connected and cannot be opened before it has what it needs.
@@ -114,7 +114,7 @@ class DeviceDriver {
 // Clamps a finite command to the limits of the device and to the axes that it renders.
 force::OutputCommand clamp_to_limits(const Description& description, force::OutputCommand command);
 
-// Opens the device; called again after each loss. The error tells the user what to do.
+// Opens the device; called again after each loss. The error states a remedy for the user.
 using DeviceFactory = std::function<Result<std::unique_ptr<DeviceDriver>>()>;
 
 // Properties that a wheel does not report: the builder of the station enters them.

@@ -35,7 +35,7 @@ bool DeviceSupervisor::expects_samples() const {
 
 namespace {
 
-// m from the middle of an arm's reach within which a position makes sense, in units of the reach; for an arm
+// m from the middle of an arm's reach within which a position is plausible, in units of the reach; for an arm
 // of unknown reach, in m.
 constexpr double plausible_reaches = 4.0, plausible_distance = 2.0;
 

@@ -130,7 +130,7 @@ Description describe_arm(const ForceDimensionApi& api, char id, int index) {
     d.buttons = 8;
     if (!wrist) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
     if (!renders_torque)
-        d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+        d.remarks.emplace_back("renders no torque: torques are rendered as forces on the handle");
     if (api.compensate_gravity == nullptr)
         d.remarks.emplace_back("its library does not compensate the weight of the arm: install the SDK 3.17");
     return d;

@@ -73,8 +73,8 @@ std::string reported_text(const OpenHapticsApi& api, unsigned what) {
     return name;
 }
 
-// Half the workspace and its centre, from the box that the arm reports; a cube about the origin if that makes
-// no sense.
+// Half the workspace and its centre, from the box that the arm reports; a cube about the origin if that box
+// is implausible.
 void describe_reach(const OpenHapticsApi& api, double max_reach, ArmProperties& arm) {
     const Doubles box = get_doubles(api, get_usable_box);
     arm.description.reach = Vec3(max_reach);
@@ -112,11 +112,11 @@ ArmProperties describe_arm(const OpenHapticsApi& api) {
     d.buttons = max_buttons;
     describe_reach(api, bounds.reach, arm);
     if (!arm.senses_rotation) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
-    // The library wants torques of the gimbal's motors, and the directions of these are not confirmed: a
+    // The library expects torques of the gimbal's motors, and the directions of these are not confirmed: a
     // wrong sign would push the hand instead of resisting it.
     d.remarks.emplace_back(get_integer(api, get_renders) >= 6
-                               ? "its torque is not used: torques are rendered as forces at the grip"
-                               : "renders no torque: torques are rendered as forces at the grip");
+                               ? "its torque is not used: torques are rendered as forces on the handle"
+                               : "renders no torque: torques are rendered as forces on the handle");
     if (const double lasting = get_doubles(api, get_lasting_force)[0];
         lasting > 0.0 && lasting < d.limits.force)
         d.remarks.push_back(
@@ -144,14 +144,14 @@ class OpenHapticsArm final : public DeviceDriver {
 
     // Starts the scheduler and calibrates. Call once.
     Status start() {
-        gravest_error(api_);  // of queries that an older version does not know
+        gravest_error(api_);  // of queries that an older version does not support
         callback_ = api_.schedule(FrameCallback::run, &frames_, highest_priority);
         api_.start_scheduler();
         wait_for(start_timeout, [&] { return report_.calibration == calibrated || report_.fault != 0; });
         if (report_.fault != 0) return failure("it cannot be started", report_.fault);
         if (report_.calibration == calibrated) return {};
         if (report_.calibration == 0) return failure("its scheduler does not run", 0);
-        const std::string what = arm_.description.name + " does not know its position";
+        const std::string what = arm_.description.name + " is not calibrated";
         if ((arm_.calibration_style & style_inkwell) != 0)
             return fail(unprepared_device_error(
                 what, "its stylus in the inkwell: push it in, and it is calibrated at the next attempt",
@@ -218,7 +218,7 @@ class OpenHapticsArm final : public DeviceDriver {
     std::uint64_t read_ = 0;  // number of the last sample that was returned
 };
 
-// Null is the default arm; some versions only know it by a name, and these differ.
+// Null is the default arm. Some versions accept only a name for it, and these names differ.
 Result<unsigned> init_arm(const OpenHapticsApi& api) {
     unsigned error = 0;
     for (const char* name : {static_cast<const char*>(nullptr), "Default PHANToM", "Default Device"}) {

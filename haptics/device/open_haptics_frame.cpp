@@ -11,22 +11,22 @@ namespace {
 // hdDefines.h. Lengths are in mm.
 constexpr unsigned get_buttons = 0x2000, get_transform = 0x2052, get_motor_heat = 0x2605, set_force = 0x2700;
 
-// s; an older command renders no force, because the device thread hangs. With two frames on top the force
-// ends 20 ms after the last command.
+// s; an older command renders no force, because the device thread hangs. Two more frames may pass
+// before the force ends, 20 ms after the last command.
 constexpr double max_command_age = 18e-3;
 constexpr double fade_time = 10e-3;  // s from full strength to none after an error of the forces
-constexpr double pause_time = 0.5;   // s without such an error before the force comes back
+constexpr double pause_time = 0.5;   // s without such an error before the force returns
 constexpr double ramp_time = 0.5;    // s from none to full strength
 // Heat of the motors, 0 … 1. From `hot` on the forces fade, before the library ends them with an error at 1;
-// below `cool` they come back.
+// below `cool` they return.
 constexpr double hot = 0.95, cool = 0.7;
-constexpr int heat_interval = 20;  // frames between two queries of the heat
-constexpr double farthest = 2.0;   // m; a position beyond is a faulty one
+constexpr int heat_interval = 20;     // frames between two queries of the heat
+constexpr double max_distance = 2.0;  // m from the origin; a position beyond is invalid
 
-// The pose in the vendor's transform, whose columns follow each other; nullopt if it makes no sense.
+// The pose in the vendor's transform, whose columns follow each other; nullopt if it is implausible.
 std::optional<Pose> pose_in(const Doubles& m, bool with_rotation) {
     Pose pose{mm * Vec3(m[12], m[13], m[14]), {1.0, 0.0, 0.0, 0.0}};
-    if (!(glm::length(pose.position) < farthest)) return {};
+    if (!(glm::length(pose.position) < max_distance)) return {};
     if (!with_rotation) return pose;
     const glm::dmat3 turned(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
     const glm::dmat3 error = glm::transpose(turned) * turned - glm::dmat3(1.0);

@@ -25,7 +25,7 @@ using Doubles = std::array<double, 16>;  // room for the longest value, the tran
 Doubles get_doubles(const OpenHapticsApi& api, unsigned what);
 int get_integer(const OpenHapticsApi& api, unsigned what);
 
-// Takes the errors off the stack and passes their codes to `note`, the newest first.
+// Pops the errors from the stack and passes their codes to `note`, the newest first.
 template <class Note>
 void take_errors(const OpenHapticsApi& api, const Note& note) {
     constexpr int max_errors = 100;  // a broken library would keep the vendor's thread here

@@ -24,7 +24,7 @@ constexpr double fastest_rate = 1000.0;        // 1/s, of calls of exchange()
 constexpr double farthest_position = 2.0;      // m
 constexpr double calibration_interval = 0.01;  // s between two calls of calibrate()
 constexpr double calibration_time = 90.0;      // s for an arm that moves by itself
-constexpr double time_for_user = 0.5;          // s until the user is asked to act, or to be patient
+constexpr double time_for_user = 0.5;          // s until the user must act or wait
 
 // Force, torque and stiffness: the largest of the arms in docs/decisions.md. Torsion, damping and angular
 // damping: the defaults of OutputLimits, which are those of an arm of that class. Reach: more than that of
@@ -83,7 +83,7 @@ Status check_axes(Description& d) {
     }
     if (!torques) d.limits.torque = d.limits.torsion = d.limits.angular_damping = 0.0;
     if (forces && !torques)
-        d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+        d.remarks.emplace_back("renders no torque: torques are rendered as forces on the handle");
     return {};
 }
 
@@ -133,7 +133,7 @@ Result<Description> describe_plugin_arm(const bw_arm_info_v1& info, const std::f
     return d;
 }
 
-// Says what is wrong with a state; null: nothing.
+// Returns what is wrong with a state; null: nothing is.
 const char* fault_of(const bw_arm_state_v1& state, const Pose& pose) {
     if (!finite(pose.position) || glm::length(pose.position) > farthest_position)
         return "it reports a position that is not within 2 m";
@@ -245,7 +245,7 @@ std::shared_ptr<WaitingArms> make_waiting_arms() { return std::make_shared<Waiti
 
 namespace {
 
-// Polls calibrate() every 10 ms until it is done, or the user must act or be patient. An arm that moves by
+// Polls calibrate() every 10 ms until it is done, or the user must act or wait. An arm that moves by
 // itself gets calibration_time, as the interface promises.
 Result<PluginReply> calibrate(ArmProcess& process, bool may_move, bool may_wait, const Timer& timer) {
     const double began = timer.now();
@@ -267,7 +267,7 @@ Error calibration_error(const ArmProcess& process, const PluginReply& reply, con
     switch (reply.result) {
         case BW_ARM_NEEDS_USER: {
             const std::string text = clean_text({reply.text, ::strnlen(reply.text, sizeof reply.text)});
-            error = process.error("it waits for you: " + text, "an arm that knows its position");
+            error = process.error("it waits for you: " + text, "a calibrated arm");
             set_preparation(error, {DeviceNeed::user, text});
             return error;
         }

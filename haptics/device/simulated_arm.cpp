@@ -77,7 +77,7 @@ struct SimulatedArm::Shared {
 
 namespace {
 
-// The arm's intention is where the hand wants to be; `wanted` is that of the mouse, which moves in steps.
+// The arm's intention is the pose that the hand aims at. `wanted` is that of the mouse, which moves in steps.
 template <class Shared>
 class SimulatedArmDevice final : public DeviceDriver {
   public:
@@ -120,7 +120,7 @@ class SimulatedArmDevice final : public DeviceDriver {
     }
 
   private:
-    // Takes over what the mouse has done since the last read.
+    // Adds the motion of the mouse since the last read.
     void follow(double now) {
         shared_->motions.update();
         const TimedMotion& latest = shared_->motions.latest();
@@ -133,7 +133,7 @@ class SimulatedArmDevice final : public DeviceDriver {
         last_ = motion;
     }
 
-    // A hand that lets go stays where it is.
+    // A hand that releases the handle stays at its pose.
     void relax() { wanted_ = shared_->arm.intention = shared_->arm.pose; }
 
     void advance() {
@@ -199,7 +199,7 @@ Description simulated_arm_description() {
     d.limits.ramp_up = 0.1;  // nobody can be hurt
     d.rate = 1.0 / sample_period;
     d.buttons = 8;
-    d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+    d.remarks.emplace_back("renders no torque: torques are rendered as forces on the handle");
     return d;
 }
 

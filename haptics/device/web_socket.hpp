@@ -1,5 +1,5 @@
 // A WebSocket client for a service on this computer or its network. Each call has a time limit, so one thread
-// can exchange messages and still notice that it should end.
+// can exchange messages and still check for a stop request.
 #pragma once
 
 #include <cstdint>

@@ -9,7 +9,7 @@ namespace bolt::force {
 namespace {
 
 constexpr double swing = to_radians(60.0);  // of a wrench between two positions of its jaw on a hexagon
-constexpr double used_reach = 0.9;          // share of the reach: at its edge many arms get soft
+constexpr double used_reach = 0.9;          // share of the reach: many arms are less stiff at its edge
 
 Quat to_viewer(const WorkspaceMap& w, const WorkspaceState& s) { return s.heading * w.rotation; }
 

@@ -243,7 +243,7 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
             request.injected_energy += more.injected_energy;
         }
     force::PortInput port;
-    // A device without torque output applies its force at the grip.
+    // A device without torque output applies its force at the end of the handle.
     const double lever_arm = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
     port.pose = {commanded_tool.position + lever_arm * commanded_tool.handle, commanded_tool.orientation};
     port.valid = commanded_tool.valid;

@@ -47,7 +47,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr auto poll_period = std::chrono::milliseconds(2);  // adds at most this delay to a sample
-constexpr double max_step_time = 0.02;  // s without a sample after which the hand is updated all the same
+constexpr double max_step_time = 0.02;  // s; without a sample the hand is updated after this time
 
 double seconds_since(SteadyClock::time_point then) {
     return std::chrono::duration<double>(SteadyClock::now() - then).count();

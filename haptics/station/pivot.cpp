@@ -19,8 +19,8 @@ constexpr double pivot_rate = 1.0;  // rad/s, at most, at which the wrench turns
 // away, with energy that the hand did not put in.
 constexpr double held_back = 0.3e-3, held_back_angle = 5e-3;
 
-// The distance of a jaw at `tool` from the axis of this nut's bolt, m, if it is near the nut, wherever that
-// is on its thread; otherwise infinity. `slack`: factor on the distances.
+// The distance of a jaw at `tool` from the axis of this nut's bolt, m, if it is near the nut at any position
+// of the nut on its thread; otherwise infinity. `slack`: factor on the distances.
 double distance_if_near(const servo::NutGeometry& nut, const Pose& tool, double slack) {
     const Vec3 from_seat = tool.position - nut.seat;
     const double height = glm::dot(from_seat, nut.axis);
@@ -49,7 +49,7 @@ int nut_to_pivot_about(const servo::Setup& setup, const StationState& s) {
     return found;
 }
 
-// On a nut the wrench must go on turning, until its jaw fits.
+// On a nut the wrench must continue to turn until its jaw fits.
 bool is_held_back(const Pose& commanded, const servo::Output& output) {
     return !output.touched.is_nut() &&
            (glm::length(output.constrained_tool.position - commanded.position) > held_back ||

@@ -36,8 +36,7 @@ struct Layout {
     Buttons wheel_buttons;
     force::WorkspaceMap workspace;  // of the mover; for a device that senses velocity only `rotation` applies
     Pose home;                      // initial pose of the tool in the assembly's frame
-    // m from the wrench's jaw to the point of its handle that the mover's handle stands for
-    // (lever_arm_of()).
+    // m from the wrench's jaw to the point of the wrench that follows the mover (lever_arm_of()).
     double lever_arm = 0.0;
     std::optional<Pose> wrist;  // of a gloved hand that holds the tool, in the tool's frame
 };
@@ -50,8 +49,8 @@ Status check(const Layout& layout);
 inline constexpr double transport_delay = 2e-3;
 
 // The length of the wrench, `handle_length` m, if the mover senses the pose of the hand and no device renders
-// torque: its force then acts at the end of the wrench. Otherwise 0: the mover's handle stands for the jaw,
-// and turns about the bolt.
+// torque: its force then acts at the end of the wrench. Otherwise 0: the jaw follows the
+// mover, which turns the wrench about the bolt.
 double lever_arm_of(const Layout& layout, double handle_length);
 
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.

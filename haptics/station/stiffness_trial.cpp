@@ -18,9 +18,9 @@ constexpr double late_begin = 0.60;                     // s; the late part last
 // tests/stability.
 constexpr double min_swing = 100e-6, tremor_force = 0.15;  // m, N
 constexpr double lasting_share = 0.3;                      // of the swing right after the step
-constexpr double large_swing = 0.5e-3;                     // m, that counts whatever was before
-constexpr int min_crossings = 4;                           // of the middle; a hand that moves on makes fewer
-// J in the late part. A hand that moves at 1 cm/s gets 0.2 mJ from 5 N/mm with 1.5 ms of delay.
+constexpr double large_swing = 0.5e-3;  // m; a larger one counts whatever the early one was
+constexpr int min_crossings = 4;        // of the middle; a hand that moves on makes fewer
+// J in the late part. A hand that moves at 1 cm/s receives 0.2 mJ from 5 N/mm with 1.5 ms of delay.
 constexpr double max_energy = 0.5e-3;
 constexpr double visible_motion = 30e-6;  // m, more than the steps of encoders
 

@@ -57,9 +57,9 @@ TEST_CASE("Describe: the condition of an arm has a line for what it reports") {
     using Lines = std::vector<std::string>;
     CHECK(summary_lines(Condition{}).empty());
     CHECK(summary_lines(Condition{true, 0.3, false}) ==
-          Lines{"calibrated: it knows its position", "motors at 30 % of their greatest heat"});
+          Lines{"calibrated", "motors at 30 % of their greatest heat"});
     CHECK(summary_lines(Condition{false, 0.85, false}) ==
-          Lines{"not calibrated: it does not know its position",
+          Lines{"not calibrated: its position is unknown",
                 "motors at 85 % of their greatest heat: rest the arm"});
     CHECK(summary_lines(Condition{{}, 0.75, true}) ==
           Lines{"motors at 75 % of their greatest heat: no force until they are cool"});

@@ -403,9 +403,8 @@ TEST_CASE("Plug-in: an arm that waits for its user stays open until he has acted
     const Bench bench;
     for (int i = 0; i < 2; ++i)
         CHECK(message(bench.open_with("needs user")) ==
-              "the plug-in faulty_arm: it waits for you: put the pen into its holder; expected an arm that "
-              "knows its "
-              "position");
+              "the plug-in faulty_arm: it waits for you: put the pen into its holder; expected a calibrated "
+              "arm");
     CHECK(preparation_of(bench.open().error()) ==
           Preparation{DeviceNeed::user, "put the pen into its holder"});
     // Another process would not have seen it.

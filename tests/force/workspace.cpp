@@ -162,7 +162,8 @@ TEST_CASE("WorkspaceMap: a command at the device's limit is at the mapped limit"
 }
 
 TEST_CASE(
-    "WorkspaceMap: the grip follows the device and the tool turns about it; a new heading moves nothing") {
+    "WorkspaceMap: the end of the lever arm follows the device and the tool turns about it; a new heading "
+    "moves nothing") {
     Random random(7);
     for (int i = 0; i < 200; ++i) {
         const WorkspaceMap w = any_workspace(random);
@@ -175,22 +176,24 @@ TEST_CASE(
         realign(w, s, device, tool);
         CHECK(apart(to_assembly(w, s, device, false, dt), tool) < 1e-12);
 
-        const Vec3 grip = lever_end(s, tool), shift = 0.1 * any(random), turn = 0.5 * any(random);
+        const Vec3 end = lever_end(s, tool), shift = 0.1 * any(random), turn = 0.5 * any(random);
         const Pose there{device.position + shift, glm::normalize(rotation(turn) * device.orientation)};
         const Pose now = to_assembly(w, s, there, false, dt);
         const Vec3 moved = s.heading * (w.rotation * shift);
-        CHECK(glm::length(lever_end(s, now) - grip - w.scale * moved) < 1e-12);
+        CHECK(glm::length(lever_end(s, now) - end - w.scale * moved) < 1e-12);
         CHECK(apart({now.position,
                      glm::normalize(rotation(s.heading * (w.rotation * turn)) * tool.orientation)},
                     now) < 1e-12);
-        // Force at the grip: the power at the device is `power` times the power at the grip.
+        // Force at the end of the lever arm: the power at the device is `power_ratio` times the power there.
         const Vec3 force = any(random);
         CHECK(glm::dot(to_device(w, s, {force, Vec3(0.0)}).force, shift) ==
               doctest::Approx(w.power_ratio * s.share * w.scale * glm::dot(force, moved)));
     }
 }
 
-TEST_CASE("Pivot: the handle points to the grip, the jaw stays on an arc's centre, and the tilt is kept") {
+TEST_CASE(
+    "Pivot: the handle points to the end of the lever arm, the jaw stays on an arc's centre, and the tilt is "
+    "kept") {
     Random random(8);
     for (int i = 0; i < 200; ++i) {
         const Pivot pivot{any(random), glm::normalize(any(random))};
@@ -203,7 +206,7 @@ TEST_CASE("Pivot: the handle points to the grip, the jaw stays on an arc's centr
         const Quat swung = glm::angleAxis(angle, pivot.axis);
         const Pose on_arc = pivoted(pivot, held, length, pivot.centre + length * (swung * across));
         CHECK(apart(on_arc, {pivot.centre, glm::normalize(swung * held.orientation)}) < 1e-9);
-        // A grip beside the arc moves the jaw along the handle, one above it along the bolt, and neither
+        // An end beside the arc moves the jaw along the handle, one above it along the bolt, and neither
         // tilts.
         const double out = random.uniform(-0.02, 0.02), up = random.uniform(-0.02, 0.02);
         const Pose off =

@@ -54,7 +54,7 @@ class VirtualBench final : public station_setup::LessonStation {
     const station::StationTick& latest_tick() override { return newest_; }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return lost_; }
     const station::DisplayedHand* hand() override { return hand_ ? &*hand_ : nullptr; }
-    std::vector<std::string> fault_messages() override { return troubles_; }
+    std::vector<std::string> fault_messages() override { return fault_messages_; }
     device::Condition condition() override { return condition_; }
     device::ArmNeeds needs() override { return needs_; }
     void permit_move() override { ++permissions_; }
@@ -66,7 +66,7 @@ class VirtualBench final : public station_setup::LessonStation {
     }
 
     // State of the station and its faults, set by tests.
-    std::vector<std::string> troubles_;
+    std::vector<std::string> fault_messages_;
     device::ArmNeeds needs_;
     device::Condition condition_;
     int permissions_ = 0;  // that the user has given

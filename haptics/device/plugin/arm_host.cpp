@@ -19,7 +19,7 @@ namespace bolt::device {
 namespace {
 
 constexpr int release_after = 50;              // ms without a request until the force is released
-constexpr int time_to_close = 2;               // s, after the program has gone
+constexpr int time_to_close = 2;               // s, after the program has ended
 constexpr std::size_t max_config_size = 4095;  // bytes
 
 template <std::size_t size>
@@ -159,7 +159,7 @@ class PluginServer {
     bool enabled_ = false;
 };
 
-// Ends the process if a function of the plug-in does not return after the program has gone.
+// Ends the process if a function of the plug-in does not return after the program has ended.
 void end_after_program(int socket) {
     std::thread([socket] {
         pollfd events{socket, POLLRDHUP, 0};
