@@ -27,7 +27,7 @@ struct NumberMember {
 // A text that may not be empty.
 struct TextMember {
     const char* key;
-    std::size_t longest;  // bytes
+    std::size_t max_size;  // bytes
     const char* expected;
 };
 constexpr TextMember device_member{"device", MemberReader::max_text,
@@ -58,7 +58,7 @@ struct BoundMember {
 constexpr std::array<BoundMember, 6> bound_members{
     {{{"force_N", 0.0, 1000.0}, &force::LimitBounds::force},
      {{"torque_Nm", 0.0, max_configurable_torque}, &force::LimitBounds::torque},
-     {{"stiffness_N_per_m", least_stiffness, 1e5}, &force::LimitBounds::stiffness},
+     {{"stiffness_N_per_m", min_stiffness, 1e5}, &force::LimitBounds::stiffness},
      {{"torsion_Nm_per_rad", 0.1, 1000.0}, &force::LimitBounds::torsion},
      {{"damping_Ns_per_m", 0.0, 1000.0}, &force::LimitBounds::damping},
      {{"angular_damping_Nms_per_rad", 0.0, 10.0}, &force::LimitBounds::angular_damping}}};
@@ -85,7 +85,7 @@ std::string read_text(MemberReader& members, const json& object, const std::stri
         members.report(at, JsonPart::value, fmt::format("\"{}\" is missing", member.key), member.expected);
         return {};
     }
-    std::string text = members.text(object, at, member.key, member.longest);
+    std::string text = members.text(object, at, member.key, member.max_size);
     if (text.empty())
         members.report(at + "/" + member.key, JsonPart::value, fmt::format("\"{}\" is empty", member.key),
                        member.expected);
@@ -176,7 +176,7 @@ void read_arm(MemberReader& members, const json& root, std::optional<StationArm>
     read_limits(members, *object, arm.limits);
     if (object->contains("effector_mass_kg"))
         arm.effector_mass =
-            members.number(*object, "/arm", "effector_mass_kg", 0.0, device::largest_effector_mass);
+            members.number(*object, "/arm", "effector_mass_kg", 0.0, device::max_effector_mass);
     if (object->contains("tool")) arm.tool = members.text(*object, "/arm", "tool");
 }
 

@@ -1,6 +1,6 @@
-// Reads and writes the station file: the arm, the wheel and the glove of one workplace, and what its builder
-// knows about them and they do not report. A JSON file, whose members content/schema/station.schema.json
-// describes:
+// Reads and writes the station file: the arm, the wheel and the glove of one workplace, with
+// properties that its builder enters because the devices do not report them. A JSON file, whose members
+// content/schema/station.schema.json describes:
 //
 //   {"format": "boltwright station 1",
 //    "arm": {"device": "force-dimension:0", "mounting": {"yaw_deg": 180}, "limits": {"force_N": 8}},
@@ -62,7 +62,7 @@ struct StationFile {
 };
 
 // N/m, least value of the bound on stiffness: a softer spring could not hold the tool.
-inline constexpr double least_stiffness = 50.0;
+inline constexpr double min_stiffness = 50.0;
 
 // Errors name `file`, line and column.
 Result<StationFile> parse_station(std::string_view text, const std::string& file);

@@ -75,7 +75,8 @@ void HapticMetricsBuilder::update_grip(double time, const session::TickRecord& t
     if (tick.joint >= 0) state_.last_joint = tick.joint;
     if (arrived_ || due_ < 0) return;
     const auto due = static_cast<std::size_t>(due_);
-    if (due < seats_.size() && glm::length(vector_of(tick.device.position) - seats_[due]) < near_nut) {
+    if (due < seats_.size() &&
+        glm::length(vector_of(tick.commanded_tool.position) - seats_[due]) < near_nut) {
         near_nut_ += dt_;
         if (visibility_.joint != due_)
             nut_visible_ = nan;

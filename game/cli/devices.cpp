@@ -52,8 +52,8 @@ std::string device_list(const std::vector<device::ListedDevice>& found) {
     std::string text = "Devices:\n";
     for (const device::ListedDevice& l : found) {
         text += fmt::format("  {}  {}  {}\n    {}\n", l.id, l.name, l.path, description_of(l.kind));
-        if (l.trouble)
-            text += fmt::format("    cannot be used{}: {}\n", l.usable() ? " yet" : "", l.trouble->message());
+        if (l.error)
+            text += fmt::format("    cannot be used{}: {}\n", l.usable() ? " yet" : "", l.error->message());
     }
     if (found.empty())
         text +=
@@ -111,8 +111,9 @@ Result<std::string> examine_device(const DevicesOptions& options) {
     const auto received = static_cast<double>(thread.snapshot().number - before);
     const device::DeviceReport& report = thread.report();
     if (report.state != device::DeviceState::usable)
-        return fail(ErrorCode::no_device,
-                    report.trouble.empty() ? device.description->name + " sends nothing" : report.trouble);
+        return fail(ErrorCode::no_device, report.fault_message.empty()
+                                              ? device.description->name + " sends nothing"
+                                              : report.fault_message);
     std::string text = fmt::format("{}  {}\n", options.device, device.description->name);
     for (const auto& lines :
          {device::summary_lines(*device.description), device::summary_lines(report.condition)})
@@ -157,7 +158,7 @@ Result<std::string> examine_glove(const std::string& port, double seconds) {
                                    glove.version.empty() ? "" : ", version " + glove.version);
     if (seconds > 0.0) text += fmt::format("  sent {:.0f} samples a second\n", received / seconds);
     if (report.lost_bytes > 0) text += fmt::format("  {} invalid bytes received\n", report.lost_bytes);
-    if (report.trouble[0] != '\0') text += fmt::format("  {}\n", report.trouble.data());
+    if (report.fault_message[0] != '\0') text += fmt::format("  {}\n", report.fault_message.data());
     if (const std::string warning = station_setup::adapter_warning(port); !warning.empty())
         text += fmt::format("  {}\n", warning);
     return text;

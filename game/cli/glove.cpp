@@ -75,10 +75,10 @@ Result<GloveReader> open(GloveArguments& options) {
         if (!reader.driver.report().open && steady_seconds() - from > port_timeout) break;
     }
     const hand::GloveReport& report = reader.driver.report();
-    return fail(
-        ErrorCode::no_device,
-        report.trouble[0] != '\0' ? std::string(report.trouble.data()) : options.port + ": no glove answers",
-        report.open ? "a glove that is switched on and connected to its box" : "");
+    return fail(ErrorCode::no_device,
+                report.fault_message[0] != '\0' ? std::string(report.fault_message.data())
+                                                : options.port + ": no glove answers",
+                report.open ? "a glove that is switched on and connected to its box" : "");
 }
 
 // Completes and saves the calibration. Returns a message with its path.

@@ -69,7 +69,7 @@ int check_station(const std::string& file) {
     if (!station) return print_error(station.error());
     const std::vector<station_setup::StationFinding> findings =
         station_setup::compare(*station, station_setup::find_facts(*station));
-    const bool problem = !findings.empty() && findings.front().problem;  // they come first
+    const bool problem = !findings.empty() && findings.front().prevents_use;  // they come first
     const Status printed =
         print(station_setup::describe(findings) +
               (problem ? "This station cannot be used as the file says\n" : "The file suits the devices\n"));

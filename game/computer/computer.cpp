@@ -33,7 +33,7 @@ servo::Input working_input(const servo::Setup& setup, const servo::State& state)
     const Vec3 x = std::cos(-nearest) * nut.e1 + std::sin(-nearest) * nut.e2;
     const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(nut.axis, x), nut.axis)));
     servo::Input input;
-    input.device = servo::commanded_tool({at, q});
+    input.commanded_tool = servo::to_commanded_tool({at, q});
     input.grip = servo::Grip::wrench;
     input.enabled = true;
     input.guide = 0;
@@ -82,7 +82,7 @@ void add_devices(const Facts& facts, std::vector<Finding>& all) {
             // The error says what to do.
             all.push_back({Severity::limited,
                            "finding.device_refused",
-                           {{"name", listed.name}, why(*listed.trouble)},
+                           {{"name", listed.name}, why(*listed.error)},
                            {}});
             continue;
         }

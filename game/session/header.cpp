@@ -21,7 +21,7 @@ void for_each_limit(Limits& l, Visit visit) {
     visit("delay_ticks", l.delay);
     visit("speed_m_s", l.speed), visit("angular_speed_rad_s", l.angular_speed);
     visit("jump_m", l.jump), visit("angular_jump_rad", l.angular_jump);
-    visit("silence_s", l.silence), visit("recovery_s", l.recovery);
+    visit("silence_s", l.max_silence), visit("recovery_s", l.recovery);
 }
 
 // The list above names every member; a new member must be added to it.

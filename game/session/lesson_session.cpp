@@ -33,7 +33,7 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     description.jaw_tip = assembly.wrench.jaw_tip;
     description.head_angle = assembly.wrench.head_angle;
     description.handle_length = assembly.wrench.handle_length;
-    description.greatest_torque = highest_torque;
+    description.max_torque = highest_torque;
     description.click_swing = assembly.wrench.click_swing;
     description.click_accuracy = assembly.wrench.click_accuracy;
     description.limits = limits;
@@ -111,8 +111,8 @@ Result<std::optional<ContactModels>> obstacles_of(const content::Assembly& assem
 // Compares all bits of the outputs, also those that the session file does not store.
 bool same_tick(const servo::Input& input, const servo::Output& a, const servo::Output& b) {
     return same_output(make_record(input, a), make_record(input, b)) &&
-           std::memcmp(&a.tool, &b.tool, sizeof a.tool) == 0 && a.slipped == b.slipped &&
-           a.clicked == b.clicked && a.undone == b.undone &&
+           std::memcmp(&a.constrained_tool, &b.constrained_tool, sizeof a.constrained_tool) == 0 &&
+           a.slipped == b.slipped && a.clicked == b.clicked && a.undone == b.undone &&
            std::memcmp(&a.rounded, &b.rounded, sizeof a.rounded) == 0;
 }
 

@@ -37,7 +37,7 @@ collision::ObstacleId obstacle_of_number(std::int16_t number) {
 
 TickRecord make_record(const servo::Input& input, const servo::Output& output) {
     TickRecord record;
-    record.device = input.device;
+    record.commanded_tool = input.commanded_tool;
     record.grip = static_cast<std::uint8_t>(input.grip);
     record.flags = static_cast<std::uint8_t>(
         (input.enabled ? flag_enabled : 0) | (input.fresh ? 0 : flag_silent) | (input.stop ? flag_stop : 0) |
@@ -62,7 +62,7 @@ TickRecord make_record(const servo::Input& input, const servo::Output& output) {
 
 servo::Input input_of(const TickRecord& record) {
     servo::Input input;
-    input.device = record.device;
+    input.commanded_tool = record.commanded_tool;
     input.grip = static_cast<servo::Grip>(record.grip);
     input.enabled = (record.flags & flag_enabled) != 0;
     input.fresh = (record.flags & flag_silent) == 0;
@@ -116,8 +116,9 @@ using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t,
 // Visits the columns in their stored order; used for encoding and decoding.
 template <class Visit>
 void for_each_column(std::byte chunk_version, Visit visit) {
-    for (int i = 0; i < 3; ++i) visit([i](auto& tick) -> auto& { return tick.device.position[i]; });
-    for (int i = 0; i < 4; ++i) visit([i](auto& tick) -> auto& { return tick.device.orientation[i]; });
+    for (int i = 0; i < 3; ++i) visit([i](auto& tick) -> auto& { return tick.commanded_tool.position[i]; });
+    for (int i = 0; i < 4; ++i)
+        visit([i](auto& tick) -> auto& { return tick.commanded_tool.orientation[i]; });
     visit([](auto& tick) -> auto& { return tick.grip; });
     visit([](auto& tick) -> auto& { return tick.flags; });
     visit([](auto& tick) -> auto& { return tick.guide; });

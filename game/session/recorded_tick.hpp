@@ -14,7 +14,7 @@
 namespace bolt::session {
 
 struct TickRecord {
-    servo::CommandedTool device;
+    servo::CommandedTool commanded_tool;
     std::uint8_t grip = 0;   // servo::Grip
     std::uint8_t flags = 0;  // see below
     std::int16_t guide = -1;

@@ -109,7 +109,7 @@ Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
 namespace {
 
 struct RecordedSample {
-    servo::CommandedTool device;
+    servo::CommandedTool commanded_tool;
     std::uint32_t buttons = 0;
     std::uint64_t tick = 0;
 };
@@ -133,7 +133,7 @@ Result<RecordedHand> replay_device(const SessionReader& session) {
             const std::uint32_t buttons = ((tick.flags & flag_enabled) != 0 ? button_held : 0) |
                                           ((tick.flags & flag_stop) != 0 ? button_stop : 0) |
                                           ((tick.flags & flag_reset) != 0 ? button_reset : 0);
-            samples->push_back({tick.device, buttons, first + i});
+            samples->push_back({tick.commanded_tool, buttons, first + i});
         }
     }));
     if (samples->empty())
@@ -149,12 +149,12 @@ Result<RecordedHand> replay_device(const SessionReader& session) {
     for (std::size_t i = 0; i < 6; ++i) d.renders[i] = (i < 3 ? d.limits.force : d.limits.torque) > 0.0;
     d.rate = 1.0 / session.header().dt;
     d.buttons = 3;
-    hand.first = recorded_pose(samples->front().device);
+    hand.first = recorded_pose(samples->front().commanded_tool);
     hand.recording = [samples, dt = session.header().dt](std::size_t i) -> std::optional<device::Sample> {
         if (i >= samples->size()) return std::nullopt;
         const RecordedSample& recorded = (*samples)[i];
         device::Sample sample;
-        sample.pose = recorded_pose(recorded.device);
+        sample.pose = recorded_pose(recorded.commanded_tool);
         sample.buttons = recorded.buttons;
         sample.time = static_cast<double>(recorded.tick) * dt;
         return sample;

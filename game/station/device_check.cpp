@@ -12,9 +12,9 @@ namespace bolt::station_setup {
 namespace {
 
 constexpr double tick_time = 1e-3;       // s
-constexpr double check_interval = 0.02;  // s between two looks at the trial
-constexpr double button_timeout = 5.0;   // s without the button until the trial is given up
-constexpr double release_time = 0.05;    // s in which the force ends and the device has taken that
+constexpr double check_interval = 0.02;  // s between two polls of the trial
+constexpr double button_timeout = 5.0;   // s without the button until the trial ends
+constexpr double release_time = 0.05;    // s until the force has ended and the device has the command for it
 
 // Data that the servo thread and the thread that waits for it exchange.
 struct CheckedDevice {
@@ -78,7 +78,7 @@ std::string end_of(const station::StiffnessTrial& trial) {
             return fmt::format("at {:.2g} N/mm the handle keeps oscillating",
                                1e-3 * stiffness_of(trial, trial.stage));
         case station::TrialEnd::energy:
-            return fmt::format("at {:.2g} N/mm the hand gets energy from a spring at rest",
+            return fmt::format("at {:.2g} N/mm a spring at rest gives energy to the hand",
                                1e-3 * stiffness_of(trial, trial.stage));
         case station::TrialEnd::fault:
             return fmt::format("at {:.2g} N/mm the force was blocked: {}",
@@ -139,8 +139,9 @@ Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheck
     }
     const device::DeviceReport& report = thread.report();
     if (report.state != device::DeviceState::usable)
-        return fail(ErrorCode::no_device,
-                    report.trouble.empty() ? check.description.name + " sends nothing" : report.trouble);
+        return fail(ErrorCode::no_device, report.fault_message.empty()
+                                              ? check.description.name + " sends nothing"
+                                              : report.fault_message);
     check.condition = report.condition;
     check.malformed = report.malformed;
     check.writes = report.writes;

@@ -27,14 +27,14 @@ struct DeviceCheck {
 
 struct DeviceCheckOptions {
     double seconds = 1.0;  // in which samples are counted
-    // Measure the stiffness: the user has agreed that the arm pushes the hand. Otherwise `no_stiffness` says
-    // why not.
+    // Measure the stiffness: the user has agreed that the arm pushes the hand. Otherwise `no_stiffness`
+    // states the reason.
     bool pushes = false;
     std::string no_stiffness;
     force::LimitBounds bounds;  // of the station file
     std::uint32_t dead_man =
         1;  // mask of the buttons that permit the force; a device without them needs none
-    std::function<bool()> stop;  // true: the user has interrupted it
+    std::function<bool()> stop;  // returns true after the user has interrupted the check
 };
 
 // The largest force of the measurement of the stiffness, N; 0: the device renders no force.
@@ -44,7 +44,7 @@ double trial_force(const device::Description& description, const force::LimitBou
 // created.
 Result<DeviceCheck> check_device(device::DeviceThread& thread, const DeviceCheckOptions& options);
 
-// Lines for the terminal, with what exactly was measured.
+// Lines for the terminal. Each states what was measured.
 std::string device_check_report(const DeviceCheck& check);
 
 }  // namespace bolt::station_setup

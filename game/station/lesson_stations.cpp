@@ -1,4 +1,4 @@
-// The two stations of a lesson: on threads, and with the frames.
+// The two stations of a lesson: one on threads, one whose ticks run with the frames.
 #include <deque>
 
 #include "game/station/station_setup.hpp"
@@ -7,10 +7,10 @@ namespace bolt::station_setup {
 
 namespace {
 
-class RunningStation final : public LessonStation {
+class ThreadedStation final : public LessonStation {
   public:
-    RunningStation(station::Station station, VirtualMover mover,
-                   std::shared_ptr<device::MovePermission> permission)
+    ThreadedStation(station::Station station, VirtualMover mover,
+                    std::shared_ptr<device::MovePermission> permission)
         : mover_(std::move(mover)), permission_(std::move(permission)), station_(std::move(station)) {}
 
     void set_controls(const station::StationControls& controls) override { station_.set_controls(controls); }
@@ -25,7 +25,7 @@ class RunningStation final : public LessonStation {
     const station::StationTick& latest_tick() override { return station_.latest_tick(); }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return station_.lost_ticks(); }
     const station::DisplayedHand* hand() override { return station_.hand(); }
-    std::vector<std::string> troubles() override { return station_.troubles(); }
+    std::vector<std::string> fault_messages() override { return station_.fault_messages(); }
     device::ArmNeeds needs() override {
         const device::DeviceReport* report = station_.mover_report();
         if (report == nullptr) return {};
@@ -51,9 +51,9 @@ class RunningStation final : public LessonStation {
     station::Station station_;
 };
 
-class FrameStation final : public LessonStation {
+class FrameSteppedStation final : public LessonStation {
   public:
-    FrameStation()
+    FrameSteppedStation()
         : arm_(device::simulated_arm_description(), device::simulated_arm_parameters(),
                device::virtual_timer(time_)) {}
 
@@ -78,7 +78,7 @@ class FrameStation final : public LessonStation {
         return {};
     }
     void set_hand_motion(const device::HandMotion& motion) override { arm_.set_motion(motion); }
-    void pass(double seconds) override {
+    void step(double seconds) override {
         for (owed_ += seconds; owed_ >= setup_.dt; owed_ -= setup_.dt) tick();
     }
     bool next_tick(station::StationTick& tick) override {
@@ -90,7 +90,7 @@ class FrameStation final : public LessonStation {
     const station::StationTick& latest_tick() override { return latest_; }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return 0; }
     const station::DisplayedHand* hand() override { return nullptr; }
-    std::vector<std::string> troubles() override { return {}; }
+    std::vector<std::string> fault_messages() override { return {}; }
     [[nodiscard]] const station::Layout& layout() const override { return layout_; }
     [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
     const servo::Timing* stop() override { return nullptr; }
@@ -133,14 +133,14 @@ class FrameStation final : public LessonStation {
 
 }  // namespace
 
-Result<std::unique_ptr<LessonStation>> start_lesson_station(
+Result<std::unique_ptr<LessonStation>> start_threaded_station(
     station::StationOptions options, VirtualMover mover, std::shared_ptr<device::MovePermission> permission) {
     BOLT_TRY_ASSIGN(auto station, station::Station::start(std::move(options)));
-    return std::make_unique<RunningStation>(std::move(station), std::move(mover), std::move(permission));
+    return std::make_unique<ThreadedStation>(std::move(station), std::move(mover), std::move(permission));
 }
 
-Result<std::unique_ptr<LessonStation>> start_frame_station(const station::StationOptions& options) {
-    auto station = std::make_unique<FrameStation>();
+Result<std::unique_ptr<LessonStation>> start_frame_stepped_station(const station::StationOptions& options) {
+    auto station = std::make_unique<FrameSteppedStation>();
     BOLT_TRY(station->open(options));
     return std::unique_ptr<LessonStation>(std::move(station));
 }

@@ -85,7 +85,7 @@ std::vector<StationFinding> compare(const content::StationFile& station, const S
             return;
         }
         for (StationFinding& finding : compare(*device, **reported))
-            findings.push_back({finding.problem, fmt::format("{}: {}", name, finding.text)});
+            findings.push_back({finding.prevents_use, fmt::format("{}: {}", name, finding.text)});
     };
     add(station.arm, facts.arm, "arm");
     add(station.wheel, facts.wheel, "wheel");
@@ -100,14 +100,14 @@ std::vector<StationFinding> compare(const content::StationFile& station, const S
                                                                : fmt::format("did you mean \"{}\"?", near))});
     }
     std::stable_partition(findings.begin(), findings.end(),
-                          [](const StationFinding& finding) { return finding.problem; });
+                          [](const StationFinding& finding) { return finding.prevents_use; });
     return findings;
 }
 
 std::string describe(std::span<const StationFinding> findings) {
     std::string text;
     for (const StationFinding& finding : findings)
-        text += fmt::format("  {}{}\n", finding.problem ? "" : "warning: ", finding.text);
+        text += fmt::format("  {}{}\n", finding.prevents_use ? "" : "warning: ", finding.text);
     return text;
 }
 
@@ -157,7 +157,7 @@ content::StationFile station_of(const device::Description* mover, const device::
         arm.buttons = buttons_of(*mover);
         if (station::renders_force(*mover)) {
             arm.limits.force = mover->limits.force;
-            if (mover->limits.stiffness >= content::least_stiffness)
+            if (mover->limits.stiffness >= content::min_stiffness)
                 arm.limits.stiffness = mover->limits.stiffness;
         }
         if (station::renders_torque(*mover)) arm.limits.torque = mover->limits.torque;

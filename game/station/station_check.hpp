@@ -6,7 +6,8 @@
 namespace bolt::station_setup {
 
 struct StationFinding {
-    bool problem = false;  // the station cannot be used as the file says; otherwise a setting has no effect
+    // The station cannot be used with the settings of the file. False: a setting has no effect.
+    bool prevents_use = false;
     std::string text;
 };
 
@@ -21,8 +22,8 @@ struct StationFacts {
 // Opens the devices that the file names, and reads the assemblies.
 StationFacts find_facts(const content::StationFile& station);
 
-// Problems first. `arm` must sense a pose or a velocity, `wheel` a turn; what they report, not what a station
-// has lowered.
+// Findings that prevent the use come first. `arm` must sense a pose or a velocity, `wheel` a turn; what they
+// report, not what a station has lowered.
 std::vector<StationFinding> compare(const content::StationFile& station, const StationFacts& facts);
 std::vector<StationFinding> compare(const content::StationArm& arm, const device::Description& reported);
 std::vector<StationFinding> compare(const content::StationWheel& wheel, const device::Description& reported);

@@ -45,7 +45,7 @@ Result<device::ListedDevice> find_device(std::span<const device::ListedDevice> c
     for (const device::ListedDevice& l : connected) {
         ids.push_back(l.id);
         if (l.id != id) continue;
-        if (!l.usable()) return fail(*l.trouble);
+        if (!l.usable()) return fail(*l.error);
         return l;
     }
     const std::string near = nearest(id, ids);
@@ -133,8 +133,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int longest_latency_timer = 2;  // ms
-constexpr double glove_timeout = 6.0;     // s; the handshake sends each query up to three times
+constexpr int max_latency_timer = 2;   // ms
+constexpr double glove_timeout = 6.0;  // s; the handshake sends each query up to three times
 
 // Offset, m, and rotation about y, rad, of an enclosed flat bar along x from the wrist of an average right
 // hand.
@@ -177,14 +177,14 @@ Result<hand::GloveIdentity> wait_for_glove(hand::GloveDriver& driver, const fs::
     const double deadline = timer.now() + glove_timeout;
     while (driver.sample().number == 0) {
         const hand::GloveReport& report = driver.report();
-        const bool has_message = report.trouble[0] != '\0';
+        const bool has_message = report.fault_message[0] != '\0';
         // Fails at once if the port cannot be opened or another device answers; otherwise waits for an
         // answer.
         if ((has_message && report.state == hand::GloveState::rejected) ||
             (has_message && !report.open && report.openings == 0) || timer.now() > deadline)
             return fail(
                 ErrorCode::no_device,
-                fmt::format("{}: {}", port.string(), has_message ? report.trouble.data() : "no answer"),
+                fmt::format("{}: {}", port.string(), has_message ? report.fault_message.data() : "no answer"),
                 has_message ? "" : "a CyberGlove that is switched on");
         timer.wait(0.01);
     }
@@ -193,7 +193,7 @@ Result<hand::GloveIdentity> wait_for_glove(hand::GloveDriver& driver, const fs::
 
 std::string adapter_warning(const fs::path& port) {
     const auto ms = hand::latency_timer_ms(port);
-    if (!ms || *ms <= longest_latency_timer) return {};
+    if (!ms || *ms <= max_latency_timer) return {};
     return fmt::format(
         "its adapter delays bytes by {} ms: install the udev rule (60-boltwright.rules) and reconnect it",
         *ms);

@@ -113,8 +113,8 @@ struct PlannedStation {
     bool obstacles = false;                                // the assembly has contact models
 };
 
-// Takes over what a station file says about the devices of `planned`, by their ids: the map, the limits and
-// the buttons go to its options, and the wheel's configuration is returned.
+// Applies the settings of a station file to those devices of `planned` whose ids it names: the map, the
+// limits and the buttons go to the options. Returns the configuration of the wheel.
 device::WheelConfig apply_station(const content::StationFile& station, PlannedStation& planned);
 
 // Fails for an invalid request before it opens a device; opens only the glove, to query its identity. The
@@ -133,8 +133,8 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
 Pose initial_wrench_pose(const servo::Setup& setup, const servo::ToolContact* contact, std::size_t joint,
                          double nut_angle);
 
-// A station as a lesson uses it. start_lesson_station() returns one that runs on its own threads,
-// start_frame_station() one that runs with the frames.
+// A station as a lesson uses it. start_threaded_station() returns one that runs on its own threads,
+// start_frame_stepped_station() one whose ticks run in step().
 class LessonStation {
   public:
     LessonStation() = default;
@@ -149,14 +149,15 @@ class LessonStation {
     // frame.
     virtual void set_puck_input(const device::PuckInput& /*input*/) {}
     virtual void set_hand_motion(const device::HandMotion& /*motion*/) {}
-    // Call once a frame with the time since the last one. Runs the ticks of a station without threads.
-    virtual void pass(double /*seconds*/) {}
+    // Call once a frame with the time since the last one, s. Runs the ticks of that time if the station has
+    // no threads.
+    virtual void step(double /*seconds*/) {}
     // Reads the next tick in order; false: there is none yet.
     virtual bool next_tick(station::StationTick& tick) = 0;
     virtual const station::StationTick& latest_tick() = 0;       // is updated in a pause too
     [[nodiscard]] virtual std::uint64_t lost_ticks() const = 0;  // dropped because they were not read in time
     virtual const station::DisplayedHand* hand() = 0;            // null: no gloved hand
-    virtual std::vector<std::string> troubles() = 0;             // messages on the present problems
+    virtual std::vector<std::string> fault_messages() = 0;       // of devices and glove, present ones
     // Needs of the device that moves the tool before it can be opened again, after it was lost.
     virtual device::ArmNeeds needs() { return {}; }
     virtual device::Condition condition() { return {}; }  // of that device
@@ -169,16 +170,16 @@ class LessonStation {
     virtual const servo::Timing* stop() = 0;
 };
 
-// The pretended device that mouse and keyboard move if no device moves the tool; monostate: none.
+// The virtual device that mouse and keyboard move if no device moves the tool; monostate: none.
 using VirtualMover = std::variant<std::monostate, device::VirtualPuck, device::SimulatedArm>;
 
 // Starts the station on its own threads. `permission`: of the device that moves the tool; may be null.
-Result<std::unique_ptr<LessonStation>> start_lesson_station(
+Result<std::unique_ptr<LessonStation>> start_threaded_station(
     station::StationOptions options, VirtualMover mover,
     std::shared_ptr<device::MovePermission> permission = {});
 
-// Starts a station without threads, whose simulated arm moves in the time of the frames: on any computer,
-// however busy, no tick is missed, and the same input gives the same lesson.
-Result<std::unique_ptr<LessonStation>> start_frame_station(const station::StationOptions& options);
+// Starts a station without threads, whose simulated arm moves in the time of the frames: no tick is missed
+// on a busy computer, and the same input gives the same lesson.
+Result<std::unique_ptr<LessonStation>> start_frame_stepped_station(const station::StationOptions& options);
 
 }  // namespace bolt::station_setup

@@ -89,16 +89,16 @@ std::string describe(const servo::ThreadPrivileges& privileges) {
     return text;
 }
 
-void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
+void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> fault_messages, double time,
                      MessageHandler on_message) {
     const auto persists = [&](const Episode& e) {
-        return std::find(troubles.begin(), troubles.end(), e.message) != troubles.end();
+        return std::find(fault_messages.begin(), fault_messages.end(), e.message) != fault_messages.end();
     };
     const auto is_new = [&](const std::string& message) {
         return std::none_of(episodes.begin(), episodes.end(),
                             [&](const Episode& e) { return !e.until && e.message == message; });
     };
-    if (std::any_of(troubles.begin(), troubles.end(), is_new))
+    if (std::any_of(fault_messages.begin(), fault_messages.end(), is_new))
         std::erase_if(episodes,
                       [&](const Episode& e) { return !e.until && time - e.from < onset && !persists(e); });
     for (Episode& e : episodes) {
@@ -106,7 +106,7 @@ void update_episodes(std::vector<Episode>& episodes, std::span<const std::string
         e.until = time;
         on_message(time, "resolved: " + e.message);
     }
-    for (const std::string& message : troubles) {
+    for (const std::string& message : fault_messages) {
         if (!is_new(message)) continue;
         episodes.push_back({message, time, std::nullopt});
         on_message(time, message);
@@ -131,7 +131,7 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
     const auto poll = [&] {
         for (station::StationTick tick; station.next_tick(tick);) enabled += tick.input.enabled ? 1 : 0;
         const double time = timer.now() - begun;
-        update_episodes(trial.episodes, station.troubles(), time, on_message);
+        update_episodes(trial.episodes, station.fault_messages(), time, on_message);
         if (station.hand() == nullptr || station.hand()->held == held) return;
         held = !held;
         on_message(time, held ? "the hand takes the wrench" : "the hand releases the wrench");
@@ -214,11 +214,11 @@ std::vector<std::string> unfit_reasons(const StationTrial& trial) {
         const double silence = (*tried)->stats.longest_silence;
         // The supervisor reports longer silences and losses. A device that sends nothing at rest is never
         // silent.
-        if (renders((*tried)->description) && !d.silent_at_rest && silence > d.limits.silence &&
+        if (renders((*tried)->description) && !d.silent_at_rest && silence > d.limits.max_silence &&
             silence < supervisor_silence && (*tried)->losses == 0)
             reasons.push_back(
                 fmt::format("{} was silent for {:.0f} ms; its force is released after {:.0f} ms", d.name,
-                            1e3 * silence, 1e3 * d.limits.silence));
+                            1e3 * silence, 1e3 * d.limits.max_silence));
     }
     const servo::HostAssessment host = servo::assess_host(trial.timing, trial.rate);
     reasons.insert(reasons.end(), host.reasons.begin(),

@@ -1,4 +1,4 @@
-// A trial run of a station: the statistics of its devices, the timing of its servo, the problems that
+// A trial run of a station: the statistics of its devices, the timing of its servo, the faults that
 // occurred, and the assessment whether it is fit for training.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace bolt::station_setup {
 
-// A problem and its duration.
+// A fault and its duration.
 struct Episode {
     std::string message;
     double from = 0.0;            // s
@@ -17,10 +17,10 @@ struct Episode {
 // Receives a message and its time, s.
 using MessageHandler = FunctionRef<void(double time, const std::string& message)>;
 
-// Updates the episodes from Station::troubles() at `time` and reports each problem that begins or ends. The
-// loss of a device produces several messages in turn. So if a problem is gone less than 0.3 s after it began
-// and a new one has appeared, both are taken for one, and the episode of the first is removed.
-void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> troubles, double time,
+// Updates the episodes from Station::fault_messages() at `time` and reports each fault that begins or ends.
+// The loss of a device produces several messages in turn. So if a fault is gone less than 0.3 s after it
+// began and a new one has appeared, both are taken for one, and the episode of the first is removed.
+void update_episodes(std::vector<Episode>& episodes, std::span<const std::string> fault_messages, double time,
                      MessageHandler on_message);
 
 struct DeviceTrial {
@@ -49,7 +49,7 @@ struct StationTrial {
     std::vector<Episode> episodes;
 };
 
-// Runs the trial for `seconds` or until `stop` returns true, then stops the station. Reports problems, and
+// Runs the trial for `seconds` or until `stop` returns true, then stops the station. Reports faults, and
 // grasps and releases of a gloved hand. Without a glove the wrench counts as held.
 StationTrial run_trial(station::Station& station, const PlannedStation& planned, double seconds,
                        const std::function<bool()>& stop, MessageHandler on_message);

@@ -168,7 +168,7 @@ Intention advance(TraineeState& t, const servo::Setup& setup, const servo::State
     const bool holds_nut = state.engagement.joint >= 0 && t.phase != Phase::lower;
     const bool grasps = holds_nut && !t.held_nut;
     if (grasps && t.holds_intended_nut()) adopt_wrench_pose(t);
-    const force::OutputCommand output{state.output.output.force, state.output.output.torque};
+    const force::OutputCommand output{state.output_stage.limiter.force, state.output_stage.limiter.torque};
     const double torque =
         felt_torque(setup.torque_rendering, t.nut(), t.hand.orientation * Vec3(1, 0, 0), output);
     const Percept& felt = t.perception.update(holds_nut ? torque : 0.0, t.handle_angle, t.joint().nut.speed,
@@ -198,10 +198,10 @@ servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State
     if (holds_nut != t.held_nut || t.intended_pose_jumped) reset_arm(t.arm, t.hand, intention.tool);
     t.held_nut = holds_nut;
     t.intended_pose_jumped = false;
-    const force::OutputCommand output{state.output.output.force, state.output.output.torque};
+    const force::OutputCommand output{state.output_stage.limiter.force, state.output_stage.limiter.torque};
     t.hand = step_arm(t.profile.impedance, t.arm, intention.tool, output, holds_nut, setup.dt);
     if (t.obstacles() != nullptr && t.holds_wrench && t.obstacles()->in_hand) {
-        const Pose& wrench = t.obstacles()->god_object.tool;
+        const Pose& wrench = t.obstacles()->god_object.constrained_tool;
         retreat_if_caught(t, intention.tool, wrench);
         if (holds_nut) t.hand = motion::yield_to_wrench(t.hand, wrench);
     }
@@ -209,7 +209,7 @@ servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State
     input.enabled = true;
     input.guide = intention.guide;
     input.grip = intention.grip;
-    input.device = servo::commanded_tool(t.hand);
+    input.commanded_tool = servo::to_commanded_tool(t.hand);
     report_visibility(t, lesson.due());
     return input;
 }
@@ -223,7 +223,7 @@ Intention SimulatedTrainee::intend(const servo::Setup& setup, const servo::State
     t.held_nut = intention.holds_nut;
     t.intended_pose_jumped = false;
     if (t.obstacles() != nullptr && t.holds_wrench && t.obstacles()->in_hand)
-        retreat_if_caught(t, intention.tool, t.obstacles()->god_object.tool);
+        retreat_if_caught(t, intention.tool, t.obstacles()->god_object.constrained_tool);
     report_visibility(t, lesson.due());
     return intention;
 }

@@ -57,14 +57,14 @@ DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active,
     DragScene scene;
     scene.screen = screen;
     scene.wrench = hand_of(active).wrench;
-    scene.tool = scene.wrench ? tool_of(active).pose : client.latest.tool;
+    scene.tool = scene.wrench ? tool_of(active).pose : client.latest.commanded_tool;
     scene.points_at_reachable = active.pointer.on_wrench || active.pointer.nut.has_value();
     scene.engaged = client.latest.output.joint >= 0;
     if (const auto nut = hand_of(active).nut)
         scene.nut = force::Pivot{world::nut_centre(world, setup, *nut), setup.nuts[*nut].axis};
     const station::Layout& layout = client.link->layout();
-    scene.handle_length = layout.grip_distance;
-    scene.device = viewer_heading(active) * layout.workspace.turn;
+    scene.handle_length = layout.lever_arm;
+    scene.device = viewer_heading(active) * layout.workspace.rotation;
     scene.scale = layout.workspace.scale;
     return scene;
 }
@@ -209,7 +209,7 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     StationClient& client = *active.station;
     const bool had_wrench = hand_of(active).wrench;
-    client.link->pass(frame.seconds);
+    client.link->step(frame.seconds);
     for (station::StationTick tick; continues(active) && frame.status && client.link->next_tick(tick);) {
         const bool free = contact_of(active).joint < 0;
         frame.status = active.session->repeat(world, tick.input, tick.output);

@@ -86,7 +86,7 @@ void pause_for_arm(StationClient& client, LessonClock& clock) {
 }
 
 std::optional<words::TextKey> arm_warning(const device::Condition& condition) {
-    if (condition.rests) return words::TextKey("arm.rests");
+    if (condition.cooling) return words::TextKey("arm.rests");
     if (device::is_warm(condition)) return words::TextKey("arm.warm");
     return {};
 }

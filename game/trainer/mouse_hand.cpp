@@ -116,7 +116,7 @@ void go_to_nut(MouseHand& hand, const servo::Setup& setup, const servo::State& s
 
 void lift(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
     hand.pose = hand.wrench && state.tool_contact && state.tool_contact->in_hand
-                    ? state.tool_contact->god_object.tool
+                    ? state.tool_contact->god_object.constrained_tool
                     : hand.pose;
     Pose up = at_nut(hand, setup, state, hand.hover_height);
     up.orientation = hand.pose.orientation;
@@ -342,7 +342,7 @@ servo::Input step_hand(MouseHand& hand, const servo::Setup& setup, const servo::
     servo::Input input;
     input.enabled = true;
     input.grip = grip;
-    input.device = servo::commanded_tool(hand.pose);
+    input.commanded_tool = servo::to_commanded_tool(hand.pose);
     return input;
 }
 

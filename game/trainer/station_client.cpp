@@ -124,11 +124,11 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
     station_options.controls.pause = true;
     station_setup::VirtualMover mover;
     if (!planned->devices.mover) station_options.mover_buttons = {1, 0, 0, 0};
-    if (equipment.hand == HandMode::free) return station_setup::start_frame_station(station_options);
+    if (equipment.hand == HandMode::free) return station_setup::start_frame_stepped_station(station_options);
     if (!planned->devices.mover && arm) mover = std::move(simulated_arm);
     if (!planned->devices.mover && !arm) mover = std::move(puck);
-    return station_setup::start_lesson_station(std::move(station_options), std::move(mover),
-                                               dialog.permission);
+    return station_setup::start_threaded_station(std::move(station_options), std::move(mover),
+                                                 dialog.permission);
 }
 
 namespace {
@@ -187,7 +187,7 @@ servo::Grip grip_of(const StationClient& client, bool closes, const StationInten
 
 void update_client(StationClient& client, const session::LessonSession& session) {
     client.latest = client.link->latest_tick();
-    client.troubles = client.link->troubles();
+    client.troubles = client.link->fault_messages();
     client.needs = client.link->needs();
     client.condition = client.link->condition();
     const station::DisplayedHand* hand = client.link->hand();
@@ -195,12 +195,12 @@ void update_client(StationClient& client, const session::LessonSession& session)
     client.glove_lost = hand != nullptr && hand->lost;
     if (hand != nullptr && hand->has_frame) client.fingers = hand->joints;
     const double within = client.near_nut ? nut_release_distance : nut_capture_distance;
-    client.near_nut = nearest_nut(session, client.latest.output.tool.position, within);
-    const Vec3& hand_at = client.latest.tool.position;
-    const double to_wrench =
-        client.latest.wrench_rest
-            ? distance_to_handle(hand_at, *client.latest.wrench_rest, session.setup().wrench.handle_length)
-            : std::numeric_limits<double>::infinity();
+    client.near_nut = nearest_nut(session, client.latest.output.constrained_tool.position, within);
+    const Vec3& hand_at = client.latest.commanded_tool.position;
+    const std::optional<Pose>& resting = client.latest.resting_wrench;
+    const double to_wrench = resting
+                                 ? distance_to_handle(hand_at, *resting, session.setup().wrench.handle_length)
+                                 : std::numeric_limits<double>::infinity();
     client.near_wrench = to_wrench < station::handle_capture_distance;
     client.nut_is_nearer =
         client.near_nut && glm::distance(hand_at, nut_at(session, *client.near_nut)) < to_wrench;
@@ -234,8 +234,8 @@ WorkingHand hand_of(const StationClient& client) {
     hand.nut =
         engaged ? std::optional(static_cast<std::size_t>(client.latest.output.joint)) : client.near_nut;
     hand.action = engaged ? HandAction::holding : hand.nut ? HandAction::lowering : HandAction::resting;
-    hand.pose = hand.to = client.latest.tool;
-    hand.rest = client.latest.wrench_rest.value_or(client.rest);
+    hand.pose = hand.to = client.latest.commanded_tool;
+    hand.rest = client.latest.resting_wrench.value_or(client.rest);
     if (has_gripper(client)) hand.closing = 1.0 - client.latest.gripper.opening;
     if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
         hand.room = std::max(
@@ -260,7 +260,7 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
     const bool closes = client.keyboard.button_down() || client.latest.dead_man_pressed ||
                         (client.gloved && !held && pinches(client.fingers));
     controls.pause = intent.paused;
-    controls.wrench_rest = client.rest;
+    controls.wrench_rest_pose = client.rest;
     controls.bare_wrist = client.bare_wrist;
     controls.grip = grip_of(client, closes, intent);
     // A glove that sends no valid samples keeps the wrench, but releases the dead-man switch.
@@ -275,7 +275,7 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
     // A nut attracts the tool only while the hand is closed.
     const auto attracting_nut =
         leads ? std::optional(due->joint)
-              : nearest_nut(session, client.latest.output.tool.position, attraction_range);
+              : nearest_nut(session, client.latest.output.constrained_tool.position, attraction_range);
     controls.approach_joint =
         attracting_nut && closes ? static_cast<std::int16_t>(*attracting_nut) : std::int16_t{-1};
     controls.click_setting = static_cast<float>(lesson::wrench_setting(session.lesson()));

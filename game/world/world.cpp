@@ -8,7 +8,7 @@ namespace bolt::world {
 namespace {
 
 Pose pose_of_input(const servo::Input& input) {
-    const servo::ToolPose pose = servo::pose_of(input.device);
+    const servo::ToolPose pose = servo::pose_of(input.commanded_tool);
     return {pose.position, pose.orientation};
 }
 
@@ -46,7 +46,7 @@ void write_haptics(const WriteHaptics& world, const Snapshot& servo) {
     const servo::Output& output = servo.output;
     world.only<ServoClock>().tick = servo.state.tick;
     write_joints(world, servo.state);
-    world.only<ConstrainedTool>().pose = output.tool;
+    world.only<ConstrainedTool>().pose = output.constrained_tool;
     world.only<ContactState>() = {output.joint,    servo.state.engagement.grip,
                                   output.slipped,  output.touched,
                                   output.contacts, output.clicked};

@@ -16,12 +16,12 @@ namespace bolt::device {
 
 namespace {
 
-constexpr int most_arms = 16;  // of one vendor
+constexpr int max_arms = 16;  // of one vendor
 
 // The entry of a library that is present and cannot be used.
-ListedDevice unusable_arm(std::string_view vendor, const char* name, Error trouble) {
-    trouble.code = ErrorCode::no_device;
-    return {{}, fmt::format("{}:0", vendor), name, DeviceKind::arm, std::move(trouble)};
+ListedDevice unusable_arm(std::string_view vendor, const char* name, Error error) {
+    error.code = ErrorCode::no_device;
+    return {{}, fmt::format("{}:0", vendor), name, DeviceKind::arm, std::move(error)};
 }
 
 std::vector<ListedDevice> list_force_dimension() {
@@ -33,7 +33,7 @@ std::vector<ListedDevice> list_force_dimension() {
             arms.push_back(unusable_arm("force-dimension", name, api.error()));
         return arms;
     }
-    const int count = std::clamp(api->get_device_count(), 0, most_arms);
+    const int count = std::clamp(api->get_device_count(), 0, max_arms);
     for (int i = 0; i < count; ++i)
         arms.push_back(
             {api->library.string(), fmt::format("force-dimension:{}", i), name, DeviceKind::arm, {}});
@@ -74,7 +74,7 @@ std::vector<ListedDevice> list_haply_arms() {
     if (!found) return {unusable_arm("haply", name, found.error())};
     for (const HaplyListing& arm : *found)
         arms.push_back({service->states.text(), fmt::format("haply:{}", arms.size()),
-                        fmt::format("{} {}", name, arm.arm), DeviceKind::arm, arm.trouble});
+                        fmt::format("{} {}", name, arm.arm), DeviceKind::arm, arm.error});
     return arms;
 }
 
@@ -88,8 +88,8 @@ std::vector<ListedDevice> list_plugin_arms() {
     for (const std::filesystem::path& plugin : find_plugins(plugin_folders())) {
         const std::string name = plugin_name(plugin) + ", an arm of a plug-in";
         const Result<int> count = count_plugin_arms(plugin);
-        const auto entry = [&](int index, std::optional<Error> trouble) {
-            arms.push_back({plugin.string(), plugin_arm_id(plugin, index), name, DeviceKind::arm, trouble});
+        const auto entry = [&](int index, std::optional<Error> error) {
+            arms.push_back({plugin.string(), plugin_arm_id(plugin, index), name, DeviceKind::arm, error});
         };
         if (!count) entry(0, count.error());
         for (int i = 0; count && i < *count; ++i) entry(i, {});

@@ -14,7 +14,7 @@ namespace bolt::device {
 struct ArmVendor {
     std::string_view name;  // an arm's id is NAME:INDEX, or NAME:PLUG-IN:INDEX
     // Returns the arms that are connected now; none if the vendor's library is absent, because a computer
-    // without an arm needs none. A library that cannot be used is listed as an arm with trouble.
+    // without an arm needs none. A library that cannot be used is listed as an arm with an error.
     std::vector<ListedDevice> (*list)();
     Result<std::unique_ptr<DeviceDriver>> (*open)(const ListedDevice& listed, const OpenOptions& options);
 };

@@ -91,23 +91,23 @@ ListedDevice listed(const HidNode& one) {
     device.name = one.identity.name.empty() ? device.id : one.identity.name;
     const auto bytes = descriptor_of(one.path);
     if (!bytes) {
-        device.trouble = bytes.error();
+        device.error = bytes.error();
         return device;
     }
     const auto descriptor = parse_report_descriptor(*bytes);
     if (!descriptor) {
         device.kind = kind_by_number(one.identity);
-        device.trouble = descriptor.error();
+        device.error = descriptor.error();
         return device;
     }
     device.kind = kind_of(one.identity, *descriptor);
     if (device.kind == DeviceKind::other) return device;
     if (Status support = check_driver_support(device.kind, *descriptor); !support) {
-        device.trouble = support.error();
+        device.error = support.error();
     } else if (Status access = can_open_hid(one.path); !access) {
-        device.trouble = access.error();
-        if (device.kind == DeviceKind::wheel && !device.trouble->lost)
-            device.trouble->expected +=
+        device.error = access.error();
+        if (device.kind == DeviceKind::wheel && !device.error->lost)
+            device.error->expected +=
                 fmt::format(", with the additional line {} for this wheel", udev_rule(one.identity));
     }
     return device;
@@ -122,11 +122,11 @@ std::vector<ListedDevice> list_arms() {
 
 Result<std::unique_ptr<DeviceDriver>> open_arm(const ListedDevice& listed, const OpenOptions& options) {
     // Also true for NaN.
-    if (!(options.effector_mass >= 0.0 && options.effector_mass <= largest_effector_mass))
+    if (!(options.effector_mass >= 0.0 && options.effector_mass <= max_effector_mass))
         return fail(
             ErrorCode::usage,
             fmt::format("the mass that is mounted on {} is {:g} kg", listed.id, options.effector_mass),
-            fmt::format("0 to {:g} kg", largest_effector_mass));
+            fmt::format("0 to {:g} kg", max_effector_mass));
     for (const ArmVendor& vendor : arm_vendors())
         if (listed.id.starts_with(std::string(vendor.name) + ':')) return vendor.open(listed, options);
     return fail(ErrorCode::no_device, fmt::format("{} is not an arm that can be opened", listed.id),
@@ -159,7 +159,7 @@ std::vector<ListedDevice> list_devices(bool others) {
     std::vector<ListedDevice> out = list_arms();
     for (const HidNode& one : enumerate_nodes()) out.push_back(listed(one));
     // Disconnected in the meantime.
-    std::erase_if(out, [](const ListedDevice& device) { return device.trouble && device.trouble->lost; });
+    std::erase_if(out, [](const ListedDevice& device) { return device.error && device.error->lost; });
     // Supported devices first, so that their ids do not depend on `others`: a puck's receiver is also a
     // keyboard.
     const auto is_other = [](const ListedDevice& device) { return device.kind == DeviceKind::other; };
@@ -173,7 +173,7 @@ std::vector<ListedDevice> list_devices(bool others) {
 }
 
 Result<std::unique_ptr<DeviceDriver>> open(const ListedDevice& listed, const OpenOptions& options) {
-    if (listed.trouble) return fail(*listed.trouble);
+    if (listed.error) return fail(*listed.error);
     if (listed.kind == DeviceKind::arm) return open_arm(listed, options);
     BOLT_TRY_ASSIGN(const auto bytes, descriptor_of(listed.path));
     BOLT_TRY_ASSIGN(const auto descriptor, parse_report_descriptor(bytes));
@@ -198,8 +198,8 @@ namespace {
 Result<std::unique_ptr<DeviceDriver>> open_listed(const std::string& id, const OpenOptions& options) {
     for (const ListedDevice& device : list_devices())
         if (device.id == id) return open(device, options);
-    return fail(lost_device(fmt::format("there is no device {}", id),
-                            "a connected device; `boltwright devices` lists them"));
+    return fail(lost_device_error(fmt::format("there is no device {}", id),
+                                  "a connected device; `boltwright devices` lists them"));
 }
 
 }  // namespace

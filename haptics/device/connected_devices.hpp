@@ -34,25 +34,23 @@ struct ListedDevice {
     std::string id;
     std::string name;
     DeviceKind kind = DeviceKind::other;
-    std::optional<Error> trouble;  // why it cannot be used, with a remedy
+    std::optional<Error> error;  // why it cannot be used, with a remedy
 
     // False if it cannot be opened. An arm that only needs its preparation can.
-    [[nodiscard]] bool usable() const {
-        return !trouble || preparation_of(*trouble).need != DeviceNeed::none;
-    }
+    [[nodiscard]] bool usable() const { return !error || preparation_of(*error).need != DeviceNeed::none; }
 };
 
 // The devices connected now; with `others` also unsupported ones such as keyboards.
 std::vector<ListedDevice> list_devices(bool others = false);
 
-inline constexpr double largest_effector_mass = 1.0;  // kg; the arms render 1 to 2 kg of weight
+inline constexpr double max_effector_mass = 1.0;  // kg; the arms render 1 to 2 kg of weight
 
 struct OpenOptions {
     WheelConfig wheel{};
     PuckResponse puck{};
     bool arm_may_move = false;  // an arm may move by itself to find its position, if it has not done so yet
     // kg, of the handle or tool that is mounted on an arm, for the compensation of its weight; at most
-    // `largest_effector_mass`. 0: the handle that the factory has mounted.
+    // `max_effector_mass`. 0: the handle that the factory has mounted.
     double effector_mass = 0.0;
     std::shared_ptr<WaitingArms> waiting_arms{};   // of plug-ins, from one attempt to the next; may be null
     std::shared_ptr<MovePermission> permission{};  // factory_for() sets `arm_may_move` from it; may be null

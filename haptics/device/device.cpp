@@ -28,7 +28,7 @@ std::string sensing_text(const Description& d) {
                                      : "senses the position of the hand in three degrees of freedom";
         case Sensing::velocity:
             return "senses a commanded velocity in six degrees of freedom";
-        case Sensing::turn:
+        case Sensing::angle:
             return "senses the angle of its one axis";
     }
     return {};
@@ -82,17 +82,16 @@ std::vector<std::string> summary_lines(const Description& d) {
 std::vector<std::string> summary_lines(const Condition& condition) {
     std::vector<std::string> lines;
     if (condition.calibrated)
-        lines.emplace_back(*condition.calibrated ? "calibrated: it knows its position"
-                                                 : "not calibrated: it does not know its position");
+        lines.emplace_back(*condition.calibrated ? "calibrated" : "not calibrated: its position is unknown");
     if (condition.heat)
         lines.push_back(fmt::format("motors at {:.0f} % of their greatest heat{}", 100.0 * *condition.heat,
-                                    condition.rests      ? ": no force until they are cool"
+                                    condition.cooling    ? ": no force until they are cool"
                                     : is_warm(condition) ? ": rest the arm"
                                                          : ""));
     return lines;
 }
 
-Error lost_device(std::string what, std::string expected) {
+Error lost_device_error(std::string what, std::string expected) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = std::move(what);
@@ -101,7 +100,7 @@ Error lost_device(std::string what, std::string expected) {
     return error;
 }
 
-Error unprepared_device(std::string what, std::string expected, Preparation preparation) {
+Error unprepared_device_error(std::string what, std::string expected, Preparation preparation) {
     Error error;
     error.code = ErrorCode::no_device;
     error.what = std::move(what);
@@ -110,8 +109,8 @@ Error unprepared_device(std::string what, std::string expected, Preparation prep
     return error;
 }
 
-Error immobile_device(const std::string& name, std::string_view id) {
-    return unprepared_device(
+Error immobile_device_error(const std::string& name, std::string_view id) {
+    return unprepared_device_error(
         name + " has to move by itself to find its position, and may not",
         fmt::format("free room around it, then `boltwright devices --device {} --yes`", id),
         {DeviceNeed::permission, {}});

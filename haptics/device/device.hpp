@@ -38,7 +38,7 @@ Timer virtual_timer(VirtualTime& time);  // `time` must outlive the timer
 enum class Sensing : std::uint8_t {
     pose,      // the pose of the hand
     velocity,  // a commanded velocity: a puck that springs back
-    turn,      // the angle of one axis over many turns: a wheel, a wrench handle on a motor
+    angle,     // the angle of one axis over many turns: a wheel, a wrench handle on a motor
 };
 
 struct Description {
@@ -53,40 +53,42 @@ struct Description {
     bool silent_at_rest = false;    // may send nothing while the hand rests; implied by Sensing::velocity
     // m, half the workspace along each axis; 0 for a puck or a wheel
     Vec3 reach{0.0};
-    Vec3 axis{0.0, 0.0, 1.0};  // unit, of Sensing::turn
+    Vec3 axis{0.0, 0.0, 1.0};  // unit, of Sensing::angle
     int buttons = 0;
     bool senses_gripper = false;       // jaws for thumb and finger; Sensing::pose
-    std::vector<std::string> remarks;  // problems and peculiarities, each with a remedy
+    std::vector<std::string> remarks;  // restrictions and peculiarities, each with a remedy
 };
 
 // The state of an open device, as far as the device reports it.
 struct Condition {
-    // It knows its position; none: it needs no calibration or does not report it.
+    // Its position is calibrated; none: it needs no calibration or does not report it.
     std::optional<bool> calibrated;
     // 0 … 1, of its hottest motor: at 1 the device ends its force. None: it does not report it.
     std::optional<double> heat;
-    bool rests = false;  // it renders no force until its motors are cool
+    bool cooling = false;  // it renders no force until its motors are cool
 };
-inline constexpr double warm = 0.8;  // heat from which the user should rest the arm
-[[nodiscard]] inline bool is_warm(const Condition& c) { return c.rests || c.heat.value_or(0.0) >= warm; }
+inline constexpr double warm_threshold = 0.8;  // heat from which the user should rest the arm
+[[nodiscard]] inline bool is_warm(const Condition& c) {
+    return c.cooling || c.heat.value_or(0.0) >= warm_threshold;
+}
 
 struct Sample {
     Pose pose;                   // of the grip, device frame; Sensing::pose
     Vec3 velocity{0.0};          // m/s, Sensing::velocity
     Vec3 angular_velocity{0.0};  // rad/s
-    double turn = 0.0;           // rad, right-handed about the axis; Sensing::turn
+    double angle = 0.0;          // rad, right-handed about the axis; Sensing::angle
     std::uint32_t buttons = 0;   // bit i: button i is pressed
     double gripper = 1.0;        // 0 closed … 1 fully open; Description::senses_gripper
     double time = 0.0;           // s, when it was read, on the caller's clock
 };
 
-// The error of a device that is gone or has let its force go: the supervisor opens it again.
-Error lost_device(std::string what, std::string expected);
+// The error of a device that is disconnected or has ended its force: the supervisor opens it again.
+Error lost_device_error(std::string what, std::string expected);
 
 // The error of an arm that is connected and cannot be opened before it has what it needs.
-Error unprepared_device(std::string what, std::string expected, Preparation preparation);
+Error unprepared_device_error(std::string what, std::string expected, Preparation preparation);
 // The same for an arm that would have to move by itself and has no permission.
-Error immobile_device(const std::string& name, std::string_view id);
+Error immobile_device_error(const std::string& name, std::string_view id);
 
 // The interface of a driver: a device that measures the hand and may render force. A driver neither reopens a
 // lost device (DeviceSupervisor does) nor exchanges data with the servo (DeviceThread does). All calls come
@@ -114,7 +116,7 @@ class DeviceDriver {
 // Clamps a finite command to the limits of the device and to the axes that it renders.
 force::OutputCommand clamp_to_limits(const Description& description, force::OutputCommand command);
 
-// Opens the device; called again after each loss. The error tells the user what to do.
+// Opens the device; called again after each loss. The error states a remedy for the user.
 using DeviceFactory = std::function<Result<std::unique_ptr<DeviceDriver>>()>;
 
 // Properties that a wheel does not report: the builder of the station enters them.
@@ -136,10 +138,10 @@ struct WheelConfig {
 
 // Maps the deflection of a puck to velocity. Quadratic, for fine control at low speed.
 struct PuckResponse {
-    double speed = 0.25;      // m/s at full deflection
-    double turn_speed = 1.5;  // rad/s at full deflection
-    double dead_zone = 0.04;  // deflection that counts as zero: pucks do not centre exactly
-    double silence = 0.1;     // s without a report while deflected until the velocity becomes zero
+    double speed = 0.25;          // m/s at full deflection
+    double angular_speed = 1.5;   // rad/s at full deflection
+    double dead_zone = 0.04;      // deflection that counts as zero: pucks do not centre exactly
+    double report_timeout = 0.1;  // s without a report while deflected until the velocity becomes zero
 };
 
 // Describes a device in plain text for `boltwright devices`: one line each for model and serial number, what

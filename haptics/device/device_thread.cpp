@@ -35,7 +35,7 @@ bool DeviceSupervisor::expects_samples() const {
 
 namespace {
 
-// m from the middle of an arm's reach within which a position makes sense, in units of the reach; for an arm
+// m from the middle of an arm's reach within which a position is plausible, in units of the reach; for an arm
 // of unknown reach, in m.
 constexpr double plausible_reaches = 4.0, plausible_distance = 2.0;
 
@@ -53,8 +53,8 @@ bool DeviceSupervisor::is_valid(const Sample& s) const {
                    std::abs(glm::dot(s.pose.orientation, s.pose.orientation) - 1.0) < 1e-2;
         case Sensing::velocity:
             return finite(s.velocity) && finite(s.angular_velocity);
-        case Sensing::turn:
-            return std::isfinite(s.turn);
+        case Sensing::angle:
+            return std::isfinite(s.angle);
     }
     return false;
 }
@@ -66,7 +66,7 @@ bool DeviceSupervisor::try_open(std::uint64_t number) {
     retry_delay_ = std::min(2.0 * retry_delay_, options_.max_retry_delay);
     if (!opened) {
         ++report_.refusals;
-        report_.trouble = opened.error().message();
+        report_.fault_message = opened.error().message();
         report_.preparation = preparation_of(opened.error());
         return false;
     }
@@ -85,7 +85,7 @@ bool DeviceSupervisor::try_open(std::uint64_t number) {
     report_.state = DeviceState::silent;
     if (!expects_samples()) {
         report_.state = DeviceState::usable;
-        report_.trouble.clear();
+        report_.fault_message.clear();
     }
     return true;
 }
@@ -101,7 +101,7 @@ void DeviceSupervisor::close() {
 
 void DeviceSupervisor::handle_loss(const Error& error) {
     ++report_.losses;
-    report_.trouble = error.message();
+    report_.fault_message = error.message();
     device_.reset();
     report_.condition = {};
     report_.state = DeviceState::absent;
@@ -141,13 +141,13 @@ void DeviceSupervisor::track_silence(bool received, double now) {
         // A successful opening does not reset the delay: some devices are lost at the first read or write.
         retry_delay_ = options_.first_retry_delay;
         report_.state = DeviceState::usable;
-        report_.trouble.clear();
+        report_.fault_message.clear();
         return;
     }
-    if (!expects_samples() || now - last_sample_ < options_.silence) return;
+    if (!expects_samples() || now - last_sample_ < options_.max_silence) return;
     report_.state = DeviceState::silent;
-    const std::string trouble = report_.description->name + " is connected but sends no valid samples";
-    if (report_.trouble != trouble) report_.trouble = trouble;
+    const std::string message = report_.description->name + " is connected but sends no valid samples";
+    if (report_.fault_message != message) report_.fault_message = message;
     if (now - last_sample_ < options_.reopen_after) return;
     ++report_.silences;
     close();
@@ -190,7 +190,7 @@ constexpr double report_interval = 0.1;  // s between two reports if only counte
 // True if the report must be published now.
 bool changed(const DeviceReport& now, const DeviceReport& before) {
     return now.state != before.state || now.openings != before.openings || now.losses != before.losses ||
-           now.trouble != before.trouble || now.preparation != before.preparation;
+           now.fault_message != before.fault_message || now.preparation != before.preparation;
 }
 
 }  // namespace
@@ -292,10 +292,10 @@ Result<std::shared_ptr<const Description>> DeviceThread::wait_until_open(
             if (waits && needs) until = shared_->timer.now() + timeout;
         }
         if (shared_->timer.now() >= until) {
-            if (!report().trouble.empty()) {
+            if (!report().fault_message.empty()) {
                 Error error;
                 error.code = ErrorCode::no_device;
-                error.what = report().trouble;
+                error.what = report().fault_message;
                 set_preparation(error, report().preparation);
                 return fail(std::move(error));
             }

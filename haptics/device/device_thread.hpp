@@ -14,10 +14,10 @@ namespace bolt::device {
 
 struct SupervisorOptions {
     double first_retry_delay = 0.05, max_retry_delay = 1.0;  // s between two attempts to open; doubles
-    // s without a new command until the force is released. With one poll and one write on top, the device
-    // lets go after 20 ms at the latest.
+    // s without a new command until the force is released. With one more poll and one write the device
+    // has released its force after 20 ms at the latest.
     double command_timeout = 0.015;
-    double silence = 0.25;      // s without a valid sample until this is reported
+    double max_silence = 0.25;  // s without a valid sample until this is reported
     double reopen_after = 1.0;  // s of silence until the device is reopened
 };
 
@@ -36,7 +36,7 @@ enum class DeviceState : std::uint8_t {
 
 struct DeviceReport {
     DeviceState state = DeviceState::absent;
-    std::string trouble;                             // plain text with a remedy; empty: none
+    std::string fault_message;                       // plain text with a remedy; empty: none
     Preparation preparation;                         // what the device needs before it can be opened
     Condition condition;                             // while open
     std::shared_ptr<const Description> description;  // from the last opening; null: never opened
@@ -132,8 +132,8 @@ class DeviceThread {
     // s since the driver's last call returned. A driver that hangs cannot update its report.
     [[nodiscard]] double blocked_for() const;
 
-    // Waits until the device is open and returns its description; after `timeout` s the error says why it is
-    // not. The time in which the device needs something and `on_preparation` waits for it does not count.
+    // Waits until the device is open and returns its description; the error after `timeout` s states why it
+    // is not. The time in which the device needs something and `on_preparation` waits for it does not count.
     // Reads report(), so call it from the same thread.
     Result<std::shared_ptr<const Description>> wait_until_open(double timeout,
                                                                const PreparationHandler& on_preparation = {});

@@ -112,28 +112,28 @@ Description describe_arm(const ForceDimensionApi& api, char id, int index) {
     const int type = api.get_type != nullptr ? api.get_type(id) : -1;
     const auto known =
         std::find_if(models.begin(), models.end(), [&](const ModelLimits& m) { return m.type == type; });
-    const ModelLimits most = known != models.end() ? *known : limits_of_joints(wrist, active);
-    const bool renders_torque = active && most.torque > 0.0;
-    d.name = fmt::format("Force Dimension {}", most.name);
+    const ModelLimits bounds = known != models.end() ? *known : limits_of_joints(wrist, active);
+    const bool renders_torque = active && bounds.torque > 0.0;
+    d.name = fmt::format("Force Dimension {}", bounds.name);
     d.id = fmt::format("force-dimension:{}", index);
     d.model = reported_name(api, id);
     if (d.model.empty() && known != models.end()) d.model = known->name;
     d.serial = reported_serial(api, id);
     d.senses_rotation = wrist;
     d.renders = {true, true, true, renders_torque, renders_torque, renders_torque};
-    d.limits.force = most.force;
-    d.limits.torque = renders_torque ? most.torque : 0.0;
-    d.limits.stiffness = most.stiffness;
+    d.limits.force = bounds.force;
+    d.limits.torque = renders_torque ? bounds.torque : 0.0;
+    d.limits.stiffness = bounds.stiffness;
     d.limits.torsion = renders_torque ? 2.0 : 0.0;
-    d.limits.damping = most.damping;
+    d.limits.damping = bounds.damping;
     d.limits.angular_damping = renders_torque ? 0.01 : 0.0;
     d.rate = 1.0 / period;
-    d.reach = Vec3(most.reach);
+    d.reach = Vec3(bounds.reach);
     d.buttons = 8;
     d.senses_gripper = api.has_gripper != nullptr && api.get_gripper_angle != nullptr && api.has_gripper(id);
     if (!wrist) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
     if (!renders_torque)
-        d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+        d.remarks.emplace_back("renders no torque: torques are rendered as forces on the handle");
     if (api.compensate_gravity == nullptr)
         d.remarks.emplace_back("its library does not compensate the weight of the arm: install the SDK 3.17");
     return d;
@@ -159,7 +159,7 @@ class ForceDimensionArm final : public DeviceDriver {
     Status enable(const ForceDimensionOptions& options) {
         BOLT_TRY(balance(options.effector_mass));
         if (!api_.is_initialized(id_)) {
-            if (!options.may_move) return fail(immobile_device(description_.name, description_.id));
+            if (!options.may_move) return fail(immobile_device_error(description_.name, description_.id));
             if (api_.auto_init(id_) < 0) return failure("it does not find its position");
         }
         // Ends the regulation of the position; the forces stay on.
@@ -244,10 +244,10 @@ class ForceDimensionArm final : public DeviceDriver {
         if (api_.get_status(status.data(), id_) < 0) return failure("its status cannot be read");
         if (status[status_force] != 0) return {};
         const auto cause = static_cast<std::size_t>(std::max(status[status_cause], 0));
-        return fail(
-            lost_device(fmt::format("{} has braked{}{}", description_.name, cause > 0 ? ": " : "",
-                                    cause < brake_causes.size() ? brake_causes[cause] : "unknown cause"),
-                        "a hand that moves it slowly"));
+        return fail(lost_device_error(
+            fmt::format("{} has braked{}{}", description_.name, cause > 0 ? ": " : "",
+                        cause < brake_causes.size() ? brake_causes[cause] : "unknown cause"),
+            "a hand that moves it slowly"));
     }
 
     ForceDimensionApi api_;

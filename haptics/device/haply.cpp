@@ -18,13 +18,13 @@ namespace bolt::device {
 namespace {
 
 constexpr double exchange_period = 1e-3;   // s between two exchanges
-constexpr double answer_wait = 5e-3;       // s until the thread looks whether it should end
+constexpr double answer_wait = 5e-3;       // s between two checks for a stop request
 constexpr double answer_timeout = 0.5;     // s without an answer until the service counts as lost
 constexpr double connect_timeout = 1.0;    // s, of an arm that is opened
 constexpr double version_timeout = 0.2;    // s
 constexpr double command_lifetime = 0.02;  // s after which a force becomes zero
-constexpr double poll_interval = 2e-4;     // s between two looks for a new state
-constexpr int most_events = 16;            // that are read between two exchanges
+constexpr double poll_interval = 2e-4;     // s between two polls for a new state
+constexpr int max_events = 16;             // that are read between two exchanges
 constexpr int event_port_offset = 10020 - 10001;
 constexpr int old_http_port_offset = 10000 - 10001;  // of services before 3.5
 
@@ -37,9 +37,10 @@ Error not_running(std::string_view reason) {
 }
 
 Error not_calibrated(const std::string& arm) {
-    return unprepared_device(fmt::format("Haply Inverse3 {} is not calibrated", arm),
-                             "an arm that was placed into its inkwell and calibrated, as its light shows",
-                             {DeviceNeed::inkwell, {}});
+    return unprepared_device_error(
+        fmt::format("Haply Inverse3 {} is not calibrated", arm),
+        "an arm that was placed into its inkwell and calibrated, as its light shows",
+        {DeviceNeed::inkwell, {}});
 }
 
 // Waits for the first message of a connection. nullopt: it did not come in time.
@@ -83,7 +84,7 @@ Description describe_arm(const HaplyArmEntry& arm, const HaplyGripEntry* grip, i
     d.buttons = grip == nullptr ? 0 : grip->wireless ? 3 : 1;
     if (grip == nullptr)
         d.remarks.emplace_back("has no VerseGrip, so it senses no rotation: the tool keeps its orientation");
-    d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+    d.remarks.emplace_back("renders no torque: torques are rendered as forces on the handle");
     return d;
 }
 
@@ -180,8 +181,8 @@ class HaplyArm final : public DeviceDriver {
             lost_.store(true, std::memory_order_release);
             break;
         }
-        // Silence lets the force go as well, but only the service's documentation says so. The answer is
-        // awaited, because closing a connection with unread answers may drop what was sent.
+        // The service also releases the force when messages stop, but only its documentation states that.
+        // Waits for the answer, because closing a connection with unread answers may drop sent messages.
         if (send(Vec3(0.0))) (void)connection_.states.receive(answer_wait);
     }
 
@@ -197,7 +198,7 @@ class HaplyArm final : public DeviceDriver {
                                        answer_timeout);
     }
 
-    // Sends a force and waits for the answer. An answer that is late lets the force go.
+    // Sends a force and waits for the answer. A late answer ends the force.
     Status exchange(const Vec3& force, const std::stop_token& stop) {
         BOLT_TRY(send(force));
         const double begun = steady_seconds();
@@ -210,8 +211,8 @@ class HaplyArm final : public DeviceDriver {
                 --unanswered_;
                 BOLT_TRY(publish(*message));
             } else if (waited >= answer_timeout) {
-                return fail(lost_device("the Haply service no longer answers",
-                                        fmt::format("an answer within {:g} s", answer_timeout)));
+                return fail(lost_device_error("the Haply service no longer answers",
+                                              fmt::format("an answer within {:g} s", answer_timeout)));
             } else if (waited >= command_lifetime && !released) {
                 released = true;
                 BOLT_TRY(send(Vec3(0.0)));
@@ -229,15 +230,15 @@ class HaplyArm final : public DeviceDriver {
         return {};
     }
 
-    // Fails if an event says that the arm renders no more force.
+    // Fails if an event states that the arm renders no more force.
     Status check_events() {
-        for (int i = 0; i < most_events && connection_.events; ++i) {
+        for (int i = 0; i < max_events && connection_.events; ++i) {
             const auto message = connection_.events->receive(0.0);
             if (!message) connection_.events.reset();
             if (!message || !*message) break;
             if (const auto loss = loss_in_haply_event(**message, connection_.arm))
-                return fail(lost_device(description_.name + " " + *loss,
-                                        "an arm that is connected by USB and moved slowly"));
+                return fail(lost_device_error(description_.name + " " + *loss,
+                                              "an arm that is connected by USB and moved slowly"));
         }
         return {};
     }
@@ -290,7 +291,7 @@ Result<std::vector<HaplyListing>> list_haply(const HaplyService& service, double
     if (!*inventory) return listed;
     for (const HaplyArmEntry& arm : (*inventory)->arms) {
         listed.push_back({arm.id, {}});
-        if (!arm.calibrated) listed.back().trouble = not_calibrated(arm.id);
+        if (!arm.calibrated) listed.back().error = not_calibrated(arm.id);
     }
     return listed;
 }
@@ -302,8 +303,8 @@ Result<std::unique_ptr<DeviceDriver>> open_haply(const HaplyService& service, in
     if (!inventory) return fail(not_running(service.states.text() + ": sends no list of its devices"));
     const auto i = static_cast<std::size_t>(std::max(index, 0));
     if (i >= inventory->arms.size())
-        return fail(lost_device(fmt::format("the Haply service has no arm {}", index),
-                                "an Inverse3 that is switched on and connected by USB"));
+        return fail(lost_device_error(fmt::format("the Haply service has no arm {}", index),
+                                      "an Inverse3 that is switched on and connected by USB"));
     Connection connection{std::move(*socket), {}, inventory->arms[i], {}};
     if (!connection.arm.calibrated) return fail(not_calibrated(connection.arm.id));
     if (i < inventory->grips.size()) connection.grip = inventory->grips[i];

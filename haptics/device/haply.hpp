@@ -19,8 +19,8 @@ struct HaplyService {
 Result<HaplyService> haply_service();
 
 struct HaplyListing {
-    std::string arm;               // its id at the service
-    std::optional<Error> trouble;  // why it cannot be used
+    std::string arm;             // its id at the service
+    std::optional<Error> error;  // why it cannot be used
 };
 
 // The arms that the service has now; none if no service answers within `timeout` s. An error means that a

@@ -15,9 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t most_devices = 16;  // of one kind
-constexpr double farthest = 0.6;          // m from the origin of the service's frame to any place in reach
-constexpr double fastest = 50.0;          // m/s
+constexpr std::size_t max_devices = 16;  // of one kind
+constexpr double farthest = 0.6;         // m from the origin of the service's frame to any place in reach
+constexpr double fastest = 50.0;         // m/s
 // m, the middle of the reach from the arm's base: the resting position in the service's documentation.
 constexpr Vec3 middle_from_base{0.0, -0.12, 0.15};
 
@@ -90,9 +90,9 @@ Result<const Json*> devices_of_kind(const Json& message, const char* key) {
     if (value == nullptr) return &none;
     if (!value->is_array())
         return fail(wrong_message(fmt::format("{} is {}", key, kind_text(value)), "an array"));
-    if (value->size() > most_devices)
+    if (value->size() > max_devices)
         return fail(wrong_message(fmt::format("{} has {} devices", key, value->size()),
-                                  fmt::format("at most {}", most_devices)));
+                                  fmt::format("at most {}", max_devices)));
     return value;
 }
 
@@ -107,17 +107,17 @@ Result<const Json*> find_device(const Json& message, const char* key, const std:
     return nullptr;
 }
 
-// "x, y, z", shorter than `most`.
-Result<Vec3> read_vector(const Json* state, const char* key, double most, const char* unit) {
+// "x, y, z", no longer than `max_length`.
+Result<Vec3> read_vector(const Json* state, const char* key, double max_length, const char* unit) {
     const Json* value = find_member(state, key);
     Vec3 v(0.0);
     BOLT_TRY_ASSIGN(v.x, read_number(value, key, "x"));
     BOLT_TRY_ASSIGN(v.y, read_number(value, key, "y"));
     BOLT_TRY_ASSIGN(v.z, read_number(value, key, "z"));
     const double length = std::hypot(v.x, v.y, v.z);
-    if (!(length <= most))
+    if (!(length <= max_length))
         return fail(wrong_message(fmt::format("{} is {:.3g} {}", key, length, unit),
-                                  fmt::format("{:g} {} at most", most, unit)));
+                                  fmt::format("{:g} {} at most", max_length, unit)));
     return v;
 }
 
@@ -226,14 +226,14 @@ Result<HaplyState> parse_haply_state(std::string_view message, const HaplyArmEnt
     BOLT_TRY_ASSIGN(const Json json, parse_object(message));
     BOLT_TRY_ASSIGN(const Json* device, find_device(json, "inverse3", arm.id));
     if (device == nullptr)
-        return fail(lost_device(fmt::format("Haply Inverse3 {} is not connected any more", arm.id),
-                                "an arm that is switched on and connected by USB"));
+        return fail(lost_device_error(fmt::format("Haply Inverse3 {} is not connected any more", arm.id),
+                                      "an arm that is switched on and connected by USB"));
     // States may leave the status out.
     if (const Json* status = find_member(device, "status"); find_member(status, "calibrated") != nullptr) {
         BOLT_TRY_ASSIGN(const bool calibrated, read_boolean(status, "status", "calibrated"));
         if (!calibrated)
-            return fail(lost_device(fmt::format("Haply Inverse3 {} is not calibrated any more", arm.id),
-                                    "an arm that was calibrated in its inkwell"));
+            return fail(lost_device_error(fmt::format("Haply Inverse3 {} is not calibrated any more", arm.id),
+                                          "an arm that was calibrated in its inkwell"));
     }
     const Json* values = find_member(device, "state");
     HaplyState state;

@@ -1,6 +1,6 @@
 // The messages of Haply's service (its documentation, 3.1 to 3.5): JSON, in m, m/s and N, in a frame with x
-// to the right, y forward (away from the user) and z up. Nothing that the service sends is trusted: a message
-// that is no JSON, lacks a field or has an implausible value is an error.
+// to the right, y forward (away from the user) and z up. All messages are validated: one that is
+// not JSON, lacks a field or has an implausible value is an error.
 #pragma once
 
 #include <optional>
@@ -45,7 +45,7 @@ struct HaplyState {
 Result<HaplyState> parse_haply_state(std::string_view message, const HaplyArmEntry& arm,
                                      const HaplyGripEntry* grip);
 
-// Returns why the arm renders no more force, if an event says so; nullopt for all other events.
+// Returns the reason if an event states that the arm renders no more force; nullopt for all other events.
 std::optional<std::string> loss_in_haply_event(std::string_view message, const HaplyArmEntry& arm);
 
 // Returns true if the answer to GET /version names a version before 3.5, false for later ones, nullopt if it

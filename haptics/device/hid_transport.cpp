@@ -17,7 +17,7 @@ namespace bolt::device {
 
 namespace {
 
-constexpr std::size_t longest_report = 4096;
+constexpr std::size_t max_report_size = 4096;
 
 constexpr const char* permission_remedy =
     "the udev rule: sudo cp tools/udev/60-boltwright.rules /etc/udev/rules.d/ && "
@@ -78,7 +78,7 @@ class HidapiTransport : public HidTransport {
 
     std::unique_ptr<hid_device, HidClose> device_;
     std::string path_;
-    std::array<std::uint8_t, longest_report> read_{};
+    std::array<std::uint8_t, max_report_size> read_{};
 };
 
 }  // namespace

@@ -64,7 +64,7 @@ Error arm_error(const OpenHapticsApi& api, const std::string& name, const char* 
 }
 
 // The reported limit, at most the model's; the model's if none is reported.
-double limit(double reported, double most) { return reported > 0.0 ? std::min(reported, most) : most; }
+double limit(double reported, double max) { return reported > 0.0 ? std::min(reported, max) : max; }
 
 std::string reported_text(const OpenHapticsApi& api, unsigned what) {
     const char* reported = api.get_string(what);
@@ -73,22 +73,23 @@ std::string reported_text(const OpenHapticsApi& api, unsigned what) {
     return name;
 }
 
-// Half the workspace and its centre, from the box that the arm reports; a cube about the origin if that makes
-// no sense.
-void describe_reach(const OpenHapticsApi& api, double most, ArmProperties& arm) {
+// Half the workspace and its centre, from the box that the arm reports; a cube about the origin if that box
+// is implausible.
+void describe_reach(const OpenHapticsApi& api, double max_reach, ArmProperties& arm) {
     const Doubles box = get_doubles(api, get_usable_box);
-    arm.description.reach = Vec3(most);
+    arm.description.reach = Vec3(max_reach);
     const Vec3 low = mm * Vec3(box[0], box[1], box[2]), high = mm * Vec3(box[3], box[4], box[5]);
     const Vec3 half = 0.5 * (high - low), centre = 0.5 * (low + high);
-    if (!finite(half) || std::min({half.x, half.y, half.z}) <= 0.0 || !(glm::length(centre) < most)) return;
-    arm.description.reach = glm::min(half, Vec3(most));
+    if (!finite(half) || std::min({half.x, half.y, half.z}) <= 0.0 || !(glm::length(centre) < max_reach))
+        return;
+    arm.description.reach = glm::min(half, Vec3(max_reach));
     arm.centre = centre;
 }
 
 ArmProperties describe_arm(const OpenHapticsApi& api) {
     ArmProperties arm;
     const std::string model = reported_text(api, get_model);
-    const ModelLimits& most = *std::find_if(models.begin(), models.end(), [&](const ModelLimits& m) {
+    const ModelLimits& bounds = *std::find_if(models.begin(), models.end(), [&](const ModelLimits& m) {
         return model.find(m.mark) != std::string::npos;
     });
     arm.senses_rotation = get_integer(api, get_senses) >= 6;
@@ -100,22 +101,22 @@ ArmProperties describe_arm(const OpenHapticsApi& api) {
     d.serial = reported_text(api, get_serial);
     d.senses_rotation = arm.senses_rotation;
     d.renders = {true, true, true, false, false, false};
-    d.limits.force = limit(get_doubles(api, get_max_force)[0], most.force);
+    d.limits.force = limit(get_doubles(api, get_max_force)[0], bounds.force);
     d.limits.torque = 0.0;
-    d.limits.stiffness = limit(1e3 * get_doubles(api, get_max_stiffness)[0], most.stiffness);
+    d.limits.stiffness = limit(1e3 * get_doubles(api, get_max_stiffness)[0], bounds.stiffness);
     d.limits.torsion = 0.0;
-    d.limits.damping = most.damping;
+    d.limits.damping = bounds.damping;
     d.limits.angular_damping = 0.0;
     d.limits.delay = 2;  // a command waits in the mailbox for the next frame
     d.rate = 1.0 / frame_time;
-    d.buttons = most_buttons;
-    describe_reach(api, most.reach, arm);
+    d.buttons = max_buttons;
+    describe_reach(api, bounds.reach, arm);
     if (!arm.senses_rotation) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");
-    // The library wants torques of the gimbal's motors, and the directions of these are not confirmed: a
+    // The library expects torques of the gimbal's motors, and the directions of these are not confirmed: a
     // wrong sign would push the hand instead of resisting it.
     d.remarks.emplace_back(get_integer(api, get_renders) >= 6
-                               ? "its torque is not used: torques are rendered as forces at the grip"
-                               : "renders no torque: torques are rendered as forces at the grip");
+                               ? "its torque is not used: torques are rendered as forces on the handle"
+                               : "renders no torque: torques are rendered as forces on the handle");
     if (const double lasting = get_doubles(api, get_lasting_force)[0];
         lasting > 0.0 && lasting < d.limits.force)
         d.remarks.push_back(
@@ -143,16 +144,16 @@ class OpenHapticsArm final : public DeviceDriver {
 
     // Starts the scheduler and calibrates. Call once.
     Status start() {
-        gravest_error(api_);  // of queries that an older version does not know
+        gravest_error(api_);  // of queries that an older version does not support
         callback_ = api_.schedule(FrameCallback::run, &frames_, highest_priority);
         api_.start_scheduler();
         wait_for(start_timeout, [&] { return report_.calibration == calibrated || report_.fault != 0; });
         if (report_.fault != 0) return failure("it cannot be started", report_.fault);
         if (report_.calibration == calibrated) return {};
         if (report_.calibration == 0) return failure("its scheduler does not run", 0);
-        const std::string what = arm_.description.name + " does not know its position";
+        const std::string what = arm_.description.name + " is not calibrated";
         if ((arm_.calibration_style & style_inkwell) != 0)
-            return fail(unprepared_device(
+            return fail(unprepared_device_error(
                 what, "its stylus in the inkwell: push it in, and it is calibrated at the next attempt",
                 {DeviceNeed::inkwell, {}}));
         return fail(ErrorCode::no_device, what,
@@ -162,13 +163,13 @@ class OpenHapticsArm final : public DeviceDriver {
     [[nodiscard]] const Description& describe() const override { return arm_.description; }
 
     [[nodiscard]] Condition condition() const override {
-        return {report_.calibration == calibrated, report_.heat, report_.warm};
+        return {report_.calibration == calibrated, report_.heat, report_.cooling};
     }
 
     Result<std::optional<Sample>> read(double timeout) override {
         wait_for(timeout, [&] { return report_.number != read_ || report_.fault != 0; });
         if (report_.fault != 0) return fail(lost());
-        if (timer_.now() - report_.time > open_haptics::longest_frame) api_.disable(force_output);
+        if (timer_.now() - report_.time > open_haptics::max_frame_age) api_.disable(force_output);
         if (report_.number == read_) return std::optional<Sample>{};
         read_ = report_.number;
         return std::optional<Sample>(report_.sample);
@@ -217,7 +218,7 @@ class OpenHapticsArm final : public DeviceDriver {
     std::uint64_t read_ = 0;  // number of the last sample that was returned
 };
 
-// Null is the default arm; some versions only know it by a name, and these differ.
+// Null is the default arm. Some versions accept only a name for it, and these names differ.
 Result<unsigned> init_arm(const OpenHapticsApi& api) {
     unsigned error = 0;
     for (const char* name : {static_cast<const char*>(nullptr), "Default PHANToM", "Default Device"}) {

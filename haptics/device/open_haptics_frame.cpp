@@ -11,22 +11,22 @@ namespace {
 // hdDefines.h. Lengths are in mm.
 constexpr unsigned get_buttons = 0x2000, get_transform = 0x2052, get_motor_heat = 0x2605, set_force = 0x2700;
 
-// s; an older command renders no force, because the device thread hangs. With two frames on top the force
-// ends 20 ms after the last command.
+// s; an older command renders no force, because the device thread hangs. Two more frames may pass
+// before the force ends, 20 ms after the last command.
 constexpr double max_command_age = 18e-3;
 constexpr double fade_time = 10e-3;  // s from full strength to none after an error of the forces
-constexpr double rest_time = 0.5;    // s without such an error before the force comes back
+constexpr double pause_time = 0.5;   // s without such an error before the force returns
 constexpr double ramp_time = 0.5;    // s from none to full strength
 // Heat of the motors, 0 … 1. From `hot` on the forces fade, before the library ends them with an error at 1;
-// below `cool` they come back.
+// below `cool` they return.
 constexpr double hot = 0.95, cool = 0.7;
-constexpr int heat_interval = 20;  // frames between two queries of the heat
-constexpr double farthest = 2.0;   // m; a position beyond is a faulty one
+constexpr int heat_interval = 20;     // frames between two queries of the heat
+constexpr double max_distance = 2.0;  // m from the origin; a position beyond is invalid
 
-// The pose in the vendor's transform, whose columns follow each other; nullopt if it makes no sense.
+// The pose in the vendor's transform, whose columns follow each other; nullopt if it is implausible.
 std::optional<Pose> pose_in(const Doubles& m, bool with_rotation) {
     Pose pose{mm * Vec3(m[12], m[13], m[14]), {1.0, 0.0, 0.0, 0.0}};
-    if (!(glm::length(pose.position) < farthest)) return {};
+    if (!(glm::length(pose.position) < max_distance)) return {};
     if (!with_rotation) return pose;
     const glm::dmat3 turned(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
     const glm::dmat3 error = glm::transpose(turned) * turned - glm::dmat3(1.0);
@@ -63,7 +63,7 @@ void FrameCallback::run_frame() {
     const double now = timer_.now();
     const double elapsed = std::max(now - before_, 0.0);
     before_ = report_.time = now;
-    if (elapsed > longest_frame) strength_ = 0.0;
+    if (elapsed > max_frame_age) strength_ = 0.0;
     api_.begin_frame(id_);
     if (report_.calibration == calibrated) {
         const std::optional<Pose> pose = pose_in(get_doubles(api_, get_transform), arm_.senses_rotation);
@@ -85,17 +85,17 @@ void FrameCallback::calibrate() {
 }
 
 void FrameCallback::take_sample(const Pose& pose, double now) {
-    constexpr unsigned known_buttons = (1U << most_buttons) - 1U;
+    constexpr unsigned known_buttons = (1U << max_buttons) - 1U;
     report_.sample.pose = {pose.position - arm_.centre, pose.orientation};
     report_.sample.buttons = static_cast<unsigned>(get_integer(api_, get_buttons)) & known_buttons;
     report_.sample.time = now;
     ++report_.number;
 }
 
-// A refused call does not prolong the rest, because calls are refused until the forces are enabled again.
+// A refused call does not prolong the pause, because calls are refused until the forces are enabled again.
 void FrameCallback::note_error(unsigned code, double now) {
-    if (code >= warm_motors || now >= rests_until_) rests_until_ = now + rest_time;
-    report_.warm = report_.warm || code == warm_motors;
+    if (code >= warm_motors || now >= paused_until_) paused_until_ = now + pause_time;
+    report_.cooling = report_.cooling || code == warm_motors;
     if (code >= first_fault) report_.fault = std::max(report_.fault, code);
 }
 
@@ -106,10 +106,10 @@ void FrameCallback::observe_heat() {
     for (const double heat : get_doubles(api_, get_motor_heat))
         if (heat >= 0.0) hottest = std::max(hottest, heat);
     report_.heat = hottest >= 0.0 ? std::optional(std::min(hottest, 1.0)) : std::nullopt;
-    report_.warm = hottest >= hot || (report_.warm && hottest >= cool);
+    report_.cooling = hottest >= hot || (report_.cooling && hottest >= cool);
 }
 
-bool FrameCallback::is_resting(double now) { return report_.warm || now < rests_until_; }
+bool FrameCallback::is_paused(double now) { return report_.cooling || now < paused_until_; }
 
 void FrameCallback::update_strength(bool renders, double elapsed) {
     if (!renders) {
@@ -124,7 +124,7 @@ void FrameCallback::update_strength(bool renders, double elapsed) {
 void FrameCallback::render(bool has_pose, double now, double elapsed) {
     observe_heat();
     if (report_.released) return;  // the device thread may have disabled the forces
-    update_strength(has_pose && !is_resting(now), elapsed);
+    update_strength(has_pose && !is_paused(now), elapsed);
     commands.update();
     const TimedCommand& command = commands.latest();
     const bool releases = releases_.load(std::memory_order_relaxed);

@@ -17,7 +17,7 @@ inline constexpr unsigned warm_motors = 0x200, first_fault = 0x300, already_init
                           no_licence = 0x600;
 
 inline constexpr double frame_time = 1e-3;  // s, the scheduler's period
-inline constexpr int most_buttons = 4;
+inline constexpr int max_buttons = 4;
 
 using Doubles = std::array<double, 16>;  // room for the longest value, the transform
 
@@ -25,11 +25,11 @@ using Doubles = std::array<double, 16>;  // room for the longest value, the tran
 Doubles get_doubles(const OpenHapticsApi& api, unsigned what);
 int get_integer(const OpenHapticsApi& api, unsigned what);
 
-// Takes the errors off the stack and passes their codes to `note`, the newest first.
+// Pops the errors from the stack and passes their codes to `note`, the newest first.
 template <class Note>
 void take_errors(const OpenHapticsApi& api, const Note& note) {
-    constexpr int most = 100;  // a broken library would keep the vendor's thread here
-    for (int i = 0; i < most; ++i) {
+    constexpr int max_errors = 100;  // a broken library would keep the vendor's thread here
+    for (int i = 0; i < max_errors; ++i) {
         const unsigned code = api.get_error().code;
         if (code == 0) return;
         note(code);
@@ -51,7 +51,7 @@ struct TimedCommand {
 
 // s without a frame after which the device thread switches the forces off, because the library keeps
 // rendering the last one. The first frame after it switches them on again, and the force grows from zero.
-inline constexpr double longest_frame = 15e-3;
+inline constexpr double max_frame_age = 15e-3;
 
 struct FrameReport {
     double time = 0.0;  // s, of the frame
@@ -60,7 +60,7 @@ struct FrameReport {
     unsigned calibration = 0;    // as the library reports it; 0: not checked yet
     unsigned fault = 0;          // the error that has ended the forces for good; 0: none
     std::optional<double> heat;  // of the hottest motor, 0 … 1
-    bool warm = false;           // the forces rest until the motors are cool
+    bool cooling = false;        // no force until the motors are cool
     bool released = false;       // a frame without force has ended since release()
 };
 
@@ -84,7 +84,7 @@ class FrameCallback {
     void calibrate();
     void take_sample(const Pose& pose, double now);
     void note_error(unsigned code, double now);
-    bool is_resting(double now);
+    bool is_paused(double now);
     void observe_heat();
     void update_strength(bool renders, double elapsed);
     void render(bool has_pose, double now, double elapsed);
@@ -94,10 +94,10 @@ class FrameCallback {
     ArmProperties arm_;
     Timer timer_;
     FrameReport report_;
-    double before_;              // s, time of the last frame
-    double strength_ = 1.0;      // share of the command that is rendered
-    double rests_until_ = -1e9;  // s
-    int frames_to_heat_ = 0;     // until the heat is queried again
+    double before_;               // s, time of the last frame
+    double strength_ = 1.0;       // share of the command that is rendered
+    double paused_until_ = -1e9;  // s
+    int frames_to_heat_ = 0;      // until the heat is queried again
     std::atomic<bool> releases_ = false;
 };
 

@@ -18,13 +18,13 @@ namespace bolt::device {
 
 namespace {
 
-constexpr int most_plugin_arms = 16;           // of one plug-in
+constexpr int max_plugin_arms = 16;            // of one plug-in
 constexpr double slowest_rate = 500.0;         // 1/s
 constexpr double fastest_rate = 1000.0;        // 1/s, of calls of exchange()
 constexpr double farthest_position = 2.0;      // m
 constexpr double calibration_interval = 0.01;  // s between two calls of calibrate()
 constexpr double calibration_time = 90.0;      // s for an arm that moves by itself
-constexpr double time_for_user = 0.5;          // s until the user is asked to act, or to be patient
+constexpr double time_for_user = 0.5;          // s until the user must act or wait
 
 // Force, torque and stiffness: the largest of the arms in docs/decisions.md. Torsion, damping and angular
 // damping: the defaults of OutputLimits, which are those of an arm of that class. Reach: more than that of
@@ -33,7 +33,7 @@ struct PluginLimit {
     const char* name;
     double bw_arm_info_v1::*reported;
     double force::OutputLimits::*used;
-    double largest;
+    double max;
     const char* unit;
 };
 constexpr std::array plugin_limits{
@@ -46,7 +46,7 @@ constexpr std::array plugin_limits{
     PluginLimit{"angular damping", &bw_arm_info_v1::max_angular_damping,
                 &force::OutputLimits::angular_damping, 0.1, "N·m·s/rad"},
 };
-constexpr double largest_reach = 1.0;  // m
+constexpr double max_reach = 1.0;  // m
 
 // Sets the limits, each no larger than the largest.
 Status take_limits(const bw_arm_info_v1& info, Description& d) {
@@ -56,10 +56,10 @@ Status take_limits(const bw_arm_info_v1& info, Description& d) {
             return fail(ErrorCode::no_device,
                         fmt::format("its largest {} is {:g} {}", limit.name, reported, limit.unit),
                         "a finite number that is not negative");
-        if (reported > limit.largest)
+        if (reported > limit.max)
             d.remarks.push_back(fmt::format("reports a {} of {:g} {}; Boltwright uses {:g} {} at most",
-                                            limit.name, reported, limit.unit, limit.largest, limit.unit));
-        d.limits.*limit.used = std::min(reported, limit.largest);
+                                            limit.name, reported, limit.unit, limit.max, limit.unit));
+        d.limits.*limit.used = std::min(reported, limit.max);
     }
     return {};
 }
@@ -83,7 +83,7 @@ Status check_axes(Description& d) {
     }
     if (!torques) d.limits.torque = d.limits.torsion = d.limits.angular_damping = 0.0;
     if (forces && !torques)
-        d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+        d.remarks.emplace_back("renders no torque: torques are rendered as forces on the handle");
     return {};
 }
 
@@ -94,10 +94,10 @@ Status take_timing(const bw_arm_info_v1& info, Description& d) {
     d.rate = std::min(info.rate, fastest_rate);
     // A command waits for the next call of exchange().
     const int own_delay = static_cast<int>(std::ceil(1e3 / d.rate));
-    const int most = 3 - own_delay;
-    if (info.delay < 0 || info.delay > most)
+    const int max_delay = 3 - own_delay;
+    if (info.delay < 0 || info.delay > max_delay)
         return fail(ErrorCode::no_device, fmt::format("its delay is {} ms", info.delay),
-                    fmt::format("0 to {} ms at {:g} samples a second", most, d.rate));
+                    fmt::format("0 to {} ms at {:g} samples a second", max_delay, d.rate));
     d.limits.delay = info.delay + own_delay;
     return {};
 }
@@ -108,7 +108,7 @@ Status take_reach(const bw_arm_info_v1& info, Description& d) {
         if (!std::isfinite(reach) || reach <= 0.0)
             return fail(ErrorCode::no_device, fmt::format("its reach along {} is {:g} m", "xyz"[i], reach),
                         "a finite number above 0");
-        d.reach[i] = std::min(reach, largest_reach);
+        d.reach[i] = std::min(reach, max_reach);
     }
     return {};
 }
@@ -134,7 +134,7 @@ Result<Description> describe_plugin_arm(const bw_arm_info_v1& info, const std::f
     return d;
 }
 
-// Says what is wrong with a state; null: nothing.
+// Returns what is wrong with a state; null: nothing is.
 const char* fault_of(const bw_arm_state_v1& state, const Pose& pose) {
     if (!finite(pose.position) || glm::length(pose.position) > farthest_position)
         return "it reports a position that is not within 2 m";
@@ -248,7 +248,7 @@ std::shared_ptr<WaitingArms> make_waiting_arms() { return std::make_shared<Waiti
 
 namespace {
 
-// Polls calibrate() every 10 ms until it is done, or the user must act or be patient. An arm that moves by
+// Polls calibrate() every 10 ms until it is done, or the user must act or wait. An arm that moves by
 // itself gets calibration_time, as the interface promises.
 Result<PluginReply> calibrate(ArmProcess& process, bool may_move, bool may_wait, const Timer& timer) {
     const double began = timer.now();
@@ -270,12 +270,12 @@ Error calibration_error(const ArmProcess& process, const PluginReply& reply, con
     switch (reply.result) {
         case BW_ARM_NEEDS_USER: {
             const std::string text = clean_text({reply.text, ::strnlen(reply.text, sizeof reply.text)});
-            error = process.error("it waits for you: " + text, "an arm that knows its position");
+            error = process.error("it waits for you: " + text, "a calibrated arm");
             set_preparation(error, {DeviceNeed::user, text});
             return error;
         }
         case BW_ARM_MUST_MOVE: {
-            const Error immobile = immobile_device("the arm", id);
+            const Error immobile = immobile_device_error("the arm", id);
             error = process.error(immobile.what, immobile.expected);
             error.detail = immobile.detail;
             return error;
@@ -327,7 +327,7 @@ std::string plugin_arm_id(const std::filesystem::path& plugin, int index) {
 Result<int> count_plugin_arms(const std::filesystem::path& plugin) {
     BOLT_TRY_ASSIGN(ArmProcess process, ArmProcess::start(plugin));
     BOLT_TRY_ASSIGN(const PluginReply reply, process.call(PluginCall::count));
-    return std::min(reply.result, most_plugin_arms);
+    return std::min(reply.result, max_plugin_arms);
 }
 
 Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& options, Timer timer) {

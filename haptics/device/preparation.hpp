@@ -44,12 +44,12 @@ inline Preparation preparation_of(const Error& error) {
     return detail != nullptr ? detail->preparation : Preparation{};
 }
 
-// Holds for one attempt to open an arm, so that an arm that loses its position later must ask again. All
+// Holds for one attempt to open an arm, so that an arm that loses its position later needs a new one. All
 // members may be called from any thread.
 class MovePermission {
   public:
-    // For the next attempt. Call it only after the user was told to keep hands and things clear. No effect
-    // during an attempt that has the permission already.
+    // For the next attempt. Call it only after a message to the user to keep hands and things clear. No
+    // effect during an attempt that has the permission already.
     void give() {
         auto expected = State::none;
         state_.compare_exchange_strong(expected, State::given);

@@ -98,12 +98,31 @@ class DescriptorParser {
         if (size == 2) return static_cast<std::int16_t>(value);
         return static_cast<std::int32_t>(value);
     }
+    // One byte below 16 is a signed number of four bits.
+    static std::int32_t exponent_of(std::uint32_t value, std::size_t size) {
+        if (size != 1 || value >= 16) return static_cast<std::int32_t>(signed_of(value, size));
+        const auto nibble = static_cast<std::int32_t>(value);
+        return nibble > 7 ? nibble - 16 : nibble;
+    }
     [[nodiscard]] Usage usage_of(std::uint32_t value, std::size_t size) const {
         if (size == 4) return {static_cast<std::uint16_t>(value >> 16U), static_cast<std::uint16_t>(value)};
         return {globals_.page, static_cast<std::uint16_t>(value)};
     }
 
     Status apply_item(unsigned tag, std::uint32_t value, std::size_t size) {
+        switch (tag >> 2U & 3U) {  // the type of the item
+            case 0:
+                return apply_main_item(tag, value);
+            case 1:
+                return apply_global_item(tag, value, size);
+            case 2:
+                return apply_local_item(tag, value, size);
+            default:
+                return {};  // reserved by the standard
+        }
+    }
+
+    Status apply_main_item(unsigned tag, std::uint32_t value) {
         switch (tag) {
             case input:
                 return add_fields(ReportKind::input, value);
@@ -111,24 +130,37 @@ class DescriptorParser {
                 return add_fields(ReportKind::output, value);
             case feature:
                 return add_fields(ReportKind::feature, value);
-            case collection: {
-                if (open_.size() == max_nesting)
-                    return error_at_item("collections are nested too deeply", "at most 32 levels");
-                const Usage first = locals_.usages.empty() ? Usage{} : locals_.usages.front();
-                descriptor_.collections.push_back(
-                    {first, static_cast<std::uint8_t>(value),
-                     open_.empty() ? std::nullopt : std::optional(open_.back())});
-                open_.push_back(static_cast<std::uint32_t>(descriptor_.collections.size() - 1));
-                locals_ = {};
-                return {};
-            }
+            case collection:
+                return open_collection(value);
             case end_collection:
-                if (open_.empty())
-                    return error_at_item("a collection ends that was not begun",
-                                         "a Collection item before each End Collection item");
-                open_.pop_back();
-                locals_ = {};
+                return close_collection();
+            default:
                 return {};
+        }
+    }
+
+    Status open_collection(std::uint32_t type) {
+        if (open_.size() == max_nesting)
+            return error_at_item("collections are nested too deeply", "at most 32 levels");
+        const Usage first = locals_.usages.empty() ? Usage{} : locals_.usages.front();
+        descriptor_.collections.push_back({first, static_cast<std::uint8_t>(type),
+                                           open_.empty() ? std::nullopt : std::optional(open_.back())});
+        open_.push_back(static_cast<std::uint32_t>(descriptor_.collections.size() - 1));
+        locals_ = {};
+        return {};
+    }
+
+    Status close_collection() {
+        if (open_.empty())
+            return error_at_item("a collection ends that was not begun",
+                                 "a Collection item before each End Collection item");
+        open_.pop_back();
+        locals_ = {};
+        return {};
+    }
+
+    Status apply_global_item(unsigned tag, std::uint32_t value, std::size_t size) {
+        switch (tag) {
             case usage_page:
                 globals_.page = static_cast<std::uint16_t>(value);
                 return {};
@@ -146,13 +178,9 @@ class DescriptorParser {
                 globals_.physical_high = signed_of(value, size);
                 globals_.physical_high_as_unsigned = value;
                 return {};
-            case unit_exponent: {
-                const auto nibble = static_cast<std::int32_t>(value & 0xfU);
-                globals_.exponent = size == 1 && value < 16
-                                        ? (nibble > 7 ? nibble - 16 : nibble)
-                                        : static_cast<std::int32_t>(signed_of(value, size));
+            case unit_exponent:
+                globals_.exponent = exponent_of(value, size);
                 return {};
-            }
             case unit:
                 globals_.unit = value;
                 return {};
@@ -163,44 +191,64 @@ class DescriptorParser {
                 globals_.count = value;
                 return {};
             case report_id:
-                if (value == 0 || value > 255)
-                    return error_at_item(fmt::format("the report id is {}", value), "1 … 255");
-                if (!descriptor_.numbered && !descriptor_.fields.empty())
-                    return error_at_item("a report id after reports without one",
-                                         "a Report ID item before the first report, or none at all");
-                globals_.report = static_cast<std::uint8_t>(value);
-                descriptor_.numbered = true;
-                return {};
+                return set_report_id(value);
             case push:
-                if (global_stack_.size() == max_nesting)
-                    return error_at_item("too many nested Push items", "at most 32 levels");
-                global_stack_.push_back(globals_);
-                return {};
+                return push_globals();
             case pop:
-                if (global_stack_.empty())
-                    return error_at_item("a Pop item without a Push item",
-                                         "a Push item before each Pop item");
-                globals_ = global_stack_.back();
-                global_stack_.pop_back();
+                return pop_globals();
+            default:
                 return {};
+        }
+    }
+
+    Status set_report_id(std::uint32_t id) {
+        if (id == 0 || id > 255) return error_at_item(fmt::format("the report id is {}", id), "1 … 255");
+        if (!descriptor_.numbered && !descriptor_.fields.empty())
+            return error_at_item("a report id after reports without one",
+                                 "a Report ID item before the first report, or none at all");
+        globals_.report = static_cast<std::uint8_t>(id);
+        descriptor_.numbered = true;
+        return {};
+    }
+
+    Status push_globals() {
+        if (global_stack_.size() == max_nesting)
+            return error_at_item("too many nested Push items", "at most 32 levels");
+        global_stack_.push_back(globals_);
+        return {};
+    }
+
+    Status pop_globals() {
+        if (global_stack_.empty())
+            return error_at_item("a Pop item without a Push item", "a Push item before each Pop item");
+        globals_ = global_stack_.back();
+        global_stack_.pop_back();
+        return {};
+    }
+
+    Status apply_local_item(unsigned tag, std::uint32_t value, std::size_t size) {
+        switch (tag) {
             case usage:
                 return add_usage(usage_of(value, size));
             case usage_low:
                 locals_.low = usage_of(value, size);
                 return {};
-            case usage_high: {
-                const Usage high = usage_of(value, size);
-                if (!locals_.low || locals_.low->page != high.page || high.id < locals_.low->id)
-                    return error_at_item("a range of usages ends before it begins",
-                                         "a Usage Minimum of the same page that does not exceed it");
-                for (std::uint32_t id = locals_.low->id; id <= high.id; ++id)
-                    BOLT_TRY(add_usage({high.page, static_cast<std::uint16_t>(id)}));
-                locals_.low.reset();
-                return {};
-            }
+            case usage_high:
+                return add_usage_range(usage_of(value, size));
             default:
                 return {};  // designators, strings and delimiters are not needed
         }
+    }
+
+    // Adds the usages from the last Usage Minimum to `high`.
+    Status add_usage_range(const Usage& high) {
+        if (!locals_.low || locals_.low->page != high.page || high.id < locals_.low->id)
+            return error_at_item("a range of usages ends before it begins",
+                                 "a Usage Minimum of the same page that does not exceed it");
+        for (std::uint32_t id = locals_.low->id; id <= high.id; ++id)
+            BOLT_TRY(add_usage({high.page, static_cast<std::uint16_t>(id)}));
+        locals_.low.reset();
+        return {};
     }
 
     Status add_usage(const Usage& one) {
@@ -216,12 +264,7 @@ class DescriptorParser {
         return descriptor_.reports.emplace_back(ReportLength{kind, globals_.report, 0}).bits;
     }
 
-    Status add_fields(ReportKind kind, std::uint32_t flags) {
-        if (globals_.count == 0 || globals_.bits == 0) {
-            locals_ = {};
-            return {};
-        }
-        const bool constant = (flags & 1U) != 0;
+    [[nodiscard]] Status check_sizes(bool constant) const {
         if (globals_.count > max_fields_per_item)
             return error_at_item(fmt::format("one item declares {} fields", globals_.count),
                                  "a Report Count of at most 4096");
@@ -231,34 +274,68 @@ class DescriptorParser {
         if (globals_.bits > max_report_bits)
             return error_at_item(fmt::format("padding of {} bits", globals_.bits),
                                  "a report of at most 64 KiB");
-        std::uint32_t& bit = bits_of(kind);
+        return {};
+    }
+
+    // A field of the present item, without its offset and usages. `flags`: the data of the item.
+    [[nodiscard]] ReportField make_field(ReportKind kind, std::uint32_t flags) const {
+        const Global& g = globals_;
         ReportField field;
         field.kind = kind;
-        field.report = globals_.report;
-        field.bits = static_cast<std::uint8_t>(std::min(globals_.bits, max_value_bits));
-        field.low = globals_.low;
+        field.report = g.report;
+        field.bits = static_cast<std::uint8_t>(std::min(g.bits, max_value_bits));
+        field.low = g.low;
         // Some devices encode an unsigned maximum as signed (0xff in one byte for 255).
-        field.high =
-            globals_.high < globals_.low && globals_.low >= 0 ? globals_.high_as_unsigned : globals_.high;
-        field.physical_low = globals_.physical_low;
-        field.physical_high = globals_.physical_high < globals_.physical_low && globals_.physical_low >= 0
-                                  ? globals_.physical_high_as_unsigned
-                                  : globals_.physical_high;
-        field.exponent = globals_.exponent;
-        field.unit = globals_.unit;
+        field.high = g.high < g.low && g.low >= 0 ? g.high_as_unsigned : g.high;
+        field.physical_low = g.physical_low;
+        field.physical_high = g.physical_high < g.physical_low && g.physical_low >= 0
+                                  ? g.physical_high_as_unsigned
+                                  : g.physical_high;
+        field.exponent = g.exponent;
+        field.unit = g.unit;
         field.array = (flags & 2U) == 0;
         field.relative = (flags & 4U) != 0;
         field.null_state = (flags & 64U) != 0;
         field.collection = open_.empty() ? 0 : open_.back();
+        return field;
+    }
+
+    // Stores the usages that the slots of an array can hold.
+    Status add_slots(ReportField& field) {
+        if (locals_.usages.empty()) return {};
+        if (descriptor_.slots.size() + locals_.usages.size() > max_slots)
+            return error_at_item("too many usages in arrays", "at most 65536 in the descriptor");
+        field.slots = static_cast<std::uint32_t>(descriptor_.slots.size());
+        descriptor_.slots.insert(descriptor_.slots.end(), locals_.usages.begin(), locals_.usages.end());
+        return {};
+    }
+
+    // Sets the usages of field `i` of the present item. The last usage holds for all further fields.
+    void set_usages(ReportField& field, std::uint32_t i) const {
+        if (locals_.usages.empty()) {
+            field.usage = {globals_.page, 0};
+            field.usages = field.array ? 0 : 1;
+        } else if (field.array) {
+            field.usage = locals_.usages.front();
+            field.usages = static_cast<std::uint32_t>(locals_.usages.size());
+        } else {
+            field.usage = locals_.usages[std::min<std::size_t>(i, locals_.usages.size() - 1)];
+        }
+    }
+
+    Status add_fields(ReportKind kind, std::uint32_t flags) {
+        if (globals_.count == 0 || globals_.bits == 0) {
+            locals_ = {};
+            return {};
+        }
+        const bool constant = (flags & 1U) != 0;
+        BOLT_TRY(check_sizes(constant));
+        ReportField field = make_field(kind, flags);
         if (!constant && field.high < field.low)
             return error_at_item(fmt::format("values from {} to {}", field.low, field.high),
                                  "a Logical Minimum that does not exceed the Logical Maximum");
-        if (field.array && !constant && !locals_.usages.empty()) {
-            if (descriptor_.slots.size() + locals_.usages.size() > max_slots)
-                return error_at_item("too many usages in arrays", "at most 65536 in the descriptor");
-            field.slots = static_cast<std::uint32_t>(descriptor_.slots.size());
-            descriptor_.slots.insert(descriptor_.slots.end(), locals_.usages.begin(), locals_.usages.end());
-        }
+        if (field.array && !constant) BOLT_TRY(add_slots(field));
+        std::uint32_t& bit = bits_of(kind);
         for (std::uint32_t i = 0; i < globals_.count; ++i) {
             field.bit = bit;
             bit += globals_.bits;
@@ -266,15 +343,7 @@ class DescriptorParser {
             if (constant || globals_.bits > max_value_bits) continue;
             if (descriptor_.fields.size() == max_fields)
                 return error_at_item("too many fields", "at most 16384 in the descriptor");
-            if (locals_.usages.empty()) {
-                field.usage = {globals_.page, 0};
-                field.usages = field.array ? 0 : 1;
-            } else if (field.array) {
-                field.usage = locals_.usages.front();
-                field.usages = static_cast<std::uint32_t>(locals_.usages.size());
-            } else {
-                field.usage = locals_.usages[std::min<std::size_t>(i, locals_.usages.size() - 1)];
-            }
+            set_usages(field, i);
             descriptor_.fields.push_back(field);
         }
         locals_ = {};

@@ -59,7 +59,7 @@ struct ReportDescriptor {
     bool numbered = false;  // reports begin with an id
 };
 
-// Errors name the byte offset and the problem.
+// Errors name the byte offset.
 Result<ReportDescriptor> parse_report_descriptor(std::span<const std::uint8_t> bytes);
 
 // Bytes of a report without its id; 0 if the report does not exist.

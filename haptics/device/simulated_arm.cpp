@@ -55,7 +55,7 @@ void step(Arm& arm, const force::OutputCommand& command, double dt) {
 namespace {
 
 constexpr double sample_period = 1e-3;   // s between two samples
-constexpr int most_late_steps = 20;      // of one read; a longer gap is left out
+constexpr int max_late_steps = 20;       // of one read; a longer gap is left out
 constexpr double rounding = 1e-9;        // s
 constexpr double input_timeout = 0.25;   // s without set_motion() until the buttons count as released
 constexpr double smoothing_time = 0.02;  // s in which the intention follows the mouse: about a frame
@@ -77,7 +77,7 @@ struct SimulatedArm::Shared {
 
 namespace {
 
-// The arm's intention is where the hand wants to be; `wanted` is that of the mouse, which moves in steps.
+// The arm's intention is the pose that the hand aims at. `wanted` is that of the mouse, which moves in steps.
 template <class Shared>
 class SimulatedArmDevice final : public DeviceDriver {
   public:
@@ -99,7 +99,7 @@ class SimulatedArmDevice final : public DeviceDriver {
         if (due > timeout + rounding) return std::optional<Sample>{};
         const double now = shared_->timer.now();
         follow(now);
-        const int late = std::min(static_cast<int>((now - next_) / sample_period), most_late_steps);
+        const int late = std::min(static_cast<int>((now - next_) / sample_period), max_late_steps);
         for (int i = 0; i <= std::max(late, 0); ++i) advance();
         next_ = std::max(next_ + sample_period, now);
         const Arm& arm = shared_->arm;
@@ -120,7 +120,7 @@ class SimulatedArmDevice final : public DeviceDriver {
     }
 
   private:
-    // Takes over what the mouse has done since the last read.
+    // Adds the motion of the mouse since the last read.
     void follow(double now) {
         shared_->motions.update();
         const TimedMotion& latest = shared_->motions.latest();
@@ -133,7 +133,7 @@ class SimulatedArmDevice final : public DeviceDriver {
         last_ = motion;
     }
 
-    // A hand that lets go stays where it is.
+    // A hand that releases the handle stays at its pose.
     void relax() { wanted_ = shared_->arm.intention = shared_->arm.pose; }
 
     void advance() {
@@ -199,7 +199,7 @@ Description simulated_arm_description() {
     d.limits.ramp_up = 0.1;  // nobody can be hurt
     d.rate = 1.0 / sample_period;
     d.buttons = 8;
-    d.remarks.emplace_back("renders no torque: torques are rendered as forces at the grip");
+    d.remarks.emplace_back("renders no torque: torques are rendered as forces on the handle");
     return d;
 }
 

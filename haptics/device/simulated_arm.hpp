@@ -46,9 +46,10 @@ void step(Arm& arm, const force::OutputCommand& command, double dt);
 struct HandMotion {
     Vec3 moved{0.0};                  // m, along the axes of the device frame
     Quat turned{1.0, 0.0, 0.0, 0.0};  // unit, in the device frame
-    // m and rad that the intention may lead the arm: a hand pushes no harder against a wall than it wants to.
+    // m and rad that the intention may lead the arm: this limits how hard the hand pushes
+    // against a wall.
     double lead = 0.06, angular_lead = 0.6;
-    // 1/s, rate at which the intention gives way to where the arm is: a relaxed hand lets itself be led.
+    // 1/s, rate at which the intention approaches the pose of the arm: the arm leads a relaxed hand.
     double yielding = 0.0;
     std::uint32_t buttons = 0;
 };
@@ -57,7 +58,7 @@ struct HandMotion {
 // smoothly.
 class SimulatedArm {
   public:
-    // `parameters` should damp the hand well, because nobody can see a vibration of the hand to stop it.
+    // `parameters` should damp the hand well, because the user cannot see and stop a vibration of the hand.
     SimulatedArm(const Description& description, const ArmParameters& parameters, Timer timer);
     SimulatedArm(SimulatedArm&&) noexcept;
     SimulatedArm& operator=(SimulatedArm&&) noexcept;

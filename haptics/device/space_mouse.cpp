@@ -63,7 +63,7 @@ class SpaceMouse : public DeviceDriver {
 
     Result<std::optional<Sample>> read(double timeout) override {
         const double start = clock_();
-        if (deflected_) timeout = std::clamp(last_report_ + response_.silence - start, 0.0, timeout);
+        if (deflected_) timeout = std::clamp(last_report_ + response_.report_timeout - start, 0.0, timeout);
         for (int i = 0; i < max_puck_reports; ++i) {
             BOLT_TRY_ASSIGN(const auto report, transport_->read(i == 0 ? timeout : 0.0));
             if (report.empty()) break;
@@ -75,7 +75,7 @@ class SpaceMouse : public DeviceDriver {
         }
         const double now = clock_();
         if (!std::exchange(has_report_, false) && deflected_) {
-            if (now < last_report_ + response_.silence) return std::nullopt;
+            if (now < last_report_ + response_.report_timeout) return std::nullopt;
             state_.deflection.fill(0.0);
             deflected_ = false;
         }
@@ -104,14 +104,14 @@ class SpaceMouse : public DeviceDriver {
 }  // namespace
 
 PuckRates rates_of(const SixAxisState& state, const PuckResponse& response) {
-    const auto rate = [&](std::size_t axis, double most) {
+    const auto rate = [&](std::size_t axis, double max_rate) {
         const double deflection = std::clamp(state.deflection[axis], -1.0, 1.0);
         const double response_share =
             std::max(std::abs(deflection) - response.dead_zone, 0.0) / (1.0 - response.dead_zone);
-        return std::copysign(most * response_share * response_share, deflection);
+        return std::copysign(max_rate * response_share * response_share, deflection);
     };
     // 3Dconnexion: x right, y towards the user, z down.
-    const double v = response.speed, w = response.turn_speed;
+    const double v = response.speed, w = response.angular_speed;
     return {{rate(0, v), -rate(2, v), rate(1, v)}, {rate(3, w), -rate(5, w), rate(4, w)}};
 }
 

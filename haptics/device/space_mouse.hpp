@@ -33,7 +33,7 @@ bool decode_report(const SixAxisLayout& layout, std::span<const std::uint8_t> re
 
 // The driver of a puck: deflection becomes velocity (Sensing::velocity). It renders no force. A puck at rest
 // sends nothing, so read() then returns zero velocity. If reports stop while it is deflected, the velocity
-// becomes zero after response.silence.
+// becomes zero after response.report_timeout.
 Result<std::unique_ptr<DeviceDriver>> make_space_mouse(std::unique_ptr<HidTransport> transport,
                                                        const ReportDescriptor& descriptor, std::string name,
                                                        std::string id, const PuckResponse& response = {},

@@ -181,8 +181,9 @@ void select_block(ForceFeedbackLayout& layout, std::int64_t block) {
 
 void set_magnitude(ForceFeedbackLayout& layout, double share) {
     const double s = std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0.0;
-    const auto most = static_cast<double>(s < 0.0 ? -layout.magnitude.low : layout.magnitude.high);
-    write_value(layout.magnitude, std::llround(s * most), std::span(layout.set_force.bytes).subspan(1));
+    const auto max_magnitude = static_cast<double>(s < 0.0 ? -layout.magnitude.low : layout.magnitude.high);
+    write_value(layout.magnitude, std::llround(s * max_magnitude),
+                std::span(layout.set_force.bytes).subspan(1));
 }
 
 namespace {

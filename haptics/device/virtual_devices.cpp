@@ -153,12 +153,12 @@ DeviceFactory recorded(Description description, Recording recording, Timer timer
 
 namespace {
 
-constexpr double longest_step = 0.5e-3;  // s
+constexpr double max_step_time = 0.5e-3;  // s
 // s without a read or write after which the hand jumps to the intended pose.
 constexpr double idle_reset = 0.05;
 
 tl::unexpected<Error> unplugged(const Description& description) {
-    return fail(lost_device(description.name + " is not plugged in", "a connected device"));
+    return fail(lost_device_error(description.name + " is not plugged in", "a connected device"));
 }
 
 }  // namespace
@@ -187,11 +187,11 @@ class SimulatedDevice::Connection final : public DeviceDriver {
         due_ = std::max(due_, device_.now_.time - 1.0 / describe().rate) + 1.0 / describe().rate;
         Sample sample = device_.now_;
         if (device_.is_active(InjectedFault::not_a_number))
-            sample.pose.position.y = sample.velocity.y = sample.turn =
+            sample.pose.position.y = sample.velocity.y = sample.angle =
                 std::numeric_limits<double>::quiet_NaN();
         if (device_.is_active(InjectedFault::jumped)) {
             sample.pose.position += Vec3(0.5, 0.0, 0.0);
-            sample.turn += 3.0;
+            sample.angle += 3.0;
         }
         return sample;
     }
@@ -231,9 +231,9 @@ DeviceFactory SimulatedDevice::factory() {
     };
 }
 
-void SimulatedDevice::inject(const FaultInterval& trouble) {
+void SimulatedDevice::inject(const FaultInterval& fault) {
     std::erase_if(options_.faults, [now = timer_.now()](const FaultInterval& t) { return t.until < now; });
-    options_.faults.push_back(trouble);
+    options_.faults.push_back(fault);
 }
 
 const FaultInterval* SimulatedDevice::find(InjectedFault what) const {
@@ -266,7 +266,7 @@ void SimulatedDevice::advance() {
         turn_rate_ = 0.0;
         begun_ = true;
     } else if (now > time_) {
-        const auto steps = static_cast<int>(std::ceil((now - time_) / longest_step));
+        const auto steps = static_cast<int>(std::ceil((now - time_) / max_step_time));
         const double dt = (now - time_) / steps;
         const Sample intended = options_.script(now);
         for (int i = 0; i < steps; ++i) step(intended, dt);
@@ -281,11 +281,12 @@ void SimulatedDevice::advance() {
 void SimulatedDevice::step(const Sample& intended, double dt) {
     const HandImpedance& hand = *options_.hand;
     const force::OutputCommand force = rendered();
-    if (options_.description.sensing == Sensing::turn) {
-        const double torque = hand.torsion * (intended.turn - now_.turn) - hand.angular_damping * turn_rate_ +
+    if (options_.description.sensing == Sensing::angle) {
+        const double torque = hand.torsion * (intended.angle - now_.angle) -
+                              hand.angular_damping * turn_rate_ +
                               glm::dot(force.torque, options_.description.axis);
         turn_rate_ += torque / hand.inertia * dt;
-        now_.turn += turn_rate_ * dt;
+        now_.angle += turn_rate_ * dt;
         return;
     }
     const Vec3 input =

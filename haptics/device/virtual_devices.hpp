@@ -35,7 +35,7 @@ class VirtualPuck {
     // Call at least once a frame, from one thread. Never waits.
     void set_input(const PuckInput& input);
 
-    // Its devices may outlive the puck; they then report rest.
+    // Its devices may outlive the puck; they then report zero velocity.
     [[nodiscard]] DeviceFactory factory();
 
   private:
@@ -76,7 +76,7 @@ struct HandImpedance {
 struct SimulatedDeviceOptions {
     Description description;
     std::function<Sample(double time)> script;  // the intended motion
-    std::optional<HandImpedance> hand;          // nullopt: the motion follows the script whatever the force
+    std::optional<HandImpedance> hand;  // nullopt: the motion follows the script and ignores the force
     std::vector<FaultInterval> faults;
 };
 
@@ -88,7 +88,7 @@ class SimulatedDevice {
     SimulatedDevice(SimulatedDeviceOptions design, Timer timer);
 
     [[nodiscard]] DeviceFactory factory();
-    void inject(const FaultInterval& trouble);
+    void inject(const FaultInterval& fault);
 
     // For observers: the force at the hand now, and the true pose of the hand.
     [[nodiscard]] force::OutputCommand rendered() const;

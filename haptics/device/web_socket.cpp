@@ -67,15 +67,15 @@ ErrorOfBoost connect_stream(asio::io_context& io, beast::tcp_stream& stream, con
     return error;
 }
 
-// The answer to the request, in at most `largest_message` bytes.
+// The answer to the request, in at most `max_message_size` bytes.
 ErrorOfBoost exchange(asio::io_context& io, beast::tcp_stream& stream,
                       http::request<http::empty_body>& request,
                       http::response_parser<http::string_body>& response, Clock::time_point end) {
     if (const ErrorOfBoost error = run_until(
             io, stream, end, [&](auto handler) { http::async_write(stream, request, std::move(handler)); }))
         return error;
-    response.body_limit(largest_message);
-    beast::flat_buffer buffer(largest_message);
+    response.body_limit(max_message_size);
+    beast::flat_buffer buffer(max_message_size);
     return run_until(io, stream, end,
                      [&](auto handler) { http::async_read(stream, buffer, response, std::move(handler)); });
 }
@@ -109,7 +109,7 @@ Result<WebSocket> WebSocket::connect(const SocketAddress& address, double timeou
         const Clock::time_point end = in(timeout);
         if (const ErrorOfBoost error = connect_stream(c.io, c.tcp(), address, end))
             return fail(socket_error(address, error));
-        c.stream.read_message_max(largest_message);
+        c.stream.read_message_max(max_message_size);
         if (const ErrorOfBoost error = run_until(c.io, c.tcp(), end, [&](auto handler) {
                 c.stream.async_handshake(address.text(), "/", std::move(handler));
             }))

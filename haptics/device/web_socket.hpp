@@ -1,5 +1,5 @@
 // A WebSocket client for a service on this computer or its network. Each call has a time limit, so one thread
-// can exchange messages and still notice that it should end.
+// can exchange messages and still check for a stop request.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct SocketAddress {
     [[nodiscard]] std::string text() const;  // "127.0.0.1:10001"
 };
 
-inline constexpr std::size_t largest_message = 65536;  // bytes; a larger message is an error
+inline constexpr std::size_t max_message_size = 65536;  // bytes; a larger message is an error
 
 // Times out after `timeout` s. All errors have ErrorCode::no_device, and name the address.
 class WebSocket {

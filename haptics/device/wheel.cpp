@@ -126,7 +126,7 @@ struct WheelCore {
 
     [[nodiscard]] Sample sample(double turn) const {
         Sample s;
-        s.turn = turn;
+        s.angle = turn;
         s.buttons = state.buttons;
         s.time = clock();
         return s;
@@ -148,7 +148,7 @@ Result<WheelCore> make_core(std::unique_ptr<HidTransport> transport, const Repor
     Description& d = core.description;
     d.name = std::move(name);
     d.id = std::move(id);
-    d.sensing = Sensing::turn;
+    d.sensing = Sensing::angle;
     d.axis = config.axis;
     d.limits.force = 0.0;
     d.limits.delay = 2;

@@ -1,4 +1,4 @@
-// Wheels with USB force feedback as device drivers: one rotating axis (Sensing::turn) that renders torque;
+// Wheels with USB force feedback as device drivers: one rotating axis (Sensing::angle) that renders torque;
 // and the vendor report of OpenFFBoard.
 //
 // Source: OpenFFBoard wiki, "Commands" (HID). Command numbers of the axis class up to 9 agree in all firmware

@@ -9,19 +9,19 @@ namespace bolt::force {
 namespace {
 
 constexpr double swing = to_radians(60.0);  // of a wrench between two positions of its jaw on a hexagon
-constexpr double used_reach = 0.9;          // share of the reach: at its edge many arms get soft
+constexpr double used_reach = 0.9;          // share of the reach: many arms are less stiff at its edge
 
-Quat to_viewer(const WorkspaceMap& w, const WorkspaceState& s) { return s.heading * w.turn; }
+Quat to_viewer(const WorkspaceMap& w, const WorkspaceState& s) { return s.heading * w.rotation; }
 
 }  // namespace
 
-Vec3 grip_point(const WorkspaceState& s, const Pose& tool) { return tool * Vec3(s.grip_distance, 0.0, 0.0); }
+Vec3 lever_end(const WorkspaceState& s, const Pose& tool) { return tool * Vec3(s.lever_arm, 0.0, 0.0); }
 
 void realign(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, const Pose& tool) {
-    const Quat turn = to_viewer(w, s);
-    s.centre = grip_point(s, tool) - w.scale * (turn * device.position);
-    s.grip = glm::normalize(glm::conjugate(turn * device.orientation) * tool.orientation);
-    s.tool = tool;
+    const Quat to_user = to_viewer(w, s);
+    s.centre = lever_end(s, tool) - w.scale * (to_user * device.position);
+    s.tool_to_device = glm::normalize(glm::conjugate(to_user * device.orientation) * tool.orientation);
+    s.commanded_tool = tool;
 }
 
 WorkspaceState align_workspace(const WorkspaceMap& w, const Pose& device, const Pose& tool) {
@@ -38,26 +38,26 @@ Pose to_assembly(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, b
     const double step = w.fade > 0.0 ? dt / w.fade : 1.0;
     s.share = std::clamp(s.share + (clutch ? -step : step), 0.0, 1.0);
     if (clutch) {
-        realign(w, s, device, s.tool);
+        realign(w, s, device, s.commanded_tool);
     } else {
-        const Quat turn = to_viewer(w, s);
-        s.tool.orientation = glm::normalize(turn * device.orientation * s.grip);
-        s.tool.position = s.centre + w.scale * (turn * device.position) -
-                          s.tool.orientation * Vec3(s.grip_distance, 0.0, 0.0);
+        const Quat to_user = to_viewer(w, s);
+        s.commanded_tool.orientation = glm::normalize(to_user * device.orientation * s.tool_to_device);
+        s.commanded_tool.position = s.centre + w.scale * (to_user * device.position) -
+                                    s.commanded_tool.orientation * Vec3(s.lever_arm, 0.0, 0.0);
     }
-    return s.tool;
+    return s.commanded_tool;
 }
 
-Pose pivoted(const Pivot& pivot, const Pose& held, double grip_distance, const Vec3& grip_point) {
+Pose pivoted(const Pivot& pivot, const Pose& held, double lever_arm, const Vec3& lever_end) {
     const auto across = [&](const Vec3& v) { return v - glm::dot(v, pivot.axis) * pivot.axis; };
     const Vec3 from = across(held.orientation * Vec3(1.0, 0.0, 0.0));
-    const Vec3 to = across(grip_point - pivot.centre);
+    const Vec3 to = across(lever_end - pivot.centre);
     Pose tool = held;
     if (glm::length(from) > 1e-6 && glm::length(to) > 1e-6) {
         const double angle = std::atan2(glm::dot(pivot.axis, glm::cross(from, to)), glm::dot(from, to));
         tool.orientation = glm::normalize(glm::angleAxis(angle, pivot.axis) * held.orientation);
     }
-    tool.position = grip_point - tool.orientation * Vec3(grip_distance, 0.0, 0.0);
+    tool.position = lever_end - tool.orientation * Vec3(lever_arm, 0.0, 0.0);
     return tool;
 }
 
@@ -71,29 +71,29 @@ double fitted_scale(const Vec3& reach, double handle_length) {
     return scale;
 }
 
-Vec3 turned_reach(const Quat& turn, const Vec3& reach) {
+Vec3 rotated_reach(const Quat& rotation, const Vec3& reach) {
     constexpr double negligible = 1e-6;  // component of a unit vector: less than a micrometre in a metre
-    Vec3 turned(std::numeric_limits<double>::infinity());
+    Vec3 rotated(std::numeric_limits<double>::infinity());
     for (int axis = 0; axis < 3; ++axis) {
         Vec3 along(0.0);
         along[axis] = 1.0;
-        along = glm::conjugate(turn) * along;
+        along = glm::conjugate(rotation) * along;
         for (int i = 0; i < 3; ++i)
             if (std::abs(along[i]) > negligible)
-                turned[axis] = std::min(turned[axis], reach[i] / std::abs(along[i]));
+                rotated[axis] = std::min(rotated[axis], reach[i] / std::abs(along[i]));
     }
-    return turned;
+    return rotated;
 }
 
 OutputCommand to_device(const WorkspaceMap& w, const WorkspaceState& s, const OutputCommand& on_tool) {
     const Quat back = glm::conjugate(to_viewer(w, s));
-    return {back * on_tool.force * (s.share * w.power * w.scale),
-            back * on_tool.torque * (s.share * w.power)};
+    return {back * on_tool.force * (s.share * w.power_ratio * w.scale),
+            back * on_tool.torque * (s.share * w.power_ratio)};
 }
 
 OutputLimits in_assembly(const WorkspaceMap& w, const OutputLimits& device) {
     OutputLimits limits = device;
-    const double force = w.power * w.scale, stiffness = force * w.scale, torque = w.power;
+    const double force = w.power_ratio * w.scale, stiffness = force * w.scale, torque = w.power_ratio;
     limits.force /= force;
     limits.force_rate /= force;
     limits.stiffness /= stiffness;
@@ -113,11 +113,10 @@ constexpr double share = 0.8;  // of the device's range that the largest torque 
 
 }  // namespace
 
-TorqueRendering make_torque_rendering(const OutputLimits& limits, double greatest_torque,
-                                      double handle_length) {
-    const double greatest = std::max(greatest_torque, 1.0);
-    if (limits.torque > 0.0) return {std::min(1.0, share * limits.torque / greatest), 0.0};
-    return {0.0, std::min(1.0 / handle_length, share * limits.force / greatest)};
+TorqueRendering make_torque_rendering(const OutputLimits& limits, double max_torque, double handle_length) {
+    const double range = std::max(max_torque, 1.0);
+    if (limits.torque > 0.0) return {std::min(1.0, share * limits.torque / range), 0.0};
+    return {0.0, std::min(1.0 / handle_length, share * limits.force / range)};
 }
 
 OutputCommand render_torque(const TorqueRendering& r, double torque, const Vec3& axis, const Vec3& handle) {
@@ -126,8 +125,8 @@ OutputCommand render_torque(const TorqueRendering& r, double torque, const Vec3&
 
 double stored_torque_energy(const TorqueRendering& r, double torque, double stiffness, double handle_length) {
     const double whole = 0.5 * torque * torque / stiffness;
-    // A rotation moves the grip by handle_length, so the force's work is as_force · handle_length of the
-    // torque's.
+    // A rotation moves the end of the handle by handle_length, so the force's work is as_force ·
+    // handle_length of the torque's.
     return whole * (r.scale + r.as_force * handle_length);
 }
 

@@ -10,7 +10,7 @@ namespace bolt::force {
 
 // Positions are scaled, rotations are not: a quarter turn of the wrench is a quarter turn of the hand.
 //
-// With R = turn, s = scale, p = power, motions at the device (v, ω) and forces on the tool (F, T):
+// With R = rotation, s = scale, p = power_ratio, motions at the device (v, ω) and forces on the tool (F, T):
 //
 //   on the tool      v' = s R v       ω' = R ω
 //   on the device    F' = p s R⁻¹ F   T' = p R⁻¹ T
@@ -19,32 +19,33 @@ namespace bolt::force {
 // power in the assembly, and passivity carries over. With p = 1 forces grow with the scale, F' = s R⁻¹ F and
 // T' = R⁻¹ T. With p = 1/s forces are unchanged and torques shrink by the scale, F' = R⁻¹ F and T' = R⁻¹ T/s.
 struct WorkspaceMap {
-    Quat turn{1.0, 0.0, 0.0, 0.0};  // unit, from the device's frame to the assembly's
-    double scale = 1.0;             // m of the tool per m of the device
-    double power = 1.0;
-    double fade = 0.05;  // s in which forces fade out and in with the clutch
+    Quat rotation{1.0, 0.0, 0.0, 0.0};  // unit, from the device's frame to the assembly's
+    double scale = 1.0;                 // m of the tool per m of the device
+    double power_ratio = 1.0;           // power at the device / power at the tool
+    double fade = 0.05;                 // s in which forces fade out and in with the clutch
 };
 
 struct WorkspaceState {
-    Vec3 centre{0.0};               // m: point = centre + scale · heading · turn · device
-    Quat grip{1.0, 0.0, 0.0, 0.0};  // tool = heading · turn · device · grip
+    Vec3 centre{0.0};  // m: point = centre + scale · heading · rotation · device
+    // tool = heading · rotation · device · tool_to_device
+    Quat tool_to_device{1.0, 0.0, 0.0, 0.0};
     // Unit, about the assembly's y: where the viewer stands, so that right stays right when the view turns.
     Quat heading{1.0, 0.0, 0.0, 0.0};
     // m from the tool's origin along its x to the point that follows the device: 0 for fingers and for a
     // device with torque; the length of the wrench for a device whose force acts at the end of the handle.
-    double grip_distance = 0.0;
-    Pose tool;           // in the assembly's frame, at the last tick
-    double share = 1.0;  // 0 … 1, share of the force that is rendered
+    double lever_arm = 0.0;
+    Pose commanded_tool;  // in the assembly's frame, at the last tick
+    double share = 1.0;   // 0 … 1, share of the force that is rendered
 };
 
 // Returns the state in which the device pose `device` maps to the tool pose `tool`.
 WorkspaceState align_workspace(const WorkspaceMap& workspace, const Pose& device, const Pose& tool);
 
-// As align_workspace(), and keeps heading, grip distance and share.
+// As align_workspace(), and keeps heading, lever arm and share.
 void realign(const WorkspaceMap& workspace, WorkspaceState& state, const Pose& device, const Pose& tool);
 
-// The point of the tool that follows the device, in the assembly's frame.
-Vec3 grip_point(const WorkspaceState& state, const Pose& tool);
+// The end of the lever arm, in the assembly's frame: the point of the tool that follows the device.
+Vec3 lever_end(const WorkspaceState& state, const Pose& tool);
 
 // One tick of dt. Returns the tool's pose in the assembly's frame. Releasing the clutch does not move the
 // tool. A device pose that is not finite is returned unchanged for the watchdog to reject.
@@ -57,20 +58,20 @@ struct Pivot {
     Vec3 axis{0.0, 1.0, 0.0};
 };
 
-// The pose of a wrench on a bolt whose handle the hand holds at `grip_point`, `grip_distance` m from the jaw:
-// the pose `held`, turned about the bolt so that the handle points to the grip point, and moved so that it
+// The pose of a wrench on a bolt whose handle the hand holds at `lever_end`, `lever_arm` m from the jaw:
+// the pose `held`, turned about the bolt so that the handle points to `lever_end`, and moved so that it
 // ends there. The wrist may turn freely in the hand, because a device without torque cannot hold it. If the
-// grip point is on the axis, `held` is moved and not turned.
-Pose pivoted(const Pivot& pivot, const Pose& held, double grip_distance, const Vec3& grip_point);
+// `lever_end` is on the axis, `held` is moved and not turned.
+Pose pivoted(const Pivot& pivot, const Pose& held, double lever_arm, const Vec3& lever_end);
 
 // The smallest scale, at least 1, at which the end of a wrench of `handle_length` m that points to the user
 // swings by 60° within 90 % of the device's reach (m, half the workspace along each axis), of which x and z
 // count. A reach of 0 is unknown: 1.
 double fitted_scale(const Vec3& reach, double handle_length);
 
-// The reach (m, half the workspace) along the axes to which `turn` turns those of the device, through its
-// middle. 0 if the reach along a device axis that contributes is unknown.
-Vec3 turned_reach(const Quat& turn, const Vec3& reach);
+// The reach (m, half the workspace) along the axes to which `rotation` rotates those of the device, through
+// its middle. 0 if the reach along a device axis that contributes is unknown.
+Vec3 rotated_reach(const Quat& rotation, const Vec3& reach);
 
 OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& state,
                         const OutputCommand& on_tool);
@@ -79,20 +80,19 @@ OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& sta
 OutputLimits in_assembly(const WorkspaceMap& workspace, const OutputLimits& device);
 
 // Renders a bolt's torque on a device with a smaller range: scaled so that the largest torque of the lesson
-// stays within it; as a torque if the device has one, otherwise as a force at the wrench's grip.
+// stays within it; as a torque if the device has one, otherwise as a force at the end of the wrench's handle.
 
 struct TorqueRendering {
     double scale = 1.0;     // device torque / true torque; 0: none
-    double as_force = 0.0;  // N at the grip per N·m; the physical value is 1/handle length
+    double as_force = 0.0;  // N at the end of the handle per N·m; the physical value is 1/handle length
 };
 
-// The scales never exceed the physical values. `greatest_torque` in N·m, less than 1 counts as 1;
-// `handle_length` in m.
-TorqueRendering make_torque_rendering(const OutputLimits& limits, double greatest_torque,
-                                      double handle_length);
+// The scales never exceed the physical values. `max_torque`: the largest torque of the lesson, N·m; less than
+// 1 counts as 1; `handle_length` in m.
+TorqueRendering make_torque_rendering(const OutputLimits& limits, double max_torque, double handle_length);
 
 // `torque` in N·m about `axis` (unit): positive torque, which resists tightening of a right-hand thread,
-// turns the hand about +axis. `handle` is the unit vector from the bolt to the grip.
+// turns the hand about +axis. `handle` is the unit vector from the bolt to the end of the handle.
 OutputCommand render_torque(const TorqueRendering& rendering, double torque, const Vec3& axis,
                             const Vec3& handle);
 

@@ -16,8 +16,8 @@ struct Ranges {
 
 Ranges ranges_of(const GuidingParameters& g) {
     const double d_min = std::sqrt(g.gain / g.stiffness);
-    if (g.stiffness * d_min <= g.greatest) return {d_min, d_min};
-    return {g.greatest / g.stiffness, g.gain / g.greatest};
+    if (g.stiffness * d_min <= g.max_force) return {d_min, d_min};
+    return {g.max_force / g.stiffness, g.gain / g.max_force};
 }
 
 std::complex<double> projected(const Hexagon& hexagon, const Vec3& jaw) {
@@ -31,8 +31,8 @@ std::complex<double> fifth_power(std::complex<double> z) { return z * (z * z) * 
 double guiding_pull(const GuidingParameters& g, double distance) {
     const Ranges r = ranges_of(g);
     if (distance <= r.spring) return g.stiffness * distance;
-    if (distance <= r.hyperbola) return g.greatest;
-    return std::clamp(2.0 - distance / g.reach, 0.0, 1.0) * g.gain / distance;
+    if (distance <= r.hyperbola) return g.max_force;
+    return std::clamp(2.0 - distance / g.fade_distance, 0.0, 1.0) * g.gain / distance;
 }
 
 Vec3 guiding_force(const GuidingParameters& guiding, const Vec3& tool, const Vec3& target) {
@@ -45,26 +45,27 @@ double guiding_potential(const GuidingParameters& g, double distance) {
     const Ranges r = ranges_of(g);
     if (distance <= r.spring) return 0.5 * g.stiffness * square(distance);
     double potential = 0.5 * g.stiffness * square(r.spring);
-    potential += g.greatest * (std::min(distance, r.hyperbola) - r.spring);
+    potential += g.max_force * (std::min(distance, r.hyperbola) - r.spring);
     if (distance <= r.hyperbola) return potential;
-    potential += g.gain * std::log(std::min(distance, g.reach) / r.hyperbola);
-    // Beyond the reach: the integral of (2 − d/reach) k/d.
-    const double outer = std::min(distance, 2.0 * g.reach);
-    if (outer > g.reach) potential += g.gain * (2.0 * std::log(outer / g.reach) - (outer / g.reach - 1.0));
+    potential += g.gain * std::log(std::min(distance, g.fade_distance) / r.hyperbola);
+    // Beyond the fade distance: the integral of (2 − d/fade_distance) k/d.
+    const double outer = std::min(distance, 2.0 * g.fade_distance);
+    if (outer > g.fade_distance)
+        potential += g.gain * (2.0 * std::log(outer / g.fade_distance) - (outer / g.fade_distance - 1.0));
     return potential;
 }
 
-Vec3 aligning_torque(double greatest, const Hexagon& h, const Vec3& jaw, const Vec3& normal) {
+Vec3 aligning_torque(double max_torque, const Hexagon& h, const Vec3& jaw, const Vec3& normal) {
     // A rotation δ moves the jaw by δ × jaw and changes Re z⁶ by 6 Re(z⁵ δz).
     const std::complex<double> z5 = fifth_power(projected(h, jaw));
     const Vec3 about = z5.real() * glm::cross(jaw, h.flat) - z5.imag() * glm::cross(jaw, h.across);
     const Vec3 square_on = 2.0 * glm::dot(normal, h.axis) * glm::cross(normal, h.axis);
-    return greatest * (about + square_on);
+    return max_torque * (about + square_on);
 }
 
-double aligning_potential(double greatest, const Hexagon& h, const Vec3& jaw, const Vec3& normal) {
+double aligning_potential(double max_torque, const Hexagon& h, const Vec3& jaw, const Vec3& normal) {
     const std::complex<double> z = projected(h, jaw);
-    return greatest * ((1.0 - (fifth_power(z) * z).real()) / 6.0 + 1.0 - square(glm::dot(normal, h.axis)));
+    return max_torque * ((1.0 - (fifth_power(z) * z).real()) / 6.0 + 1.0 - square(glm::dot(normal, h.axis)));
 }
 
 namespace {
@@ -85,7 +86,7 @@ AxialOffset axial_offset(const GuideTarget& target, const Vec3& tool) {
 
 bool leads_straight(const GuideTarget& target, const Vec3& tool) {
     const AxialOffset offset = axial_offset(target, tool);
-    return offset.above < 0.5 * target.shell || offset.aside <= on_axis + cone * offset.above;
+    return offset.above < 0.5 * target.bounding_radius || offset.aside <= on_axis + cone * offset.above;
 }
 
 GuidePath path_of(std::initializer_list<Vec3> points) {
@@ -109,9 +110,9 @@ bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegm
     const Vec3 direction = way / distance;
     const double nearest = glm::dot(target.point - from, direction);
     const double aside = glm::length(from + nearest * direction - target.point);
-    if (aside >= target.shell) return free(from, to);
+    if (aside >= target.bounding_radius) return free(from, to);
     // Query only the parts of the segment before and behind the ball around the target.
-    const double half = std::sqrt(square(target.shell) - square(aside));
+    const double half = std::sqrt(square(target.bounding_radius) - square(aside));
     const double in = nearest - half, out = nearest + half;
     if (in >= distance || out <= 0.0) return free(from, to);
     return (in <= 0.0 || free(from, from + in * direction)) &&
@@ -119,7 +120,7 @@ bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegm
 }
 
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free) {
-    const Vec3 above = target.point + target.axis * target.approach;
+    const Vec3 above = target.point + target.axis * target.approach_height;
     const GuidePath straight = path_of({from, target.point});
     GuidePath best;
     double shortest = 0.0;
@@ -156,13 +157,13 @@ GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree f
 
 double lowest_permitted_height(const GuideTarget& target, const Vec3& tool) {
     const AxialOffset offset = axial_offset(target, tool);
-    return std::clamp(std::min((offset.aside - on_axis) / cone, offset.above), 0.0, target.approach);
+    return std::clamp(std::min((offset.aside - on_axis) / cone, offset.above), 0.0, target.approach_height);
 }
 
 void move_end(GuidePath& path, const GuideTarget& target) {
     if (path.count == 0) return;
     path.points[path.count - 1] = target.point;
-    if (path.count > 2) path.points[path.count - 2] = target.point + target.axis * target.approach;
+    if (path.count > 2) path.points[path.count - 2] = target.point + target.axis * target.approach_height;
 }
 
 double length(const GuidePath& path) {
@@ -184,39 +185,39 @@ Vec3 point_at(const GuidePath& path, double along) {
 namespace {
 
 constexpr double pull_point_speed = 0.6;  // m/s of the pull point along the path
-// s between two attempts to plan, and of `stuck` before a path is dropped.
+// s between two attempts to plan, and of `blocked_time` before a path is dropped.
 constexpr double replan_interval = 0.25;
 constexpr double driven_back = 0.05;  // m of retreat of the pull point after which a path is dropped
 // m to the pull point below which the pull fades, except at the target.
 constexpr double softening_radius = 0.01;
 
-double step_towards(double now, double target, double most) {
-    return now + std::clamp(target - now, -most, most);
+double step_towards(double now, double target, double max_step) {
+    return now + std::clamp(target - now, -max_step, max_step);
 }
 
 // Adopts the goal and plans a path. Called only while the force is zero, so that it stays continuous.
 void begin(GuideState& s, const Vec3& tool, const GuideGoal& goal, IsSegmentFree free, double dt) {
-    s.patience = std::max(0.0, s.patience - dt);
+    s.time_to_replan = std::max(0.0, s.time_to_replan - dt);
     if (goal.id < 0) {
         s = {};
         return;
     }
-    if (goal.id == s.goal.id && s.patience > 0.0) return;
+    if (goal.id == s.goal.id && s.time_to_replan > 0.0) return;
     s = {};
     s.goal = goal;
     s.path = plan_path(tool, goal.target, free);
-    s.patience = replan_interval;
+    s.time_to_replan = replan_interval;
     // The planner has checked that the first segment is free.
     if (s.path.count > 1) s.along = glm::length(s.path.points[1] - s.path.points[0]);
 }
 
-// Advances the pull point to at most `most` while it is in line of sight of the tool, and retracts it
+// Advances the pull point up to `limit` while it is in line of sight of the tool, and retracts it
 // otherwise. Returns false if it is not in line of sight even then.
-bool advance_pull_point(GuideState& s, const Vec3& tool, double most, IsSegmentFree free, double dt) {
+bool advance_pull_point(GuideState& s, const Vec3& tool, double limit, IsSegmentFree free, double dt) {
     const GuideTarget& target = s.goal.target;
     const double step = pull_point_speed * dt;
-    s.along = std::min(s.along, std::max(most, s.along - 4.0 * step));
-    const double ahead = std::max(s.along, std::min(s.along + step, most));
+    s.along = std::min(s.along, std::max(limit, s.along - 4.0 * step));
+    const double ahead = std::max(s.along, std::min(s.along + step, limit));
     if (free_to(tool, point_at(s.path, ahead), target, free)) {
         s.along = ahead;
         return true;
@@ -228,7 +229,7 @@ bool advance_pull_point(GuideState& s, const Vec3& tool, double most, IsSegmentF
 
 // J stored in the springs at the target. Along the path the force is not a potential.
 double stored_in(const GuidingParameters& g, const GuideState& s, const GuidedTool& tool) {
-    const double aligning = aligning_potential(g.torque, s.goal.hexagon, tool.jaw, tool.normal);
+    const double aligning = aligning_potential(g.max_torque, s.goal.hexagon, tool.jaw, tool.normal);
     const double distance = glm::length(s.goal.target.point - tool.position);
     return (s.at_end ? s.strength * guiding_potential(g, distance) : 0.0) + s.alignment * aligning;
 }
@@ -249,14 +250,14 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
     if (goal_unchanged) {  // the nut descends as it turns
         s.goal = goal;
         move_end(s.path, goal.target);
-        if (s.at_end) s.along = s.farthest = length(s.path);
+        if (s.at_end) s.along = s.max_along = length(s.path);
     }
     const double whole = length(s.path);
     // A path of one segment ends at the target itself.
-    const double most =
+    const double limit =
         s.path.count > 2 ? whole - lowest_permitted_height(s.goal.target, tool.position) : whole;
     s.along = std::min(s.along, whole);
-    const bool seen = advance_pull_point(s, tool.position, most, free, dt);
+    const bool seen = advance_pull_point(s, tool.position, limit, free, dt);
     const double remaining = whole - s.along;
     s.at_end = remaining <= 0.0;
     const Vec3 to_pull_point = point_at(s.path, s.along) - tool.position;
@@ -264,25 +265,25 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
 
     // The path is dropped if the pull point has retreated, or if the tool waits at it without line of sight
     // to the path beyond: an obstacle blocks this path, and another one may exist. A pull point that is held
-    // at `most` until the tool is above the target does not count.
-    s.farthest = std::min(std::max(s.farthest, s.along), std::max(s.along, most));
-    s.stuck = s.along < most && distance < 2.0 * softening_radius ? s.stuck + dt : 0.0;
-    const bool path_usable = seen && s.farthest - s.along < driven_back && s.stuck < replan_interval;
+    // at `limit` until the tool is above the target does not count.
+    s.max_along = std::min(std::max(s.max_along, s.along), std::max(s.along, limit));
+    s.blocked_time = s.along < limit && distance < 2.0 * softening_radius ? s.blocked_time + dt : 0.0;
+    const bool path_usable = seen && s.max_along - s.along < driven_back && s.blocked_time < replan_interval;
 
     const double strength = goal_unchanged && path_usable ? std::clamp(g.strength, 0.0, 1.0) : 0.0;
-    s.strength = step_towards(s.strength, strength, g.slew * dt);
-    s.alignment = step_towards(s.alignment, left < g.near ? strength : 0.0, g.slew * dt);
+    s.strength = step_towards(s.strength, strength, g.fade_rate * dt);
+    s.alignment = step_towards(s.alignment, left < g.alignment_distance ? strength : 0.0, g.fade_rate * dt);
 
     // Softens the pull near a point of the path; at the target the law is exact.
-    const double least = std::clamp(remaining, 1e-12, softening_radius);
-    s.force = to_pull_point * (s.strength * guiding_pull(g, left) / std::max(distance, least));
+    const double min_distance = std::clamp(remaining, 1e-12, softening_radius);
+    s.force = to_pull_point * (s.strength * guiding_pull(g, left) / std::max(distance, min_distance));
     s.tool = tool.position;
     ForceRequest out;
     out.command.force = s.force;
-    out.command.torque = s.alignment * aligning_torque(g.torque, s.goal.hexagon, tool.jaw, tool.normal);
+    out.command.torque = s.alignment * aligning_torque(g.max_torque, s.goal.hexagon, tool.jaw, tool.normal);
     out.stored_energy = stored_in(g, s, tool);
     out.injected_energy = out.stored_energy - stored_before + led;
-    // Another path is planned after `patience`.
+    // Another path is planned after `time_to_replan`.
     if (s.strength == 0.0 && s.alignment == 0.0 && !path_usable) s.path = {};
     return out;
 }

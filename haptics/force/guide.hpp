@@ -15,14 +15,14 @@
 namespace bolt::force {
 
 struct GuidingParameters {
-    double gain = 0.1;         // k of F = k/d, N·m: 1 N at 10 cm
-    double stiffness = 500.0;  // K_max, N/m, that the device renders stably
-    double reach = 1.0;        // m; between reach and 2 · reach the force fades to zero
-    double greatest = 3.0;     // N, largest force
-    double torque = 0.2;       // N·m, largest aligning torque
-    double near = 0.08;        // m to the target within which the torque acts
-    double strength = 1.0;     // 0 … 1, share of the force that the lesson's mode allows
-    double slew = 4.0;         // 1/s, rate at which the force fades in and out
+    double gain = 0.1;                 // k of F = k/d, N·m: 1 N at 10 cm
+    double stiffness = 500.0;          // K_max, N/m, that the device renders stably
+    double fade_distance = 1.0;        // m; from here to twice this distance the force fades to zero
+    double max_force = 3.0;            // N
+    double max_torque = 0.2;           // N·m, of the aligning torque
+    double alignment_distance = 0.08;  // m to the target within which the torque acts
+    double strength = 1.0;             // 0 … 1, share of the force that the lesson's mode allows
+    double fade_rate = 4.0;            // 1/s, at which the force fades in and out
 };
 
 // k/d has the local stiffness k/d². Below d_min = √(k/K_max) the spring K_max d replaces it, and both are
@@ -44,9 +44,9 @@ struct Hexagon {
 // The torque, N·m, that turns the jaw to the nearest of the six orientations and its normal parallel or
 // antiparallel to the axis. Gradient of a smooth potential, so it is continuous where the nearest orientation
 // changes: with z the jaw's direction projected along the axis as a complex number, n the normal and a the
-// axis, V = greatest/6 (1 − Re z⁶) + greatest (1 − (n·a)²).
-Vec3 aligning_torque(double greatest, const Hexagon& hexagon, const Vec3& jaw, const Vec3& normal);
-double aligning_potential(double greatest, const Hexagon& hexagon, const Vec3& jaw, const Vec3& normal);
+// axis, V = max_torque/6 (1 − Re z⁶) + max_torque (1 − (n·a)²).
+Vec3 aligning_torque(double max_torque, const Hexagon& hexagon, const Vec3& jaw, const Vec3& normal);
+double aligning_potential(double max_torque, const Hexagon& hexagon, const Vec3& jaw, const Vec3& normal);
 
 // Plans a path for the guiding force around obstacles. The caller supplies the line-of-sight query (Embree,
 // in the servo), so the force never pulls through a housing.
@@ -55,10 +55,10 @@ double aligning_potential(double greatest, const Hexagon& hexagon, const Vec3& j
 using IsSegmentFree = FunctionRef<bool(const Vec3& from, const Vec3& to)>;
 
 struct GuideTarget {
-    Vec3 point{0.0};           // m, goal of the tool
-    Vec3 axis{0.0, 1.0, 0.0};  // unit, towards the accessible side
-    double approach = 0.08;    // m above the point at which the last segment begins
-    double shell = 0.03;       // m, radius of the ball that the target's nut and bolt fill; not an obstacle
+    Vec3 point{0.0};                // m, goal of the tool
+    Vec3 axis{0.0, 1.0, 0.0};       // unit, towards the accessible side
+    double approach_height = 0.08;  // m above the point at which the last segment begins
+    double bounding_radius = 0.03;  // m, of the ball that the target's nut and bolt fill; not an obstacle
 };
 
 struct GuidePath {
@@ -83,7 +83,7 @@ void move_end(GuidePath& path, const GuideTarget& target);
 double length(const GuidePath& path);
 Vec3 point_at(const GuidePath& path, double along);  // `along` in m from the start, clamped
 
-// Returns true if the parts of the segment outside the ball of GuideTarget::shell are free.
+// Returns true if the parts of the segment outside the ball of GuideTarget::bounding_radius are free.
 bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegmentFree free);
 
 // The guiding force: plans a path to a nut, pulls the tool towards the farthest point of the path in its line
@@ -105,12 +105,12 @@ struct GuideGoal {
 struct GuideState {
     GuideGoal goal;  // goal of the present force; replaced once that has faded out
     GuidePath path;
-    double along = 0.0;      // m along the path to the pull point, towards which the force points
-    double farthest = 0.0;   // m, largest value of `along` on this path
-    double strength = 0.0;   // 0 … 1, of the force
-    double alignment = 0.0;  // 0 … 1, of the torque
-    double patience = 0.0;   // s until the next attempt to plan a path
-    double stuck = 0.0;      // s that the tool has been at the pull point without sight of the path beyond
+    double along = 0.0;           // m along the path to the pull point, towards which the force points
+    double max_along = 0.0;       // m, largest value of `along` on this path
+    double strength = 0.0;        // 0 … 1, of the force
+    double alignment = 0.0;       // 0 … 1, of the torque
+    double time_to_replan = 0.0;  // s until the next attempt to plan a path
+    double blocked_time = 0.0;  // s that the tool has been at the pull point without sight of the path beyond
 
     // Values of the last tick, for the energy balance.
     Vec3 tool{0.0}, force{0.0};

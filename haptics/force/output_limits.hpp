@@ -34,18 +34,18 @@ struct OutputLimits {
     double jump = 0.03;           // m in one tick; more is a faulty sample
     double angular_jump = 0.5;    // rad in one tick
     // s without a sample before the output is released; `release` counts from the last sample.
-    double silence = 0.008;
+    double max_silence = 0.008;
     double recovery = 0.1;  // s of valid samples after a fault before the output ramps up
 };
 
-// Limits the length of `v` to `most`; zero if `most` is not positive. Scaled before glm::length so that the
-// square of a huge finite component does not overflow and yield NaN.
-inline Vec3 clamp_length(const Vec3& v, double most) {
+// Limits the length of `v` to `max_length`; zero if `max_length` is not positive. Scaled before glm::length
+// so that the square of a huge finite component does not overflow and yield NaN.
+inline Vec3 clamp_length(const Vec3& v, double max_length) {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (largest == 0.0 || most <= 0.0) return Vec3(0.0);
+    if (largest == 0.0 || max_length <= 0.0) return Vec3(0.0);
     const Vec3 unit = v / largest;
     const double length = largest * glm::length(unit);
-    return length <= most ? v : unit * (most / glm::length(unit));
+    return length <= max_length ? v : unit * (max_length / glm::length(unit));
 }
 
 // Weaker limits, for trainees who need weaker forces: multiplies the limits of force and torque and their

@@ -24,14 +24,14 @@ bool update_motion(const OutputLimits& limits, WatchdogState& s, const Pose& pos
     const auto ticks = static_cast<double>(s.ticks_since_sample);
     Motion& m = s.motion;
     m.shift = pose.position - s.last.position;
-    m.turn = turn_between(s.last.orientation, pose.orientation);
+    m.rotation = turn_between(s.last.orientation, pose.orientation);
     s.last = pose;
-    if (glm::length(m.shift) > limits.jump * ticks || glm::length(m.turn) > limits.angular_jump * ticks) {
+    if (glm::length(m.shift) > limits.jump * ticks || glm::length(m.rotation) > limits.angular_jump * ticks) {
         m = {};
         return false;
     }
     const double elapsed = ticks * dt;
-    const Vec3 velocity = m.shift / elapsed, angular_velocity = m.turn / elapsed;
+    const Vec3 velocity = m.shift / elapsed, angular_velocity = m.rotation / elapsed;
     const double smooth = 1.0 - std::exp(-elapsed / smoothing);
     m.velocity += smooth * (velocity - m.velocity);
     m.angular_velocity += smooth * (angular_velocity - m.angular_velocity);
@@ -61,7 +61,7 @@ Fault check_sample(const OutputLimits& limits, WatchdogState& s, const PortInput
         s.last = input.pose;
         s.has_last = true;
         s.ticks_since_sample = 0;
-    } else if (static_cast<double>(s.ticks_since_sample) * dt > limits.silence) {
+    } else if (static_cast<double>(s.ticks_since_sample) * dt > limits.max_silence) {
         s.motion = {};
         return Fault::silent;
     }
@@ -95,8 +95,8 @@ const char* name(Fault fault) {
     return "";
 }
 
-bool watch(const OutputLimits& limits, WatchdogState& s, const PortInput& input, bool request_is_finite,
-           double dt) {
+bool update_watchdog(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
+                     bool request_is_finite, double dt) {
     const Fault before = s.fault;
     const Fault now = check_sample(limits, s, input, request_is_finite, dt);
     // ISO 13850: the stop overrides everything, lasts until a deliberate reset, and the reset starts nothing
@@ -133,7 +133,7 @@ double renderable_share(const OutputLimits& limits, const OutputCommand& request
 
 }  // namespace
 
-void observe(const OutputLimits& limits, PassivityState& s, const Motion& motion, double ticks) {
+void add_applied_work(const OutputLimits& limits, PassivityState& s, const Motion& motion, double ticks) {
     const OutputCommand& out = s.sent[static_cast<std::size_t>(std::clamp(limits.delay, 0, 3))];
     s.applied.force += ticks * out.force;
     s.applied.torque += ticks * out.torque;
@@ -141,13 +141,13 @@ void observe(const OutputLimits& limits, PassivityState& s, const Motion& motion
     if (!motion.fresh && !motion.begins) return;
     if (motion.fresh)
         s.balance -=
-            (glm::dot(s.applied.force, motion.shift) + glm::dot(s.applied.torque, motion.turn)) / s.ticks;
+            (glm::dot(s.applied.force, motion.shift) + glm::dot(s.applied.torque, motion.rotation)) / s.ticks;
     s.applied = {};
     s.ticks = 0.0;
 }
 
-OutputCommand control(const OutputLimits& limits, PassivityState& s, const Motion& motion,
-                      const ForceRequest& request, double strength, double before, double dt) {
+OutputCommand control_passivity(const OutputLimits& limits, PassivityState& s, const Motion& motion,
+                                const ForceRequest& request, double strength, double before, double dt) {
     // A spring clamped to a share r of its force takes the same work at first but returns only that force: 2
     // r − r² of its energy can be recovered.
     const double r = renderable_share(limits, request.command);
@@ -172,15 +172,15 @@ OutputCommand control(const OutputLimits& limits, PassivityState& s, const Motio
             r * request.command.torque - s.damping * b_angular * motion.angular_velocity};
 }
 
-void note_sent(PassivityState& s, const OutputCommand& sent) {
+void record_sent(PassivityState& s, const OutputCommand& sent) {
     for (std::size_t i = s.sent.size() - 1; i > 0; --i) s.sent[i] = s.sent[i - 1];
     s.sent[0] = sent;
 }
 
 namespace {
 
-Vec3 step_towards(const Vec3& now, const Vec3& target, double most) {
-    return now + clamp_length(target - now, most);
+Vec3 step_towards(const Vec3& now, const Vec3& target, double max_step) {
+    return now + clamp_length(target - now, max_step);
 }
 
 }  // namespace
@@ -190,7 +190,7 @@ OutputCommand limit_output(const OutputLimits& limits, LimiterState& state, cons
     const bool healthy = finite(state.force) && finite(state.torque);
     if (!healthy) state.force = state.torque = Vec3(0.0);
     const bool sound = healthy && finite(requested.force) && finite(requested.torque);
-    if (!sound) ++state.faults;
+    if (!sound) ++state.invalid_requests;
     if (!enabled || !sound) {
         // Reaches zero from the largest output in whole steps within `release`; overrides the slew limits.
         const double steps = std::max(1.0, std::floor(release / dt + 1e-9));
@@ -209,7 +209,7 @@ OutputCommand limit_output(const OutputLimits& limits, LimiterState& state, cons
     state.force = clamp_length(state.force, limits.force);
     state.torque = clamp_length(state.torque, limits.torque);
     if (!finite(state.force) || !finite(state.torque)) {
-        state = {Vec3(0.0), Vec3(0.0), 0.0, state.faults + 1};
+        state = {Vec3(0.0), Vec3(0.0), 0.0, state.invalid_requests + 1};
     }
     return {state.force, state.torque};
 }
@@ -219,16 +219,16 @@ OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortI
     const bool finite_command = finite(request.command.force) && finite(request.command.torque);
     const bool sound =
         finite_command && std::isfinite(request.stored_energy) && std::isfinite(request.injected_energy);
-    const bool permitted = watch(limits, stage.watchdog, input, sound, dt) && input.enabled;
+    const bool permitted = update_watchdog(limits, stage.watchdog, input, sound, dt) && input.enabled;
     const Motion& motion = stage.watchdog.motion;
     PassivityState& passivity = stage.passivity;
-    observe(limits, passivity, motion, 1.0 + input.missed);
+    add_applied_work(limits, passivity, motion, 1.0 + input.missed);
 
     OutputCommand command;
     if (permitted) {
-        const double before = stage.output.strength;
+        const double before = stage.limiter.strength;
         const double strength = std::min(1.0, before + dt / limits.ramp_up);
-        command = control(limits, passivity, motion, request, strength, before, dt);
+        command = control_passivity(limits, passivity, motion, request, strength, before, dt);
     } else {
         passivity.balance = passivity.stored_energy = passivity.damping = 0.0;
         // A request with a value that is not finite counts as one fault. limit_output() counts a command that
@@ -236,13 +236,13 @@ OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortI
         if (!finite_command)
             command = request.command;
         else if (!sound)
-            ++stage.output.faults;
+            ++stage.limiter.invalid_requests;
     }
     // The release time counts from the last sample, and part of it has already passed.
     const bool silent = stage.watchdog.fault == Fault::silent;
-    const double release = silent ? limits.release - limits.silence - dt : limits.release;
-    const OutputCommand sent = limit_output(limits, stage.output, command, permitted, dt, release);
-    note_sent(passivity, sent);
+    const double release = silent ? limits.release - limits.max_silence - dt : limits.release;
+    const OutputCommand sent = limit_output(limits, stage.limiter, command, permitted, dt, release);
+    record_sent(passivity, sent);
     return sent;
 }
 

@@ -16,7 +16,7 @@ namespace bolt::force {
 
 enum class Fault : std::uint8_t {
     none,
-    silent,       // no sample for longer than OutputLimits::silence
+    silent,       // no sample for longer than OutputLimits::max_silence
     no_pose,      // the pose is not finite or has no unit quaternion
     jumped,       // moved further than a hand can in a tick
     too_fast,     // faster than OutputLimits::speed: a runaway or a falling device
@@ -40,10 +40,10 @@ struct PortInput {
 // Motion of the device since the previous sample.
 struct Motion {
     Vec3 shift{0.0};             // m
-    Vec3 turn{0.0};              // rad
+    Vec3 rotation{0.0};          // rad, axis times angle
     Vec3 velocity{0.0};          // m/s, smoothed over 1.5 ms
     Vec3 angular_velocity{0.0};  // rad/s
-    bool fresh = false;          // a new sample; false: shift and turn are of an earlier one
+    bool fresh = false;          // a new sample; false: shift and rotation are of an earlier one
     bool begins = false;         // the first sample: it starts a motion and has none itself
 };
 
@@ -61,8 +61,8 @@ struct WatchdogState {
 
 // The watchdog. One tick of dt. Returns true if the output may be rendered. `request_is_finite`: the
 // requested force is finite.
-bool watch(const OutputLimits& limits, WatchdogState& state, const PortInput& input, bool request_is_finite,
-           double dt);
+bool update_watchdog(const OutputLimits& limits, WatchdogState& state, const PortInput& input,
+                     bool request_is_finite, double dt);
 
 // Time-domain passivity control: observes the energy at the device's port and removes energy that the
 // rendering generates. A sampled, delayed and slew-limited spring returns more energy than was put in, which
@@ -109,23 +109,23 @@ inline constexpr double damping_rise_rate = 60.0, damping_fall_rate = 40.0;
 
 // The observer: adds the work of the applied commands along the motion since the last sample. `ticks`:
 // periods that passed, missed deadlines included.
-void observe(const OutputLimits& limits, PassivityState& state, const Motion& motion, double ticks);
+void add_applied_work(const OutputLimits& limits, PassivityState& state, const Motion& motion, double ticks);
 
 // The controller: returns the command, clamped and with as much damping as the deficit needs and the device
 // permits. `strength` is the ramp's share now, `before` that of the last tick.
-OutputCommand control(const OutputLimits& limits, PassivityState& state, const Motion& motion,
-                      const ForceRequest& request, double strength, double before, double dt);
+OutputCommand control_passivity(const OutputLimits& limits, PassivityState& state, const Motion& motion,
+                                const ForceRequest& request, double strength, double before, double dt);
 
 // Call after each tick with the command that was sent.
-void note_sent(PassivityState& state, const OutputCommand& sent);
+void record_sent(PassivityState& state, const OutputCommand& sent);
 
 // The limiter, the last step. Its output is finite, within the device's limits, and within the slew rates.
 
 struct LimiterState {
-    Vec3 force{0.0};
-    Vec3 torque{0.0};
-    double strength = 0.0;     // 0 … 1, ramp after enabling
-    std::uint64_t faults = 0;  // steps with a request that was not finite
+    Vec3 force{0.0};                     // N, last output
+    Vec3 torque{0.0};                    // N·m
+    double strength = 0.0;               // 0 … 1, ramp after enabling
+    std::uint64_t invalid_requests = 0;  // steps with a request that was not finite
 };
 
 // One step of dt. Returns the device's command, which is also stored in the state. If not `enabled`, or if
@@ -141,7 +141,7 @@ inline OutputCommand limit_output(const OutputLimits& limits, LimiterState& stat
 struct OutputStage {
     WatchdogState watchdog;
     PassivityState passivity;
-    LimiterState output;
+    LimiterState limiter;
 };
 
 // One tick of dt. Returns the device's command. It is zero at most limits.release after the dead-man switch

@@ -207,13 +207,13 @@ struct GloveDriver::Shared {
             report.frames = before.frames + session.frames();
             report.lost_bytes = before.lost_bytes + session.lost_bytes();
             report.handshakes = before.handshakes + session.handshakes();
-            copy_text(report.trouble, session.trouble());
+            copy_text(report.fault_message, session.fault_message());
             reports.write(report);
             if (!outgoing.empty())
                 if (const Status sent = serial.write(outgoing); !sent)
-                    return copy_text(report.trouble, sent.error().message());
+                    return copy_text(report.fault_message, sent.error().message());
             auto read = serial.read(read_timeout);
-            if (!read) return copy_text(report.trouble, read.error().message());
+            if (!read) return copy_text(report.fault_message, read.error().message());
             received = std::move(*read);
         }
     }
@@ -230,7 +230,7 @@ struct GloveDriver::Shared {
                 serve(*serial, report, number, stop);
                 pause = first_retry_delay;
             } else {
-                copy_text(report.trouble, serial.error().message());
+                copy_text(report.fault_message, serial.error().message());
             }
             report.open = false;
             report.state = GloveState::silent;

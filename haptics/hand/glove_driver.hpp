@@ -54,7 +54,7 @@ struct GloveReport {
     bool open = false;  // the port
     GloveState state = GloveState::handshake;
     GloveIdentity identity;
-    std::array<char, 200> trouble{};  // zero-terminated text; empty: none
+    std::array<char, 200> fault_message{};  // zero-terminated text; empty: none
     std::uint64_t frames = 0, lost_bytes = 0, handshakes = 0, openings = 0;
     // s: time of the latest frame on the steady clock, and the longest gap between frames up to now.
     double newest = 0.0, longest_silence = 0.0;

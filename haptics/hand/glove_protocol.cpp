@@ -287,14 +287,14 @@ std::vector<std::uint8_t> GloveSession::update(std::span<const std::uint8_t> rec
             ++frames_;
             since_ = now;
             unplugged = frame.unplugged;
-            trouble_ = frame.unplugged  ? "the glove is not plugged into its interface unit"
-                       : frame.too_slow ? "the serial line is too slow for this sample rate"
-                                        : "";
+            fault_message_ = frame.unplugged  ? "the glove is not plugged into its interface unit"
+                             : frame.too_slow ? "the serial line is too slow for this sample rate"
+                                              : "";
             if (!frame.unplugged) on_frame(frame);
         });
         identity_.plugged = !unplugged;
         if (now - since_ < options_.silence) return {};
-        trouble_ = "the glove has stopped sending data";
+        fault_message_ = "the glove has stopped sending data";
         return start_handshake(now, GloveState::silent);
     }
     if (state_ == GloveState::rejected) {
@@ -305,12 +305,12 @@ std::vector<std::uint8_t> GloveSession::update(std::span<const std::uint8_t> rec
     if (handshake_.done()) {
         identity_ = handshake_.identity();
         reader_.layout = {identity_.sensors, false, false};
-        trouble_.clear();
+        fault_message_.clear();
         state_ = GloveState::streaming;
         since_ = now;
         ++handshakes_;
     } else if (handshake_.failed()) {
-        trouble_ = handshake_.failed()->message();
+        fault_message_ = handshake_.failed()->message();
         state_ = GloveState::rejected;
         since_ = now;
     }

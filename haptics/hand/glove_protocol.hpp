@@ -185,7 +185,7 @@ class GloveSession {
     [[nodiscard]] GloveState state() const { return state_; }
     // From the last successful handshake.
     [[nodiscard]] const GloveIdentity& identity() const { return identity_; }
-    [[nodiscard]] const std::string& trouble() const { return trouble_; }  // empty: none
+    [[nodiscard]] const std::string& fault_message() const { return fault_message_; }  // empty: none
     [[nodiscard]] std::uint64_t frames() const { return frames_; }
     [[nodiscard]] std::uint64_t lost_bytes() const { return lost_ + reader_.lost; }
     [[nodiscard]] std::uint64_t handshakes() const { return handshakes_; }  // that succeeded
@@ -198,7 +198,7 @@ class GloveSession {
     GloveHandshake handshake_;
     GloveFrameReader reader_;
     GloveIdentity identity_;
-    std::string trouble_;
+    std::string fault_message_;
     double since_ = 0.0;
     bool started_ = false;
     std::uint64_t frames_ = 0, lost_ = 0, handshakes_ = 0;

@@ -57,9 +57,9 @@ Coupling make_coupling(const CouplingRange& range) {
     return coupling;
 }
 
-Offset offset_between(const Pose& device, const Pose& tool) {
-    const Quat turn = tool.orientation * glm::conjugate(device.orientation);
-    return {tool.position - device.position, 2.0 * turn.w * Vec3(turn.x, turn.y, turn.z)};
+Offset offset_between(const Pose& commanded_tool, const Pose& constrained_tool) {
+    const Quat turn = constrained_tool.orientation * glm::conjugate(commanded_tool.orientation);
+    return {constrained_tool.position - commanded_tool.position, 2.0 * turn.w * Vec3(turn.x, turn.y, turn.z)};
 }
 
 force::OutputCommand coupling_force(const Coupling& c, const Offset& offset, const Offset& before,

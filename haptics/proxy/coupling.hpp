@@ -1,4 +1,4 @@
-// The virtual coupling: a spring and damper between the device and the tool, which contacts hold back
+// The virtual coupling: a spring and damper between the commanded and the constrained pose of the tool
 // (Colgate, Stanley and Brown, IROS 1995). The hand feels contacts only through it.
 #pragma once
 
@@ -35,13 +35,13 @@ struct CouplingRange {
 // also weight the tool's motions.
 Coupling make_coupling(const CouplingRange& range);
 
-// Pose of the tool relative to the device.
+// The constrained pose of the tool relative to the commanded pose.
 struct Offset {
     Vec3 linear{0.0};   // m
     Vec3 angular{0.0};  // axis times the sine of the angle, which is continuous; it vanishes at half a turn
 };
 
-Offset offset_between(const Pose& device, const Pose& tool);
+Offset offset_between(const Pose& commanded_tool, const Pose& constrained_tool);
 
 // The force and torque on the device at its origin. `before`: the offset of the last tick.
 force::OutputCommand coupling_force(const Coupling& coupling, const Offset& offset, const Offset& before,

@@ -62,19 +62,19 @@ ContactQuery query_contacts(ContactFinder finder, const Pose& pose, double band)
 // Computes one step.
 class Stepper {
   public:
-    Stepper(const GodObjectParameters& parameters, const GodObjectState& before, const Pose& device,
+    Stepper(const GodObjectParameters& parameters, const GodObjectState& before, const Pose& commanded_tool,
             ContactFinder finder, double dt)
         : p_(parameters),
           before_(before),
-          device_(device),
+          commanded_tool_(commanded_tool),
           finder_(finder),
           dt_(dt),
-          pose_(before.tool),
+          pose_(before.constrained_tool),
           expected_(before.first_motion),
           recovery_left_(parameters.recovery * dt) {}
 
     GodObjectStep run() {
-        const double displacement = path_bound(twist_between(before_.device, device_));
+        const double displacement = path_bound(twist_between(before_.commanded_tool, commanded_tool_));
         current_query_ = query(pose_, std::min(displacement, before_.nearest_contact));
         recovering_ = current_query_.nearest < 0.0;
         set_change_limits();
@@ -236,8 +236,8 @@ class Stepper {
     void set_change_limits() {
         const proxy::Coupling& c = p_.coupling;
         // The change that the hand's motion would cause with the tool held in place.
-        const force::OutputCommand if_held =
-            proxy::coupling_force(c, proxy::offset_between(device_, before_.tool), before_.offset, dt_);
+        const force::OutputCommand if_held = proxy::coupling_force(
+            c, proxy::offset_between(commanded_tool_, before_.constrained_tool), before_.offset, dt_);
         force_ = change_limit(if_held.force - before_.felt.force, before_.own_change.force,
                               glm::length(before_.felt.force), c.force);
         torque_ = change_limit(if_held.torque - before_.felt.torque, before_.own_change.torque,
@@ -246,7 +246,7 @@ class Stepper {
 
     [[nodiscard]] force::OutputCommand change(const Twist& motion) const {
         const force::OutputCommand felt = proxy::coupling_force(
-            p_.coupling, proxy::offset_between(device_, moved(pose_, motion)), before_.offset, dt_);
+            p_.coupling, proxy::offset_between(commanded_tool_, moved(pose_, motion)), before_.offset, dt_);
         return {felt.force - before_.felt.force, felt.torque - before_.felt.torque};
     }
 
@@ -298,7 +298,7 @@ class Stepper {
     }
 
     [[nodiscard]] double energy_at(const Pose& pose) const {
-        return proxy::stored_energy(p_.coupling, proxy::offset_between(device_, pose));
+        return proxy::stored_energy(p_.coupling, proxy::offset_between(commanded_tool_, pose));
     }
     // Returns true if the motion reverses the last one with an imperceptible change of energy. The finder
     // returns the nearest of adjacent points, between which the tool would otherwise rock until the query
@@ -325,10 +325,10 @@ class Stepper {
         pose_ = pose;
     }
 
-    // Performs one motion from the current pose towards the device.
+    // Performs one motion from the current pose towards the commanded pose.
     AdvanceResult advance_once() {
         ConstraintSet rows = constraints_at_pose();
-        const Twist wanted = twist_between(pose_, device_);
+        const Twist wanted = twist_between(pose_, commanded_tool_);
         const double certified = current_query_.nearest - p_.skin;
         double longest = std::max(p_.stride, certified);
         for (int attempt = 0; attempt < max_attempts; ++attempt) {
@@ -341,12 +341,13 @@ class Stepper {
             const double displacement = path_bound(part);
             const bool rate_limited = is_shorter(part, share * motion);
             const Pose next = moved(pose_, part);
-            const bool at_device = path_bound(twist_between(next, device_)) < negligible_motion;
+            const bool at_commanded_pose =
+                path_bound(twist_between(next, commanded_tool_)) < negligible_motion;
             if (displacement <= certified) {
                 accept(next, part);
                 current_query_.nearest -= displacement;
                 if (rate_limited) return AdvanceResult::rate_limited;
-                if (at_device) return AdvanceResult::arrived;
+                if (at_commanded_pose) return AdvanceResult::arrived;
                 if (!may_query()) return AdvanceResult::budget_exhausted;
                 current_query_ = query(pose_);
                 return AdvanceResult::moved;
@@ -357,9 +358,9 @@ class Stepper {
                 accept(next, part);
                 current_query_ = next_query;
                 const bool near_enough = !rate_limited && share == 1.0 && length < small_motion;
-                return rate_limited               ? AdvanceResult::rate_limited
-                       : at_device || near_enough ? AdvanceResult::arrived
-                                                  : AdvanceResult::moved;
+                return rate_limited                       ? AdvanceResult::rate_limited
+                       : at_commanded_pose || near_enough ? AdvanceResult::arrived
+                                                          : AdvanceResult::moved;
             }
             add_blocking_constraints(next_query, next, rows);
             longest *= 0.5;
@@ -369,7 +370,7 @@ class Stepper {
 
     const GodObjectParameters& p_;
     const GodObjectState& before_;
-    const Pose& device_;
+    const Pose& commanded_tool_;
     ContactFinder finder_;
     double dt_;
     ForceChangeLimit force_, torque_;
@@ -389,24 +390,24 @@ class Stepper {
 
 GodObjectState start_god_object(const Pose& pose) {
     GodObjectState state;
-    state.tool = pose;
-    state.device = pose;
+    state.constrained_tool = pose;
+    state.commanded_tool = pose;
     return state;
 }
 
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
-                              const Pose& device, ContactFinder finder, double dt) {
-    if (!finite(device)) return {};
-    Stepper stepper(parameters, state, device, finder, dt);
+                              const Pose& commanded_tool, ContactFinder finder, double dt) {
+    if (!finite(commanded_tool)) return {};
+    Stepper stepper(parameters, state, commanded_tool, finder, dt);
     const GodObjectStep step = stepper.run();
-    state.tool = stepper.pose();
+    state.constrained_tool = stepper.pose();
     state.first_motion = stepper.first_motion();
-    const proxy::Offset offset = proxy::offset_between(device, state.tool);
+    const proxy::Offset offset = proxy::offset_between(commanded_tool, state.constrained_tool);
     const force::OutputCommand felt = proxy::coupling_force(parameters.coupling, offset, state.offset, dt);
     state.own_change = stepper.own_change_of(felt);
     state.felt = felt;
     state.offset = offset;
-    state.device = device;
+    state.commanded_tool = commanded_tool;
     state.nearest_contact = step.contacts == 0 ? std::numeric_limits<double>::infinity() : step.nearest;
     return step;
 }

@@ -1,5 +1,5 @@
-// The god-object: the pose of the tool under contact constraints. It follows the device as far as obstacles
-// permit and does not penetrate them. The hand feels the coupling between the two poses
+// The god-object: the pose of the tool under contact constraints. It follows the commanded pose as far as
+// obstacles permit and does not penetrate them. The hand feels the coupling between the two poses
 // (haptics/proxy/coupling.hpp); contacts have no springs of their own, so a contact that appears or
 // disappears causes no step in the force.
 //
@@ -61,9 +61,9 @@ struct GodObjectParameters {
 };
 
 struct GodObjectState {
-    Pose tool;  // to the assembly
+    Pose constrained_tool;  // in the assembly's frame
     // Values of the last tick.
-    Pose device;
+    Pose commanded_tool;
     proxy::Offset offset;
     force::OutputCommand felt;        // N and N·m, rendered by the coupling
     force::OutputCommand own_change;  // part of its change that the hand's motion did not cause
@@ -92,6 +92,6 @@ GodObjectState start_god_object(const Pose& pose);
 // motion brought the tool closer. A finder may detect features up to 0.25 mm late. Ignores a pose that is not
 // finite. Does not allocate.
 GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectState& state,
-                              const Pose& device, ContactFinder finder, double dt);
+                              const Pose& commanded_tool, ContactFinder finder, double dt);
 
 }  // namespace bolt::proxy

@@ -81,8 +81,8 @@ double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& 
            (glm::dot(tool.normal, nut.axis) < 0.0 ? setup.wrench.head_angle : -setup.wrench.head_angle);
 }
 
-void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool,
-                       Grip grip, Engagement& e) {
+void update_pose_engagement(const Setup& setup, std::span<const joint::JointState> joints,
+                            const ToolPose& tool, Grip grip, Engagement& e) {
     if (!tool.valid) {
         e = {};
         return;
@@ -161,8 +161,8 @@ collision::HexagonPrism prism_of(const NutGeometry& nut) {
     return {nut.across_flats, nut.height, nut.bearing};
 }
 
-void update_jaw_grip(const Setup& setup, std::span<const joint::JointState> joints,
-                     std::span<const double> lost, const ToolPose& tool, Engagement& e) {
+void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState> joints,
+                           std::span<const double> lost, const ToolPose& tool, Engagement& e) {
     const collision::Jaw& jaw = setup.wrench.jaw;
     const auto seat_on = [&](std::size_t i) {
         const NutGeometry& nut = setup.nuts[i];

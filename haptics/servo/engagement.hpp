@@ -1,6 +1,6 @@
 // Determines which nut the hand holds. Fingers, and a wrench without contact simulation, engage if their pose
-// fits: level with the nut, centred, square to the axis and aligned within the play (update_engagement). With
-// contact simulation the geometry of the jaw decides (update_jaw_grip).
+// fits: level with the nut, centred, square to the axis and aligned within the play (update_pose_engagement).
+// With contact simulation the geometry of the jaw decides (update_jaw_engagement).
 #pragma once
 
 #include <span>
@@ -49,8 +49,8 @@ double tool_azimuth(const Setup& setup, const NutGeometry& nut, const ToolPose& 
 // One tick. Releases the nut if the grip changes, the tool moves or tilts away, its angle changes by more
 // than a hand can turn in a tick, or the command is not a pose. Engages a nut if none was held and the pose
 // fits.
-void update_engagement(const Setup& setup, std::span<const joint::JointState> joints, const ToolPose& tool,
-                       Grip grip, Engagement& engagement);
+void update_pose_engagement(const Setup& setup, std::span<const joint::JointState> joints,
+                            const ToolPose& tool, Grip grip, Engagement& engagement);
 
 // Grip of a wrench on a nut with contact simulation. Geometry alone determines whether the jaw holds the nut
 // (haptics/collision/jaw.hpp); the corners limit the torque that it can transmit (haptics/joint/nut.hpp).
@@ -70,8 +70,8 @@ collision::HexagonPrism prism_of(const NutGeometry& nut);
 // One tick. Engages a nut if the jaw surrounds its hexagon by more than the jaw's bevel and is aligned within
 // the play; releases it if the jaw no longer surrounds it. `lost`, by joint: m of each flat that is rounded
 // off.
-void update_jaw_grip(const Setup& setup, std::span<const joint::JointState> joints,
-                     std::span<const double> lost, const ToolPose& tool, Engagement& engagement);
+void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState> joints,
+                           std::span<const double> lost, const ToolPose& tool, Engagement& engagement);
 
 // The engaged wrench as the joint law's handle. `lost` in m.
 joint::DriveHandle jaw_handle(const Setup& setup, const NutGeometry& nut, double lost,

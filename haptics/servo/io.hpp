@@ -21,7 +21,7 @@ struct CommandedTool {
     float orientation[4] = {1.0F, 0.0F, 0.0F, 0.0F};  // unit quaternion w, x, y, z: tool to assembly
 };
 
-inline CommandedTool commanded_tool(const Pose& tool) {
+inline CommandedTool to_commanded_tool(const Pose& tool) {
     CommandedTool commanded;
     for (int i = 0; i < 3; ++i) commanded.position[i] = static_cast<float>(tool.position[i]);
     commanded.orientation[0] = static_cast<float>(tool.orientation.w);
@@ -36,7 +36,7 @@ inline CommandedTool commanded_tool(const Pose& tool) {
 inline constexpr std::uint8_t max_checkpoints = 8, save_checkpoint = 255;
 
 struct Input {
-    CommandedTool device;
+    CommandedTool commanded_tool;
     Grip grip = Grip::none;
     bool enabled = false;     // dead-man switch held; otherwise the output is zero
     std::int16_t guide = -1;  // joint that the guiding force leads to; −1: no guiding force
@@ -59,10 +59,10 @@ struct Output {
 
     force::Fault fault = force::Fault::none;  // reason for which the output is held at zero
 
-    Pose tool;                   // constrained by obstacles, in the assembly's frame
+    Pose constrained_tool;       // pose that contacts permit, in the assembly's frame
     std::uint16_t contacts = 0;  // constraints within the contact band
     // The obstacle in contact at the pose of the tick's last contact query. That pose can differ
-    // from `tool`.
+    // from `constrained_tool`.
     collision::ObstacleId touched;
 
     // Physical values, before scaling to the device.

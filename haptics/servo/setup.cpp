@@ -55,9 +55,9 @@ Setup make_setup(const SetupDescription& d) {
     setup.wrench.handle_length = d.handle_length;
     setup.wrench.jaw = collision::make_jaw(d.jaw, d.head_angle, d.head_thickness, d.jaw_depth, d.jaw_tip);
     setup.wrench.half_play = joint::rounded_half_play(d.jaw, across_flats, 0.0);
-    const double greatest = std::max(d.greatest_torque, 1.0);
+    const double max_torque = std::max(d.max_torque, 1.0);
     // Modelling assumption: wrench and wrists yield 2.5° at the largest torque.
-    setup.wrench.stiffness = greatest / to_radians(2.5);
+    setup.wrench.stiffness = max_torque / to_radians(2.5);
 
     setup.wrench.click.swing = d.click_swing;
     Random random(d.seed, tool_stream);
@@ -68,11 +68,11 @@ Setup make_setup(const SetupDescription& d) {
     if (d.limits.torsion > 0.0) setup.hold_torsion = std::min(setup.hold_torsion, d.limits.torsion);
     // The energy of a spring that the device cannot render must not count as stored.
     if (d.limits.force <= 0.0) setup.hold_stiffness = 0.0;
-    setup.torque_rendering = force::make_torque_rendering(d.limits, d.greatest_torque, d.handle_length);
-    setup.guiding.greatest = std::min(3.0, 0.2 * d.limits.force);
+    setup.torque_rendering = force::make_torque_rendering(d.limits, d.max_torque, d.handle_length);
+    setup.guiding.max_force = std::min(3.0, 0.2 * d.limits.force);
     setup.guiding.stiffness = std::min(setup.guiding.stiffness, d.limits.stiffness);
     // Without torque output the aligning torque is a force at the end of the wrench.
-    setup.guiding.torque =
+    setup.guiding.max_torque =
         d.limits.torque > 0.0 ? 0.1 * d.limits.torque : 0.2 * d.limits.force * d.handle_length;
     return setup;
 }

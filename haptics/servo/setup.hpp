@@ -67,13 +67,13 @@ struct SetupDescription {
     joint::Law law = joint::Law::mechanistic;
     joint::PublishedParameters published;
     const joint::FlangePlate* flange = nullptr;
-    double jaw = 0.0;              // m, opening across the flats
-    double head_thickness = 0.0;   // m; 0: the default proportion (haptics/collision/jaw.hpp)
-    double jaw_depth = 0.0;        // m, from the middle of the jaw to its throat; 0: the default
-    double jaw_tip = 0.0;          // m, from the middle of the jaw to its tips; 0: the default
-    double head_angle = 0.0;       // rad
-    double handle_length = 0.0;    // m
-    double greatest_torque = 0.0;  // N·m, the largest torque of the lesson; maps to the device's range
+    double jaw = 0.0;             // m, opening across the flats
+    double head_thickness = 0.0;  // m; 0: the default proportion (haptics/collision/jaw.hpp)
+    double jaw_depth = 0.0;       // m, from the middle of the jaw to its throat; 0: the default
+    double jaw_tip = 0.0;         // m, from the middle of the jaw to its tips; 0: the default
+    double head_angle = 0.0;      // rad
+    double handle_length = 0.0;   // m
+    double max_torque = 0.0;      // N·m, the largest torque of the lesson; maps to the device's range
     force::OutputLimits limits;
     double click_swing = 0.0;  // rad that a click-type torque wrench swings at its click; 0: a plain wrench
     double click_accuracy = 0.0;  // relative bound of Wrench::deviation, which is drawn from the seed

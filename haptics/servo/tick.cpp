@@ -110,21 +110,23 @@ force::ForceRequest release_request(const Setup& setup, ReleaseFade& release_fad
     return request;
 }
 
-// The work (J) of the guiding force on the motion of the device relative to the tool. The guiding force acts
-// on the hand but is a potential of the tool's pose; where contacts hold the tool back the two differ, and
-// the difference counts as injected energy.
-double relative_work(const force::OutputCommand& help, const Pose& hand_before, const Pose& hand,
-                     const Pose& tool_before, const Pose& tool) {
-    const Vec3 relative = (hand.position - hand_before.position) - (tool.position - tool_before.position);
+// The work (J) of the guiding force on the motion of the commanded tool relative to the constrained one. The
+// guiding force acts on the hand but is a potential of the constrained pose; where contacts hold the tool
+// back the two differ, and the difference counts as injected energy.
+double relative_work(const force::OutputCommand& help, const Pose& commanded_before,
+                     const Pose& commanded_now, const Pose& constrained_before, const Pose& constrained_now) {
+    const Vec3 relative = (commanded_now.position - commanded_before.position) -
+                          (constrained_now.position - constrained_before.position);
     return glm::dot(help.force, relative) +
-           glm::dot(help.torque, turn_between(hand_before.orientation, hand.orientation) -
-                                     turn_between(tool_before.orientation, tool.orientation));
+           glm::dot(help.torque,
+                    turn_between(commanded_before.orientation, commanded_now.orientation) -
+                        turn_between(constrained_before.orientation, constrained_now.orientation));
 }
 
 // The aligning torque for a device that renders none, as a force at the end of the wrench: a wrench near a
 // bolt turns with the end of its handle.
-force::OutputCommand as_force_at_grip(const Setup& setup, const force::OutputCommand& help,
-                                      const ToolPose& tool) {
+force::OutputCommand as_force_at_lever_end(const Setup& setup, const force::OutputCommand& help,
+                                           const ToolPose& tool) {
     if (setup.wrench.handle_length <= 0.0) return help;
     return {help.force + glm::cross(help.torque, tool.handle) / setup.wrench.handle_length, Vec3(0.0)};
 }
@@ -171,30 +173,31 @@ Output tick(const Setup& setup, State& state, const Input& input) {
 
 Output tick(const Setup& setup, State& state, const Input& input, force::IsSegmentFree free) {
     const FlushDenormals flush;
-    const ToolPose hand = pose_of(input.device);
+    const ToolPose commanded_tool = pose_of(input.commanded_tool);
     const std::uint8_t undone =
-        input.undo != 0 ? update_checkpoints(setup, state, hand, input.undo) : std::uint8_t{0};
+        input.undo != 0 ? update_checkpoints(setup, state, commanded_tool, input.undo) : std::uint8_t{0};
     const Grip grip = input.enabled ? input.grip : Grip::none;
     force::ForceRequest contact_request;
-    ToolPose tool = hand;
-    if (state.tool_contact && hand.valid) {
+    ToolPose constrained_tool = commanded_tool;
+    if (state.tool_contact && commanded_tool.valid) {
         const proxy::GodObjectState before = state.tool_contact->god_object;
         const bool in_hand = state.tool_contact->in_hand;
-        const Pose now{hand.position, hand.orientation};
-        contact_request = step_tool_contact(setup, *state.tool_contact, state.joints, now,
+        const Pose commanded_now{commanded_tool.position, commanded_tool.orientation};
+        contact_request = step_tool_contact(setup, *state.tool_contact, state.joints, commanded_now,
                                             grip == Grip::wrench, state.engagement.joint);
-        const Pose& tool_now = state.tool_contact->god_object.tool;
-        if (grip == Grip::wrench) tool = at_pose(tool_now);
+        const Pose& constrained_now = state.tool_contact->god_object.constrained_tool;
+        if (grip == Grip::wrench) constrained_tool = at_pose(constrained_now);
         if (in_hand && grip == Grip::wrench)
             contact_request.injected_energy +=
-                relative_work(state.guiding_command, before.device, now, before.tool, tool_now);
+                relative_work(state.guiding_command, before.commanded_tool, commanded_now,
+                              before.constrained_tool, constrained_now);
     }
     const int engaged_before = state.engagement.joint;
     const bool held_by_spring_before = engaged_before >= 0 && !held_by_contact(state);
     if (state.tool_contact && grip == Grip::wrench)
-        update_jaw_grip(setup, state.joints, state.rounded, tool, state.engagement);
+        update_jaw_engagement(setup, state.joints, state.rounded, constrained_tool, state.engagement);
     else
-        update_engagement(setup, state.joints, tool, grip, state.engagement);
+        update_pose_engagement(setup, state.joints, constrained_tool, grip, state.engagement);
 
     const int engaged = state.engagement.joint;
     update_setting(setup, state.engagement, input.setting);
@@ -207,22 +210,22 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
     output.undone = undone;
     force::ForceRequest request;
     // The guiding force fades out if a nut is engaged or the sample is not a pose.
-    const bool guides = engaged < 0 && tool.valid && input.enabled;
+    const bool guides = engaged < 0 && constrained_tool.valid && input.enabled;
     force::ForceRequest help =
-        force::guide(setup.guiding, state.guide, guided_tool(setup, tool),
+        force::guide(setup.guiding, state.guide, guided_tool(setup, constrained_tool),
                      goal_at(setup, state.joints, guides ? input.guide : -1), free, setup.dt);
     if (setup.limits.torque <= 0.0 && grip == Grip::wrench)
-        help.command = as_force_at_grip(setup, help.command, tool);
+        help.command = as_force_at_lever_end(setup, help.command, constrained_tool);
     state.guiding_command = help.command;
     if (held_by_spring_before && engaged != engaged_before) state.release_fade = {state.hold_target, 1.0};
-    if (!tool.valid || !input.enabled) state.release_fade.share = 0.0;
-    const force::ForceRequest released = release_request(setup, state.release_fade, tool);
+    if (!constrained_tool.valid || !input.enabled) state.release_fade.share = 0.0;
+    const force::ForceRequest released = release_request(setup, state.release_fade, constrained_tool);
     if (engaged >= 0) {
         const auto i = static_cast<std::size_t>(engaged);
         const joint::JointState& joint = state.joints[i];
         if (state.engagement.grip == Grip::fingers)
             clamp_finger_deflection(setup, state.engagement, joint.nut.angle);
-        request = hold_request(setup, state, tool, engaged_before == engaged);
+        request = hold_request(setup, state, constrained_tool, engaged_before == engaged);
         const bool slips = held_by_contact(state) &&
                            round_corners(setup, setup.nuts[i], joint, state.rounded[i], state.engagement);
         (slips ? output.slipped : output.joint) = static_cast<std::int16_t>(engaged);
@@ -232,7 +235,7 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
         output.nut_angle = joint.nut.angle;
         output.clamp = joint.clamp;
     }
-    if (tool.valid)
+    if (constrained_tool.valid)
         for (const force::ForceRequest& more : {help, contact_request, released}) {
             request.command.force += more.command.force;
             request.command.torque += more.command.torque;
@@ -240,23 +243,24 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
             request.injected_energy += more.injected_energy;
         }
     force::PortInput port;
-    // A device without torque output applies its force at the grip.
-    const double grip_offset = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
-    port.pose = {hand.position + grip_offset * hand.handle, hand.orientation};
-    port.valid = hand.valid;
+    // A device without torque output applies its force at the end of the handle.
+    const double lever_arm = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
+    port.pose = {commanded_tool.position + lever_arm * commanded_tool.handle, commanded_tool.orientation};
+    port.valid = commanded_tool.valid;
     port.enabled = input.enabled;
     port.fresh = input.fresh;
     port.missed = input.missed;
     port.stop = input.stop;
     port.reset = input.reset;
-    const force::OutputCommand limited = force::render(setup.limits, state.output, port, request, setup.dt);
-    output.tool = {tool.position, tool.orientation};
+    const force::OutputCommand limited =
+        force::render(setup.limits, state.output_stage, port, request, setup.dt);
+    output.constrained_tool = {constrained_tool.position, constrained_tool.orientation};
     output.contacts = state.tool_contact ? static_cast<std::uint16_t>(state.tool_contact->last_step.contacts)
                                          : std::uint16_t{0};
     output.touched = state.tool_contact ? state.tool_contact->touched : collision::ObstacleId();
     output.force = limited.force;
     output.torque = limited.torque;
-    output.fault = state.output.watchdog.fault;
+    output.fault = state.output_stage.watchdog.fault;
     ++state.tick;
     return output;
 }
@@ -278,7 +282,7 @@ force::GuideGoal goal_at(const Setup& setup, std::span<const joint::JointState> 
     goal.target.point = nut_centre(nut, angle);
     goal.target.axis = nut.axis;
     // The ball that the target's own nut and bolt end fill; its corners are 0.58 across_flats away.
-    goal.target.shell = 1.2 * std::max(nut.height, nut.across_flats);
+    goal.target.bounding_radius = 1.2 * std::max(nut.height, nut.across_flats);
     // Tightening a right-hand thread turns about −axis.
     goal.hexagon = {nut.axis, std::cos(angle) * nut.e1 - std::sin(angle) * nut.e2,
                     std::sin(angle) * nut.e1 + std::cos(angle) * nut.e2};

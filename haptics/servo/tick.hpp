@@ -1,7 +1,7 @@
 // The servo tick: a pure step of fixed dt. No clock, lock, allocation or I/O; the same inputs give the same
 // bits.
 //
-//   1 device pose → wrench pose, constrained by obstacles   tool_contact.hpp
+//   1 commanded pose → constrained pose of the tool         tool_contact.hpp
 //   2 engagement of a nut                                   engagement.hpp
 //   3 nut and joint: angle, stage, torque                   joint/group.hpp
 //   4 force of the nut on the hand, or the guiding force    force/guide.hpp
@@ -42,7 +42,7 @@ struct State {
     ReleaseFade release_fade;
     force::OutputCommand guiding_command;  // guiding force and torque of the last tick
     force::GuideState guide;
-    force::OutputStage output;
+    force::OutputStage output_stage;
     std::optional<ToolContact> tool_contact;              // none: no contact simulation
     std::array<Checkpoint, max_checkpoints> checkpoints;  // ring buffer
     std::uint32_t checkpoint_count = 0;  // saved since the beginning, less those that undo discarded

@@ -54,7 +54,8 @@ void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const 
         if (!contact.nut_bodies[i]) continue;
         collision::Body& body = contact.world.bodies[*contact.nut_bodies[i]];
         body.pose = place;
-        const bool on = !held || !only_jaw_in_reach(setup, setup.nuts[i], place, contact.god_object.tool);
+        const bool on =
+            !held || !only_jaw_in_reach(setup, setup.nuts[i], place, contact.god_object.constrained_tool);
         contact.cache.meshes_unchanged =
             contact.cache.meshes_unchanged && on == body.on && (unchanged || !on);
         body.on = on;
@@ -156,7 +157,7 @@ collision::ContactQueryResult find_contacts_cached(const Setup& setup, ToolConta
 // A jaw that no longer holds a nut is clear when it has no contact with the hexagon at its actual pose.
 bool jaw_is_clear(const ToolContact& contact, std::size_t i) {
     std::array<collision::Contact, collision::max_jaw_contacts> contacts;
-    return collision::jaw_contacts(contact.jaw, contact.hexagons[i], contact.god_object.tool,
+    return collision::jaw_contacts(contact.jaw, contact.hexagons[i], contact.god_object.constrained_tool,
                                    contact.nut_poses[i], 0.0, {}, contacts) == 0;
 }
 
@@ -218,8 +219,8 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
 }
 
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
-                                      std::span<const joint::JointState> joints, const Pose& hand, bool held,
-                                      int joint_in_jaw) {
+                                      std::span<const joint::JointState> joints, const Pose& commanded_tool,
+                                      bool held, int joint_in_jaw) {
     update_nut_poses(setup, contact, joints, held);
     const int seated_before = contact.seated_joint;
     if (joint_in_jaw >= 0)
@@ -229,7 +230,7 @@ force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
         contact.seated_joint = -1;
     contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && contact.seated_joint == seated_before;
     if (!held || !contact.in_hand) {
-        contact.god_object = proxy::start_god_object(hand);
+        contact.god_object = proxy::start_god_object(commanded_tool);
         contact.last_step = {};
         contact.touched = {};
         contact.in_hand = held;
@@ -241,7 +242,7 @@ force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
         return found;
     };
     contact.last_step =
-        proxy::step_god_object(contact.parameters, contact.god_object, hand, finder, setup.dt);
+        proxy::step_god_object(contact.parameters, contact.god_object, commanded_tool, finder, setup.dt);
     force::ForceRequest request;
     request.command = contact.god_object.felt;
     request.stored_energy = proxy::stored_energy(contact.parameters.coupling, contact.god_object.offset);

@@ -1,6 +1,6 @@
 // Contact of the wrench with its surroundings: housing, bolts and nuts. Nuts turn and descend with their
 // joints. The god-object (haptics/proxy/god_object.hpp) limits the wrench to poses without penetration; the
-// hand feels the coupling between the device's pose and the wrench's.
+// hand feels the coupling between the commanded and the constrained pose.
 //
 // Contact between jaw and nut is closed form (haptics/collision/jaw.hpp), from the first contact until the
 // jaw is clear of the nut. Any other part of the wrench meets the nut's mesh; all other obstacles meet the
@@ -60,13 +60,13 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
 // Derives the coupling from the device's limits and the tick's dt. Call it again when either changes.
 void set_coupling(const Setup& setup, ToolContact& contact);
 
-// One tick: places the nuts by their joints' angles and moves the wrench towards `hand` as far as contacts
-// allow. `joint_in_jaw` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with the jaw, so
-// that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false the wrench follows
-// the hand and the returned request is zero.
+// One tick: places the nuts by their joints' angles and moves the wrench towards `commanded_tool` as far as
+// contacts allow. `joint_in_jaw` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with
+// the jaw, so that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false the
+// wrench follows the hand and the returned request is zero.
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
-                                      std::span<const joint::JointState> joints, const Pose& hand, bool held,
-                                      int joint_in_jaw);
+                                      std::span<const joint::JointState> joints, const Pose& commanded_tool,
+                                      bool held, int joint_in_jaw);
 
 // Returns true if an obstacle other than `joint`'s nut crosses the segment. `joint` −1 excludes no nut.
 bool occluded(const ToolContact& contact, const Vec3& from, const Vec3& to, int joint);

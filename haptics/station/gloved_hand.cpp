@@ -15,7 +15,7 @@ hand::GraspEvent update_hand(const HandSetup& setup, HandState& state, const han
         state.number = sample.number;
         hand::update(state.gloved, setup.wearer, sample.frame, sample.time);
     }
-    const Pose wrist = inverse(tool.actual) * tool.commanded * setup.wrist;
+    const Pose wrist = inverse(tool.constrained_tool) * tool.commanded_tool * setup.wrist;
     return hand::update_grasp(state.grasp, setup.grasp, setup.tool, setup.wearer.hand,
                               {fresh, state.gloved.angles, wrist}, dt);
 }
@@ -33,7 +33,7 @@ DisplayedHand display(const HandSetup& setup, const HandState& state) {
 std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const hand::GloveReport& report) {
     std::vector<std::string> messages;
     if (hand.lost) messages.emplace_back(hand::message_for(hand::GraspEvent::glove_lost, hand.held));
-    if (report.trouble[0] != '\0') messages.emplace_back(report.trouble.data());
+    if (report.fault_message[0] != '\0') messages.emplace_back(report.fault_message.data());
     if (report.handshakes > 0 && report.identity.hand != worn)
         messages.emplace_back(
             worn == hand::Side::left
@@ -47,7 +47,7 @@ namespace {
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr auto poll_period = std::chrono::milliseconds(2);  // adds at most this delay to a sample
-constexpr double longest_step = 0.02;  // s without a sample after which the hand is updated all the same
+constexpr double max_step_time = 0.02;  // s; without a sample the hand is updated after this time
 
 double seconds_since(SteadyClock::time_point then) {
     return std::chrono::duration<double>(SteadyClock::now() - then).count();
@@ -70,7 +70,7 @@ struct HandThread::Shared {
         for (auto last = SteadyClock::now(); !stop.stop_requested();) {
             const hand::GloveSample& sample = driver.sample();
             const double dt = seconds_since(last);
-            if (sample.number == state.number && dt < longest_step) {
+            if (sample.number == state.number && dt < max_step_time) {
                 std::this_thread::sleep_for(poll_period);
                 continue;
             }
@@ -112,7 +112,7 @@ const DisplayedHand& HandThread::displayed() {
 
 const hand::GloveReport& HandThread::report() { return shared_->driver.report(); }
 
-std::vector<std::string> HandThread::troubles() {
+std::vector<std::string> HandThread::fault_messages() {
     HandStatus status;
     status.lost = shared_->lost.load(std::memory_order_acquire);
     status.held = shared_->held.load(std::memory_order_relaxed);

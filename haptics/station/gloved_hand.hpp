@@ -24,8 +24,8 @@ struct HandSetup {
 
 // In the assembly's frame.
 struct ToolPoses {
-    Pose commanded;  // by the mover
-    Pose actual;     // constrained by obstacles
+    Pose commanded_tool;    // from the device that moves the tool
+    Pose constrained_tool;  // that contacts permit
 };
 
 struct HandState {
@@ -44,7 +44,7 @@ constexpr servo::Grip grip_of(const HandState& state) {
     return state.grasp.held ? servo::Grip::wrench : servo::Grip::none;
 }
 
-// For display, in the frame of the tool: combine it with servo::Output::tool of any tick.
+// For display, in the frame of the tool: combine it with servo::Output::constrained_tool of any tick.
 struct DisplayedHand {
     hand::Skeleton joints;
     hand::Side side = hand::Side::right;
@@ -56,7 +56,7 @@ DisplayedHand display(const HandSetup& setup, const HandState& state);
 struct HandStatus {
     bool held = false, lost = false;
 };
-// Messages on problems of the glove, its connection or its wearer. `worn` is the side that is
+// Messages on faults of the glove, its connection or its wearer. `worn` is the side that is
 // calibrated.
 std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const hand::GloveReport& report);
 
@@ -77,8 +77,8 @@ class HandThread {
 
     // For one calling thread each.
     const DisplayedHand& displayed();
-    std::vector<std::string> troubles();
-    const hand::GloveReport& report();  // for the thread that calls troubles()
+    std::vector<std::string> fault_messages();
+    const hand::GloveReport& report();  // for the thread that calls fault_messages()
 
   private:
     struct Shared;

@@ -57,8 +57,8 @@ struct Station::Shared {
         count(stats.wheel, station.wheel, output.wheel);
         link_stats.write(stats);
         if (hand)
-            hand->set_tool({held_tool_pose(layout, setup, station, inputs.controls),
-                            station.wrench_rest.value_or(station.output.tool)});
+            hand->set_tool({tool_commanded_by_glove(layout, setup, station, inputs.controls),
+                            station.resting_wrench.value_or(station.output.constrained_tool)});
         latest_tick.write(done.tick);
         if (!done.paused && !ticks.push(done.tick)) lost_ticks.fetch_add(1, std::memory_order_relaxed);
         return true;
@@ -85,11 +85,11 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
 // With the power 1/scale a force on the tool is as large on the hand.
 force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& options) {
     force::WorkspaceMap map;
-    map.turn = glm::normalize(options.workspace.turn);
+    map.rotation = glm::normalize(options.workspace.rotation);
     if (!layout.mover || layout.mover->sensing != device::Sensing::pose) return map;
-    const Vec3 reach = force::turned_reach(map.turn, layout.mover->reach);
+    const Vec3 reach = force::rotated_reach(map.rotation, layout.mover->reach);
     map.scale = options.workspace.scale.value_or(force::fitted_scale(reach, options.handle_length));
-    map.power = options.workspace.power.value_or(1.0 / map.scale);
+    map.power_ratio = options.workspace.power_ratio.value_or(1.0 / map.scale);
     return map;
 }
 
@@ -106,7 +106,7 @@ Result<Layout> make_layout(const StationOptions& options, std::optional<device::
     layout.home = options.home;
     BOLT_TRY(check(layout));
     layout.workspace = make_workspace(layout, options);
-    layout.grip_distance = grip_distance_of(layout, options.handle_length);
+    layout.lever_arm = lever_arm_of(layout, options.handle_length);
     return layout;
 }
 
@@ -162,12 +162,12 @@ const StationTick& Station::latest_tick() {
 bool Station::next_tick(StationTick& tick) { return shared_->ticks.pop(tick); }
 std::uint64_t Station::lost_ticks() const { return shared_->lost_ticks.load(std::memory_order_relaxed); }
 
-std::vector<std::string> Station::troubles() {
+std::vector<std::string> Station::fault_messages() {
     std::vector<std::string> messages;
     for (auto* thread : {&shared_->mover, &shared_->wheel}) {
         if (!thread->has_value()) continue;
         const device::DeviceReport& report = (*thread)->report();
-        if (!report.trouble.empty()) messages.push_back(report.trouble);
+        if (!report.fault_message.empty()) messages.push_back(report.fault_message);
         if (report.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
             messages.push_back(report.description->name + " hangs: unplug it and plug it in again");
     }
@@ -177,10 +177,10 @@ std::vector<std::string> Station::troubles() {
     if (tick.input.enabled && fault != force::Fault::none &&
         (fault != force::Fault::silent || messages.empty()))
         messages.emplace_back(force::name(fault));
-    if (shared_->glove && shared_->glove->report().trouble[0] != '\0')
-        messages.emplace_back(shared_->glove->report().trouble.data());
+    if (shared_->glove && shared_->glove->report().fault_message[0] != '\0')
+        messages.emplace_back(shared_->glove->report().fault_message.data());
     if (shared_->hand)
-        for (std::string& trouble : shared_->hand->troubles()) messages.push_back(std::move(trouble));
+        for (std::string& message : shared_->hand->fault_messages()) messages.push_back(std::move(message));
     return messages;
 }
 

@@ -38,9 +38,9 @@ struct StationLinkStats {
 struct WorkspaceOptions {
     // Unit, from the device's frame to the user's: not the identity if the device is mounted at another angle
     // than its maker intends.
-    Quat turn{1.0, 0.0, 0.0, 0.0};
-    std::optional<double> scale;  // none: fitted to the mover's reach
-    std::optional<double> power;  // none: 1/scale, so that forces keep their magnitude
+    Quat rotation{1.0, 0.0, 0.0, 0.0};
+    std::optional<double> scale;        // none: fitted to the mover's reach
+    std::optional<double> power_ratio;  // none: 1/scale, so that forces keep their magnitude
 };
 
 struct StationOptions {
@@ -63,7 +63,7 @@ struct StationOptions {
     std::function<Result<servo::State>(const servo::Setup& setup)> state;  // empty: servo::initial_state
 };
 
-// The layout of these devices: workspace and grip distance from the options, or fitted to the devices. The
+// The layout of these devices: workspace and lever arm from the options, or fitted to the devices. The
 // mover's limits are lowered here, before anything uses them. Fails as check().
 Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
                            std::optional<device::Description> wheel);
@@ -78,7 +78,7 @@ class Station {
     Station& operator=(Station&&) noexcept;
     ~Station();  // stops; the devices are left at zero force
 
-    // Each of the following is for one calling thread; latest_tick() and troubles() for the same one.
+    // Each of the following is for one calling thread; latest_tick() and fault_messages() for the same one.
     void set_controls(const StationControls& controls);
     // Queues a command for the next tick. Fails if the queue is full, which means that the servo thread does
     // not run; the command is then not queued.
@@ -90,11 +90,11 @@ class Station {
     // The gloved hand for display; null: none. For one calling thread.
     const DisplayedHand* hand();
 
-    // Messages on present problems of mover, wheel, output and glove, in this order, at most 0.1 s old.
-    std::vector<std::string> troubles();
+    // Messages on present faults of mover, wheel, output and glove, in this order, at most 0.1 s old.
+    std::vector<std::string> fault_messages();
 
     // Reports of the devices and the glove, null if absent, and the link statistics of the latest tick. For
-    // the thread that calls troubles().
+    // the thread that calls fault_messages().
     const device::DeviceReport* mover_report();
     const device::DeviceReport* wheel_report();
     const hand::GloveReport* glove_report();

@@ -23,11 +23,11 @@ bool renders_torque(const Description& d) {
 Status check(const Layout& layout) {
     if (!layout.mover && !layout.wheel)
         return fail(ErrorCode::no_device, "station: no device is selected", "a device that moves the tool");
-    if (layout.mover && layout.mover->sensing == Sensing::turn)
+    if (layout.mover && layout.mover->sensing == Sensing::angle)
         return fail(ErrorCode::no_device,
                     "station: " + layout.mover->name + " turns about one axis and cannot move the tool",
                     "that device as the wheel, and another device or the mouse as the mover");
-    if (layout.wheel && layout.wheel->sensing != Sensing::turn)
+    if (layout.wheel && layout.wheel->sensing != Sensing::angle)
         return fail(ErrorCode::no_device, "station: " + layout.wheel->name + " is not a wheel",
                     "a device that turns about one axis; this one can be the mover");
     return {};
@@ -37,18 +37,18 @@ namespace {
 
 // A larger change of force in a millisecond is felt as a blow. Contacts are designed for it up to 0.5 m/s
 // (haptics/proxy/coupling), but a hand that reaches without looking hits the casing at 0.8 m/s.
-constexpr double largest_force_step = 0.1;  // share of the greatest force, per millisecond
-constexpr double millisecond = 1e-3;        // s
+constexpr double max_force_step = 0.1;  // share of the greatest force, per millisecond
+constexpr double millisecond = 1e-3;    // s
 
 force::OutputLimits limited_steps(force::OutputLimits limits) {
-    limits.force_rate = std::min(limits.force_rate, largest_force_step * limits.force / millisecond);
-    limits.torque_rate = std::min(limits.torque_rate, largest_force_step * limits.torque / millisecond);
+    limits.force_rate = std::min(limits.force_rate, max_force_step * limits.force / millisecond);
+    limits.torque_rate = std::min(limits.torque_rate, max_force_step * limits.torque / millisecond);
     return limits;
 }
 
 }  // namespace
 
-double grip_distance_of(const Layout& layout, double handle_length) {
+double lever_arm_of(const Layout& layout, double handle_length) {
     const bool pose = layout.mover && layout.mover->sensing == Sensing::pose;
     return pose && limits_of(layout).torque <= 0.0 ? handle_length : 0.0;
 }
@@ -84,11 +84,11 @@ using device::DeviceSnapshot;
 constexpr double servo_stall = 0.010;
 // Chosen for a tool that approaches a nut by itself: 12 cm/s from 8 cm on, slower than a user who pushes it
 // away.
-constexpr force::GuidingParameters approach_guiding{.gain = 0.25, .greatest = 3.0, .torque = 0.2};
-constexpr double approach_speed = 0.04;      // m/s per N of the guiding law
-constexpr double approach_turn_speed = 3.0;  // rad/s per N·m; slower than a user who turns the tool
-constexpr double largest_deflection = to_radians(2.5);  // of the wrench, at the largest torque
-constexpr double wheel_fade_time = 0.05;                // s in which a wheel's torque fades in and out
+constexpr force::GuidingParameters approach_guiding{.gain = 0.25, .max_force = 3.0, .max_torque = 0.2};
+constexpr double approach_speed = 0.04;             // m/s per N of the guiding law
+constexpr double approach_angular_speed = 3.0;      // rad/s per N·m; slower than a user who turns the tool
+constexpr double max_deflection = to_radians(2.5);  // of the wrench, at the largest torque
+constexpr double wheel_fade_time = 0.05;            // s in which a wheel's torque fades in and out
 
 bool renders(const Description& d) { return renders_force(d) || renders_torque(d); }
 
@@ -99,11 +99,12 @@ void update_link(const Description& d, DeviceLink& link, const DeviceSnapshot& s
     link.silence = link.fresh ? 0.0 : link.silence + elapsed;
     if (link.fresh) link.number = snapshot.number;
     const force::OutputLimits& limits = d.limits;
-    if (!link.usable || link.silence > limits.silence) {
+    if (!link.usable || link.silence > limits.max_silence) {
         // As in the watchdog, the force is zero `release` after the last sample.
         const double release = limits.release - transport_delay;
-        const double most = std::max(0.0, (release - link.silence - elapsed) / (release - limits.silence));
-        link.force_share = link.usable ? std::min(link.force_share, most) : 0.0;
+        const double max_share =
+            std::max(0.0, (release - link.silence - elapsed) / (release - limits.max_silence));
+        link.force_share = link.usable ? std::min(link.force_share, max_share) : 0.0;
     } else {
         link.force_share = std::min(1.0, link.force_share + elapsed / limits.ramp_up);
     }
@@ -120,25 +121,26 @@ bool has_current_data(const Description& d, const DeviceLink& link) {
 double angular_velocity_factor(const servo::Setup& setup, const StationState& s) {
     if (s.output.joint < 0) return 1.0;
     if (s.input.grip == servo::Grip::fingers) return finger_velocity_factor;
-    const double greatest = setup.wrench.stiffness * largest_deflection;
-    return 1.0 / (1.0 + torque_slowdown * std::abs(s.output.wrench_torque) / greatest);
+    const double max_torque = setup.wrench.stiffness * max_deflection;
+    return 1.0 / (1.0 + torque_slowdown * std::abs(s.output.wrench_torque) / max_torque);
 }
 
 // Integrates the velocity that the device senses into the tool's pose, at most the permitted lead ahead of
 // the constrained pose.
 void integrate_velocity(const Layout& layout, const servo::Setup& setup, StationState& s,
                         const device::Sample& sample, const Quat& view, double dt) {
-    const Quat turn = view * layout.workspace.turn;
-    Pose& tool = s.workspace.tool;
-    tool.position += turn * sample.velocity * dt;
-    const Vec3 turned_on = angular_velocity_factor(setup, s) * (turn * sample.angular_velocity) * dt;
+    const Quat to_assembly = view * layout.workspace.rotation;
+    Pose& tool = s.workspace.commanded_tool;
+    tool.position += to_assembly * sample.velocity * dt;
+    const Vec3 turned_on = angular_velocity_factor(setup, s) * (to_assembly * sample.angular_velocity) * dt;
     tool.orientation = glm::normalize(rotation(turned_on) * tool.orientation);
-    const Pose& held_back = s.output.tool;
-    tool.position = held_back.position + force::clamp_length(tool.position - held_back.position, max_lead);
-    const Vec3 turned = turn_between(held_back.orientation, tool.orientation);
+    const Pose& constrained_tool = s.output.constrained_tool;
+    tool.position =
+        constrained_tool.position + force::clamp_length(tool.position - constrained_tool.position, max_lead);
+    const Vec3 turned = turn_between(constrained_tool.orientation, tool.orientation);
     if (glm::length(turned) > max_angular_lead)
-        tool.orientation =
-            glm::normalize(rotation(force::clamp_length(turned, max_angular_lead)) * held_back.orientation);
+        tool.orientation = glm::normalize(rotation(force::clamp_length(turned, max_angular_lead)) *
+                                          constrained_tool.orientation);
 }
 
 bool on_bolt(const StationState& s) { return s.output.joint >= 0; }
@@ -150,11 +152,11 @@ Quat heading_of(const Quat& view) {
 }
 
 // Changes what the tool's motion follows, without moving the tool.
-void set_heading_and_grip(const Layout& layout, StationState& s, const Quat& heading, double grip_distance) {
-    if (heading == s.workspace.heading && grip_distance == s.workspace.grip_distance) return;
+void set_heading_and_lever_arm(const Layout& layout, StationState& s, const Quat& heading, double lever_arm) {
+    if (heading == s.workspace.heading && lever_arm == s.workspace.lever_arm) return;
     s.workspace.heading = heading;
-    s.workspace.grip_distance = grip_distance;
-    force::realign(layout.workspace, s.workspace, s.hand, s.workspace.tool);
+    s.workspace.lever_arm = lever_arm;
+    force::realign(layout.workspace, s.workspace, s.mover_pose, s.workspace.commanded_tool);
 }
 
 // Returns true if a hand cannot have moved from one sample to the next: the position is measured anew, or one
@@ -167,34 +169,34 @@ bool has_jumped(const Description& mover, const Pose& before, const Pose& now) {
                limits.angular_jump + limits.angular_speed * between;
 }
 
-void move(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
-          const Quat& view, bool clutch, double dt) {
+void move_by_mover(const Layout& layout, const servo::Setup& setup, StationState& s,
+                   const DeviceSnapshot& snapshot, const Quat& view, bool clutch, double dt) {
     if (layout.mover->sensing == Sensing::velocity) {
         if (s.mover.usable && s.mover.silence < velocity_timeout && !clutch)
             integrate_velocity(layout, setup, s, snapshot.sample, view, dt);
         return;
     }
     if (s.mover.fresh) {
-        const bool jumped = has_jumped(*layout.mover, s.hand, snapshot.sample.pose);
-        s.hand = snapshot.sample.pose;
+        const bool jumped = has_jumped(*layout.mover, s.mover_pose, snapshot.sample.pose);
+        s.mover_pose = snapshot.sample.pose;
         // The tool stays where it is and follows from there.
         if (snapshot.opening != s.mover.opening || jumped) {
-            force::realign(layout.workspace, s.workspace, s.hand, s.workspace.tool);
+            force::realign(layout.workspace, s.workspace, s.mover_pose, s.workspace.commanded_tool);
             s.workspace.share = s.mover.force_share = 0.0;
         }
         s.mover.opening = snapshot.opening;
     }
     if (s.mover.number == 0) return;
     const bool away = clutch || !s.mover.usable;
-    set_heading_and_grip(layout, s, heading_of(view), s.workspace.grip_distance);
-    const Pose last = s.workspace.tool;
-    force::to_assembly(layout.workspace, s.workspace, s.hand, away, dt);
+    set_heading_and_lever_arm(layout, s, heading_of(view), s.workspace.lever_arm);
+    const Pose last = s.workspace.commanded_tool;
+    force::to_assembly(layout.workspace, s.workspace, s.mover_pose, away, dt);
     if (!away) pivot_about_bolt(layout, setup, s, last, dt);
 }
 
 // Moves the tool; it follows the hand from there.
 void place_tool(const Layout& layout, StationState& s, const Pose& tool) {
-    force::realign(layout.workspace, s.workspace, s.hand, tool);
+    force::realign(layout.workspace, s.workspace, s.mover_pose, tool);
 }
 
 // +1 if the wheel's angle counts counter-clockwise as the user sees it, −1 otherwise. The user looks at the
@@ -203,38 +205,39 @@ double rotation_sense(const Description& wheel) {
     return glm::dot(wheel.axis, Vec3(0.0, 1.0, 1.0)) < 0.0 ? -1.0 : 1.0;
 }
 
-void turn(const Layout& layout, const servo::Setup& setup, StationState& s, const DeviceSnapshot& snapshot,
-          bool clutch) {
+void turn_by_wheel(const Layout& layout, const servo::Setup& setup, StationState& s,
+                   const DeviceSnapshot& snapshot, bool clutch) {
     if (!s.wheel.fresh) return;
-    const double by = snapshot.opening == s.wheel.opening ? snapshot.sample.turn - s.wheel_angle : 0.0;
+    const double by = snapshot.opening == s.wheel.opening ? snapshot.sample.angle - s.wheel_angle : 0.0;
     s.wheel.opening = snapshot.opening;
-    s.wheel_angle = snapshot.sample.turn;
+    s.wheel_angle = snapshot.sample.angle;
     if (!on_bolt(s) || clutch || by == 0.0 || !std::isfinite(by)) return;
     const servo::NutGeometry& nut = setup.nuts[static_cast<std::size_t>(s.output.joint)];
     const Vec3 centre = servo::nut_centre(nut, s.output.nut_angle);
     const Quat turned = glm::angleAxis(rotation_sense(*layout.wheel) * by, nut.axis);
-    Pose tool = s.workspace.tool;
+    Pose tool = s.workspace.commanded_tool;
     tool.position = centre + turned * (tool.position - centre);
     tool.orientation = glm::normalize(turned * tool.orientation);
     place_tool(layout, s, tool);
 }
 
 // A wrench that is taken starts at its rest pose. A wrench released on a nut stays there; released elsewhere
-// it returns to StationControls::wrench_rest.
-void update_wrench_rest(const Layout& layout, StationState& s, servo::Grip grip,
-                        const StationControls& controls) {
-    const std::optional<Pose>& rest = controls.wrench_rest;
+// it returns to StationControls::wrench_rest_pose.
+void update_resting_wrench(const Layout& layout, StationState& s, servo::Grip grip,
+                           const StationControls& controls) {
+    const std::optional<Pose>& rest = controls.wrench_rest_pose;
     if (!rest) return;
     const bool had = s.input.grip == servo::Grip::wrench, has = grip == servo::Grip::wrench;
-    if (has && !had && s.wrench_rest) {
-        place_tool(layout, s, *s.wrench_rest);
+    if (has && !had && s.resting_wrench) {
+        place_tool(layout, s, *s.resting_wrench);
         s.workspace.share = 0.0;
     }
-    if (has) s.wrench_rest.reset();
+    if (has) s.resting_wrench.reset();
     // The hand stays in place; from now on the device moves its fingertips.
     if (had && !has && layout.wrist && controls.bare_wrist)
-        place_tool(layout, s, s.workspace.tool * *layout.wrist * inverse(*controls.bare_wrist));
-    if (!has && !s.wrench_rest) s.wrench_rest = had && s.output.joint >= 0 ? s.output.tool : *rest;
+        place_tool(layout, s, s.workspace.commanded_tool * *layout.wrist * inverse(*controls.bare_wrist));
+    if (!has && !s.resting_wrench)
+        s.resting_wrench = had && s.output.joint >= 0 ? s.output.constrained_tool : *rest;
 }
 
 void update_gripper(Gripper& gripper, double opening) {
@@ -308,7 +311,7 @@ force::OutputCommand part(const force::OutputCommand& whole, double share) {
 StationState initial_state(const Layout& layout) {
     StationState state;
     state.workspace = force::align_workspace(layout.workspace, {}, layout.home);
-    state.output.tool = layout.home;
+    state.output.constrained_tool = layout.home;
     return state;
 }
 
@@ -317,20 +320,20 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
     const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
     const StationControls controls = merge_buttons(layout, s, inputs, elapsed);
     receive(s, inputs.commands);
-    if (layout.mover) move(layout, setup, s, inputs.mover, controls.view, controls.clutch, elapsed);
-    if (layout.wheel) turn(layout, setup, s, inputs.wheel, controls.clutch);
+    if (layout.mover) move_by_mover(layout, setup, s, inputs.mover, controls.view, controls.clutch, elapsed);
+    if (layout.wheel) turn_by_wheel(layout, setup, s, inputs.wheel, controls.clutch);
     if (s.tool_to_place) {
         place_tool(layout, s, *s.tool_to_place);
         s.tool_to_place.reset();
         s.workspace.share = 0.0;
     }
     const servo::Grip grip = grip_of(inputs);
-    set_heading_and_grip(layout, s, s.workspace.heading,
-                         grip == servo::Grip::wrench ? layout.grip_distance : 0.0);
-    update_wrench_rest(layout, s, grip, controls);
+    set_heading_and_lever_arm(layout, s, s.workspace.heading,
+                              grip == servo::Grip::wrench ? layout.lever_arm : 0.0);
+    update_resting_wrench(layout, s, grip, controls);
 
     servo::Input input;
-    input.device = servo::commanded_tool(s.workspace.tool);
+    input.commanded_tool = servo::to_commanded_tool(s.workspace.commanded_tool);
     input.grip = grip;
     input.undo = next_undo(s);
     input.setting = controls.click_setting;
@@ -355,7 +358,7 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
 void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
                  const StationInputs& inputs, servo::Input& input) {
     if (!layout.mover || layout.mover->sensing != Sensing::velocity || renders_force(*layout.mover)) return;
-    Pose& tool = s.workspace.tool;
+    Pose& tool = s.workspace.commanded_tool;
     const int held = s.output.joint;
     const int joint = held < 0 && s.mover.usable && input.enabled ? inputs.controls.approach_joint : -1;
     // A held nut carries the tool along as it descends.
@@ -366,7 +369,7 @@ void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& 
         s.carrying_point = at;
     }
     s.carrying_joint = held;
-    const servo::ToolPose now = servo::at_pose(s.workspace.tool);
+    const servo::ToolPose now = servo::at_pose(s.workspace.commanded_tool);
     const auto free = [&](const Vec3& from, const Vec3& to) {
         return !servo.tool_contact || !servo::occluded(*servo.tool_contact, from, to, joint);
     };
@@ -376,8 +379,8 @@ void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& 
             .command;
     tool.position += approach_speed * setup.dt * guiding.force;
     tool.orientation =
-        glm::normalize(rotation(approach_turn_speed * setup.dt * guiding.torque) * tool.orientation);
-    input.device = servo::commanded_tool(tool);
+        glm::normalize(rotation(approach_angular_speed * setup.dt * guiding.torque) * tool.orientation);
+    input.commanded_tool = servo::to_commanded_tool(tool);
     s.input = input;
 }
 
@@ -412,15 +415,16 @@ DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationStat
     return map_output(layout, setup, state, servo::tick(setup, servo, input));
 }
 
-Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const StationState& s,
-                    const StationControls& controls) {
-    const bool bare = s.wrench_rest && layout.wrist && controls.bare_wrist;
+Pose tool_commanded_by_glove(const Layout& layout, const servo::Setup& setup, const StationState& s,
+                             const StationControls& controls) {
+    const bool bare = s.resting_wrench && layout.wrist && controls.bare_wrist;
     if (bare) {
-        const Vec3 tip = inverse(*s.wrench_rest) * s.workspace.tool.position;
+        const Vec3 tip = inverse(*s.resting_wrench) * s.workspace.commanded_tool.position;
         const Vec3 nearest(std::clamp(tip.x, 0.0, setup.wrench.handle_length), 0.0, 0.0);
-        if (glm::distance(tip, nearest) < handle_capture_distance) return *s.wrench_rest;
+        if (glm::distance(tip, nearest) < handle_capture_distance) return *s.resting_wrench;
     }
-    return bare ? s.workspace.tool * *controls.bare_wrist * inverse(*layout.wrist) : s.workspace.tool;
+    return bare ? s.workspace.commanded_tool * *controls.bare_wrist * inverse(*layout.wrist)
+                : s.workspace.commanded_tool;
 }
 
 DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, StationState& s,
@@ -428,9 +432,9 @@ DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, Stati
     const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
     receive(s, inputs.commands);
     s.stopped_in_pause = merge_buttons(layout, s, inputs, elapsed).stop;
-    if (layout.mover) move(layout, setup, s, inputs.mover, inputs.controls.view, true, elapsed);
+    if (layout.mover) move_by_mover(layout, setup, s, inputs.mover, inputs.controls.view, true, elapsed);
     if (layout.wheel) {
-        if (s.wheel.fresh) s.wheel_angle = inputs.wheel.sample.turn;
+        if (s.wheel.fresh) s.wheel_angle = inputs.wheel.sample.angle;
         s.wheel.opening = inputs.wheel.opening;
     }
     s.restarting = true;
@@ -444,7 +448,9 @@ StationStep step(const Layout& layout, const servo::Setup& setup, StationState& 
     done.paused = inputs.controls.pause;
     done.commands =
         done.paused ? pause_tick(layout, setup, s, inputs) : tick(layout, setup, s, servo, inputs);
-    done.tick = {number, s.input, s.output, s.workspace.tool, s.wrench_rest, s.dead_man_pressed, s.gripper};
+    done.tick = {
+        number,   s.input, s.output, s.workspace.commanded_tool, s.resting_wrench, s.dead_man_pressed,
+        s.gripper};
     return done;
 }
 

@@ -30,15 +30,14 @@ struct Buttons {
 struct Layout {
     std::optional<device::Description> mover;  // moves the tool: Sensing::pose or velocity
     Buttons mover_buttons;
-    // Turns the wrench on its bolt and renders the torque: Sensing::turn. With a wheel the mover renders
+    // Turns the wrench on its bolt and renders the torque: Sensing::angle. With a wheel the mover renders
     // forces only.
     std::optional<device::Description> wheel;
     Buttons wheel_buttons;
-    force::WorkspaceMap workspace;  // of the mover; for a device that senses velocity only `turn` applies
+    force::WorkspaceMap workspace;  // of the mover; for a device that senses velocity only `rotation` applies
     Pose home;                      // initial pose of the tool in the assembly's frame
-    // m from the wrench's jaw to the point of its handle that the mover's handle stands for
-    // (grip_distance_of()).
-    double grip_distance = 0.0;
+    // m from the wrench's jaw to the point of the wrench that follows the mover (lever_arm_of()).
+    double lever_arm = 0.0;
     std::optional<Pose> wrist;  // of a gloved hand that holds the tool, in the tool's frame
 };
 
@@ -50,9 +49,9 @@ Status check(const Layout& layout);
 inline constexpr double transport_delay = 2e-3;
 
 // The length of the wrench, `handle_length` m, if the mover senses the pose of the hand and no device renders
-// torque: its force then acts at the end of the wrench. Otherwise 0: the mover's handle stands for the jaw,
-// and turns about the bolt.
-double grip_distance_of(const Layout& layout, double handle_length);
+// torque: its force then acts at the end of the wrench. Otherwise 0: the jaw follows the
+// mover, which turns the wrench about the bolt.
+double lever_arm_of(const Layout& layout, double handle_length);
 
 // The combined limits of the devices in the assembly's units, for servo::SetupDescription::limits.
 force::OutputLimits limits_of(const Layout& layout);
@@ -79,7 +78,7 @@ struct StationControls {
     bool pause = false;  // no servo tick and no force; the tool stands still while the hand may move
     // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open
     // hand.
-    std::optional<Pose> wrench_rest{};
+    std::optional<Pose> wrench_rest_pose{};
     // Pose of the wrist relative to the fingertips of the same hand, used while a gloved hand holds no
     // wrench. If set, the pose that the device commands is that of the fingertips. If none, it is that of the
     // tool that the hand would hold.
@@ -144,15 +143,15 @@ struct DeviceLink {
 
 struct StationState {
     DeviceLink mover, wheel;
-    force::WorkspaceState workspace;  // `tool` is the pose commanded by the hand
-    Pose hand;                        // last pose of the mover, in its frame
-    Gripper gripper;                  // last sample of the mover's
-    double wheel_angle = 0.0;         // rad, last sample of the wheel
-    Vec3 bolt_axis{0.0, 1.0, 0.0};    // unit, of the bolt that the wheel turns or turned last
-    double wheel_fade = 0.0;          // 0 … 1, share of the bolt's torque that the wheel renders
-    bool restarting = false;          // after a stall or a pause: no force until the output stage is at zero
-    // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest.
-    std::optional<Pose> wrench_rest;
+    force::WorkspaceState workspace;
+    Pose mover_pose;                // last one, in the mover's frame
+    Gripper gripper;                // of the mover, last sample
+    double wheel_angle = 0.0;       // rad, last sample of the wheel
+    Vec3 bolt_axis{0.0, 1.0, 0.0};  // unit, of the bolt that the wheel turns or turned last
+    double wheel_fade = 0.0;        // 0 … 1, share of the bolt's torque that the wheel renders
+    bool restarting = false;        // after a stall or a pause: no force until the output stage is at zero
+    // Pose of the wrench while no hand holds it; needs StationControls::wrench_rest_pose.
+    std::optional<Pose> resting_wrench;
     int pivot_joint = -1;  // joint whose bolt the wrench pivots about; −1: none
     force::GuideState approach_guide;
     int carrying_joint = -1;   // joint whose nut moves the tool along (see move_to_nut()); −1: none
@@ -189,11 +188,11 @@ void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& 
 DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const servo::Output& output);
 
-// The tool pose that a gloved hand commands, or would command if it held the tool (ToolPoses::commanded). A
-// bare hand within handle_capture_distance of the wrench snaps to its handle: without touch nobody can place
-// fingers around it to the millimetre.
-Pose held_tool_pose(const Layout& layout, const servo::Setup& setup, const StationState& state,
-                    const StationControls& controls);
+// The tool pose that a gloved hand commands, or would command if it held the tool
+// (ToolPoses::commanded_tool). A bare hand within handle_capture_distance of the wrench snaps to its handle:
+// without touch nobody can place fingers around it to the millimetre.
+Pose tool_commanded_by_glove(const Layout& layout, const servo::Setup& setup, const StationState& state,
+                             const StationControls& controls);
 inline constexpr double handle_capture_distance = 0.10;  // m from the handle's centre line to the fingertips
 
 // Replaces tick() while StationControls::pause is set: reads the devices and returns zero commands.
@@ -206,9 +205,9 @@ struct StationTick {
     std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted
     servo::Input input;
     servo::Output output;
-    Pose tool;  // pose commanded by the hand, in the assembly's frame
-    // Pose of the wrench while no hand holds it (StationControls::wrench_rest).
-    std::optional<Pose> wrench_rest;
+    Pose commanded_tool;  // in the assembly's frame
+    // Pose of the wrench while no hand holds it (StationControls::wrench_rest_pose).
+    std::optional<Pose> resting_wrench;
     bool dead_man_pressed = false;  // by a button or the gripper of a device
     Gripper gripper;
 };

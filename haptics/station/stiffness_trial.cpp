@@ -10,18 +10,18 @@ namespace bolt::station {
 
 namespace {
 
-constexpr double largest_step = 3e-3;                   // m, of the spring's centre
+constexpr double max_step = 3e-3;                       // m, of the spring's centre
 constexpr double early_begin = 0.05, early_end = 0.30;  // s of a stage
 constexpr double late_begin = 0.60;                     // s; the late part lasts until the end of the stage
 
 // A swing counts if it is larger than both: what a hand at rest does on a spring, and the criterion of
 // tests/stability.
-constexpr double smallest_swing = 100e-6, tremor_force = 0.15;  // m, N
-constexpr double lasting_share = 0.3;                           // of the swing right after the step
-constexpr double large_swing = 0.5e-3;                          // m, that counts whatever was before
-constexpr int fewest_crossings = 4;  // of the middle; a hand that moves on makes fewer
-// J in the late part. A hand that moves at 1 cm/s gets 0.2 mJ from 5 N/mm with 1.5 ms of delay.
-constexpr double most_energy = 0.5e-3;
+constexpr double min_swing = 100e-6, tremor_force = 0.15;  // m, N
+constexpr double lasting_share = 0.3;                      // of the swing right after the step
+constexpr double large_swing = 0.5e-3;  // m; a larger one counts whatever the early one was
+constexpr int min_crossings = 4;        // of the middle; a hand that moves on makes fewer
+// J in the late part. A hand that moves at 1 cm/s receives 0.2 mJ from 5 N/mm with 1.5 ms of delay.
+constexpr double max_energy = 0.5e-3;
 constexpr double visible_motion = 30e-6;  // m, more than the steps of encoders
 
 double stored_energy(double stiffness, const Vec3& stretch) {
@@ -64,8 +64,8 @@ Swing swing_of(const std::vector<Vec3>& positions) {
 
 bool keeps_oscillating(const StiffnessTrial& t) {
     const Swing early = swing_of(t.early), late = swing_of(t.late);
-    const double smallest = std::max(smallest_swing, tremor_force / stiffness_of(t, t.stage));
-    return late.crossings >= fewest_crossings && late.width > smallest &&
+    const double min_width = std::max(min_swing, tremor_force / stiffness_of(t, t.stage));
+    return late.crossings >= min_crossings && late.width > min_width &&
            (late.width > lasting_share * early.width || late.width > large_swing);
 }
 
@@ -73,7 +73,7 @@ void end_stage(StiffnessTrial& t) {
     if (t.moved_at) t.responses.push_back(*t.moved_at);
     if (keeps_oscillating(t))
         t.end = TrialEnd::oscillation;
-    else if (t.generated > most_energy)
+    else if (t.generated > max_energy)
         t.end = TrialEnd::energy;
     else
         t.stable = stiffness_of(t, t.stage);
@@ -88,7 +88,7 @@ void end_stage(StiffnessTrial& t) {
 
 // Moves the spring, so that the handle is pulled there and swings.
 void begin_stage(StiffnessTrial& t, const Vec3& position) {
-    const double step = std::min(largest_step, t.limits.force / stiffness_of(t, t.stage));
+    const double step = std::min(max_step, t.limits.force / stiffness_of(t, t.stage));
     t.centre = position;
     t.offset = (t.stage % 2 == 0 ? step : -step) * t.direction;
     t.moved_at.reset();
@@ -98,13 +98,13 @@ void begin_stage(StiffnessTrial& t, const Vec3& position) {
 }
 
 // Positions and energy of a tick with a new sample.
-void observe(StiffnessTrial& t, const Vec3& position, double stored, double dt) {
+void record_sample(StiffnessTrial& t, const Vec3& position, double stored, double dt) {
     if (!t.moved_at && std::abs(glm::dot(position - t.centre, t.direction)) > visible_motion)
         t.moved_at = t.time;
     if (t.time >= early_begin && t.time < early_end) t.early.push_back(position);
     if (t.time >= late_begin) {
         const auto delay = static_cast<std::size_t>(std::clamp(t.limits.delay, 0, 3));
-        const force::OutputCommand& applied = t.output.passivity.sent[delay];
+        const force::OutputCommand& applied = t.output_stage.passivity.sent[delay];
         if (!t.late.empty())
             t.generated += glm::dot(applied.force, position - t.late.back()) + stored - t.energy_before;
         t.late.push_back(position);
@@ -143,7 +143,7 @@ force::OutputCommand step(StiffnessTrial& t, const force::PortInput& given, doub
     const double stiffness = stiffness_of(t, t.stage);
 
     force::ForceRequest request;
-    const bool strong = input.enabled && t.output.output.strength >= 1.0;
+    const bool strong = input.enabled && t.output_stage.limiter.strength >= 1.0;
     if (!strong) {
         t.time = 0.0;
         t.offset = Vec3(0.0);
@@ -156,12 +156,12 @@ force::OutputCommand step(StiffnessTrial& t, const force::PortInput& given, doub
     const Vec3 stretch = t.centre + t.offset - position;
     request.command.force = stiffness * stretch;
     request.stored_energy = stored_energy(stiffness, stretch);
-    if (strong && given.fresh) observe(t, position, request.stored_energy, dt);
-    const force::OutputCommand command = force::render(t.limits, t.output, input, request, dt);
+    if (strong && given.fresh) record_sample(t, position, request.stored_energy, dt);
+    const force::OutputCommand command = force::render(t.limits, t.output_stage, input, request, dt);
     if (t.end != TrialEnd::none) return command;
-    if (strong && t.output.watchdog.fault != force::Fault::none) {
+    if (strong && t.output_stage.watchdog.fault != force::Fault::none) {
         t.end = TrialEnd::fault;
-        t.fault = t.output.watchdog.fault;
+        t.fault = t.output_stage.watchdog.fault;
     } else if (strong && t.time >= stiffness_stage_time) {
         end_stage(t);
     }

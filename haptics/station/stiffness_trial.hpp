@@ -15,22 +15,21 @@ namespace bolt::station {
 
 inline constexpr int stiffness_stages = 10;          // the last one has the stiffness that the arm announces
 inline constexpr double stiffness_stage_time = 1.0;  // s
-inline constexpr double trial_force_share =
-    0.2;  // of the arm's largest force, the most that the trial renders
+inline constexpr double trial_force_share = 0.2;     // of the arm's largest force; the trial renders no more
 
 // Why a trial has ended.
 enum class TrialEnd : std::uint8_t {
     none,         // it continues
     announced,    // the arm renders all that it announces
     oscillation,  // a swing that a step of the spring has excited does not die away
-    energy,       // the hand gets energy from a spring at rest
+    energy,       // a spring at rest gives energy to the hand
     fault,        // the output stage has blocked the force (Fault)
 };
 
 struct StiffnessTrial {
     force::OutputLimits limits;  // of the arm, with the force of the trial
     Vec3 direction{0.0};         // unit, of the steps
-    force::OutputStage output;
+    force::OutputStage output_stage;
 
     TrialEnd end = TrialEnd::none;
     force::Fault fault = force::Fault::none;  // for TrialEnd::fault

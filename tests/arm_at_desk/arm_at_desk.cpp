@@ -95,7 +95,8 @@ class Player {
     }
     void report(double now) const {
         const lesson::Lesson& current = lesson().session->lesson();
-        const Vec3 at = pose_.position, tool = client().latest.tool.position, to = intention_.tool.position;
+        const Vec3 at = pose_.position, tool = client().latest.commanded_tool.position,
+                   to = intention_.tool.position;
         std::printf(
             "%4.0f s: step %zu of %zu, joint %d, %s%s; hand %.3f %.3f %.3f, tool %.3f %.3f %.3f, to %.3f "
             "%.3f %.3f\n",
@@ -121,8 +122,8 @@ class Player {
     void think() {
         if (clutching_ > 0.0 || changes_tool_) return;
         const session::LessonSession& session = *lesson().session;
-        intention_ =
-            trainee_.intend(session.setup(), session.state(), session.lesson(), client().latest.tool);
+        intention_ = trainee_.intend(session.setup(), session.state(), session.lesson(),
+                                     client().latest.commanded_tool);
         (void)trainee_.take_events();
     }
 
@@ -135,10 +136,10 @@ class Player {
                 tool_key_pressed_ = time_;
                 trainer_.key(platform::Key::t);
             }
-            return {client().latest.tool, 0U};
+            return {client().latest.commanded_tool, 0U};
         }
         // The hand comes from above and closes beside the handle.
-        const Pose rest = client().latest.wrench_rest.value_or(client().rest);
+        const Pose rest = client().latest.resting_wrench.value_or(client().rest);
         Pose above = rest;
         above.position += Vec3(0.0, 0.03, 0.0);
         const bool closes = client().near_wrench && std::fmod(time_, 0.5) < 0.25;
@@ -155,11 +156,11 @@ class Player {
             hand_.lead_to(pose_);
             return;
         }
-        const Pose tool = client().latest.tool;
-        const Vec3 grip(has_wrench() ? layout.grip_distance : 0.0, 0.0, 0.0);
+        const Pose tool = client().latest.commanded_tool;
+        const Vec3 grip(has_wrench() ? layout.lever_arm : 0.0, 0.0, 0.0);
         const Vec3 right = client().controls.view * Vec3(1.0, 0.0, 0.0);
         const Quat heading = glm::angleAxis(std::atan2(-right.z, right.x), Vec3(0.0, 1.0, 0.0));
-        const Quat to_device = glm::conjugate(heading * layout.workspace.turn);
+        const Quat to_device = glm::conjugate(heading * layout.workspace.rotation);
         const double share = std::min(1.0, gain * seconds);
         pose_.position += force::clamp_length(
             share / layout.workspace.scale * (to_device * (goal * grip - tool * grip)), hand_speed * seconds);

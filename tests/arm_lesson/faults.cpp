@@ -43,7 +43,7 @@ FaultOutcome inject(HeldArm& arm, const ArmFault& fault) {
     FaultOutcome outcome;
     outcome.limit = lesson.layout().mover->limits.force;
     outcome.before = glm::length(arm.force().force);
-    const Vec3 wrench = lesson.latest().output.tool.position;
+    const Vec3 wrench = lesson.latest().output.constrained_tool.position;
     fault.begin();
     lesson.hand_rests = true;
     const double began = lesson.session().time();
@@ -56,8 +56,8 @@ FaultOutcome inject(HeldArm& arm, const ArmFault& fault) {
         if (!fault.lasts && outcome.back < 0.0 && released && glm::length(arm.force().force) > 0.0)
             outcome.back = since;
         if (fault.lasts && released) outcome.again = std::max(outcome.again, glm::length(arm.force().force));
-        outcome.tool_moved =
-            std::max(outcome.tool_moved, glm::distance(lesson.latest().output.tool.position, wrench));
+        outcome.tool_moved = std::max(
+            outcome.tool_moved, glm::distance(lesson.latest().output.constrained_tool.position, wrench));
     }
     fault.end();
     const double ended = lesson.session().time();

@@ -98,7 +98,8 @@ class MessagedHaply final : public device::DeviceDriver {
         timer_.wait(std::min(timeout, 1e-3));
         const auto answer =
             arm_->model.answer(device::haply_force_message(inventory_.arms.front(), force_, false));
-        if (!answer) return fail(device::lost_device("the service closed the connection", "the service"));
+        if (!answer)
+            return fail(device::lost_device_error("the service closed the connection", "the service"));
         if (answer->empty()) return std::optional<device::Sample>{};
         BOLT_TRY_ASSIGN(const auto state, device::parse_haply_state(*answer, inventory_.arms.front(),
                                                                     &inventory_.grips.front()));
@@ -141,7 +142,7 @@ std::unique_ptr<HeldArm> haply_arm() {
     arm->open = [held, timer = arm->timer]() -> Result<std::unique_ptr<device::DeviceDriver>> {
         BOLT_TRY_ASSIGN(auto inventory, device::parse_haply_inventory(held->model.inventory()));
         if (inventory.arms.empty() || !inventory.arms.front().calibrated)
-            return fail(device::lost_device("there is no calibrated arm", "one"));
+            return fail(device::lost_device_error("there is no calibrated arm", "one"));
         return std::make_unique<MessagedHaply>(held, timer, std::move(inventory));
     };
     arm->intend = [held](const Pose& pose) {

@@ -29,7 +29,7 @@ PlayedLesson::PlayedLesson(HeldArm& arm, const content::Assembly& assembly, sess
     now_ = arm_.timer.now();
     while (!supervisor_->report().description) {
         serve();
-        REQUIRE_MESSAGE(arm_.timer.now() < now_ + 5.0, supervisor_->report().trouble);
+        REQUIRE_MESSAGE(arm_.timer.now() < now_ + 5.0, supervisor_->report().fault_message);
     }
     auto own = session::prepare(assembly, options);
     auto recorded = session::prepare(assembly, options);
@@ -58,9 +58,9 @@ void PlayedLesson::serve() { device::run_once(*supervisor_, mailboxes_, snapshot
 
 Pose PlayedLesson::device_pose(const Pose& tool) const {
     const force::WorkspaceState& w = state_.workspace;
-    const Quat back = glm::conjugate(w.heading * layout_.workspace.turn);
-    return {back * (force::grip_point(w, tool) - w.centre) / layout_.workspace.scale,
-            glm::normalize(back * tool.orientation * glm::conjugate(w.grip))};
+    const Quat back = glm::conjugate(w.heading * layout_.workspace.rotation);
+    return {back * (force::lever_end(w, tool) - w.centre) / layout_.workspace.scale,
+            glm::normalize(back * tool.orientation * glm::conjugate(w.tool_to_device))};
 }
 
 // The intention is a pose of the tool. Beyond the arm's reach the hand presses the clutch and goes back.
@@ -115,8 +115,8 @@ void PlayedLesson::tick() {
     const bool waits = hand_rests || clutching_ || settling_ > 0.0;
     settling_ = std::max(0.0, settling_ - dt);
     if (!waits) {
-        intention_ =
-            trainee_->intend(session_->setup(), session_->state(), session_->lesson(), state_.workspace.tool);
+        intention_ = trainee_->intend(session_->setup(), session_->state(), session_->lesson(),
+                                      state_.workspace.commanded_tool);
         (void)trainee_->take_events();
     }
     if (!hand_rests) move_hand(intention_);
@@ -159,7 +159,8 @@ void PlayedLesson::measure(const station::StationTick& before) {
     last_force_ = on_hand.force;
     if (number_ > 1)
         felt_.largest_tool_jump =
-            std::max(felt_.largest_tool_jump, glm::distance(before.tool.position, latest_.tool.position));
+            std::max(felt_.largest_tool_jump,
+                     glm::distance(before.commanded_tool.position, latest_.commanded_tool.position));
 }
 
 session::LessonOutcome PlayedLesson::finish() {

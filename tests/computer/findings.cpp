@@ -19,11 +19,11 @@ Error error_of(const char* what) {
     return error;
 }
 
-device::ListedDevice device_of(const char* name, device::DeviceKind kind, const char* trouble = nullptr) {
+device::ListedDevice device_of(const char* name, device::DeviceKind kind, const char* what = nullptr) {
     device::ListedDevice listed;
     listed.name = name;
     listed.kind = kind;
-    if (trouble != nullptr) listed.trouble = error_of(trouble);
+    if (what != nullptr) listed.error = error_of(what);
     return listed;
 }
 

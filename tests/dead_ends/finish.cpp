@@ -69,7 +69,7 @@ void withdraw_hand(LessonRun& run, const Vec3& at) {
         const double share = (run.session.time() - begun) / (seconds - 0.3);
         servo::Input input;
         const Pose now{glm::mix(from.position, at, std::clamp(share, 0.0, 1.0)), Quat(1, 0, 0, 0)};
-        input.device = servo::commanded_tool(now);
+        input.commanded_tool = servo::to_commanded_tool(now);
         input.reset = share < 0.1;
         input.enabled = share > 0.2;
         run.player.hand.pose = now;
@@ -122,7 +122,7 @@ int finish_at_device(LessonRun& run, std::uint64_t seed) {
         while (!run.over() && !run.failed() && !patient.over(run.session)) {
             const servo::Input input = trainee.act(setup, run.session.state(), run.session.lesson());
             if (input.grip != servo::Grip::none) wrench = input.grip == servo::Grip::wrench;
-            const float* at = input.device.position;
+            const float* at = input.commanded_tool.position;
             run.player.hand.pose.position = Vec3(at[0], at[1], at[2]);
             run.tick(input, wrench, std::numeric_limits<double>::infinity());
         }

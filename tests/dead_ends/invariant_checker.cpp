@@ -35,7 +35,7 @@ void InvariantChecker::check_output(const servo::Output& output) {
         report("the force exceeds the device's limit");
     if (glm::length(output.torque) > limits.torque * (1.0 + 1e-9))
         report("the torque exceeds the device's limit");
-    if (!finite(output.tool)) report("the pose of the tool is not finite");
+    if (!finite(output.constrained_tool)) report("the pose of the tool is not finite");
     if (!std::isfinite(output.wrench_torque) || !std::isfinite(output.nut_angle) ||
         !std::isfinite(output.clamp) || !std::isfinite(output.rounded))
         report("a physical value of the output is not finite");

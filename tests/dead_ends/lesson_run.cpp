@@ -16,7 +16,7 @@ LessonRun::LessonRun(session::LessonSession& lesson_session, InvariantChecker& i
     : session(lesson_session), checker(invariant_checker) {
     world::add_haptics(world, session.state());
     player.hand = trainer::make_hand({Vec3(0.0, 0.05, 0.35), Quat(1, 0, 0, 0)});
-    last.device = servo::commanded_tool(player.hand.pose);
+    last.commanded_tool = servo::to_commanded_tool(player.hand.pose);
 }
 
 bool LessonRun::tick(servo::Input input, bool wrench_in_hand, double room, bool hint_key) {
@@ -51,8 +51,9 @@ void LessonRun::frame(trainer::MouseCommand command, std::optional<std::size_t> 
         double leap = glm::distance(before, hand.pose.position);
         // After a miss the hand continues from the pose at which an obstacle stopped the wrench.
         if (session.state().tool_contact && hand.wrench)
-            leap = std::min(leap, glm::distance(session.state().tool_contact->god_object.tool.position,
-                                                hand.pose.position));
+            leap = std::min(leap,
+                            glm::distance(session.state().tool_contact->god_object.constrained_tool.position,
+                                          hand.pose.position));
         if (!(leap < fastest_hand))
             checker.report(fmt::format("the mouse hand jumps by {:.1f} mm during action {}", 1e3 * leap,
                                        static_cast<int>(hand.action)));

@@ -109,7 +109,7 @@ void overtighten_at_device(LessonRun& run, std::uint64_t seed, double span) {
         if (input.grip != servo::Grip::none) wrench = input.grip == servo::Grip::wrench;
         run.tick(input, wrench, std::numeric_limits<double>::infinity(), random.chance(1e-3));
     }
-    const float* at = run.last.device.position;
+    const float* at = run.last.commanded_tool.position;
     run.player.hand.pose.position = Vec3(at[0], at[1], at[2]);
 }
 

@@ -151,9 +151,10 @@ void act_randomly_at_device(LessonRun& run, std::uint64_t seed, double span, boo
         if (session.state().engagement.joint >= 0) action.handle += action.rate * session.setup().dt;
         hand = onward(action, random, session, hand, other && random.chance(0.05));
         servo::Input input;
-        input.device = servo::commanded_tool(hand);
-        if (action.nonsense) input.device.position[any(random, 3)] = std::numeric_limits<float>::quiet_NaN();
-        if (action.nonsense && random.chance(0.1)) input.device.orientation[0] = 1e30F;
+        input.commanded_tool = servo::to_commanded_tool(hand);
+        if (action.nonsense)
+            input.commanded_tool.position[any(random, 3)] = std::numeric_limits<float>::quiet_NaN();
+        if (action.nonsense && random.chance(0.1)) input.commanded_tool.orientation[0] = 1e30F;
         input.grip = action.grip;
         input.enabled = action.enabled;
         input.stop = action.stop;

@@ -35,7 +35,7 @@ TEST_CASE("Describe: the summary gives what a device renders with figures, and o
               "model omega.6, serial number 1234\nsenses the position of the hand in three degrees of "
               "freedom") == 0);
     Description wheel;
-    wheel.sensing = Sensing::turn;
+    wheel.sensing = Sensing::angle;
     wheel.silent_at_rest = true;
     wheel.renders[5] = true;
     wheel.limits.force = 0.0;
@@ -57,9 +57,9 @@ TEST_CASE("Describe: the condition of an arm has a line for what it reports") {
     using Lines = std::vector<std::string>;
     CHECK(summary_lines(Condition{}).empty());
     CHECK(summary_lines(Condition{true, 0.3, false}) ==
-          Lines{"calibrated: it knows its position", "motors at 30 % of their greatest heat"});
+          Lines{"calibrated", "motors at 30 % of their greatest heat"});
     CHECK(summary_lines(Condition{false, 0.85, false}) ==
-          Lines{"not calibrated: it does not know its position",
+          Lines{"not calibrated: its position is unknown",
                 "motors at 85 % of their greatest heat: rest the arm"});
     CHECK(summary_lines(Condition{{}, 0.75, true}) ==
           Lines{"motors at 75 % of their greatest heat: no force until they are cool"});

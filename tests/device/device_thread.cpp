@@ -155,7 +155,7 @@ TEST_CASE(
     bench->plugged = false;
     REQUIRE(eventually([&] { return !device_thread->snapshot().usable; }));
     REQUIRE(eventually(
-        [&] { return device_thread->report().trouble.find("a connected arm") != std::string::npos; }));
+        [&] { return device_thread->report().fault_message.find("a connected arm") != std::string::npos; }));
     CHECK(device_thread->report().losses == 1);
     CHECK(device_thread->report().state == DeviceState::absent);
     const std::uint64_t at = device_thread->snapshot().number;
@@ -163,7 +163,7 @@ TEST_CASE(
     REQUIRE(eventually(
         [&] { return device_thread->snapshot().usable && device_thread->snapshot().number > at; }));
     CHECK(device_thread->snapshot().opening == 2);
-    REQUIRE(eventually([&] { return device_thread->report().trouble.empty(); }));
+    REQUIRE(eventually([&] { return device_thread->report().fault_message.empty(); }));
 }
 
 TEST_CASE("DeviceThread: wait_until_open reports why a missing device does not open") {

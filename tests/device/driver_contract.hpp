@@ -15,7 +15,7 @@ inline bool is_valid(const device::Description& d, const device::Sample& s) {
         return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
     };
     if (d.sensing == device::Sensing::velocity) return finite(s.velocity) && finite(s.angular_velocity);
-    if (d.sensing == device::Sensing::turn) return std::isfinite(s.turn);
+    if (d.sensing == device::Sensing::angle) return std::isfinite(s.angle);
     return finite(s.pose.position) && std::abs(glm::dot(s.pose.orientation, s.pose.orientation) - 1.0) < 1e-6;
 }
 

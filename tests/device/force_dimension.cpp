@@ -164,7 +164,7 @@ TEST_CASE("Force Dimension: the vendor's frame has x to the user, y to the right
     }
 }
 
-TEST_CASE("Force Dimension: an arm that does not know its position moves only if it may") {
+TEST_CASE("Force Dimension: an arm that is not calibrated moves only if it may") {
     Bench bench;
     bench.arm.initialized(0);
     const auto refused = bench.open();

@@ -43,7 +43,7 @@ struct Bench {
     [[nodiscard]] Result<std::unique_ptr<DeviceDriver>> open(int index = 0) const {
         return open_haply(service, index, steady_timer());
     }
-    [[nodiscard]] Error trouble_of_opening() const {
+    [[nodiscard]] Error error_of_opening() const {
         const auto opened = open();
         REQUIRE_FALSE(opened);
         return opened.error();
@@ -287,13 +287,13 @@ TEST_CASE("Haply: an arm that is not calibrated asks for it, when it is listed a
     const auto listed = list_haply(bench.service, patience);
     REQUIRE(listed);
     REQUIRE(listed->size() == 1);
-    REQUIRE(listed->front().trouble);
+    REQUIRE(listed->front().error);
     const char* text =
         "Haply Inverse3 049D is not calibrated; expected an arm that was placed into its inkwell and "
         "calibrated, as its light shows";
-    CHECK(listed->front().trouble->message() == text);
-    CHECK(bench.trouble_of_opening().message() == text);
-    CHECK(preparation_of(bench.trouble_of_opening()).need == DeviceNeed::inkwell);
+    CHECK(listed->front().error->message() == text);
+    CHECK(bench.error_of_opening().message() == text);
+    CHECK(preparation_of(bench.error_of_opening()).need == DeviceNeed::inkwell);
     CHECK(bench.arm->commands() == 0);
 }
 
@@ -303,7 +303,7 @@ TEST_CASE("Haply: lists the arms of a service") {
     REQUIRE(listed);
     REQUIRE(listed->size() == 1);
     CHECK(listed->front().arm == "049D");
-    CHECK_FALSE(listed->front().trouble);
+    CHECK_FALSE(listed->front().error);
     const auto second = bench.open(1);
     REQUIRE_FALSE(second);
     CHECK(second.error().message().find("the Haply service has no arm 1") == 0);
@@ -312,7 +312,7 @@ TEST_CASE("Haply: lists the arms of a service") {
     const auto none = list_haply(empty.service, patience);
     REQUIRE(none);
     CHECK(none->empty());
-    CHECK(empty.trouble_of_opening().lost);
+    CHECK(empty.error_of_opening().lost);
 
     // No service: no arm, and no error.
     HaplyService stopped = bench.service;
@@ -320,18 +320,18 @@ TEST_CASE("Haply: lists the arms of a service") {
     const auto absent = list_haply(stopped, 0.1);
     REQUIRE(absent);
     CHECK(absent->empty());
-    const Error trouble = bench.trouble_of_opening();
-    CHECK(trouble.code == ErrorCode::no_device);
-    CHECK(trouble.message().find("the Haply service does not answer: 127.0.0.1:") == 0);
+    const Error error = bench.error_of_opening();
+    CHECK(error.code == ErrorCode::no_device);
+    CHECK(error.message().find("the Haply service does not answer: 127.0.0.1:") == 0);
 }
 
 TEST_CASE("Haply: another arm and exchanged axes are refused, because limits and directions would be wrong") {
     CHECK(Bench({.type = "inverse3x"}).open());
     CHECK(Bench({.type = ""}).open());
-    CHECK(Bench({.type = "minverse"}).trouble_of_opening().message() ==
+    CHECK(Bench({.type = "minverse"}).error_of_opening().message() ==
           "Haply service: device 049D is no Inverse3; expected an Inverse3, whose limits are known");
     const Bench exchanged({.basis = "XZY"});
-    CHECK(exchanged.trouble_of_opening().message() ==
+    CHECK(exchanged.error_of_opening().message() ==
           "Haply service: the axes of device 049D are exchanged; expected the basis XYZ");
     const auto listed = list_haply(exchanged.service, patience);
     REQUIRE_FALSE(listed);
@@ -383,7 +383,7 @@ TEST_CASE("Haply: the vendor's row lists and opens the arm of the service that t
     REQUIRE(device);
     CHECK((*device)->describe().id == "haply:0");
     REQUIRE(unusable.size() == 1);
-    CHECK(unusable.front().trouble);
+    CHECK(unusable.front().error);
 }
 
 TEST_CASE("Haply: versions before 3.5 take other messages") {
@@ -402,24 +402,25 @@ TEST_CASE("Haply: versions before 3.5 take other messages") {
 }
 
 TEST_CASE("Haply: a list of devices with a missing or wrong field is an error") {
-    const auto trouble = [](std::string_view message) {
+    const auto error_text = [](std::string_view message) {
         const auto inventory = parse_haply_inventory(message);
         return inventory ? std::string() : inventory.error().message();
     };
-    CHECK(trouble("{}").empty());
-    CHECK(trouble(R"({"inverse3": {}})") == "Haply service: inverse3 is of type object; expected an array");
-    CHECK(trouble(R"({"inverse3": [1]})") == "Haply service: device_id is missing; expected a string");
-    CHECK(trouble(R"({"inverse3": [{"device_id": "A"}]})") ==
+    CHECK(error_text("{}").empty());
+    CHECK(error_text(R"({"inverse3": {}})") ==
+          "Haply service: inverse3 is of type object; expected an array");
+    CHECK(error_text(R"({"inverse3": [1]})") == "Haply service: device_id is missing; expected a string");
+    CHECK(error_text(R"({"inverse3": [{"device_id": "A"}]})") ==
           "Haply service: status.calibrated is missing; expected true or false");
-    CHECK(trouble(R"({"inverse3": [{"device_id": "A\"}", "status": {"calibrated": true}}]})")
+    CHECK(error_text(R"({"inverse3": [{"device_id": "A\"}", "status": {"calibrated": true}}]})")
               .find("device_id has unusual characters") != std::string::npos);
-    CHECK(trouble(R"({"verse_grip": [{"device_id": 7}]})") ==
+    CHECK(error_text(R"({"verse_grip": [{"device_id": 7}]})") ==
           "Haply service: device_id is of type number; expected a string");
     std::string many = R"({"inverse3": [0)";
     for (int i = 0; i < 16; ++i) many += ",0";
-    CHECK(trouble(many + "]}") == "Haply service: inverse3 has 17 devices; expected at most 16");
-    CHECK_FALSE(trouble(std::string(60'000, '[')).empty());
-    CHECK_FALSE(trouble("{\"inverse3\": \"\xff\xfe\"}").empty());
+    CHECK(error_text(many + "]}") == "Haply service: inverse3 has 17 devices; expected at most 16");
+    CHECK_FALSE(error_text(std::string(60'000, '[')).empty());
+    CHECK_FALSE(error_text("{\"inverse3\": \"\xff\xfe\"}").empty());
 }
 
 TEST_CASE("Haply: a grip that sleeps is missing from a state; a wrong one is an error") {

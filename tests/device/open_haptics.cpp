@@ -202,7 +202,7 @@ TEST_CASE("OpenHaptics: an arm is listed without a call that reserves it") {
     CHECK(arms[0].id == "openhaptics:0");
     CHECK(arms[0].name == "OpenHaptics arm");
     CHECK(arms[0].path == link);
-    CHECK_FALSE(arms[0].trouble);
+    CHECK_FALSE(arms[0].error);
     CHECK(bench.arm.initialisations() == 0);
 }
 
@@ -353,12 +353,12 @@ TEST_CASE("OpenHaptics: the force of hot motors fades before the library warns, 
     bench.arm.heat(0.97);
     REQUIRE(bench.drive(*device, two_newton, 0.05));
     CHECK(bench.force_now() == 0.0);
-    CHECK(device->condition().rests);
+    CHECK(device->condition().cooling);
     CHECK(device->condition().heat == 0.97);
     bench.arm.heat(0.6);
     REQUIRE(bench.drive(*device, two_newton, 0.7));
     CHECK(bench.force_now() == doctest::Approx(2.0));
-    CHECK_FALSE(device->condition().rests);
+    CHECK_FALSE(device->condition().cooling);
 }
 
 TEST_CASE("OpenHaptics: an arm that is too fast or forced too hard rests for half a second and stays open") {
@@ -487,7 +487,7 @@ TEST_CASE("OpenHaptics: an arm that needs its inkwell says so, and is calibrated
     REQUIRE_FALSE(refused);
     CHECK(refused.error().code == ErrorCode::no_device);
     CHECK(refused.error().message() ==
-          "OpenHaptics arm (Touch) does not know its position; expected its stylus in the inkwell: push it "
+          "OpenHaptics arm (Touch) is not calibrated; expected its stylus in the inkwell: push it "
           "in, and "
           "it is calibrated at the next attempt");
     CHECK(preparation_of(refused.error()).need == DeviceNeed::inkwell);

@@ -430,9 +430,8 @@ TEST_CASE("Plug-in: an arm that waits for its user stays open until he has acted
     const Bench bench;
     for (int i = 0; i < 2; ++i)
         CHECK(message(bench.open_with("needs user")) ==
-              "the plug-in faulty_arm: it waits for you: put the pen into its holder; expected an arm that "
-              "knows its "
-              "position");
+              "the plug-in faulty_arm: it waits for you: put the pen into its holder; expected a calibrated "
+              "arm");
     CHECK(preparation_of(bench.open().error()) ==
           Preparation{DeviceNeed::user, "put the pen into its holder"});
     // Another process would not have seen it.
@@ -527,7 +526,7 @@ TEST_CASE("Plug-in: arms are listed with their ids or with what is wrong, and op
     CHECK(arms[0].name == "faulty_arm, an arm of a plug-in");
     CHECK(arms[1].id == "plugin:sample_arm:0");
     CHECK(arms[1].kind == DeviceKind::arm);
-    CHECK_FALSE(arms[1].trouble);
+    CHECK_FALSE(arms[1].error);
     CHECK(open(arms[1]));
     bench.show("many");
     CHECK(list().size() == 17);
@@ -536,8 +535,8 @@ TEST_CASE("Plug-in: arms are listed with their ids or with what is wrong, and op
     bench.show("no count");
     arms = list();
     REQUIRE(arms.size() == 2);
-    REQUIRE(arms[0].trouble);
-    CHECK(arms[0].trouble->message() ==
+    REQUIRE(arms[0].error);
+    CHECK(arms[0].error->message() ==
           "the plug-in faulty_arm: count: no?USB?; expected an arm that is switched on and connected");
     CHECK_FALSE(open(arms[0]));
 }
@@ -550,10 +549,10 @@ TEST_CASE("Plug-in: on its thread, a crash is a loss with its reason, and the ar
     CHECK(eventually([&] { return thread->snapshot().usable; }));
     bench.show("crash in exchange");
     CHECK(eventually(
-        [&] { return thread->report().trouble.find("crashed in exchange") != std::string::npos; }));
+        [&] { return thread->report().fault_message.find("crashed in exchange") != std::string::npos; }));
     CHECK(thread->report().losses >= 1);
     bench.show("");
-    CHECK(eventually([&] { return thread->snapshot().usable && thread->report().trouble.empty(); }));
+    CHECK(eventually([&] { return thread->snapshot().usable && thread->report().fault_message.empty(); }));
 }
 
 }  // namespace device_plugin_arms_test

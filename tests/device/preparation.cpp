@@ -126,7 +126,8 @@ TEST_CASE("Preparation: waiting for it does not count as time in which the devic
     const auto start = [&] {
         return DeviceThread::start([&]() -> Result<std::unique_ptr<DeviceDriver>> {
             if (prepared) return ready();
-            return fail(unprepared_device("an arm is calibrated", "a sign", {DeviceNeed::user, "wave"}));
+            return fail(
+                unprepared_device_error("an arm is calibrated", "a sign", {DeviceNeed::user, "wave"}));
         });
     };
     auto thread = start();

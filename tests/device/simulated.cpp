@@ -75,7 +75,7 @@ TEST_CASE(
 TEST_CASE("SimulatedDevice: a wheel turns against the hand about its own axis") {
     VirtualTime time;
     Description wheel = test::arm();
-    wheel.sensing = Sensing::turn;
+    wheel.sensing = Sensing::angle;
     wheel.axis = Vec3(0, 1, 0);
     wheel.limits.torque = 10.0;
     const HandImpedance hand;
@@ -84,7 +84,7 @@ TEST_CASE("SimulatedDevice: a wheel turns against the hand about its own axis") 
     read_until(*device, time, 0.1);
     REQUIRE(device->write({Vec3(0.0), Vec3(5, 4, 0)}));
     read_until(*device, time, 3.0);
-    CHECK(thing.hand().turn == doctest::Approx(4.0 / hand.torsion).epsilon(1e-3));
+    CHECK(thing.hand().angle == doctest::Approx(4.0 / hand.torsion).epsilon(1e-3));
 }
 
 TEST_CASE("SimulatedDevice: each injected fault behaves as named, for its interval") {

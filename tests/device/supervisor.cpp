@@ -21,8 +21,8 @@ namespace {
 // `sends_commands`.
 struct SupervisedDevice {
     explicit SupervisedDevice(Description description = test::arm(),
-                              const std::vector<FaultInterval>& troubles = {})
-        : thing({std::move(description), [](double) { return Sample{}; }, std::nullopt, troubles},
+                              const std::vector<FaultInterval>& faults = {})
+        : thing({std::move(description), [](double) { return Sample{}; }, std::nullopt, faults},
                 virtual_timer(time)),
           supervisor(thing.factory(), virtual_timer(time)) {}
 
@@ -123,7 +123,7 @@ TEST_CASE("DeviceSupervisor: attempts to open back off exponentially, and the re
         virtual_timer(time));
     const auto none = [] { return ForceCommand{}; };
     CHECK_FALSE(supervisor.poll(none));
-    CHECK(supervisor.report().trouble == "no arm; expected a connected arm");
+    CHECK(supervisor.report().fault_message == "no arm; expected a connected arm");
     CHECK(supervisor.report().state == DeviceState::absent);
     while (time.now < 10.0) CHECK_FALSE(supervisor.poll(none));
     const double pauses[] = {0.05, 0.1, 0.2, 0.4, 0.8, 1.0, 1.0, 1.0};
@@ -151,14 +151,14 @@ TEST_CASE("DeviceSupervisor: a replug at any moment is reported within 10 ms and
         SupervisedDevice supervised;
         supervised.until(random.uniform(0.01, 0.5));
         REQUIRE(supervised.supervisor.report().state == DeviceState::usable);
-        REQUIRE(supervised.supervisor.report().trouble.empty());
+        REQUIRE(supervised.supervisor.report().fault_message.empty());
         const double pulled = supervised.time.now;
         const double back = pulled + random.uniform(0.001, 5.0);
         supervised.thing.inject({InjectedFault::unplugged, pulled, back});
         supervised.until(pulled + 0.01);
         if (back > pulled + 0.01) {
             CHECK(supervised.supervisor.report().state == DeviceState::absent);
-            CHECK(supervised.supervisor.report().trouble.find("not plugged in") != std::string::npos);
+            CHECK(supervised.supervisor.report().fault_message.find("not plugged in") != std::string::npos);
             CHECK(supervised.supervisor.report().losses == 1);
         }
         supervised.until(back);
@@ -169,7 +169,7 @@ TEST_CASE("DeviceSupervisor: a replug at any moment is reported within 10 ms and
         supervised.poll_once();
         supervised.poll_once();
         CHECK(supervised.force() == doctest::Approx(std::sqrt(14.0)));
-        CHECK(supervised.supervisor.report().trouble.empty());
+        CHECK(supervised.supervisor.report().fault_message.empty());
     }
 }
 
@@ -268,10 +268,10 @@ TEST_CASE("DeviceSupervisor: invalid samples are counted and dropped; many in a 
     supervised.thing.inject({InjectedFault::not_a_number, 0.3, 0.7});
     supervised.until(0.6);
     CHECK(supervised.supervisor.report().state == DeviceState::silent);
-    CHECK(supervised.supervisor.report().trouble.find("no valid samples") != std::string::npos);
+    CHECK(supervised.supervisor.report().fault_message.find("no valid samples") != std::string::npos);
     supervised.until(0.8);
     CHECK(supervised.supervisor.report().state == DeviceState::usable);
-    CHECK(supervised.supervisor.report().trouble.empty());
+    CHECK(supervised.supervisor.report().fault_message.empty());
     CHECK(supervised.supervisor.report().openings == 1);
 }
 
@@ -283,11 +283,11 @@ TEST_CASE(
     supervised.thing.inject({InjectedFault::silent, 0.1, 4.0});
     supervised.until(0.5);
     CHECK(supervised.supervisor.report().state == DeviceState::silent);
-    CHECK_FALSE(supervised.supervisor.report().trouble.empty());
+    CHECK_FALSE(supervised.supervisor.report().fault_message.empty());
     CHECK(supervised.supervisor.report().openings == 1);
     supervised.until(3.9);
     CHECK(supervised.supervisor.report().silences >= 2);
-    CHECK_FALSE(supervised.supervisor.report().trouble.empty());
+    CHECK_FALSE(supervised.supervisor.report().fault_message.empty());
     supervised.until(4.0);
     while (supervised.supervisor.report().state != DeviceState::usable && supervised.time.now < 8.0)
         supervised.poll_once();
@@ -295,15 +295,15 @@ TEST_CASE(
 }
 
 TEST_CASE("DeviceSupervisor: devices that are silent at rest may rest indefinitely") {
-    for (const Sensing sensing : {Sensing::velocity, Sensing::turn}) {
+    for (const Sensing sensing : {Sensing::velocity, Sensing::angle}) {
         Description description = test::arm();
         description.sensing = sensing;
-        description.silent_at_rest = sensing == Sensing::turn;
+        description.silent_at_rest = sensing == Sensing::angle;
         SupervisedDevice supervised(description, {{InjectedFault::silent, 0.0, 100.0}});
         supervised.until(10.0);
         CHECK(supervised.supervisor.report().state == DeviceState::usable);
         CHECK(supervised.supervisor.report().openings == 1);
-        CHECK(supervised.supervisor.report().trouble.empty());
+        CHECK(supervised.supervisor.report().fault_message.empty());
         CHECK(supervised.supervisor.report().samples == 0);
     }
 }

@@ -103,13 +103,13 @@ TEST_CASE("Wheel: the angle follows the hand and the torque") {
         b.wheel.hand = 1.5;
         b.run(3.0, [] { return 0.0; });
         CHECK(b.wheel.angle() == doctest::Approx(1.5).epsilon(0.01));
-        CHECK(b.last.turn == doctest::Approx(b.wheel.angle()).epsilon(0.001));
+        CHECK(b.last.angle == doctest::Approx(b.wheel.angle()).epsilon(0.001));
         b.wheel.hand = -2.0;
         b.run(3.0, [] { return 0.0; });
-        CHECK(b.last.turn == doctest::Approx(-2.0).epsilon(0.01));
+        CHECK(b.last.angle == doctest::Approx(-2.0).epsilon(0.01));
         b.wheel.hand = 0.0;
         b.run(4.0, [] { return -2.0; });
-        CHECK(b.last.turn == doctest::Approx(-0.1).epsilon(0.05));  // torque divided by the hand's stiffness
+        CHECK(b.last.angle == doctest::Approx(-0.1).epsilon(0.05));  // torque divided by the hand's stiffness
     }
 }
 
@@ -120,10 +120,10 @@ TEST_CASE("Wheel: a spring rendered through the driver holds the wheel still") {
         REQUIRE(b.opened);
         b.wheel.hand_stiffness = 5.0;
         b.wheel.hand = 0.8;
-        b.run(6.0, [&] { return 5.0 * (0.2 - b.last.turn); });
+        b.run(6.0, [&] { return 5.0 * (0.2 - b.last.angle); });
         CHECK(b.wheel.angle() == doctest::Approx(0.5).epsilon(0.02));
         const double rests = b.wheel.angle();
-        b.run(0.5, [&] { return 5.0 * (0.2 - b.last.turn); });
+        b.run(0.5, [&] { return 5.0 * (0.2 - b.last.angle); });
         CHECK(std::abs(b.wheel.angle() - rests) < 1e-3);
     }
 }
@@ -138,7 +138,7 @@ TEST_CASE("Wheel: a spring of the described stiffness is stable on a wheel with 
         b.plug.write_duration = 0.001;  // s, transfer time on the bus
         const double stiffness = b.device->describe().limits.torsion;
         b.run(1.0, [] { return 1.0; });  // moves the wheel away from the spring's rest angle
-        const auto spring = [&] { return -stiffness * b.last.turn; };
+        const auto spring = [&] { return -stiffness * b.last.angle; };
         double last = 1e9;
         for (int second = 0; second < 4; ++second) {
             double most = 0.0;
@@ -159,7 +159,7 @@ TEST_CASE("Wheel: an OpenFFBoard with known counts per turn has no angle limit a
     for (double turns = 0.5; turns <= 6.0; turns += 0.5) {  // the stops are at 1.5 turns
         b.wheel.hand = turns * 2.0 * pi;
         b.run(2.0, [] { return 0.0; });
-        CHECK(b.last.turn == doctest::Approx(b.wheel.hand).epsilon(0.01));
+        CHECK(b.last.angle == doctest::Approx(b.wheel.hand).epsilon(0.01));
     }
     b.samples = 0;
     b.run(1.0, [] { return 0.0; });
@@ -266,8 +266,8 @@ TEST_CASE("Wheel: corrupt reports never move the angle beyond the stops, and rea
     REQUIRE(b.opened);
     for (int i = 0; i < 2000; ++i) {
         b.run(0.004, [] { return 0.5; });
-        CHECK(std::isfinite(b.last.turn));
-        CHECK(std::abs(b.last.turn) <= 0.5 * to_radians(1080.0) + 1e-9);
+        CHECK(std::isfinite(b.last.angle));
+        CHECK(std::abs(b.last.angle) <= 0.5 * to_radians(1080.0) + 1e-9);
     }
     CHECK(b.samples > 1000);
 

@@ -9,12 +9,12 @@ using device::ListedDevice;
 
 namespace {
 
-ListedDevice device_of(const std::string& id, DeviceKind kind, const char* trouble = nullptr) {
+ListedDevice device_of(const std::string& id, DeviceKind kind, const char* what = nullptr) {
     ListedDevice l{"/dev/hidraw0", id, "a " + id, kind, std::nullopt};
-    if (trouble != nullptr) {
-        l.trouble.emplace();
-        l.trouble->code = ErrorCode::no_device;
-        l.trouble->what = trouble;
+    if (what != nullptr) {
+        l.error.emplace();
+        l.error->code = ErrorCode::no_device;
+        l.error->what = what;
     }
     return l;
 }

@@ -62,13 +62,13 @@ TEST_CASE(
             REQUIRE(state);
             CHECK(state->tool_contact.has_value());
             servo::Input input;
-            input.device = servo::commanded_tool(planned->options.home);
+            input.commanded_tool = servo::to_commanded_tool(planned->options.home);
             input.enabled = true;
             input.grip = servo::Grip::wrench;
             servo::Output output;
             for (int i = 0; i < 700; ++i) output = servo::tick(setup, *state, input);
             CHECK(output.joint == 0);
-            CHECK(glm::length(output.tool.position - planned->options.home.position) < 0.5e-3);
+            CHECK(glm::length(output.constrained_tool.position - planned->options.home.position) < 0.5e-3);
             CHECK(glm::length(output.force) < 1.0);
             CHECK((output.clamp > 1000.0) == tight);
         }
@@ -86,7 +86,7 @@ TEST_CASE("Planned station: without obstacles, and on another nut") {
     Result<servo::State> state = planned->options.state(setup);
     REQUIRE(state);
     servo::Input input;
-    input.device = servo::commanded_tool(planned->options.home);
+    input.commanded_tool = servo::to_commanded_tool(planned->options.home);
     input.grip = servo::Grip::wrench;
     input.enabled = true;
     servo::tick(setup, *state, input);
@@ -137,16 +137,16 @@ TEST_CASE("Planned station: what a station file says holds for its devices only"
         return std::pair(std::move(planned), config);
     };
     const auto [same, config] = planned_with("haply:0", "1209:ffb0");
-    CHECK(same.options.workspace.turn == content::orientation_of(arm.mounting));
+    CHECK(same.options.workspace.rotation == content::orientation_of(arm.mounting));
     CHECK(same.options.workspace.scale == 3.0);
-    CHECK(same.options.workspace.power == 0.25);
+    CHECK(same.options.workspace.power_ratio == 0.25);
     CHECK(same.options.mover_buttons == Buttons{4, 8, 16, 32});
     CHECK(same.options.mover_limits == arm.limits);
     CHECK(same.options.wheel_buttons == Buttons{2, 0, 1, 0});
     CHECK(config == wheel.config);
 
     const auto [other, usual] = planned_with("haply:1", "1209:ffb1");
-    CHECK(other.options.workspace.turn == Quat(1, 0, 0, 0));
+    CHECK(other.options.workspace.rotation == Quat(1, 0, 0, 0));
     CHECK(!other.options.workspace.scale);
     CHECK(other.options.mover_buttons == Buttons{});
     CHECK(other.options.mover_limits == force::LimitBounds{});

@@ -66,7 +66,7 @@ TEST_CASE("Station check: a limit above the device's own is a warning, one below
     bench.station.arm->limits.torque = 0.2;  // the device renders none
     const auto findings = compare(bench.station, bench.facts);
     REQUIRE(findings.size() == 2);
-    CHECK(!findings[0].problem);
+    CHECK(!findings[0].prevents_use);
     CHECK(findings[0].text == "arm: the limit force_N is 30, above the device's own 12: it has no effect");
     CHECK(findings[1].text == "arm: the limit torque_Nm is 0.2, above the device's own 0: it has no effect");
 }
@@ -78,7 +78,7 @@ TEST_CASE("Station check: buttons that the device does not have are problems, de
     bench.station.arm->buttons = station::Buttons{1, 2, 0, 0x80000000U};
     const auto findings = compare(bench.station, bench.facts);
     REQUIRE(findings.size() == 2);
-    CHECK(findings[0].problem);
+    CHECK(findings[0].prevents_use);
     CHECK(findings[0].text == "arm: the button \"clutch\" is number 2, and the device has one button");
     CHECK(findings[1].text == "arm: the button \"reset\" is number 32, and the device has one button");
     bench.station.arm->buttons = station::Buttons{0, 1, 0, 0};
@@ -99,7 +99,7 @@ TEST_CASE("Station check: missing devices, a missing port and an unknown tool ar
     CHECK(findings[0].text == "wheel: there is no device 1209:ffb0");
     CHECK(contains(findings[1].text, "glove: /dev/ttyUSB0"));
     CHECK(findings[2].text == "arm: no assembly has a tool \"wrensh\"; did you mean \"wrench\"?");
-    CHECK(!findings[3].problem);
+    CHECK(!findings[3].prevents_use);
     bench.station.arm->tool = "xyz";
     CHECK(contains(bench.text(), "expected one of torque_wrench, wrench"));
 }

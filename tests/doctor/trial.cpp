@@ -32,8 +32,8 @@ TEST_CASE("Trial: each problem is one episode from its beginning to its end") {
     std::vector<Episode> episodes;
     std::string messages;
     const auto on_message = [&](double, const std::string& message) { messages += message + "; "; };
-    const auto now = [&](double time, const std::vector<std::string>& troubles) {
-        update_episodes(episodes, troubles, time, on_message);
+    const auto now = [&](double time, const std::vector<std::string>& fault_messages) {
+        update_episodes(episodes, fault_messages, time, on_message);
     };
     now(0.0, {});
     now(1.0, {"a"});

@@ -169,7 +169,7 @@ TEST_CASE(
     near.jaw = glm::normalize(Vec3(1.0, 0.0, -0.1));
     for (int i = 0; i < 250; ++i) request = guide(guiding, state, near, goal, all_free, dt);
     CHECK(glm::length(request.command.torque -
-                      aligning_torque(guiding.torque, goal.hexagon, near.jaw, near.normal)) < 1e-12);
+                      aligning_torque(guiding.max_torque, goal.hexagon, near.jaw, near.normal)) < 1e-12);
     CHECK(request.command.torque.y < 0.0);
 }
 
@@ -303,7 +303,7 @@ TEST_CASE("Guide: a hand beside the nut is led up or level until it is near the 
             REQUIRE(glm::length(force - last) < 0.4);
             last = force;
             // Below the approach point and more than 6 degrees from the axis.
-            if (hand.y < goal.target.approach && std::hypot(hand.x, hand.z) > 4e-3 + 0.1 * hand.y) {
+            if (hand.y < goal.target.approach_height && std::hypot(hand.x, hand.z) > 4e-3 + 0.1 * hand.y) {
                 REQUIRE(force.y > -0.05);
                 ++outside;
             }

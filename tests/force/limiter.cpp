@@ -97,7 +97,7 @@ TEST_CASE("Limiter: a state that is not finite is cleared") {
                 CHECK(out.force == Vec3(0.0));
                 CHECK(out.torque == Vec3(0.0));
                 CHECK(state.strength == 0.0);
-                CHECK(state.faults == 1);
+                CHECK(state.invalid_requests == 1);
                 // The output recovers.
                 for (int i = 0; i < 1000; ++i) out = limit_output(limits, state, wanted, true, dt);
                 CHECK(glm::length(out.force) == doctest::Approx(limits.force));
@@ -129,7 +129,7 @@ TEST_CASE("Limiter: for any request the output is within the limits and the slew
         REQUIRE(glm::length(out.force - last) <= most * (1 + 1e-9));
         last = out.force;
     }
-    CHECK(state.faults > 0);
+    CHECK(state.invalid_requests > 0);
 }
 
 TEST_CASE("Limiter: without the dead-man switch the output is zero within 20 ms and stays zero") {

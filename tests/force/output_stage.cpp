@@ -29,7 +29,7 @@ OutputStage at_full(const OutputLimits& limits) {
     OutputStage stage;
     for (int i = 0; i < 2000; ++i)
         render(limits, stage, held(), {{Vec3(0.8 * limits.force, 0, 0), Vec3(0.0)}}, dt);
-    REQUIRE(stage.output.force.x == doctest::Approx(0.8 * limits.force));
+    REQUIRE(stage.limiter.force.x == doctest::Approx(0.8 * limits.force));
     return stage;
 }
 
@@ -82,7 +82,7 @@ TEST_CASE("Output stage: after a fault the force ramps up") {
     const ForceRequest request{{Vec3(10, 0, 0), Vec3(0.0)}};
     for (int i = 0; i < 99; ++i) CHECK(nothing(render(limits, stage, input, request, dt)));
     for (int i = 0; i < 250; ++i) render(limits, stage, input, request, dt);
-    CHECK(stage.output.force.x == doctest::Approx(5.0).epsilon(0.02));
+    CHECK(stage.limiter.force.x == doctest::Approx(5.0).epsilon(0.02));
 }
 
 TEST_CASE("Output stage: for any input the output is finite, within the limits and the slew rates") {
@@ -94,7 +94,7 @@ TEST_CASE("Output stage: for any input the output is finite, within the limits a
     const auto wild = [&] { return random.normal() * std::pow(10.0, random.uniform(-3.0, 200.0)); };
     // Silence leaves the shortest time for the release.
     const double fastest =
-        std::max(limits.force_rate, limits.force / (limits.release - limits.silence - dt)) * dt;
+        std::max(limits.force_rate, limits.force / (limits.release - limits.max_silence - dt)) * dt;
     std::uint64_t rendered = 0;
     int running = 0;
     for (int i = 0; i < 200'000; ++i) {
@@ -147,7 +147,7 @@ TEST_CASE("Output stage: a request that is not finite counts as a fault in the w
         for (int i = 0; i < 3; ++i) render(limits, stage, held(), request, dt);
         CHECK(stage.watchdog.fault == Fault::bad_request);
         CHECK(stage.watchdog.counts[static_cast<std::size_t>(Fault::bad_request)] == 1);
-        CHECK(stage.output.faults == 3);
+        CHECK(stage.limiter.invalid_requests == 3);
     }
 }
 

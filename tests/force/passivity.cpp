@@ -40,11 +40,11 @@ TEST_CASE("Passivity: the balance is the work of the applied force and torque") 
         for (int i = 0; i < 200; ++i) {
             const Motion motion = moved(1e-3 * any(), 1e-3 * any());
             const OutputCommand& had = sent[sent.size() - 1 - static_cast<std::size_t>(delay)];
-            work += glm::dot(had.force, motion.shift) + glm::dot(had.torque, motion.turn);
-            observe(limits, s, motion, 1.0);
+            work += glm::dot(had.force, motion.shift) + glm::dot(had.torque, motion.rotation);
+            add_applied_work(limits, s, motion, 1.0);
             REQUIRE(s.balance == doctest::Approx(-work));
             sent.push_back({any(), any()});
-            note_sent(s, sent.back());
+            record_sent(s, sent.back());
         }
     }
 }
@@ -53,8 +53,8 @@ TEST_CASE("Passivity: with a sample every third tick the motion is charged with 
     PassivityState s;
     const Vec3 forces[] = {Vec3(1, 0, 0), Vec3(4, 0, 0), Vec3(7, 0, 0)};
     for (int i = 0; i < 3; ++i) {
-        note_sent(s, {forces[i], Vec3(0.0)});
-        observe(no_delay(), s, i == 2 ? moved(Vec3(0.01, 0, 0)) : Motion{}, 1.0);
+        record_sent(s, {forces[i], Vec3(0.0)});
+        add_applied_work(no_delay(), s, i == 2 ? moved(Vec3(0.01, 0, 0)) : Motion{}, 1.0);
     }
     CHECK(s.balance == doctest::Approx(-0.04));
 }
@@ -67,10 +67,10 @@ TEST_CASE("Passivity: an ideal spring keeps the balance at zero and causes no da
     for (int i = 0; i < 20'000; ++i) {
         const double shift = i < 10'000 ? step : -step;
         x += shift;
-        observe(no_delay(), s, moved(Vec3(-shift, 0, 0)), 1.0);
+        add_applied_work(no_delay(), s, moved(Vec3(-shift, 0, 0)), 1.0);
         const ForceRequest request{{Vec3(K * x, 0, 0), Vec3(0.0)}, 0.5 * K * x * x};
-        const OutputCommand out = control(no_delay(), s, {}, request, 1.0, 1.0, dt);
-        note_sent(s, out);
+        const OutputCommand out = control_passivity(no_delay(), s, {}, request, 1.0, 1.0, dt);
+        record_sent(s, out);
         REQUIRE(std::abs(s.balance) < 0.5 * K * step * step * 20'000);
     }
     CHECK(std::abs(s.balance) < 0.02e-3);
@@ -87,9 +87,9 @@ TEST_CASE("Passivity: a sampled spring generates K v² T² / 2 per tick, which t
         for (int i = 0; i < ticks; ++i) {
             x += v * dt;
             const Motion motion = moved(Vec3(-v * dt, 0, 0));
-            observe(limits, s, motion, 1.0);
+            add_applied_work(limits, s, motion, 1.0);
             const ForceRequest request{{Vec3(K * x, 0, 0), Vec3(0.0)}, 0.5 * K * x * x};
-            note_sent(s, control(limits, s, motion, request, 1.0, 1.0, dt));
+            record_sent(s, control_passivity(limits, s, motion, request, 1.0, 1.0, dt));
         }
         return s.balance / ticks;
     };
@@ -105,7 +105,7 @@ TEST_CASE("Passivity: damping stays below nine tenths of the device's limit and 
     OutputCommand out;
     for (int i = 0; i < 20; ++i) {  // the damping is complete within 10 ms
         const double before = s.damping;
-        out = control(limits, s, motion, {}, 1.0, 1.0, dt);
+        out = control_passivity(limits, s, motion, {}, 1.0, 1.0, dt);
         CHECK(s.damping - before <= damping_rise_rate * dt + 1e-12);
     }
     CHECK(glm::length(out.force + 0.9 * limits.damping * motion.velocity) < 1e-12);
@@ -119,9 +119,9 @@ TEST_CASE("Passivity: the removed power is the deficit over one tick") {
     s.balance = -1e-4;
     const Motion motion = moved(Vec3(1e-3, 0, 0), Vec3(0, 1e-3, 0));
     s.damping = 1.0;
-    for (int i = 0; i < 60; ++i) control(limits, s, motion, {}, 1.0, 1.0, dt);
+    for (int i = 0; i < 60; ++i) control_passivity(limits, s, motion, {}, 1.0, 1.0, dt);
     s.removed = 0.0;
-    const OutputCommand out = control(limits, s, motion, {}, 1.0, 1.0, dt);
+    const OutputCommand out = control_passivity(limits, s, motion, {}, 1.0, 1.0, dt);
     const double power =
         -glm::dot(out.force, motion.velocity) - glm::dot(out.torque, motion.angular_velocity);
     CHECK(power * dt == doctest::Approx(1e-4));
@@ -132,14 +132,14 @@ TEST_CASE("Passivity: the removed power is the deficit over one tick") {
 TEST_CASE("Passivity: credit from dissipation decays") {
     const OutputLimits limits = no_delay();
     PassivityState s;
-    note_sent(s, {Vec3(-10, 0, 0), Vec3(0.0)});
+    record_sent(s, {Vec3(-10, 0, 0), Vec3(0.0)});
     for (int i = 0; i < 1000; ++i) {
-        observe(limits, s, moved(Vec3(1e-3, 0, 0)), 1.0);  // the device dissipates 10 mJ per tick
-        control(limits, s, {}, {}, 1.0, 1.0, dt);
+        add_applied_work(limits, s, moved(Vec3(1e-3, 0, 0)), 1.0);  // the device dissipates 10 mJ per tick
+        control_passivity(limits, s, {}, {}, 1.0, 1.0, dt);
     }
     CHECK(s.balance <= max_credit);
     CHECK(s.balance > 0.9 * max_credit);
-    for (int i = 0; i < 100; ++i) control(limits, s, {}, {}, 1.0, 1.0, dt);
+    for (int i = 0; i < 100; ++i) control_passivity(limits, s, {}, {}, 1.0, 1.0, dt);
     CHECK(s.balance < 0.05 * max_credit);  // the credit decays
 }
 
@@ -149,11 +149,11 @@ TEST_CASE("Passivity: injected energy is no deficit; stored energy that grows wi
     ForceRequest request;
     request.stored_energy = 5e-3;
     request.injected_energy = 5e-3;
-    control(limits, s, {}, request, 1.0, 1.0, dt);
+    control_passivity(limits, s, {}, request, 1.0, 1.0, dt);
     CHECK(s.balance == doctest::Approx(0.0));
     request.stored_energy = 8e-3;
     request.injected_energy = 0.0;
-    control(limits, s, {}, request, 1.0, 1.0, dt);
+    control_passivity(limits, s, {}, request, 1.0, 1.0, dt);
     CHECK(s.balance == doctest::Approx(-3e-3));
 }
 
@@ -162,23 +162,23 @@ TEST_CASE(
     const OutputLimits limits;
     PassivityState s;
     ForceRequest request{{Vec3(2.0 * limits.force, 0, 0), Vec3(0, 1, 0)}, 1.0};
-    const OutputCommand out = control(limits, s, {}, request, 1.0, 1.0, dt);
+    const OutputCommand out = control_passivity(limits, s, {}, request, 1.0, 1.0, dt);
     CHECK(out.force.x == doctest::Approx(limits.force));
     CHECK(out.torque.y == doctest::Approx(0.5));
     CHECK(s.stored_energy == doctest::Approx(0.75));  // a spring held at half of its force
 
     request = {{Vec3(10, 0, 0), Vec3(0, 4.0 * limits.torque, 0)}, 0.0};
-    CHECK(control(limits, s, {}, request, 1.0, 1.0, dt).force.x == doctest::Approx(2.5));
+    CHECK(control_passivity(limits, s, {}, request, 1.0, 1.0, dt).force.x == doctest::Approx(2.5));
     OutputLimits without = limits;
     without.torque = 0.0;
-    CHECK(control(without, s, {}, request, 1.0, 1.0, dt).force.x == doctest::Approx(10.0));
+    CHECK(control_passivity(without, s, {}, request, 1.0, 1.0, dt).force.x == doctest::Approx(10.0));
 }
 
 TEST_CASE("Passivity: stored energy enters with the ramp as injected energy") {
     const OutputLimits limits;
     PassivityState s;
     const ForceRequest request{{}, 2e-3};
-    for (int i = 1; i <= 10; ++i) control(limits, s, {}, request, 0.1 * i, 0.1 * (i - 1), dt);
+    for (int i = 1; i <= 10; ++i) control_passivity(limits, s, {}, request, 0.1 * i, 0.1 * (i - 1), dt);
     CHECK(s.balance == doctest::Approx(0.0));
     CHECK(s.stored_energy == doctest::Approx(2e-3));
 }
@@ -189,7 +189,7 @@ TEST_CASE("Passivity: a component that the device does not render does not reduc
         (torque ? limits.force : limits.torque) = 0.0;
         PassivityState s;
         const ForceRequest request{{Vec3(5, 0, 0), Vec3(0, 1, 0)}, 10.0, 0.0};
-        const OutputCommand out = control(limits, s, moved(Vec3(0.0)), request, 1.0, 1.0, dt);
+        const OutputCommand out = control_passivity(limits, s, moved(Vec3(0.0)), request, 1.0, 1.0, dt);
         if (torque) CHECK(out.torque.y == doctest::Approx(1.0));
         if (!torque) CHECK(out.force.x == doctest::Approx(5.0));
     }

@@ -25,7 +25,7 @@ TEST_CASE("Scaled limits: limits of force and torque are scaled, all others unch
         CHECK(less.speed == whole.speed);
         CHECK(less.ramp_up == whole.ramp_up);
         CHECK(less.release == whole.release);
-        CHECK(less.silence == whole.silence);
+        CHECK(less.max_silence == whole.max_silence);
     }
 }
 
@@ -83,6 +83,6 @@ TEST_CASE("Lowered limits: each limit is the lower of the device's own and the b
         }
         CHECK(less.force_rate == own.force_rate);
         CHECK(less.speed == own.speed);
-        CHECK(less.silence == own.silence);
+        CHECK(less.max_silence == own.max_silence);
     }
 }

@@ -16,7 +16,7 @@ TEST_CASE("Torque rendering: the largest torque uses four fifths of the range; s
     CHECK(make_torque_rendering(limits, 210.0, 0.23).as_force == 0.0);
 }
 
-TEST_CASE("Torque rendering: without torque output it is a force at the grip, unscaled if in range") {
+TEST_CASE("Torque rendering: without torque output it is a force at the handle, unscaled if in range") {
     OutputLimits limits;
     limits.torque = 0.0;
     limits.force = 12.0;
@@ -33,7 +33,7 @@ TEST_CASE("Torque rendering: resistance to tightening turns the hand about +axis
     CHECK(torque.force == Vec3(0.0));
     const OutputCommand force = render_torque({0.0, 0.05}, 100.0, axis, handle);
     CHECK(force.torque == Vec3(0.0));
-    // A rotation about the axis moves the grip along axis x handle.
+    // A rotation about the axis moves the end of the handle along axis x handle.
     CHECK(force.force == 5.0 * glm::cross(axis, handle));
 }
 

@@ -23,7 +23,7 @@ struct Device {
     PortInput input;
     Device() { input.enabled = true; }
 
-    bool step() { return watch(limits, state, input, true, dt); }
+    bool step() { return update_watchdog(limits, state, input, true, dt); }
     // Moves along x at `speed` (m/s) for `ticks`; returns the last result of step().
     bool move(double speed, int ticks) {
         bool may = false;
@@ -67,7 +67,7 @@ TEST_CASE("Watchdog: the motion has shift, turn and velocity") {
             glm::normalize(rotation(Vec3(0, 0, 2e-3)) * device.input.pose.orientation);
         device.step();
     }
-    CHECK(device.state.motion.turn.z == doctest::Approx(2e-3));
+    CHECK(device.state.motion.rotation.z == doctest::Approx(2e-3));
     CHECK(device.state.motion.angular_velocity.z == doctest::Approx(2.0).epsilon(1e-4));
     // After a silent tick and a missed one the turn covers three ticks; the velocity is unchanged.
     device.input.fresh = false;
@@ -78,7 +78,7 @@ TEST_CASE("Watchdog: the motion has shift, turn and velocity") {
     device.input.pose.orientation =
         glm::normalize(rotation(Vec3(0, 0, 6e-3)) * device.input.pose.orientation);
     device.step();
-    CHECK(device.state.motion.turn.z == doctest::Approx(6e-3));
+    CHECK(device.state.motion.rotation.z == doctest::Approx(6e-3));
     CHECK(device.state.motion.angular_velocity.z == doctest::Approx(2.0).epsilon(1e-4));
 }
 
@@ -184,7 +184,7 @@ TEST_CASE("Watchdog: excess speed is a fault within 20 ms, until it falls to hal
 TEST_CASE("Watchdog: a request that is not finite is a fault") {
     Device device;
     device.move(0.1, 10);
-    CHECK_FALSE(watch(device.limits, device.state, device.input, false, dt));
+    CHECK_FALSE(update_watchdog(device.limits, device.state, device.input, false, dt));
     CHECK(device.state.fault == Fault::bad_request);
     CHECK(device.ticks_until(true) == 100);
 }

@@ -21,9 +21,9 @@ Vec3 any(Random& random) { return {random.normal(), random.normal(), random.norm
 
 WorkspaceMap any_workspace(Random& random) {
     WorkspaceMap w;
-    w.turn = rotation(any(random));
+    w.rotation = rotation(any(random));
     w.scale = random.uniform(0.5, 5.0);
-    w.power = random.chance(0.5) ? 1.0 : 1.0 / w.scale;
+    w.power_ratio = random.chance(0.5) ? 1.0 : 1.0 / w.scale;
     return w;
 }
 
@@ -44,8 +44,9 @@ TEST_CASE(
         const Vec3 shift = any(random), turn = 0.3 * any(random);
         const Pose there{device.position + shift, glm::normalize(rotation(turn) * device.orientation)};
         const Pose now = to_assembly(w, s, there, false, dt);
-        CHECK(glm::length(now.position - tool.position - w.scale * (w.turn * shift)) < 1e-12);
-        CHECK(apart({now.position, glm::normalize(rotation(w.turn * turn) * tool.orientation)}, now) < 1e-12);
+        CHECK(glm::length(now.position - tool.position - w.scale * (w.rotation * shift)) < 1e-12);
+        CHECK(apart({now.position, glm::normalize(rotation(w.rotation * turn) * tool.orientation)}, now) <
+              1e-12);
     }
 }
 
@@ -54,7 +55,7 @@ TEST_CASE("WorkspaceMap: the clutch holds the tool, and releasing it moves nothi
     const WorkspaceMap w = any_workspace(random);
     Pose device{any(random), rotation(any(random))};
     WorkspaceState s = align_workspace(w, device, {any(random), rotation(any(random))});
-    Pose last = s.tool;
+    Pose last = s.commanded_tool;
     bool clutch = false;
     double moved = 0.0;
     for (int i = 0; i < 20'000; ++i) {
@@ -105,14 +106,14 @@ TEST_CASE("WorkspaceMap: the power at the device is the stated multiple of the p
         const OutputCommand on_hand = to_device(w, s, on_tool);
         const double there = glm::dot(on_tool.force, tool_v) + glm::dot(on_tool.torque, tool_omega);
         const double here = glm::dot(on_hand.force, v) + glm::dot(on_hand.torque, omega);
-        CHECK(here == doctest::Approx(w.power * there).epsilon(1e-5).scale(1.0));
+        CHECK(here == doctest::Approx(w.power_ratio * there).epsilon(1e-5).scale(1.0));
     }
 }
 
 TEST_CASE("WorkspaceMap: with power 1/scale forces are unchanged") {
     WorkspaceMap w;
     w.scale = 4.0;
-    w.power = 0.25;
+    w.power_ratio = 0.25;
     const OutputCommand out = to_device(w, {}, {Vec3(1, 2, 3), Vec3(0, 4, 0)});
     CHECK(out.force == Vec3(1, 2, 3));
     CHECK(out.torque == Vec3(0, 1, 0));
@@ -161,34 +162,38 @@ TEST_CASE("WorkspaceMap: a command at the device's limit is at the mapped limit"
 }
 
 TEST_CASE(
-    "WorkspaceMap: the grip follows the device and the tool turns about it; a new heading moves nothing") {
+    "WorkspaceMap: the end of the lever arm follows the device and the tool turns about it; a new heading "
+    "moves nothing") {
     Random random(7);
     for (int i = 0; i < 200; ++i) {
         const WorkspaceMap w = any_workspace(random);
         const Pose device{any(random), rotation(any(random))}, tool{any(random), rotation(any(random))};
         WorkspaceState s;
-        s.grip_distance = random.uniform(0.0, 0.4);
+        s.lever_arm = random.uniform(0.0, 0.4);
         realign(w, s, device, tool);
         CHECK(apart(to_assembly(w, s, device, false, dt), tool) < 1e-12);
         s.heading = glm::angleAxis(random.uniform(-3.0, 3.0), Vec3(0, 1, 0));
         realign(w, s, device, tool);
         CHECK(apart(to_assembly(w, s, device, false, dt), tool) < 1e-12);
 
-        const Vec3 grip = grip_point(s, tool), shift = 0.1 * any(random), turn = 0.5 * any(random);
+        const Vec3 end = lever_end(s, tool), shift = 0.1 * any(random), turn = 0.5 * any(random);
         const Pose there{device.position + shift, glm::normalize(rotation(turn) * device.orientation)};
         const Pose now = to_assembly(w, s, there, false, dt);
-        const Vec3 moved = s.heading * (w.turn * shift);
-        CHECK(glm::length(grip_point(s, now) - grip - w.scale * moved) < 1e-12);
-        CHECK(apart({now.position, glm::normalize(rotation(s.heading * (w.turn * turn)) * tool.orientation)},
+        const Vec3 moved = s.heading * (w.rotation * shift);
+        CHECK(glm::length(lever_end(s, now) - end - w.scale * moved) < 1e-12);
+        CHECK(apart({now.position,
+                     glm::normalize(rotation(s.heading * (w.rotation * turn)) * tool.orientation)},
                     now) < 1e-12);
-        // Force at the grip: the power at the device is `power` times the power at the grip.
+        // Force at the end of the lever arm: the power at the device is `power_ratio` times the power there.
         const Vec3 force = any(random);
         CHECK(glm::dot(to_device(w, s, {force, Vec3(0.0)}).force, shift) ==
-              doctest::Approx(w.power * s.share * w.scale * glm::dot(force, moved)));
+              doctest::Approx(w.power_ratio * s.share * w.scale * glm::dot(force, moved)));
     }
 }
 
-TEST_CASE("Pivot: the handle points to the grip, the jaw stays on an arc's centre, and the tilt is kept") {
+TEST_CASE(
+    "Pivot: the handle points to the end of the lever arm, the jaw stays on an arc's centre, and the tilt is "
+    "kept") {
     Random random(8);
     for (int i = 0; i < 200; ++i) {
         const Pivot pivot{any(random), glm::normalize(any(random))};
@@ -201,7 +206,7 @@ TEST_CASE("Pivot: the handle points to the grip, the jaw stays on an arc's centr
         const Quat swung = glm::angleAxis(angle, pivot.axis);
         const Pose on_arc = pivoted(pivot, held, length, pivot.centre + length * (swung * across));
         CHECK(apart(on_arc, {pivot.centre, glm::normalize(swung * held.orientation)}) < 1e-9);
-        // A grip beside the arc moves the jaw along the handle, one above it along the bolt, and neither
+        // An end beside the arc moves the jaw along the handle, one above it along the bolt, and neither
         // tilts.
         const double out = random.uniform(-0.02, 0.02), up = random.uniform(-0.02, 0.02);
         const Pose off =
@@ -242,22 +247,22 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "turned_reach: the farthest point on each of the user's axes is at the edge of the device's reach") {
+    "rotated_reach: the farthest point on each of the user's axes is at the edge of the device's reach") {
     Random random(12);
     const Vec3 reach(0.08, 0.06, 0.035);
-    CHECK(turned_reach({1, 0, 0, 0}, reach) == reach);
-    const Vec3 quarter = turned_reach(rotation(Vec3(0.0, 0.5 * pi, 0.0)), reach);
+    CHECK(rotated_reach({1, 0, 0, 0}, reach) == reach);
+    const Vec3 quarter = rotated_reach(rotation(Vec3(0.0, 0.5 * pi, 0.0)), reach);
     CHECK(glm::length(quarter - Vec3(0.035, 0.06, 0.08)) < 1e-12);
     for (int i = 0; i < 200; ++i) {
         const Quat turn = random_turn(random);
-        const Vec3 turned = turned_reach(turn, reach);
+        const Vec3 turned = rotated_reach(turn, reach);
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 end(0.0);
             end[axis] = turned[axis];
             const Vec3 at = glm::abs(glm::conjugate(turn) * end) / reach;
             CHECK(std::max({at.x, at.y, at.z}) == doctest::Approx(1.0));
         }
-        CHECK(turned_reach(turn, Vec3(0.0)) == Vec3(0.0));
+        CHECK(rotated_reach(turn, Vec3(0.0)) == Vec3(0.0));
     }
 }
 

@@ -83,11 +83,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         time += 0.0001;
         if (*sample) {
             const Sample& s = **sample;
-            if (!std::isfinite(s.turn) || glm::length(s.velocity) > 1.0 ||
+            if (!std::isfinite(s.angle) || glm::length(s.velocity) > 1.0 ||
                 glm::length(s.angular_velocity) > 4.0)
                 std::abort();
-            if (rig.counts_per_turn == 0.0 && std::abs(s.turn) > 600.0) std::abort();
-            if (!(*device)->write({.torque = Vec3(0.0, 0.0, most * std::sin(s.turn))})) std::abort();
+            if (rig.counts_per_turn == 0.0 && std::abs(s.angle) > 600.0) std::abort();
+            if (!(*device)->write({.torque = Vec3(0.0, 0.0, most * std::sin(s.angle))})) std::abort();
         }
     }
     return 0;

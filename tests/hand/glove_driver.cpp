@@ -54,14 +54,14 @@ TEST_CASE("GloveDriver: recovers from a stall and from a port that vanishes and 
 
     line->stall(true);
     REQUIRE(eventually([&] { return driver.report().state == GloveState::silent; }));
-    CHECK(std::strlen(driver.report().trouble.data()) > 0);
+    CHECK(std::strlen(driver.report().fault_message.data()) > 0);
     const std::uint64_t at = driver.sample().number;
     line->stall(false);
     REQUIRE(eventually([&] { return driver.sample().number > at + 5; }));
 
     { const emulate::SerialGlove pulled = std::move(*line); }
     REQUIRE(eventually([&] { return !driver.report().open; }));
-    CHECK(std::strlen(driver.report().trouble.data()) > 0);
+    CHECK(std::strlen(driver.report().fault_message.data()) > 0);
     auto again = emulate::SerialGlove::start({.sensors = 22}, 0.5);
     REQUIRE(again);
     plug_in(*again);

@@ -50,7 +50,7 @@ TEST_CASE("GloveSession: a stalled glove is reported within 0.25 s and read agai
     CHECK(bench.frames >= 78);
     bench.glove.stalled = true;
     CHECK(bench.until(GloveState::silent) < 0.27);
-    CHECK(bench.session.trouble().find("stopped sending") != std::string::npos);
+    CHECK(bench.session.fault_message().find("stopped sending") != std::string::npos);
     bench.update(7.0);
     CHECK(bench.session.state() != GloveState::streaming);
     bench.glove.stalled = false;
@@ -59,7 +59,7 @@ TEST_CASE("GloveSession: a stalled glove is reported within 0.25 s and read agai
     bench.update(1.0);
     CHECK(bench.frames > frames + 75);
     CHECK(bench.session.handshakes() == 2);
-    CHECK(bench.session.trouble().empty());
+    CHECK(bench.session.fault_message().empty());
 }
 
 TEST_CASE("GloveSession: a replug at any moment is read again within 2 s") {
@@ -81,7 +81,7 @@ TEST_CASE("GloveSession: a glove disconnected from its interface unit yields no 
     bench.update(1.0);
     CHECK(bench.frames == 0);
     CHECK(!bench.session.identity().plugged);
-    CHECK(bench.session.trouble().find("not plugged") != std::string::npos);
+    CHECK(bench.session.fault_message().find("not plugged") != std::string::npos);
 }
 
 TEST_CASE("GloveSession: for two hours on a bad line with stalls, frames keep arriving") {

@@ -43,8 +43,10 @@ struct Bench : Script {
             for (joint::JointState& joint : state.joints) joint.stage = joint::Stage::linearity;
     }
 
-    void far_away() { output.tool.position = Vec3(0.1, 0.3, 0.4); }
-    void near(std::size_t joint) { output.tool.position = setup.nuts[joint].seat + Vec3(0.0, 0.03, 0.0); }
+    void far_away() { output.constrained_tool.position = Vec3(0.1, 0.3, 0.4); }
+    void near(std::size_t joint) {
+        output.constrained_tool.position = setup.nuts[joint].seat + Vec3(0.0, 0.03, 0.0);
+    }
     // Turns a nut for 100 ticks, up to `torque` in N·m.
     void turn(int joint, double torque, double speed = 1.0) {
         for (int i = 1; i <= 100; ++i) tick(joint, servo::Grip::wrench, torque * i / 100.0, speed);

@@ -61,7 +61,7 @@ TEST_CASE("Hints: practice: each request raises the level, and the hint ends wit
 TEST_CASE("Hints: no escalation while the trainee makes progress") {
     Searching b;
     for (int i = 0; i < 600; ++i) {  // 30 s on a long detour
-        b.output.tool.position = Vec3(0.0, 20.0 - 0.03 * i, 0.0);
+        b.output.constrained_tool.position = Vec3(0.0, 20.0 - 0.03 * i, 0.0);
         CHECK(b.frame()->level == 0);
     }
     Bench turning;

@@ -37,7 +37,7 @@ TEST_CASE("Kernel: missing permission names the udev rule, and with permission t
     const ListedDevice a = wait_for_device("256f:c62e"), b = wait_for_device("1234:5678");
     const auto message = [](const std::string& id) {
         for (const ListedDevice& l : list_devices())
-            if (l.id == id) return l.trouble ? l.trouble->message() : std::string("usable");
+            if (l.id == id) return l.error ? l.error->message() : std::string("usable");
         return std::string("not listed");
     };
     REQUIRE(chmod(a.path.c_str(), 0600) == 0);
@@ -83,13 +83,13 @@ TEST_CASE("Kernel: an unusable descriptor of a known device is reported") {
     };
     const auto unknown = attach(std::make_unique<InertDevice>(wide()));
     REQUIRE(holds_within([] { return list_devices(true).size() == 1; }));
-    CHECK(list_devices(true).front().trouble);
+    CHECK(list_devices(true).front().error);
     CHECK(list_devices().empty());
     const auto known = attach(std::make_unique<InertDevice>(wide(), 0x256f, 0xc699));
     const ListedDevice l = wait_for_device("256f:c699");
     CHECK(l.kind == DeviceKind::puck);
-    REQUIRE(l.trouble);
-    CHECK(l.trouble->message().find("4104 fields") != std::string::npos);
+    REQUIRE(l.error);
+    CHECK(l.error->message().find("4104 fields") != std::string::npos);
     CHECK(!factory_for(l.id)());
 }
 
@@ -100,14 +100,14 @@ TEST_CASE("Kernel: malformed descriptors are rejected by the kernel or reported"
         for (auto& byte : garbage) byte = static_cast<std::uint8_t>(random.bits());
         const auto plug = attach(std::make_unique<InertDevice>(garbage));
         static_cast<void>(holds_within([] { return !list_devices(true).empty(); }, 0.02));
-        for (const ListedDevice& l : list_devices(true)) CHECK((l.kind == DeviceKind::other || l.trouble));
+        for (const ListedDevice& l : list_devices(true)) CHECK((l.kind == DeviceKind::other || l.error));
     }
     emulate::DescriptorBuilder one_way;
     one_way.page(1).usage(4).begin(1).id(1).usage(0x30).range(-127, 127).fields(1, 8).input(2);
     one_way.page(15).usage(0x73).begin(2).id(5).usage(0x70).range(0, 127).fields(1, 8).output(2).end();
     const auto plug = attach(std::make_unique<InertDevice>(one_way.end().out));
     const ListedDevice l = wait_for_device("1234:0001");
-    REQUIRE(l.trouble);
-    CHECK(l.trouble->message().find("one sign only") != std::string::npos);
+    REQUIRE(l.error);
+    CHECK(l.error->message().find("one sign only") != std::string::npos);
     CHECK(!factory_for(l.id)());
 }

@@ -35,7 +35,7 @@ TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
     CHECK(l.kind == DeviceKind::puck);
     CHECK(l.name == "Emulated SpaceMouse");
     CHECK(l.path.starts_with("/dev/hidraw"));
-    REQUIRE_MESSAGE(!l.trouble, (l.trouble ? l.trouble->message() : ""));
+    REQUIRE_MESSAGE(!l.error, (l.error ? l.error->message() : ""));
     auto device = factory_for(l.id)();
     REQUIRE_MESSAGE(device, (device ? "" : device.error().message()));
     CHECK((*device)->describe().sensing == Sensing::velocity);
@@ -43,7 +43,7 @@ TEST_CASE("Kernel: a SpaceMouse is found, identified and read") {
         plug, [](emulate::EmulatedPuck& p) { p.deflection = {1.0, 0.0, 0.0, 0.0, 0.0, -1.0}; });
     const Sample pushed = last_sample(**device, 0.1);
     CHECK(pushed.velocity.x == doctest::Approx(PuckResponse{}.speed));
-    CHECK(pushed.angular_velocity.y == doctest::Approx(PuckResponse{}.turn_speed));
+    CHECK(pushed.angular_velocity.y == doctest::Approx(PuckResponse{}.angular_speed));
     with<emulate::EmulatedPuck>(plug, [](emulate::EmulatedPuck& p) {
         p.deflection = {};
         p.buttons = 1;

@@ -61,7 +61,7 @@ TEST_CASE("Kernel: a wheel is found and renders the written torque") {
         for (const double torque : {1.0, -1.5}) {
             b.run(2.0, [&] { return torque; });
             CHECK(b.motor() == doctest::Approx(torque).epsilon(0.01));
-            CHECK(b.last.turn == doctest::Approx(0.1 * torque).epsilon(0.05));
+            CHECK(b.last.angle == doctest::Approx(0.1 * torque).epsilon(0.05));
         }
         b.device.reset();
         const auto is_quiet = [&] { return b.motor() == 0.0; };
@@ -75,8 +75,8 @@ TEST_CASE("Kernel: a spring rendered through hidraw rests at static equilibrium"
         w.hand_stiffness = 5.0;
         w.hand = 0.4;
     });
-    b.run(5.0, [&] { return 5.0 * (0.0 - b.last.turn); });
-    CHECK(b.last.turn == doctest::Approx(0.2).epsilon(0.03));
+    b.run(5.0, [&] { return 5.0 * (0.0 - b.last.angle); });
+    CHECK(b.last.angle == doctest::Approx(0.2).epsilon(0.03));
 }
 
 TEST_CASE(

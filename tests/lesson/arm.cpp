@@ -115,8 +115,9 @@ std::uint64_t motion_hash(double force, bool guides) {
     while (lesson.due() != nullptr && state.tick < 30'000) {
         const servo::Input input = hand.act(setup, state, lesson);
         CHECK(input.guide == (guides ? static_cast<int>(lesson.due()->joint) : -1));
-        const auto* bytes = reinterpret_cast<const unsigned char*>(&input.device);
-        for (std::size_t i = 0; i < sizeof input.device; ++i) hash = (hash ^ bytes[i]) * 1099511628211ULL;
+        const auto* bytes = reinterpret_cast<const unsigned char*>(&input.commanded_tool);
+        for (std::size_t i = 0; i < sizeof input.commanded_tool; ++i)
+            hash = (hash ^ bytes[i]) * 1099511628211ULL;
         test::observe_tick(lesson, world, state, servo::tick(setup, state, input));
         lesson.events.clear();
     }

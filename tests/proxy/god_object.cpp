@@ -29,7 +29,7 @@ GodObjectParameters frictionless() {
 // Moves the device to a pose in `ticks` and holds it there for `hold` ticks.
 GodObjectStep lead(const GodObjectParameters& p, GodObjectState& state, const Pose& to, const Scene& scene,
                    int ticks = 200, int hold = 300) {
-    const Pose from = state.device;
+    const Pose from = state.commanded_tool;
     const Vec3 turn = turn_between(from.orientation, to.orientation);
     GodObjectStep step;
     for (int i = 1; i <= ticks + hold; ++i) {
@@ -37,7 +37,7 @@ GodObjectStep lead(const GodObjectParameters& p, GodObjectState& state, const Po
         const Pose device{glm::mix(from.position, to.position, t),
                           glm::normalize(rotation(t * turn) * from.orientation)};
         step = step_god_object(p, state, device, scene, dt);
-        REQUIRE(clearance(scene, state.tool) > -1e-9);
+        REQUIRE(clearance(scene, state.constrained_tool) > -1e-9);
     }
     return step;
 }
@@ -62,7 +62,7 @@ TEST_CASE("God-object: in free space the tool follows the device without force")
         const Pose device =
             at(Vec3(0.03 * std::sin(s), 0.02 * s, 0.05 + 0.04 * std::cos(s)), Vec3(0.1 * s, 0.2 * s, 0));
         const GodObjectStep step = step_god_object(p, state, device, scene, dt);
-        REQUIRE(glm::length(state.tool.position - device.position) < 1e-9);
+        REQUIRE(glm::length(state.constrained_tool.position - device.position) < 1e-9);
         REQUIRE(glm::length(state.felt.force) < 1e-6);
         REQUIRE(glm::length(state.felt.torque) < 1e-6);
         REQUIRE(step.queries <= 2);
@@ -78,7 +78,7 @@ TEST_CASE("God-object: on a plane the tool slides under the device; force equals
         lead(p, state, at(0.015 * n), scene);
         for (double x : {0.01, -0.02, 0.03}) {
             lead(p, state, at(0.015 * n + x * along), scene);
-            CHECK(glm::length(state.tool.position - ((0.02 + p.skin) * n + x * along)) < 1e-6);
+            CHECK(glm::length(state.constrained_tool.position - ((0.02 + p.skin) * n + x * along)) < 1e-6);
             CHECK(glm::length(state.felt.force - 1000.0 * (0.005 + p.skin) * n) < 2e-3);
             CHECK(glm::length(state.felt.torque) < 1e-6);
         }
@@ -93,7 +93,7 @@ TEST_CASE("God-object: two planes leave one direction, three leave none, and a w
         scene.nearest_only = nearest;
         GodObjectState state = start_god_object(at(Vec3(0.01, 0.0, 0.01)));
         lead(p, state, at(Vec3(-0.004, 0.02, -0.003)), scene);
-        CHECK(glm::length(state.tool.position - Vec3(s, 0.02, s)) < 2e-6);
+        CHECK(glm::length(state.constrained_tool.position - Vec3(s, 0.02, s)) < 2e-6);
         CHECK(glm::length(state.felt.force - 1000.0 * Vec3(0.004 + s, 0, 0.003 + s)) < 5e-3);
     }
     scene.obstacles.push_back(HalfSpace{Vec3(0, -1, 0), -0.01});
@@ -101,7 +101,7 @@ TEST_CASE("God-object: two planes leave one direction, three leave none, and a w
         scene.nearest_only = nearest;
         GodObjectState state = start_god_object(at(Vec3(0.01, 0.0, 0.01)));
         lead(p, state, at(Vec3(-0.004, 0.02, -0.003)), scene);
-        CHECK(glm::length(state.tool.position - Vec3(s, 0.01 - s, s)) < 2e-6);
+        CHECK(glm::length(state.constrained_tool.position - Vec3(s, 0.01 - s, s)) < 2e-6);
     }
     // 30° wedge along y: the tool is pressed into it, and both faces hold it.
     const Vec3 tilted(-std::cos(to_radians(60.0)), 0, -std::sin(to_radians(60.0)));
@@ -110,10 +110,11 @@ TEST_CASE("God-object: two planes leave one direction, three leave none, and a w
         HalfSpace{glm::normalize(Vec3(std::sin(to_radians(30.0)), 0, -std::cos(to_radians(30.0)))), 0.0};
     GodObjectState state = start_god_object(at(Vec3(0.03, 0.0, 0.008)));
     lead(p, state, at(Vec3(-0.005, 0.01, 0.0)), scene, 400);
-    CHECK(state.tool.position.x > 0.0);
-    CHECK(state.tool.position.x < 0.5e-3);
-    CHECK(state.tool.position.y == doctest::Approx(0.01).epsilon(1e-3));
-    CHECK(state.felt.force.x == doctest::Approx(1000.0 * (state.tool.position.x + 0.005)).epsilon(1e-3));
+    CHECK(state.constrained_tool.position.x > 0.0);
+    CHECK(state.constrained_tool.position.x < 0.5e-3);
+    CHECK(state.constrained_tool.position.y == doctest::Approx(0.01).epsilon(1e-3));
+    CHECK(state.felt.force.x ==
+          doctest::Approx(1000.0 * (state.constrained_tool.position.x + 0.005)).epsilon(1e-3));
 }
 
 TEST_CASE("God-object: a bar pressed on an off-centre pin tilts by the closed form") {
@@ -132,7 +133,8 @@ TEST_CASE("God-object: a bar pressed on an off-centre pin tilts by the closed fo
     CHECK(state.felt.force.z == doctest::Approx(f).epsilon(0.01));
     // The rotation about −y lifts the end at +x. The device renders it as a torque about −y.
     CHECK(state.felt.torque.y == doctest::Approx(-f * l).epsilon(0.02));
-    CHECK(-rotation_vector(state.tool.orientation).y == doctest::Approx(f * l / kappa).epsilon(0.02));
+    CHECK(-rotation_vector(state.constrained_tool.orientation).y ==
+          doctest::Approx(f * l / kappa).epsilon(0.02));
 }
 
 TEST_CASE("God-object: a bar held between two pins gives a pure torque without force") {
@@ -145,7 +147,7 @@ TEST_CASE("God-object: a bar held between two pins gives a pure torque without f
     const double turn = 0.05;
     lead(p, state, at(Vec3(0.0), Vec3(0, 0, turn)), scene);
     // Gap of 0.1 mm minus the skin, at a lever of 0.1 m.
-    const double turned = rotation_vector(state.tool.orientation).z;
+    const double turned = rotation_vector(state.constrained_tool.orientation).z;
     CHECK(turned == doctest::Approx((0.1e-3 - p.skin) / 0.1).epsilon(0.05));
     CHECK(state.felt.torque.z == doctest::Approx(-10.0 * std::sin(turn - turned)).epsilon(1e-3));
     CHECK(glm::length(state.felt.force) < 0.01);
@@ -159,14 +161,14 @@ TEST_CASE("God-object: friction sticks within its cone, and a slipping force lie
         const double depth = 4e-3;
         GodObjectState state = start_god_object(at(Vec3(0, 0, 0.01)));
         lead(p, state, at(Vec3(0, 0, -depth)), scene);
-        const Vec3 stood = state.tool.position;
+        const Vec3 stood = state.constrained_tool.position;
         lead(p, state, at(Vec3(0.95 * mu * depth, 0, -depth)), scene);
-        CHECK(glm::length(state.tool.position - stood) < 1e-6);
+        CHECK(glm::length(state.constrained_tool.position - stood) < 1e-6);
         lead(p, state, at(Vec3(0.03, 0.04, -depth)), scene);
         const Vec3 f = state.felt.force;
         CHECK(std::hypot(f.x, f.y) / f.z == doctest::Approx(mu).epsilon(1e-3));
         CHECK(glm::dot(glm::normalize(Vec3(f.x, f.y, 0)), Vec3(-0.6, -0.8, 0)) > 0.99);
-        CHECK(state.tool.position.z ==
+        CHECK(state.constrained_tool.position.z ==
               doctest::Approx(p.skin).epsilon(0.05));  // sliding does not lift it off
     }
 }
@@ -179,7 +181,7 @@ TEST_CASE("God-object: on a ball the tool is on the line from the centre to the 
         const double angle = to_radians(2.0 * i);
         const Vec3 n(std::sin(angle), 0, std::cos(angle));
         lead(p, state, at(0.016 * n), scene, 40, 20);
-        CHECK(glm::length(state.tool.position - (0.02 + p.skin) * n) < 2e-5);
+        CHECK(glm::length(state.constrained_tool.position - (0.02 + p.skin) * n) < 2e-5);
         CHECK(glm::length(state.felt.force - 1000.0 * (0.004 + p.skin) * n) < 0.05);
     }
 }
@@ -191,19 +193,19 @@ TEST_CASE("God-object: an approaching obstacle pushes the tool and penetrates by
     double deepest = 0.0;
     for (int i = 0; i < 400; ++i) {
         std::get<HalfSpace>(scene.obstacles[0]).offset = 5e-5 * i;  // 50 mm/s
-        step_god_object(p, state, state.device, scene, dt);
-        deepest = std::max(deepest, -clearance(scene, state.tool));
+        step_god_object(p, state, state.commanded_tool, scene, dt);
+        deepest = std::max(deepest, -clearance(scene, state.constrained_tool));
     }
     CHECK(deepest < 1e-4);
-    CHECK(state.tool.position.z == doctest::Approx(5e-5 * 399 + p.skin).epsilon(1e-3));
+    CHECK(state.constrained_tool.position.z == doctest::Approx(5e-5 * 399 + p.skin).epsilon(1e-3));
     // An obstacle that jumps into the tool pushes it out at the recovery speed, not in one step.
     std::get<HalfSpace>(scene.obstacles[0]).offset += 0.01;
-    Vec3 last = state.tool.position;
+    Vec3 last = state.constrained_tool.position;
     int ticks = 0;
-    while (clearance(scene, state.tool) < 0.0 && ticks < 1000) {
-        step_god_object(p, state, state.device, scene, dt);
-        CHECK(glm::length(state.tool.position - last) <= p.recovery * dt + 1e-9);
-        last = state.tool.position;
+    while (clearance(scene, state.constrained_tool) < 0.0 && ticks < 1000) {
+        step_god_object(p, state, state.commanded_tool, scene, dt);
+        CHECK(glm::length(state.constrained_tool.position - last) <= p.recovery * dt + 1e-9);
+        last = state.constrained_tool.position;
         ++ticks;
     }
     CHECK(ticks == doctest::Approx(0.01 / (p.recovery * dt)).epsilon(0.1));
@@ -219,7 +221,7 @@ TEST_CASE("God-object: an invalid device pose changes neither tool nor force") {
     for (const Pose& pose : {at(Vec3(nan, 0, 0)), at(Vec3(0, std::numeric_limits<double>::infinity(), 0)),
                              Pose{Vec3(0.0), Quat(nan, 0, 0, 0)}, Pose{Vec3(0.0), Quat(0, 0, 0, 0)}}) {
         CHECK(step_god_object(p, state, pose, scene, dt).queries == 0);
-        CHECK(state.tool.position == before.tool.position);
+        CHECK(state.constrained_tool.position == before.constrained_tool.position);
         CHECK(state.felt.force == before.felt.force);
     }
 }

@@ -83,14 +83,15 @@ Tally wander(const Scene& scene, const GodObjectParameters& p, std::uint64_t see
         device.orientation = rotation(ease * rotation_vector(device.orientation));
         const GodObjectState before = state;
         const GodObjectStep step = step_god_object(p, state, device, scene, dt);
-        const double clear = clearance(scene, state.tool);
+        const double clear = clearance(scene, state.constrained_tool);
         tally.deepest = std::max(tally.deepest, -clear);
         tally.in_contact += clear < 2.0 * p.skin ? 1 : 0;
         tally.most_queries = std::max(tally.most_queries, step.queries);
         tally.most_solves = std::max(tally.most_solves, step.solves);
         tally.budget_exhausted += step.budget_exhausted ? 1 : 0;
         tally.rate_limited += step.rate_limited ? 1 : 0;
-        tally.fastest = std::max(tally.fastest, travel(twist_between(before.tool, state.tool), p.radius));
+        tally.fastest = std::max(
+            tally.fastest, travel(twist_between(before.constrained_tool, state.constrained_tool), p.radius));
         tally.states.push_back(state);
     }
     return tally;
@@ -147,7 +148,7 @@ TEST_CASE("God-object: expensive queries only delay the tool") {
             const GodObjectStep step = step_god_object(p, state, device, dear, dt);
             most = std::max(most, step.queries);
             REQUIRE(step.work == 400U * static_cast<std::uint32_t>(step.queries));
-            REQUIRE(clearance(scene, state.tool) >= 0.0);
+            REQUIRE(clearance(scene, state.constrained_tool) >= 0.0);
         }
         CHECK(most >= 3);
         CHECK(most < p.queries);
@@ -199,14 +200,14 @@ TEST_CASE("God-object: a flick at 2 m/s does not tunnel through a rib of 1 mm at
             const Vec3 velocity =
                 2.0 * glm::normalize(Vec3(1.0, random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)));
             GodObjectState state = start_god_object(placed(Vec3(start, 0, 0), turn));
-            REQUIRE(clearance(scene, state.tool) > 0.0);
+            REQUIRE(clearance(scene, state.constrained_tool) > 0.0);
             double deepest = 0.0;
             for (int i = 0; i < 250; ++i) {
                 const Pose device{Vec3(start, 0, 0) + velocity * (i * dt),
                                   rotation(spin * (i * dt)) * rotation(turn)};
                 step_god_object(p, state, device, scene, dt);
-                deepest = std::max(deepest, -clearance(scene, state.tool));
-                for (const Vec3& point : scene.points) REQUIRE((state.tool * point).x < 0.0);
+                deepest = std::max(deepest, -clearance(scene, state.constrained_tool));
+                for (const Vec3& point : scene.points) REQUIRE((state.constrained_tool * point).x < 0.0);
             }
             CHECK(deepest <= 0.0);
             CHECK(glm::length(state.felt.force) > 15.0);
@@ -236,9 +237,9 @@ TEST_CASE("God-object: a tip in a gap of 1 mm stays in it under any pull") {
             device.position *= ease;
             device.orientation = rotation(ease * rotation_vector(device.orientation));
             step_god_object(p, state, device, scene, dt);
-            deepest = std::max(deepest, -clearance(scene, state.tool));
-            aside = std::max(aside, std::abs(state.tool.position.y));
-            along = std::max(along, std::abs(state.tool.position.x));
+            deepest = std::max(deepest, -clearance(scene, state.constrained_tool));
+            aside = std::max(aside, std::abs(state.constrained_tool.position.y));
+            along = std::max(along, std::abs(state.constrained_tool.position.x));
         }
         CHECK(deepest <= 0.0);
         CHECK(aside < 0.1e-3);
@@ -286,7 +287,7 @@ TEST_CASE("God-object: a round trip yields no more energy than a sampled spring"
         const Wandering hand(random, Vec3(0.0), 0.06, 0.8, 0.2);
         GodObjectState state = start_god_object(Pose{});
         double work = 0.0, sampled = 0.0, done = 0.0;
-        Pose last = state.device;
+        Pose last = state.commanded_tool;
         for (int i = 0; i < 2500; ++i) {
             const double ease = std::min({1.0, i / 300.0, (2500 - i) / 300.0});
             Pose device = hand(i * dt);

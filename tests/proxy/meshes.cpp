@@ -77,9 +77,10 @@ TEST_CASE("God-object on meshes: a wrench flicked at 2 m/s does not tunnel throu
         GodObjectState state = start_god_object({start, turn});
         for (int i = 0; i < 60; ++i) {
             bench.step(p, state, {start + velocity * (i * dt), turn});
-            for (const glm::vec3& v : bench.wrench.vertices) REQUIRE((state.tool * Vec3(v)).x < 0.0);
+            for (const glm::vec3& v : bench.wrench.vertices)
+                REQUIRE((state.constrained_tool * Vec3(v)).x < 0.0);
         }
-        deep += bench.deep(state.tool) ? 1 : 0;
+        deep += bench.deep(state.constrained_tool) ? 1 : 0;
         CHECK(glm::length(state.felt.force) > 15.0);
     }
     CHECK(deep == 0);
@@ -93,12 +94,12 @@ TEST_CASE("God-object on meshes: a wrench never penetrates a casing with a rib, 
         Random random(seed);
         const Vec3 start(0.02, 0.06, 0.015);
         GodObjectState state = start_god_object({start, random_turn(random)});
-        const Quat turn = state.tool.orientation;
+        const Quat turn = state.constrained_tool.orientation;
         Vec3 from = start, to = start;
         int left = 0, total = 1;
         for (int i = 0; i < 1500; ++i) {
             if (left == 0) {
-                from = state.device.position;
+                from = state.commanded_tool.position;
                 to = Vec3(random.uniform(-0.01, 0.05), random.uniform(0.008, 0.03),
                           random.uniform(-0.01, 0.04));
                 total = left =
@@ -108,14 +109,15 @@ TEST_CASE("God-object on meshes: a wrench never penetrates a casing with a rib, 
             Pose device{glm::mix(to, from, static_cast<double>(left) / total),
                         rotation(0.6 * Vec3(std::sin(3e-3 * i), std::sin(2e-3 * i), 0)) * turn};
             // A hand yields: it leads the tool by at most 8 mm, so it presses with no more than about 20 N.
-            const Vec3 ahead = device.position - state.tool.position;
-            device.position = state.tool.position + ahead * std::min(1.0, 8e-3 / (1e-9 + glm::length(ahead)));
+            const Vec3 ahead = device.position - state.constrained_tool.position;
+            device.position =
+                state.constrained_tool.position + ahead * std::min(1.0, 8e-3 / (1e-9 + glm::length(ahead)));
             const GodObjectStep step = bench.step(p, state, device);
             REQUIRE(step.nearest > -1e-4);
             most = std::max(most, step.queries);
             if (step.contacts == 0) continue;
             ++touching;
-            if (i % 5 == 0) deep += bench.deep(state.tool) ? 1 : 0;
+            if (i % 5 == 0) deep += bench.deep(state.constrained_tool) ? 1 : 0;
         }
     }
     CHECK(touching > 2000);
@@ -131,7 +133,7 @@ TEST_CASE("God-object on meshes: a step makes no call that is forbidden in a tic
     const test::Forbidden seen = test::forbidden_in([&] {
         for (int i = 0; i < 800; ++i) {
             const Vec3 at(0.02 + 0.01 * std::sin(5e-3 * i), 0.06 - 6e-5 * i, 0.015);
-            most = std::max(most, bench.step(p, state, {at, state.device.orientation}).contacts);
+            most = std::max(most, bench.step(p, state, {at, state.commanded_tool.orientation}).contacts);
         }
     });
     CHECK(most > 0);

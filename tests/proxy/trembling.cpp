@@ -90,7 +90,7 @@ Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_lim
     GodObjectState state = start_god_object(device(-furthest, 2e-3));
     const auto step = [&](double angle, double height) {
         step_god_object(p, state, device(angle, height), finder, dt);
-        CHECK(signed_distance(*world, state.tool * (p.radius * corner)) > 0.0);
+        CHECK(signed_distance(*world, state.constrained_tool * (p.radius * corner)) > 0.0);
     };
     for (int i = 0; i <= 200; ++i) step(-furthest, 2e-3 - i / 200.0 * (depth + 2e-3));
     Trembling trembling;

@@ -45,7 +45,7 @@ struct ScriptedSession {
     ScriptedSession() {
         for (std::size_t i = 0; i < ticks.size(); ++i) {
             ticks[i].grip = static_cast<std::uint8_t>(servo::Grip::wrench);
-            ticks[i].device.position[0] = 0.001F * static_cast<float>(ticks.size() - i);
+            ticks[i].commanded_tool.position[0] = 0.001F * static_cast<float>(ticks.size() - i);
         }
     }
     void touch(std::size_t from, std::size_t to, ObstacleId obstacle) {

@@ -41,7 +41,7 @@ TEST_CASE("Engagement: the jaw fits every 60 degrees, and flipped 30 degrees bet
         for (const bool flip : {false, true}) {
             Engagement e;
             const CommandedTool sample = test::tool_at(nut, centre, to_radians(0.1 * tenth), flip);
-            update_engagement(setup, state.joints, pose_of(sample), Grip::wrench, e);
+            update_pose_engagement(setup, state.joints, pose_of(sample), Grip::wrench, e);
             if (e.joint != 0) continue;
             double& last = flip ? last_flipped : last_upright;
             if (0.1 * tenth - last > 10.0 || (flip ? flipped : upright) == 0) {
@@ -66,7 +66,7 @@ TEST_CASE("Engagement: a jaw that is off centre, tilted, too high or misaligned 
         ToolPose tool = pose_of(test::tool_at(nut, at, angle));
         tool.normal = glm::angleAxis(tilt, nut.e1) * tool.normal;
         Engagement e;
-        update_engagement(setup, state.joints, tool, grip, e);
+        update_pose_engagement(setup, state.joints, tool, grip, e);
         return e.joint == 0;
     };
     CHECK(holds(Grip::wrench, centre, fits, 0.0));
@@ -87,8 +87,8 @@ TEST_CASE("Engagement: NaN, infinity and invalid quaternions engage nothing and 
         input.enabled = true;
         input.grip = Grip::wrench;
         input.guide = static_cast<std::int16_t>(i % 5 - 2);
-        for (float& x : input.device.position) x = i % 2 == 0 ? nan : INFINITY;
-        for (float& x : input.device.orientation) x = i % 3 == 0 ? nan : i % 3 == 1 ? 0.0F : 1e30F;
+        for (float& x : input.commanded_tool.position) x = i % 2 == 0 ? nan : INFINITY;
+        for (float& x : input.commanded_tool.orientation) x = i % 3 == 0 ? nan : i % 3 == 1 ? 0.0F : 1e30F;
         const Output output = tick(setup, state, input);
         REQUIRE(output.joint == -1);
         REQUIRE(glm::length(output.force) == 0.0);

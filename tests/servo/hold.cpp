@@ -157,7 +157,7 @@ TEST_CASE("Hold: an angle that changes faster than any hand releases the nut and
 }
 
 TEST_CASE("Servo: an empty hand is guided to the nut's centre with k over the distance") {
-    CHECK(Held().setup.guiding.greatest == 3.0);
+    CHECK(Held().setup.guiding.max_force == 3.0);
     for (std::int16_t guide = 0; guide < 2; ++guide) {
         Held held;
         const NutGeometry& nut = held.setup.nuts[static_cast<std::size_t>(guide)];
@@ -216,7 +216,7 @@ TEST_CASE("Servo: a NaN pose at 40 kN releases the nut, which stays, and the tor
     REQUIRE(glm::length(output.torque) > 0.5);
     const double stands_at = state.joints[0].nut.angle;
     Input lost = test::holding(Grip::wrench, test::tool_at(nut, Vec3(0.0), angle));
-    lost.device.position[1] = std::nanf("");
+    lost.commanded_tool.position[1] = std::nanf("");
     double last = output.torque.y;
     for (int i = 0; i < 200; ++i) {
         output = tick(setup, state, lost);

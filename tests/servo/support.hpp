@@ -17,7 +17,7 @@ inline servo::Setup two_joints(const force::OutputLimits& limits = {}, Vec3 axis
     description.jaw = 24.2e-3;
     description.head_angle = to_radians(15.0);
     description.handle_length = 0.23;
-    description.greatest_torque = 210.0;
+    description.max_torque = 210.0;
     description.limits = limits;
     return servo::make_setup(description);
 }
@@ -42,7 +42,7 @@ inline servo::Input holding(servo::Grip grip, const servo::CommandedTool& comman
     servo::Input input;
     input.enabled = true;
     input.grip = grip;
-    input.device = commanded;
+    input.commanded_tool = commanded;
     return input;
 }
 

@@ -42,7 +42,7 @@ TEST_CASE("Chunk: an empty chunk is valid") {
 
 TEST_CASE("Chunk: the bytes are the same on every machine") {
     TickRecord tick;
-    tick.device.position[0] = 1.0F;  // 0x3F800000
+    tick.commanded_tool.position[0] = 1.0F;  // 0x3F800000
     const std::vector<std::byte> bytes = packed(0x0102, {&tick, 1});
     const std::vector<std::byte> header(bytes.begin(), bytes.begin() + 13);
     const int expected[] = {4, 1, 0, 0, 0, 0x02, 0x01, 0, 0, 0, 0, 0, 0};

@@ -31,8 +31,8 @@ std::vector<TickRecord> finite_ticks(std::size_t count) {
     const auto any = [&] { return static_cast<float>(random.normal() * std::exp(10.0 * random.normal())); };
     for (TickRecord& tick : ticks) {
         tick = random_tick(random);
-        for (float& value : tick.device.position) value = any();
-        for (float& value : tick.device.orientation) value = any();
+        for (float& value : tick.commanded_tool.position) value = any();
+        for (float& value : tick.commanded_tool.orientation) value = any();
         for (float& value : tick.force) value = any();
         for (float& value : tick.torque) value = any();
         tick.wrench_torque = any(), tick.nut_angle = any(), tick.clamp = any();
@@ -115,8 +115,8 @@ TEST_CASE("CSV export: an exported session reads back to the same ticks") {
         REQUIRE(row.size() == rows[0].size());
         CHECK(std::abs(std::stod(row[0]) - static_cast<double>(i) * 0.001) < 1.0e-9);
         TickRecord read = tick;
-        for (std::size_t k = 0; k < 3; ++k) read.device.position[k] = number(row[1 + k]);
-        for (std::size_t k = 0; k < 4; ++k) read.device.orientation[k] = number(row[4 + k]);
+        for (std::size_t k = 0; k < 3; ++k) read.commanded_tool.position[k] = number(row[1 + k]);
+        for (std::size_t k = 0; k < 4; ++k) read.commanded_tool.orientation[k] = number(row[4 + k]);
         read.wrench_torque = number(row[13]);
         read.clamp = number(row[15]);
         for (std::size_t k = 0; k < 3; ++k) read.force[k] = number(row[16 + k]);

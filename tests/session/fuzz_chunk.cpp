@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (std::size_t i = 0; i < ticks.size(); ++i) {
         TickRecord& tick = ticks[i];
         const std::uint8_t* from = data + i * sizeof(TickRecord);
-        std::memcpy(&tick.device, from, sizeof tick.device);
+        std::memcpy(&tick.commanded_tool, from, sizeof tick.commanded_tool);
         std::memcpy(&tick.force, from + 28, sizeof tick.force);
         std::memcpy(&tick.torque, from + 40, sizeof tick.torque);
         tick.grip = from[52] % 3;

@@ -11,7 +11,7 @@ TEST_CASE("Tick record: converting to a record and back returns the input") {
     Random random(11);
     for (int i = 0; i < 200; ++i) {
         servo::Input input;
-        input.device = session::test::random_tick(random).device;
+        input.commanded_tool = session::test::random_tick(random).commanded_tool;
         input.grip = static_cast<servo::Grip>(random.bits() % 3);
         input.enabled = random.chance(0.5);
         input.fresh = random.chance(0.5);

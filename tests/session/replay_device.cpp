@@ -21,12 +21,12 @@ servo::Input hand_at(std::size_t i) {
     const double t = 1e-3 * static_cast<double>(i);
     const Quat q = rotation(Vec3(0.2 * std::sin(3.0 * t), t, 0.1));
     servo::Input input;
-    input.device.position[0] = static_cast<float>(0.1 * std::sin(t));
-    input.device.position[1] = static_cast<float>(0.3 + 0.05 * t);
-    input.device.orientation[0] = static_cast<float>(q.w);
-    input.device.orientation[1] = static_cast<float>(q.x);
-    input.device.orientation[2] = static_cast<float>(q.y);
-    input.device.orientation[3] = static_cast<float>(q.z);
+    input.commanded_tool.position[0] = static_cast<float>(0.1 * std::sin(t));
+    input.commanded_tool.position[1] = static_cast<float>(0.3 + 0.05 * t);
+    input.commanded_tool.orientation[0] = static_cast<float>(q.w);
+    input.commanded_tool.orientation[1] = static_cast<float>(q.x);
+    input.commanded_tool.orientation[2] = static_cast<float>(q.y);
+    input.commanded_tool.orientation[3] = static_cast<float>(q.z);
     input.fresh = i % 7 != 6;
     input.enabled = i < 2000;
     return input;
@@ -72,9 +72,10 @@ TEST_CASE("Replay device: a recorded hand repeats its motion, grip and release i
         if (!input.fresh || next >= count) continue;
         const servo::Input was = hand_at(next);
         for (int k = 0; k < 3; ++k)
-            REQUIRE(std::abs(input.device.position[k] - was.device.position[k]) < 1e-6F);
+            REQUIRE(std::abs(input.commanded_tool.position[k] - was.commanded_tool.position[k]) < 1e-6F);
         for (int k = 0; k < 4; ++k)
-            REQUIRE(std::abs(input.device.orientation[k] - was.device.orientation[k]) < 1e-6F);
+            REQUIRE(std::abs(input.commanded_tool.orientation[k] - was.commanded_tool.orientation[k]) <
+                    1e-6F);
         REQUIRE(input.enabled == was.enabled);
         do {
             ++next;

@@ -15,8 +15,8 @@ namespace bolt::session::test {
 TickRecord random_tick(Random& random) {
     const auto any = [&] { return std::bit_cast<float>(random.bits()); };
     TickRecord tick;
-    for (float& value : tick.device.position) value = any();
-    for (float& value : tick.device.orientation) value = any();
+    for (float& value : tick.commanded_tool.position) value = any();
+    for (float& value : tick.commanded_tool.orientation) value = any();
     for (float& value : tick.force) value = any();
     for (float& value : tick.torque) value = any();
     tick.grip = static_cast<std::uint8_t>(random.bits() % 3);
@@ -51,9 +51,10 @@ bool same(const TickRecord& a, const TickRecord& b) {
     bool all =
         equal(a.wrench_torque, b.wrench_torque) && equal(a.nut_angle, b.nut_angle) && equal(a.clamp, b.clamp);
     for (int i = 0; i < 3; ++i)
-        all = all && equal(a.device.position[i], b.device.position[i]) && equal(a.force[i], b.force[i]) &&
-              equal(a.torque[i], b.torque[i]);
-    for (int i = 0; i < 4; ++i) all = all && equal(a.device.orientation[i], b.device.orientation[i]);
+        all = all && equal(a.commanded_tool.position[i], b.commanded_tool.position[i]) &&
+              equal(a.force[i], b.force[i]) && equal(a.torque[i], b.torque[i]);
+    for (int i = 0; i < 4; ++i)
+        all = all && equal(a.commanded_tool.orientation[i], b.commanded_tool.orientation[i]);
     return all && a.grip == b.grip && a.flags == b.flags && a.guide == b.guide && a.joint == b.joint &&
            a.stage == b.stage && a.contacts == b.contacts && a.touched == b.touched && a.fault == b.fault &&
            a.undo == b.undo && equal(a.setting, b.setting);

@@ -26,7 +26,7 @@ struct Script {
     std::vector<float> move(const Vec3& velocity, int ticks) {
         std::vector<float> strikes;
         for (int i = 0; i < ticks; ++i) {
-            output.tool.position += dt * velocity;
+            output.constrained_tool.position += dt * velocity;
             if (const SoundCues cues = tick(); cues.strike_speed > 0.0F) strikes.push_back(cues.strike_speed);
         }
         return strikes;
@@ -68,7 +68,7 @@ TEST_CASE(
         for (int i = 0; i < 100; ++i) {
             if (i == 50) script.output.touched = turns ? ObstacleId::nut(1) : ObstacleId::fixed(3);
             const double angle = turn * dt * std::min(i, 50);
-            script.output.tool.orientation = glm::angleAxis(angle, Vec3(0, 1, 0));
+            script.output.constrained_tool.orientation = glm::angleAxis(angle, Vec3(0, 1, 0));
             if (const SoundCues cues = script.tick(); cues.strike_speed > 0.0F)
                 strikes.push_back(cues.strike_speed);
         }
@@ -158,16 +158,16 @@ TEST_CASE(
     script.move({0.2, 0, 0}, 10);
     CHECK(script.tick().slide_speed == 0.0F);
     script.output.touched = ObstacleId::fixed(3);
-    script.output.tool.position += Vec3(0.2 * dt, 0, 0);
+    script.output.constrained_tool.position += Vec3(0.2 * dt, 0, 0);
     const SoundCues cues = script.tick();
     CHECK(cues.slide_speed == doctest::Approx(0.2));
     CHECK(cues.contact_force == doctest::Approx(4.0));
     script.output.joint = 1;
     script.output.touched = ObstacleId::nut(1);
-    script.output.tool.position += Vec3(0.2 * dt, 0, 0);
+    script.output.constrained_tool.position += Vec3(0.2 * dt, 0, 0);
     CHECK(script.tick().slide_speed == 0.0F);
     script.output.touched = ObstacleId::nut(0);  // the neighbour
-    script.output.tool.position += Vec3(0.2 * dt, 0, 0);
+    script.output.constrained_tool.position += Vec3(0.2 * dt, 0, 0);
     CHECK(script.tick().slide_speed == doctest::Approx(0.2));
 }
 
@@ -177,7 +177,7 @@ TEST_CASE("Event detection: without a force device sliding has a default contact
     Script script(none);
     script.output.touched = ObstacleId::fixed(3);
     script.move({0.2, 0, 0}, 10);
-    script.output.tool.position += Vec3(0.2 * dt, 0, 0);
+    script.output.constrained_tool.position += Vec3(0.2 * dt, 0, 0);
     CHECK(script.tick().contact_force > 1.0F);
 }
 
@@ -264,7 +264,7 @@ TEST_CASE("Event detection: accepts any numbers and does not allocate") {
     script.output.touched = ObstacleId::fixed(3);
     script.output.joint = 1;
     for (const double odd : {nan, 1e300, -1e300, 0.0}) {
-        script.output.tool.position = Vec3(odd);
+        script.output.constrained_tool.position = Vec3(odd);
         script.output.force = Vec3(odd);
         script.output.nut_angle = odd;
         script.output.clamp = odd;
@@ -272,7 +272,7 @@ TEST_CASE("Event detection: accepts any numbers and does not allocate") {
         CHECK(found.all() == 0);
     }
     // The detection recovers afterwards.
-    script.output.tool = {};
+    script.output.constrained_tool = {};
     script.output.touched = {};
     script.move({0, -0.2, 0}, 50);
     script.output.touched = ObstacleId::fixed(3);

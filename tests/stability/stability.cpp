@@ -114,7 +114,7 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
         const ForceRequest request{tool.felt, stored_energy(parameters.coupling, tool.offset)};
         test::step(arm, render(limits, stage, input, request, dt), dt);
         outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_out);
-        outcome.deepest = std::min(outcome.deepest, clearance(t.scene, tool.tool));
+        outcome.deepest = std::min(outcome.deepest, clearance(t.scene, tool.constrained_tool));
         outcome.touched = outcome.touched || glm::length(tool.felt.force) > 0.2;
         const double places[] = {arm.pose.position.z, (arm.pose * Vec3(-0.23, 0, 0)).z};
         for (int i = 0; i < 2; ++i) {

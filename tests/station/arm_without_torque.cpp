@@ -17,8 +17,8 @@ Layout small_arm() {
     layout.mover->limits.force = 12.0;
     layout.mover->reach = Vec3(0.075);
     layout.workspace.scale = force::fitted_scale(layout.mover->reach, 0.23);
-    layout.workspace.power = 1.0 / layout.workspace.scale;
-    layout.grip_distance = grip_distance_of(layout, 0.23);
+    layout.workspace.power_ratio = 1.0 / layout.workspace.scale;
+    layout.lever_arm = lever_arm_of(layout, 0.23);
     return layout;
 }
 
@@ -32,15 +32,15 @@ Vec3 device_at(const Rig& rig, const Vec3& point) {
 TEST_CASE(
     "An arm without torque: its handle is the end of the wrench, with torque or a wheel it is the jaw") {
     Layout layout = small_arm();
-    CHECK(layout.grip_distance == 0.23);
+    CHECK(layout.lever_arm == 0.23);
     layout.mover->limits.torque = 0.2;
-    CHECK(grip_distance_of(layout, 0.23) == 0.0);
+    CHECK(lever_arm_of(layout, 0.23) == 0.0);
     layout.mover->limits.torque = 0.0;
     layout.wheel = test::wheel_of(10.0);
-    CHECK(grip_distance_of(layout, 0.23) == 0.0);
+    CHECK(lever_arm_of(layout, 0.23) == 0.0);
     Layout puck;
     puck.mover = test::puck();
-    CHECK(grip_distance_of(puck, 0.23) == 0.0);
+    CHECK(lever_arm_of(puck, 0.23) == 0.0);
 }
 
 TEST_CASE("An arm without torque: in the air the wrist turns the wrench about its end") {
@@ -62,7 +62,7 @@ TEST_CASE(
     "An arm without torque: a swing of its handle tightens the nut, felt as a force against the swing") {
     Rig rig = on_nut(small_arm());
     const servo::NutGeometry& nut = rig.setup.nuts[0];
-    const double length = rig.layout.grip_distance;
+    const double length = rig.layout.lever_arm;
     DeviceCommands answer;
     double swung = 0.0;  // rad
     const auto handle = [&] { return rig.tool().orientation * Vec3(1.0, 0.0, 0.0); };

@@ -36,7 +36,7 @@ TEST_CASE("Station: a pause renders no force and moves nothing; afterwards force
         }
         CHECK(last > 1.0);
         CHECK(glm::length(rig.tool().position - before.position) < 1e-9);
-        CHECK(rig.servo.output.watchdog.counts[static_cast<std::size_t>(force::Fault::jumped)] == 0);
+        CHECK(rig.servo.output_stage.watchdog.counts[static_cast<std::size_t>(force::Fault::jumped)] == 0);
     }
     SUBCASE("a stop pressed during the pause is a fault afterwards") {
         rig.layout.mover_buttons.stop = 16;
@@ -130,14 +130,14 @@ TEST_CASE(
     const servo::ToolPose on =
         servo::pose_of(test::tool_at(nut, servo::nut_centre(nut, 0.0), rig.setup.wrench.head_angle));
     const Pose rest{Vec3(0.1, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};
-    rig.inputs.controls.wrench_rest = rest;
+    rig.inputs.controls.wrench_rest_pose = rest;
     rig.inputs.controls.grip = servo::Grip::none;
     rig.ticks(5);
-    REQUIRE(rig.state.wrench_rest);
-    CHECK(rig.state.wrench_rest->position == rest.position);
+    REQUIRE(rig.state.resting_wrench);
+    CHECK(rig.state.resting_wrench->position == rest.position);
     rig.inputs.controls.grip = servo::Grip::wrench;
     rig.tick();
-    CHECK_FALSE(rig.state.wrench_rest);
+    CHECK_FALSE(rig.state.resting_wrench);
     CHECK(glm::length(rig.tool().position - rest.position) < 1e-9);
     // From there on it follows the hand.
     rig.hand().position += Vec3(0.0, 0.0, 1e-3);
@@ -148,8 +148,8 @@ TEST_CASE(
     REQUIRE(rig.state.output.joint == 0);
     rig.inputs.controls.grip = servo::Grip::none;
     rig.ticks(5);
-    REQUIRE(rig.state.wrench_rest);
-    CHECK(glm::length(rig.state.wrench_rest->position - on.position) < 1e-3);
+    REQUIRE(rig.state.resting_wrench);
+    CHECK(glm::length(rig.state.resting_wrench->position - on.position) < 1e-3);
     rig.hand().position += Vec3(0.0, 0.02, 0.0);
     rig.tick();
     rig.inputs.controls.grip = servo::Grip::wrench;
@@ -161,7 +161,7 @@ TEST_CASE(
     REQUIRE(rig.state.output.joint < 0);
     rig.inputs.controls.grip = servo::Grip::none;
     rig.ticks(2);
-    CHECK(rig.state.wrench_rest->position == rest.position);
+    CHECK(rig.state.resting_wrench->position == rest.position);
 }
 
 TEST_CASE(
@@ -169,10 +169,10 @@ TEST_CASE(
     Layout layout = with_arm();
     layout.wrist = Pose{Vec3(0.12, 0.02, -0.03), rotation(Vec3(0.1, 0.2, 1.5))};
     Rig rig(layout);
-    rig.inputs.controls.wrench_rest = Pose{Vec3(0.0, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};
+    rig.inputs.controls.wrench_rest_pose = Pose{Vec3(0.0, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};
     rig.inputs.controls.bare_wrist = Pose{Vec3(0.02, 0.1, 0.05), rotation(Vec3(-1.0, 0.2, 0.3))};
     const auto wrist = [&] {
-        return held_tool_pose(layout, rig.setup, rig.state, rig.inputs.controls) * *layout.wrist;
+        return tool_commanded_by_glove(layout, rig.setup, rig.state, rig.inputs.controls) * *layout.wrist;
     };
     rig.inputs.hand_grip = servo::Grip::none;
     rig.ticks(5);
@@ -180,19 +180,19 @@ TEST_CASE(
     CHECK(glm::distance(wrist().position, bare.position) < 1e-12);
     rig.inputs.hand_grip = servo::Grip::wrench;
     rig.ticks(5);
-    CHECK(glm::distance(rig.tool().position, rig.inputs.controls.wrench_rest->position) < 1e-9);
+    CHECK(glm::distance(rig.tool().position, rig.inputs.controls.wrench_rest_pose->position) < 1e-9);
     const Pose holding = wrist();
     CHECK(glm::distance(holding.position, (rig.tool() * *layout.wrist).position) < 1e-12);
     rig.inputs.hand_grip = servo::Grip::none;
     rig.ticks(2);
     CHECK(glm::distance(wrist().position, holding.position) < 1e-9);
     CHECK(std::abs(glm::dot(wrist().orientation, holding.orientation)) > 1.0 - 1e-9);
-    CHECK(glm::distance(rig.tool().position, rig.inputs.controls.wrench_rest->position) > 0.01);
+    CHECK(glm::distance(rig.tool().position, rig.inputs.controls.wrench_rest_pose->position) > 0.01);
     // Placed at the rest pose of the wrench, the hand is around its handle.
     rig.commands = {
-        PlaceTool{*rig.state.wrench_rest * Pose{Vec3(0.1, 0.03, 0.02), rotation(Vec3(0.3, 0.0, 0.0))}}};
+        PlaceTool{*rig.state.resting_wrench * Pose{Vec3(0.1, 0.03, 0.02), rotation(Vec3(0.3, 0.0, 0.0))}}};
     rig.ticks(2);
-    CHECK(glm::distance(wrist().position, (*rig.state.wrench_rest * *layout.wrist).position) < 1e-9);
+    CHECK(glm::distance(wrist().position, (*rig.state.resting_wrench * *layout.wrist).position) < 1e-9);
 }
 
 TEST_CASE("Station: the dead-man switch of a window that hangs expires, a device's button does not") {

@@ -98,19 +98,20 @@ TEST_CASE(
         hand::joints(worn.plan.wearer.hand, worn.state.grasp.closure.angles, worn.plan.wrist);
     CHECK(apart(display(worn.plan, worn.state).joints, open) < 1e-12);
     // An obstacle holds the tool 0.1 m below the hand.
-    worn.place.actual.position -= Vec3(0.0, 0.1, 0.0);
+    worn.place.constrained_tool.position -= Vec3(0.0, 0.1, 0.0);
     worn.send(test::raw_open(), 0.1);
-    const Vec3 palm = worn.place.actual * display(worn.plan, worn.state).joints.position[hand::palm];
+    const Vec3 palm =
+        worn.place.constrained_tool * display(worn.plan, worn.state).joints.position[hand::palm];
     CHECK(glm::length(palm - somewhere * open.position[hand::palm]) < 1e-12);
     // The hand cannot grasp the tool from a distance. Once it holds it, the displayed hand follows the tool.
     worn.send(test::raw_closed(), 0.5);
     CHECK(!display(worn.plan, worn.state).held);
-    worn.place.actual = somewhere;
+    worn.place.constrained_tool = somewhere;
     worn.send(test::raw_closed(), 0.5);
     const DisplayedHand closed = display(worn.plan, worn.state);
     CHECK(closed.held);
     CHECK(apart(closed.joints, open) > 0.03);
-    worn.place.actual.position -= Vec3(0.0, 0.1, 0.0);
+    worn.place.constrained_tool.position -= Vec3(0.0, 0.1, 0.0);
     worn.send(test::raw_closed(), 0.5);
     CHECK(apart(display(worn.plan, worn.state).joints, closed.joints) < 1e-4);
 }
@@ -120,13 +121,13 @@ TEST_CASE("Gloved hand: messages name its problems, worst first") {
     CHECK(messages({}, hand::Side::right, report).empty());
     report.handshakes = 1;
     CHECK(messages({}, hand::Side::right, report).empty());
-    std::strcpy(report.trouble.data(), "the port is gone");
+    std::strcpy(report.fault_message.data(), "the port is gone");
     const std::vector<std::string> lost = messages({true, true}, hand::Side::right, report);
     REQUIRE(lost.size() == 2);
     CHECK(lost[0].find("stays in your hand") != std::string::npos);
     CHECK(lost[1] == "the port is gone");
     CHECK(messages({false, true}, hand::Side::right, report)[0].find("stays") == std::string::npos);
-    report.trouble[0] = '\0';
+    report.fault_message[0] = '\0';
     report.identity.hand = hand::Side::left;
     REQUIRE(messages({}, hand::Side::right, report).size() == 1);
     CHECK(messages({}, hand::Side::right, report)[0].find("is a left one") != std::string::npos);

@@ -11,7 +11,7 @@ using test::with_arm;
 TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stops at obstacles") {
     Layout layout;
     layout.mover = test::puck();
-    layout.workspace.turn = rotation(Vec3(0, 0, pi / 2));
+    layout.workspace.rotation = rotation(Vec3(0, 0, pi / 2));
     Rig rig(layout);
     rig.inputs.controls.grip = servo::Grip::none;
     rig.inputs.mover.sample.velocity = Vec3(0.1, 0, 0);
@@ -37,12 +37,12 @@ TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stop
         CHECK(rig.tool().position.y == doctest::Approx(0.1).epsilon(1e-3));
     }
     SUBCASE("the hand leads a blocked tool by at most max_lead") {
-        const Pose held = rig.state.output.tool;
+        const Pose held = rig.state.output.constrained_tool;
         rig.inputs.mover.sample.velocity = Vec3(0.3, 0, 0);
         for (int i = 0; i < 1000; ++i) {
             ++rig.inputs.mover.number;
             read_inputs(rig.layout, rig.setup, rig.state, rig.inputs);
-            rig.state.output.tool = held;
+            rig.state.output.constrained_tool = held;
         }
         CHECK(glm::length(rig.tool().position - held.position) == doctest::Approx(max_lead).epsilon(0.05));
         const Vec3 turned = turn_between(held.orientation, rig.tool().orientation);
@@ -62,7 +62,7 @@ TEST_CASE("Wheel: clockwise as the user sees it tightens, whatever the sign of t
         const double with_clock = axis.y + axis.z < 0.0 ? 1.0 : -1.0;
         DeviceCommands answer;
         for (int i = 0; i < 30'000 && rig.state.output.wrench_torque < 100.0; ++i) {
-            rig.inputs.wheel.sample.turn += with_clock * 1e-3;
+            rig.inputs.wheel.sample.angle += with_clock * 1e-3;
             answer = rig.tick();
         }
         REQUIRE(rig.state.output.wrench_torque > 99.0);
@@ -90,7 +90,7 @@ TEST_CASE("Station: a silent arm is released and the wheel keeps its torque; a s
         Rig rig = on_nut(layout);
         rig.hand().position.z += 2e-3;
         for (int i = 0; i < 30'000 && rig.state.output.wrench_torque < 50.0; ++i) {
-            rig.inputs.wheel.sample.turn += 1e-3;
+            rig.inputs.wheel.sample.angle += 1e-3;
             rig.tick();
         }
         DeviceCommands answer = rig.tick();
@@ -113,7 +113,7 @@ TEST_CASE("Wheel: without an engaged nut it turns nothing, and that rotation is 
     rig.ticks(700);
     const Pose before = rig.tool();
     for (int i = 0; i < 1000; ++i) {
-        rig.inputs.wheel.sample.turn += 0.01;
+        rig.inputs.wheel.sample.angle += 0.01;
         CHECK(nothing(rig.tick().wheel));
     }
     CHECK(rig.tool().orientation == before.orientation);
@@ -122,7 +122,7 @@ TEST_CASE("Wheel: without an engaged nut it turns nothing, and that rotation is 
     Rig on = on_nut(layout);
     const Pose there = on.tool();
     ++on.inputs.wheel.opening;  // replugged: its count restarts
-    on.inputs.wheel.sample.turn = 40.0;
+    on.inputs.wheel.sample.angle = 40.0;
     on.ticks(5);
     CHECK(glm::length(turn_between(there.orientation, on.tool().orientation)) < 1e-9);
     CHECK(on.state.output.joint == 0);

@@ -43,8 +43,8 @@ bool mutes(InjectedFault what) {
 struct MonitoredDevice {
     test::VirtualLine line;
     Random random;
-    device::FaultInterval trouble{InjectedFault::silent, -1.0, -1.0};  // the latest one; it may be over
-    double healthy_since = 0.0;                                        // s, end of the latest fault
+    device::FaultInterval fault{InjectedFault::silent, -1.0, -1.0};  // the latest one; it may be over
+    double healthy_since = 0.0;                                      // s, end of the latest fault
     double undisturbed = 0.0;  // s, time from which no fault delays a write
     bool recovered = true;     // usable since the end of the latest fault
     std::array<std::uint64_t, device::injected_fault_count> counts{};
@@ -57,19 +57,19 @@ struct MonitoredDevice {
         : line(std::move(design)), random(seed) {}
 
     void advance(double now) {
-        if (now >= trouble.until && now > healthy_since + 0.1 && random.chance(dt / 4.0)) {
+        if (now >= fault.until && now > healthy_since + 0.1 && random.chance(dt / 4.0)) {
             const auto kind = static_cast<InjectedFault>(random.bits() % device::injected_fault_count);
             // 1 ms to 3 s, uniform in the logarithm.
             const double lasts = 1e-3 * std::exp(random.uniform() * std::log(3000.0));
-            trouble = {kind, now, now + lasts};
-            line.thing.inject(trouble);
+            fault = {kind, now, now + lasts};
+            line.thing.inject(fault);
             ++counts[static_cast<std::size_t>(kind)];
             recovered = false;
         }
-        if (now < trouble.until) {
-            healthy_since = trouble.until;
-            if (trouble.what == InjectedFault::stuck || trouble.what == InjectedFault::slow)
-                undisturbed = trouble.until + device::slow_write_time;
+        if (now < fault.until) {
+            healthy_since = fault.until;
+            if (fault.what == InjectedFault::stuck || fault.what == InjectedFault::slow)
+                undisturbed = fault.until + device::slow_write_time;
         }
         line.until(now);
     }
@@ -149,13 +149,13 @@ class Soak {
         const double phase = std::fmod(now_, 20.0);
         const double height = phase < 2.0 ? 0.1 : phase < 17.0 ? 0.0 : 0.1;
         const Vec3 at = servo::nut_centre(nut, servo_.joints[0].nut.angle) + height * nut.axis;
-        const Pose& tool = state_.workspace.tool;
+        const Pose& tool = state_.workspace.commanded_tool;
         const double azimuth = setup_.wrench.head_angle + servo_.joints[0].nut.angle;
         const servo::ToolPose wanted = servo::pose_of(test::tool_at(nut, at, azimuth));
         const Vec3 turn =
             state_.output.joint >= 0 ? Vec3(0.0) : turn_between(tool.orientation, wanted.orientation);
         device::Sample sample;
-        const Pose& hand = state_.hand;
+        const Pose& hand = state_.mover_pose;
         sample.pose.position = hand.position + force::clamp_length(at - tool.position, 0.02);
         sample.pose.orientation = glm::normalize(rotation(force::clamp_length(turn, 0.1)) * hand.orientation);
         return sample;
@@ -167,7 +167,7 @@ class Soak {
         if (now_ > turned_at_) wheel_at_ += direction_ * 1.0 * (now_ - turned_at_);
         turned_at_ = now_;
         device::Sample sample;
-        sample.turn = wheel_at_;
+        sample.angle = wheel_at_;
         return sample;
     }
 
@@ -239,7 +239,7 @@ class Soak {
     void update_gloved_hand() {
         move_hand();
         const bool held = hand_.grasp.held, lost = hand_.grasp.lost, fresh = sample_.number != hand_.number;
-        const ToolPoses place{state_.workspace.tool, state_.output.tool};
+        const ToolPoses place{state_.workspace.commanded_tool, state_.output.constrained_tool};
         hand::GraspEvent event{};
         const test::Forbidden forbidden = test::forbidden_in(
             [&] { event = update_hand(hand_setup_, hand_, sample_, place, hand_interval * dt); });
@@ -282,12 +282,12 @@ class Soak {
         const force::Fault fault = state_.output.fault;
         if (fault == force::Fault::none) faulty_since_ = now_;
         // A sample that is off moves no tool.
-        const Vec3 tool = state_.workspace.tool.position;
+        const Vec3 tool = state_.workspace.commanded_tool.position;
         statistics_.largest_step = std::max(statistics_.largest_step, glm::distance(tool, tool_));
         tool_ = tool;
         for (MonitoredDevice* w : {&arm_, &wheel_}) {
             const char* who = w == &arm_ ? "arm" : "wheel";
-            const device::FaultInterval& t = w->trouble;
+            const device::FaultInterval& t = w->fault;
             const force::OutputCommand rendered = w->line.thing.rendered();
             const force::OutputCommand& command = w == &arm_ ? commands_.mover : commands_.wheel;
             const auto is = [&](const char* what) { return fmt::format("{} {}", who, what); };
@@ -303,10 +303,10 @@ class Soak {
                     statistics_.require(false, is("is lost and renders a force"), now_);
                 if (t.what == InjectedFault::stuck && since > force_timeout && !hangs && !is_zero(command))
                     statistics_.require(false, is("is stuck and gets a force command"), now_);
-                if (mutes(t.what) && since > report_timeout && w->line.report().trouble.empty())
+                if (mutes(t.what) && since > report_timeout && w->line.report().fault_message.empty())
                     statistics_.require(false, is("is lost and not reported"), now_);
                 if (t.what == InjectedFault::stuck && since > report_timeout && w == &arm_ && !hangs &&
-                    w->line.report().trouble.empty() && state_.output.fault == force::Fault::none &&
+                    w->line.report().fault_message.empty() && state_.output.fault == force::Fault::none &&
                     state_.output.joint < 0)
                     statistics_.require(false, is("is stuck and not reported"), now_);
             } else if (!w->recovered) {

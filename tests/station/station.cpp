@@ -67,9 +67,9 @@ StationOptions plan_of(device::DeviceFactory mover) {
     return plan;
 }
 
-std::string joined_lines(const std::vector<std::string>& troubles) {
+std::string joined_lines(const std::vector<std::string>& messages) {
     std::string all;
-    for (const std::string& trouble : troubles) all += trouble + "\n";
+    for (const std::string& message : messages) all += message + "\n";
     return all;
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in ord
         for (StationTick tick; station->next_tick(tick); ++ticks) {
             in_order = in_order && tick.number > number;
             number = tick.number;
-            height = tick.input.device.position[1];
+            height = tick.input.commanded_tool.position[1];
         }
         return height > 0.4F && station->latest_tick().input.enabled &&
                station->latest_tick().input.guide == 1;
@@ -127,7 +127,8 @@ TEST_CASE("Station: every command reaches the servo once and in order; a full qu
         return saved >= rounds;
     }));
     CHECK(saved == rounds);
-    CHECK(glm::distance(station->latest_tick().tool.position, Vec3(0.001 * rounds, 0.4, 0.0)) < 1e-9);
+    CHECK(glm::distance(station->latest_tick().commanded_tool.position, Vec3(0.001 * rounds, 0.4, 0.0)) <
+          1e-9);
     station->stop();
     for (std::size_t i = 0; i < command_queue_capacity; ++i) REQUIRE(station->send(SaveCheckpoint{}));
     const Status full = station->send(SaveCheckpoint{});
@@ -145,14 +146,14 @@ TEST_CASE("Station: an unplugged device is reported and stops the tool; it resum
     station->set_controls(controls);
     const auto height = [&] {
         puck.set_input({Vec3(0, 1, 0), Vec3(0.0), 0});
-        return station->latest_tick().input.device.position[1];
+        return station->latest_tick().input.commanded_tool.position[1];
     };
     REQUIRE(eventually([&] { return height() > 0.32F; }));
-    CHECK(eventually([&] { return height() > 0.32F && station->troubles().empty(); }));
+    CHECK(eventually([&] { return height() > 0.32F && station->fault_messages().empty(); }));
     cable->plugged = false;
     REQUIRE(eventually([&] { return station->latest_tick().output.fault == force::Fault::silent; }));
     REQUIRE(eventually(
-        [&] { return joined_lines(station->troubles()).find("plug it in") != std::string::npos; }));
+        [&] { return joined_lines(station->fault_messages()).find("plug it in") != std::string::npos; }));
     REQUIRE(eventually([&] { return station->link_stats().mover.longest_silence > 0.3; }));
     CHECK(station->link_stats().mover.samples > 0);
     CHECK(station->mover_report()->losses == 1);
@@ -160,7 +161,7 @@ TEST_CASE("Station: an unplugged device is reported and stops the tool; it resum
     for (int i = 0; i < 20; ++i) CHECK(height() == stands);
     cable->plugged = true;
     REQUIRE(eventually([&] { return height() > stands + 0.02F; }));
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
     CHECK(station->latest_tick().output.fault == force::Fault::none);
 }
 
@@ -169,12 +170,13 @@ TEST_CASE("Station: a driver that hangs is reported, although its thread is bloc
     const auto cable = std::make_shared<Cable>();
     Result<Station> station = Station::start(plan_of(on_cable(cable, puck.factory())));
     REQUIRE(station);
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
     cable->hangs = true;
-    REQUIRE(eventually(
-        [&] { return joined_lines(station->troubles()).find("hangs: unplug it") != std::string::npos; }));
+    REQUIRE(eventually([&] {
+        return joined_lines(station->fault_messages()).find("hangs: unplug it") != std::string::npos;
+    }));
     cable->hangs = false;
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
 }
 
 TEST_CASE("Station: the glove has its own thread, and its problems are reported") {
@@ -190,11 +192,12 @@ TEST_CASE("Station: the glove has its own thread, and its problems are reported"
     CHECK(station->wheel_report() == nullptr);
     REQUIRE(eventually([&] { return station->glove()->sample().number > 5; }));
     line->stall(true);
-    REQUIRE(eventually([&] { return joined_lines(station->troubles()).find("glove") != std::string::npos; }));
+    REQUIRE(eventually(
+        [&] { return joined_lines(station->fault_messages()).find("glove") != std::string::npos; }));
     REQUIRE(eventually([&] { return station->glove_report()->longest_silence > 0.5; }));
     CHECK(station->glove_report()->frames > 5);
     line->stall(false);
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
 }
 
 TEST_CASE(
@@ -226,8 +229,9 @@ TEST_CASE(
     }));
 
     line->stall(true);
-    REQUIRE(eventually(
-        [&] { return joined_lines(station->troubles()).find("stays in your hand") != std::string::npos; }));
+    REQUIRE(eventually([&] {
+        return joined_lines(station->fault_messages()).find("stays in your hand") != std::string::npos;
+    }));
     line->set_raw(test::raw_open());  // not received: the glove is lost
     const std::uint64_t then = station->latest_tick().number;
     bool kept = true;
@@ -239,7 +243,7 @@ TEST_CASE(
     CHECK(kept);
     line->set_raw(test::raw_closed());
     line->stall(false);
-    REQUIRE(eventually([&] { return station->troubles().empty(); }));
+    REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
     CHECK(grip() == servo::Grip::wrench);
     line->set_raw(test::raw_open());
     REQUIRE(eventually([&] { return grip() == servo::Grip::none; }));
@@ -256,7 +260,7 @@ TEST_CASE("Station: a glove of the wrong side is reported; a gloved hand without
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
     REQUIRE(eventually(
-        [&] { return joined_lines(station->troubles()).find("is a left one") != std::string::npos; }));
+        [&] { return joined_lines(station->fault_messages()).find("is a left one") != std::string::npos; }));
     StationOptions bare = plan_of(puck.factory());
     bare.hand = test::hand_at_bar();
     CHECK_FALSE(Station::start(std::move(bare)));

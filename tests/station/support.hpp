@@ -49,7 +49,7 @@ inline device::Description wheel_of(double torque, const Vec3& axis = Vec3(0, 0,
     device::Description wheel;
     wheel.name = "a wheel";
     wheel.id = "wheel-1";
-    wheel.sensing = device::Sensing::turn;
+    wheel.sensing = device::Sensing::angle;
     wheel.axis = axis;
     wheel.renders = {false, false, false, true, true, true};
     wheel.limits.force = 0.0;

@@ -54,7 +54,7 @@ struct Rig {
         return output;
     }
     Pose& hand() { return inputs.mover.sample.pose; }
-    [[nodiscard]] const Pose& tool() const { return state.workspace.tool; }
+    [[nodiscard]] const Pose& tool() const { return state.workspace.commanded_tool; }
 };
 
 // A station with the tool engaged on the first nut. Only a puck can move the tool.

@@ -17,12 +17,12 @@ using test::with_arm;
 TEST_CASE("Station: the tool begins at home wherever the hand is, and follows its scaled motion") {
     Layout layout = with_arm();
     layout.workspace.scale = 3.0;
-    layout.workspace.turn = rotation(Vec3(0, pi / 2, 0));
+    layout.workspace.rotation = rotation(Vec3(0, pi / 2, 0));
     Rig rig(layout);
     rig.hand() = {Vec3(0.05, -0.02, 0.01), rotation(Vec3(0.3, 0, 0))};
     rig.tick();
     CHECK(glm::length(rig.tool().position - layout.home.position) < 1e-12);
-    CHECK(glm::length(rig.state.input.device.position[1] - 0.3F) < 1e-6F);
+    CHECK(glm::length(rig.state.input.commanded_tool.position[1] - 0.3F) < 1e-6F);
     for (int i = 0; i < 100; ++i) {
         rig.hand().position.x += 1e-4;
         rig.tick();
@@ -160,7 +160,7 @@ TEST_CASE("Station: after a stall of the servo forces ramp up from zero, whateve
     layout.wheel = test::wheel_of(10.0);
     Rig rig = on_nut(layout);
     for (int i = 0; i < 30'000 && rig.state.output.wrench_torque < 150.0; ++i) {
-        rig.inputs.wheel.sample.turn += 1e-3;
+        rig.inputs.wheel.sample.angle += 1e-3;
         rig.tick();
     }
     REQUIRE(glm::length(rig.tick().wheel.torque) > 5.0);
@@ -235,7 +235,7 @@ TEST_CASE("Station: a tick neither allocates nor waits, and the same inputs give
         std::uint64_t hash = 14695981039346656037ULL;
         const auto all = [&] {
             for (int i = 0; i < 3000; ++i) {
-                rig.inputs.wheel.sample.turn += 2e-3 * random.uniform();
+                rig.inputs.wheel.sample.angle += 2e-3 * random.uniform();
                 rig.hand().position.x += 1e-5 * random.normal();
                 rig.mover_speaks = !random.chance(0.1);
                 const DeviceCommands answer = rig.tick();

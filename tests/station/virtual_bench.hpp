@@ -60,7 +60,7 @@ class VirtualBench final : public station_setup::LessonStation {
     const station::StationTick& latest_tick() override { return newest_; }
     [[nodiscard]] std::uint64_t lost_ticks() const override { return lost_; }
     const station::DisplayedHand* hand() override { return hand_ ? &*hand_ : nullptr; }
-    std::vector<std::string> troubles() override { return troubles_; }
+    std::vector<std::string> fault_messages() override { return fault_messages_; }
     device::Condition condition() override { return condition_; }
     device::ArmNeeds needs() override { return needs_; }
     void permit_move() override { ++permissions_; }
@@ -72,7 +72,7 @@ class VirtualBench final : public station_setup::LessonStation {
     }
 
     // State of the station and its faults, set by tests.
-    std::vector<std::string> troubles_;
+    std::vector<std::string> fault_messages_;
     device::ArmNeeds needs_;
     device::Condition condition_;
     int permissions_ = 0;  // that the user has given
@@ -101,7 +101,7 @@ class VirtualBench final : public station_setup::LessonStation {
         commands_.clear();
         mailboxes_.commands.write({done.commands.mover, true, ++command_number_});
         newest_ = done.tick;
-        if (std::exchange(garbles_, false)) newest_.input.device.position[0] += 1e-3F;
+        if (std::exchange(garbles_, false)) newest_.input.commanded_tool.position[0] += 1e-3F;
         if (!done.paused) ticks_.push_back(newest_);
     }
 

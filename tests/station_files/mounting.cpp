@@ -89,11 +89,11 @@ TEST_CASE("Station file: the handle feels a force along the user's axes, and pow
         const content::StationArm arm = any_arm(random);
         const Layout layout = layout_of(arm, test::arm());
         CHECK(layout.workspace.scale == *arm.scale);
-        CHECK(layout.workspace.power == arm.power.value_or(1.0 / *arm.scale));
+        CHECK(layout.workspace.power_ratio == arm.power.value_or(1.0 / *arm.scale));
         const Vec3 on_tool = any(random);
         const force::OutputCommand felt = force::to_device(layout.workspace, {}, {on_tool, Vec3(0.0)});
         const Vec3 of_user = content::orientation_of(arm.mounting) * felt.force;
-        CHECK(glm::length(of_user - layout.workspace.power * *arm.scale * on_tool) < 1e-9);
+        CHECK(glm::length(of_user - layout.workspace.power_ratio * *arm.scale * on_tool) < 1e-9);
     }
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("Station file: without a scale it is fitted to the reach along the use
                                          {R"(, "mounting": {"yaw_deg": 90})", Vec3(0.05, 0.2, 0.3)}}) {
         const Layout layout = layout_of(arm_of(members), device);
         CHECK(layout.workspace.scale == doctest::Approx(force::fitted_scale(reach, 0.23)));
-        CHECK(layout.workspace.power == 1.0 / layout.workspace.scale);
+        CHECK(layout.workspace.power_ratio == 1.0 / layout.workspace.scale);
     }
     CHECK(layout_of(arm_of(""), device).workspace.scale <
           layout_of(arm_of(R"(, "mounting": {"yaw_deg": 90})"), device).workspace.scale);
@@ -121,7 +121,7 @@ TEST_CASE("Station file: with any mounting and scale, clutching never makes the 
         arm.buttons = Buttons{1, 32, 0, 0};
         Rig rig(layout_of(arm, device));
         rig.ticks(5);
-        const Vec3 along(rig.layout.grip_distance, 0.0, 0.0);
+        const Vec3 along(rig.layout.lever_arm, 0.0, 0.0);
         Vec3 last = rig.tool() * along;
         Quat turned = rig.tool().orientation;
         int changes = 0;

@@ -63,12 +63,13 @@ TEST_CASE("Tool contact: a wrench pulled through the reducer is never caught for
         Pose before = here;
         const auto check = [&](const Output& output) {
             const proxy::GodObjectStep& step = puller.contact().last_step;
-            const bool stays = glm::length(output.tool.position - before.position) < still &&
-                               glm::length(proxy::twist_between(before, output.tool).angular) < still;
+            const bool stays =
+                glm::length(output.constrained_tool.position - before.position) < still &&
+                glm::length(proxy::twist_between(before, output.constrained_tool).angular) < still;
             caught = step.budget_exhausted && stays ? caught + 1 : 0;
             longest = std::max(longest, caught);
             if (output.contacts > 0) deepest = std::min(deepest, step.nearest);
-            before = output.tool;
+            before = output.constrained_tool;
         };
         for (int leg = 0; leg < 3; ++leg) {
             const Pose next = puller.anywhere();

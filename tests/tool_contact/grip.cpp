@@ -49,7 +49,7 @@ struct Watch {
         if (o.slipped >= 0) ++slips;
         const ToolContact& t = *bench.state.tool_contact;
         for (std::size_t i = 0; i < t.hexagons.size() && t.in_hand; ++i) {
-            Pose to_nut = inverse(t.nut_poses[i]) * t.god_object.tool;
+            Pose to_nut = inverse(t.nut_poses[i]) * t.god_object.constrained_tool;
             if (static_cast<int>(i) == t.seated_joint) {  // beyond the play the hexagon turns with the jaw
                 const collision::Jaw& jaw = bench.setup.wrench.jaw;
                 const NutGeometry& nut = bench.setup.nuts[i];
@@ -196,9 +196,9 @@ TEST_CASE("Jaw grip: the nut resists tilting and releases the jaw square") {
         move(bench, way, on, over, 0.3);
         CHECK(way.engaged);
         CHECK(glm::dot(way.last.torque, about) * side < -0.5);
-        const double tilt =
-            std::asin(glm::dot(bench.state.tool_contact->god_object.tool.orientation * Vec3(0, 0, 1),
-                               glm::cross(bench.setup.nuts[0].axis, about)));
+        const double tilt = std::asin(
+            glm::dot(bench.state.tool_contact->god_object.constrained_tool.orientation * Vec3(0, 0, 1),
+                     glm::cross(bench.setup.nuts[0].axis, about)));
         CHECK(std::abs(to_degrees(tilt)) < 1.2);  // a jaw 24.2 mm wide and 10.8 mm high on 24 mm
         CHECK(std::abs(to_degrees(tilt)) > 0.5);
         move(bench, way, over, on, 0.3);

@@ -46,7 +46,8 @@ LessonStatistics run_lesson(test::Workbench& bench, const char* trainee, std::ui
         if (output.joint < 0 && bench.state.tool_contact->in_hand && lesson.due() != nullptr) {
             const std::size_t due = lesson.due()->joint;
             const Vec3 nut = nut_centre(bench.setup.nuts[due], bench.state.joints[due].nut.angle);
-            if (glm::length(output.tool.position - nut) < 0.04) statistics.searching += bench.setup.dt;
+            if (glm::length(output.constrained_tool.position - nut) < 0.04)
+                statistics.searching += bench.setup.dt;
         }
         statistics.step = std::max(statistics.step, glm::length(output.force - before.force));
         statistics.torque_step = std::max(statistics.torque_step, glm::length(output.torque - before.torque));

@@ -42,7 +42,8 @@ ForceRecord lowered(test::Workbench& bench, double misfit_deg, double beside) {
 
 double height(const test::Workbench& bench, const Output& output) {
     const NutGeometry& nut = bench.setup.nuts[0];
-    return glm::dot(output.tool.position - nut_centre(nut, bench.state.joints[0].nut.angle), nut.axis);
+    return glm::dot(output.constrained_tool.position - nut_centre(nut, bench.state.joints[0].nut.angle),
+                    nut.axis);
 }
 
 }  // namespace
@@ -116,11 +117,11 @@ TEST_CASE("Tool contact: the wrench stops at the cover however far the hand goes
     CHECK(deepest > -0.1e-3);
     CHECK(in.greatest > 0.5 * bench.setup.limits.force);
     CHECK(in.step < shock * bench.setup.limits.force);
-    CHECK(glm::distance(in.last.tool.position, through.position) > 5e-3);
+    CHECK(glm::distance(in.last.constrained_tool.position, through.position) > 5e-3);
     ForceRecord back;
     test::sweep(bench, through, high, 0.5, back);
     for (int i = 0; i < 100; ++i) back(bench.step(high));
-    CHECK(glm::distance(back.last.tool.position, high.position) < 1e-4);
+    CHECK(glm::distance(back.last.constrained_tool.position, high.position) < 1e-4);
     CHECK(glm::length(back.last.force) < 0.01);
 }
 
@@ -147,10 +148,10 @@ TEST_CASE("Tool contact: the wrench stops with devices that render no force, no 
         });
         CHECK(last.contacts > 0);
         CHECK(deepest > -0.1e-3);
-        CHECK(glm::distance(last.tool.position, through.position) > 5e-3);
+        CHECK(glm::distance(last.constrained_tool.position, through.position) > 5e-3);
         CHECK(felt <= force);
         test::sweep(bench, through, high, 0.5, [&](const Output& output) { last = output; });
-        CHECK(glm::distance(last.tool.position, high.position) < 1e-3);
+        CHECK(glm::distance(last.constrained_tool.position, high.position) < 1e-3);
     }
 }
 
@@ -165,7 +166,7 @@ TEST_CASE("Tool contact: the same motion gives the same bits, and a tick makes n
     test::sweep(second, high, low, 0.4, [&](const Output& output) {
         const Output& other = outputs[i++];
         same = same && output.force == other.force && output.torque == other.torque &&
-               output.tool.position == other.tool.position;
+               output.constrained_tool.position == other.constrained_tool.position;
     });
     CHECK(same);
     CHECK(i == outputs.size());

@@ -36,7 +36,7 @@ servo::Output Workbench::step(const Pose& hand, servo::Grip grip) {
     servo::Input input;
     input.enabled = true;
     input.grip = grip;
-    input.device = servo::commanded_tool(hand);
+    input.commanded_tool = servo::to_commanded_tool(hand);
     return servo::tick(setup, state, input);
 }
 

@@ -62,13 +62,14 @@ TEST_CASE("Tool contact: a clumsy hand never passes through the pipe flange, nor
         const Output output = tick(bench.setup, bench.state, input);
         test::observe_tick(lesson, world, bench.state, output);
         lesson.events.clear();
-        const Vec3 now(input.device.position[0], input.device.position[1], input.device.position[2]);
+        const Vec3 now(input.commanded_tool.position[0], input.commanded_tool.position[1],
+                       input.commanded_tool.position[2]);
         if (bench.state.tick > 1) fastest = std::max(fastest, glm::length(now - before) / bench.setup.dt);
         before = now;
         if (output.fault != force::Fault::none) ++faults;
         if (!bench.state.tool_contact->in_hand || bench.state.tick % 100 != 0) continue;
         ++samples;
-        depth = std::max(depth, depth_in_casing(scene, *bench.state.tool_contact, output.tool));
+        depth = std::max(depth, depth_in_casing(scene, *bench.state.tool_contact, output.constrained_tool));
     }
     MESSAGE("deepest " << 1e6 * depth << " um, fastest " << fastest << " m/s");
     CHECK(samples == 500);

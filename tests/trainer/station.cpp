@@ -159,9 +159,10 @@ class KeyboardTrainee {
     }
     void go_to(const Vec3& position, double tolerance, double longest) {
         for (double t = 0.0;
-             t < longest && glm::length(position - lesson_.client.latest.tool.position) > 2.0 * tolerance;
+             t < longest &&
+             glm::length(position - lesson_.client.latest.commanded_tool.position) > 2.0 * tolerance;
              t += frame_time)
-            hold_for_frame(towards(position - lesson_.client.latest.tool.position, tolerance));
+            hold_for_frame(towards(position - lesson_.client.latest.commanded_tool.position, tolerance));
         hold_for_frame({});
     }
     void do_step() {
@@ -188,7 +189,7 @@ class KeyboardTrainee {
         if (lesson_.client.gloved) lesson_.bench->hand_->held = false;
     }
     void take_wrench() {
-        const Pose rest = lesson_.client.latest.wrench_rest.value_or(lesson_.client.rest);
+        const Pose rest = lesson_.client.latest.resting_wrench.value_or(lesson_.client.rest);
         go_to(rest * Vec3(0.1, 0.0, 0.1), 0.02, 6.0);
         go_to(rest * Vec3(0.1, 0.0, 0.03), 0.01, 4.0);
         if (lesson_.client.gloved) lesson_.bench->hand_->held = true;
@@ -204,7 +205,7 @@ class KeyboardTrainee {
         const Pose ghost = wrench_pose_on_nut(lesson_.client.rest, lesson_.session->setup(),
                                               lesson_.session->state(), lesson_.due()->joint, false);
         for (double t = 0.0; t < 8.0; t += frame_time) {
-            const Quat& now = lesson_.client.latest.tool.orientation;
+            const Quat& now = lesson_.client.latest.commanded_tool.orientation;
             const Vec3 left = turn_between(now, ghost.orientation);
             if (glm::length(left) < 0.08) break;
             std::set<Key> keys;

@@ -221,7 +221,7 @@ TEST_CASE(
     pass(0.3);
     CHECK(arm_warning(driver.lesson().station->condition) == words::TextKey("arm.warm"));
     CHECK(driver.lesson().session->time() > before);
-    bench.condition_.rests = true;
+    bench.condition_.cooling = true;
     pass(0.3);
     CHECK(arm_warning(driver.lesson().station->condition) == words::TextKey("arm.rests"));
     bench.condition_ = {};

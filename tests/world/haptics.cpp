@@ -42,7 +42,7 @@ TEST_CASE("World: after each tick the components equal the servo's values bit fo
         const servo::Output output = bench.tick();
         const world::ContactState& contact = bench.world.only<world::ContactState>();
         REQUIRE(contact.joint == output.joint);
-        REQUIRE(bench.world.only<world::ConstrainedTool>().pose.position == output.tool.position);
+        REQUIRE(bench.world.only<world::ConstrainedTool>().pose.position == output.constrained_tool.position);
         REQUIRE(bench.world.only<world::DeviceForce>().torque == output.torque);
         for (std::size_t j = 0; j < bench.state.joints.size(); ++j) {
             const world::Joint& joint = world::joint_at(bench.world, j);
@@ -85,8 +85,8 @@ TEST_CASE("World: the hand has the input's pose and keeps the wrench's resting p
 
 TEST_CASE("World: the guiding force is reported until a nut is held") {
     Bench bench;
-    bench.input.device =
-        servo::commanded_tool({bench.setup.nuts[0].seat + Vec3(0.02, 0.03, 0.0), Quat(1, 0, 0, 0)});
+    bench.input.commanded_tool =
+        servo::to_commanded_tool({bench.setup.nuts[0].seat + Vec3(0.02, 0.03, 0.0), Quat(1, 0, 0, 0)});
     bench.input.guide = 0;
     for (int i = 0; i < 300; ++i) bench.tick();
     const world::GuidingForce& guide = bench.world.only<world::GuidingForce>();

@@ -121,19 +121,19 @@ void servo_tick_12_joints(benchmark::State& state) {
     description.jaw = 0.0242;
     description.head_angle = 0.26;
     description.handle_length = 0.23;
-    description.greatest_torque = 200.0;
+    description.max_torque = 200.0;
     const servo::Setup setup = servo::make_setup(description);
     servo::State servo = servo::initial_state(setup);
     servo::Input input;
     input.enabled = true;
     input.grip = servo::Grip::fingers;
     const Vec3 centre = servo::nut_centre(setup.nuts[0], 0.0);
-    for (int i = 0; i < 3; ++i) input.device.position[i] = static_cast<float>(centre[i]);
+    for (int i = 0; i < 3; ++i) input.commanded_tool.position[i] = static_cast<float>(centre[i]);
     double t = 0.0;
     for (auto _ : state) {
         t += 1e-3;
-        input.device.orientation[0] = static_cast<float>(std::cos(t));
-        input.device.orientation[2] = static_cast<float>(std::sin(t));
+        input.commanded_tool.orientation[0] = static_cast<float>(std::cos(t));
+        input.commanded_tool.orientation[2] = static_cast<float>(std::sin(t));
         benchmark::DoNotOptimize(servo::tick(setup, servo, input));
     }
 }

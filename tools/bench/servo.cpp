@@ -250,7 +250,7 @@ std::vector<servo::Input> make_path(ServoFixture& servo, const DeviceModel& devi
                 input.enabled = true;
                 input.grip = servo::Grip::wrench;
                 input.guide = leg.guide;
-                input.device =
+                input.commanded_tool =
                     command_of(trainees::step_arm(impedance, arm, target, {output.force, output.torque},
                                                   output.joint >= 0, dt),
                                device.encoder);
@@ -318,7 +318,8 @@ void servo_tick(benchmark::State& state, const bench::DeviceModel& device, doubl
                     forces.add(output);
                     before = output;
                 }
-                if (round > 0 && (before.force != last.force || before.tool.position != last.tool.position))
+                if (round > 0 && (before.force != last.force ||
+                                  before.constrained_tool.position != last.constrained_tool.position))
                     throw std::runtime_error("the same inputs give different outputs");
                 last = before;
                 if (!touches) servo.state.tool_contact = std::move(removed_contact);

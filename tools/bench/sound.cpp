@@ -81,7 +81,7 @@ void sound_event_detection(benchmark::State& state) {
     output.touched = collision::ObstacleId::fixed(3);
     for (auto _ : state)
         for (int i = 0; i < 20; ++i) {
-            output.tool.position.x += 1e-4;
+            output.constrained_tool.position.x += 1e-4;
             servo.joints[0].nut.angle += 1e-3;
             world::write_haptics(world, {servo, {}, output});
             benchmark::DoNotOptimize(sound::detect_events(detector, setup, world));

@@ -18,9 +18,9 @@ namespace bolt::device {
 
 namespace {
 
-constexpr int release_after = 50;          // ms without a request until the force is released
-constexpr int time_to_close = 2;           // s, after the program has gone
-constexpr std::size_t most_config = 4095;  // bytes
+constexpr int release_after = 50;              // ms without a request until the force is released
+constexpr int time_to_close = 2;               // s, after the program has ended
+constexpr std::size_t max_config_size = 4095;  // bytes
 
 template <std::size_t size>
 void copy_text(char (&to)[size], const char* from) {
@@ -67,9 +67,9 @@ Result<std::string> read_config(std::filesystem::path plugin) {
     const std::string name = file.filename().string();
     const Result<std::string> text = read_file(file, std::size_t{1} << 20U, ErrorCode::failed);
     if (!text) return fail(ErrorCode::failed, name + ' ' + text.error().what, "a text file that can be read");
-    if (text->size() <= most_config && text->find('\0') == std::string::npos) return *text;
+    if (text->size() <= max_config_size && text->find('\0') == std::string::npos) return *text;
     return fail(ErrorCode::failed, fmt::format("{} has {} bytes", name, text->size()),
-                fmt::format("a text of {} at most, without NUL", most_config));
+                fmt::format("a text of {} at most, without NUL", max_config_size));
 }
 
 class PluginServer {
@@ -161,7 +161,7 @@ class PluginServer {
     bool enabled_ = false;
 };
 
-// Ends the process if a function of the plug-in does not return after the program has gone.
+// Ends the process if a function of the plug-in does not return after the program has ended.
 void end_after_program(int socket) {
     std::thread([socket] {
         pollfd events{socket, POLLRDHUP, 0};

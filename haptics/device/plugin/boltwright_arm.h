@@ -69,7 +69,7 @@ extern "C" {
 #define BW_ARM_ERROR (-1)
 #define BW_ARM_DONE 0
 #define BW_ARM_BUSY 1       /* calibrate: not done yet, call again */
-#define BW_ARM_NEEDS_USER 2 /* calibrate: the user must act; last_error says how. Call again */
+#define BW_ARM_NEEDS_USER 2 /* calibrate: the user must act; last_error states how. Call again */
 #define BW_ARM_MUST_MOVE 3  /* calibrate: the arm would have to move by itself, and may_move is 0 */
 #define BW_ARM_NO_SAMPLE 4  /* exchange: the arm has sent nothing new since the last call */
 
@@ -170,7 +170,7 @@ struct bw_arm_v1 {
 
 #define BW_ARM_EXPORT __attribute__((visibility("default")))
 
-/* Returns the plug-in's functions; NULL if the plug-in does not know version `abi`. */
+/* Returns the plug-in's functions; NULL if the plug-in does not support version `abi`. */
 BW_ARM_EXPORT const struct bw_arm_v1* bw_arm_entry(uint32_t abi);
 
 #ifdef __cplusplus

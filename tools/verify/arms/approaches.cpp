@@ -69,13 +69,14 @@ Task draw_task(Workplace& place, Random& random) {
 
 class Reach {
   public:
-    Reach(ArmRig& rig, const Task& task) : rig_(rig), task_(task), before_(rig.output().tool.position) {
+    Reach(ArmRig& rig, const Task& task)
+        : rig_(rig), task_(task), before_(rig.output().constrained_tool.position) {
         approach_.straight = glm::distance(task.nut, before_);
     }
 
     // Moves the hand to `to` with minimum jerk and lets it settle; ends early at the nut.
     void move(const Pose& to) {
-        const Pose from = rig_.output().tool;
+        const Pose from = rig_.output().constrained_tool;
         const double way = glm::distance(from.position, to.position);
         const double duration = std::max(way / mean_speed, least_duration), begin = rig_.time;
         while (!approach_.reached && rig_.time - begin < duration + settling) {
@@ -96,8 +97,8 @@ class Reach {
   private:
     void note() {
         const servo::Output& output = rig_.output();
-        approach_.way += glm::distance(output.tool.position, before_);
-        before_ = output.tool.position;
+        approach_.way += glm::distance(output.constrained_tool.position, before_);
+        before_ = output.constrained_tool.position;
         const double left = glm::distance(before_, task_.nut), force = rig_.contact_force();
         approach_.contact_force = std::max(approach_.contact_force, force);
         const bool touches = force > felt_bump && output.touched != collision::ObstacleId() &&
@@ -133,7 +134,8 @@ Approach run_approach(Workplace& place, const ArmFacts& arm, std::uint64_t seed,
         const Vec3 error = aim_error * Vec3(random.normal(), random.normal(), random.normal());
         const Quat turned = rotation(tilt_error * Vec3(random.normal(), random.normal(), random.normal()));
         if (i > 0)
-            reach.move({rig.output().tool.position + raise * task.axis, rig.output().tool.orientation});
+            reach.move({rig.output().constrained_tool.position + raise * task.axis,
+                        rig.output().constrained_tool.orientation});
         reach.move({task.nut + error, glm::normalize(turned * task.orientation)});
     }
     return reach.finish();

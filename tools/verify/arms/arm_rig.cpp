@@ -111,23 +111,24 @@ void ArmRig::tick() {
 
 Pose ArmRig::device_pose(const Pose& tool) const {
     const force::WorkspaceState& w = station.workspace;
-    const Quat back = glm::conjugate(w.heading * layout.workspace.turn);
-    return {back * (force::grip_point(w, tool) - w.centre) / layout.workspace.scale,
-            glm::normalize(back * tool.orientation * glm::conjugate(w.grip))};
+    const Quat back = glm::conjugate(w.heading * layout.workspace.rotation);
+    return {back * (force::lever_end(w, tool) - w.centre) / layout.workspace.scale,
+            glm::normalize(back * tool.orientation * glm::conjugate(w.tool_to_device))};
 }
 
 double ArmRig::contact_force() const { return glm::length(servo.tool_contact->god_object.felt.force); }
 
 double ArmRig::coupling_stiffness() const {
     const force::WorkspaceMap& w = layout.workspace;
-    return servo.tool_contact->parameters.coupling.stiffness * w.power * w.scale * w.scale;
+    return servo.tool_contact->parameters.coupling.stiffness * w.power_ratio * w.scale * w.scale;
 }
 
 double ArmRig::nut_stiffness() const {
     const force::WorkspaceMap& w = layout.workspace;
     const force::TorqueRendering& r = setup.torque_rendering;
-    if (r.scale > 0.0) return setup.wrench.stiffness * r.scale * w.power;
-    return setup.wrench.stiffness * r.as_force / setup.wrench.handle_length * w.power * w.scale * w.scale;
+    if (r.scale > 0.0) return setup.wrench.stiffness * r.scale * w.power_ratio;
+    return setup.wrench.stiffness * r.as_force / setup.wrench.handle_length * w.power_ratio * w.scale *
+           w.scale;
 }
 
 }  // namespace bolt::arm_validation

@@ -232,7 +232,7 @@ double lead_for(const ArmRig& rig, double share) {
     if (limits.torque > 0.0)
         return std::min((rig.pushes_only ? 0.1 : share) * limits.torque / hand.angular_stiffness, 1.2);
     const double strength = rig.pushes_only ? push : share * limits.force;
-    return std::min(strength / hand.stiffness * rig.layout.workspace.scale / rig.layout.grip_distance, 1.2);
+    return std::min(strength / hand.stiffness * rig.layout.workspace.scale / rig.layout.lever_arm, 1.2);
 }
 
 // rad, the intended angle of the handle at a time.

@@ -45,9 +45,9 @@ class SimulatedHand {
         servo::Input input;
         input.enabled = true;
         input.grip = grip;
-        input.device = servo::commanded_tool(hand);
+        input.commanded_tool = servo::to_commanded_tool(hand);
         const servo::Output output = servo::tick(setup_, state_, input);
-        if (grip == servo::Grip::wrench) measure(output.tool);
+        if (grip == servo::Grip::wrench) measure(output.constrained_tool);
         return output;
     }
     // Moves the hand from its current pose along a minimum-jerk profile.
@@ -161,8 +161,8 @@ struct BoxWorld {
         ++run.ticks;
         if (done.contacts == 0 || done.nearest > check_within) return;
         ++run.checked;
-        const ExactContact exact = exact_contact(scene, world, state.tool, depth_query(run));
-        record(run, exact, scene.parts[exact.deepest].id, state.tool);
+        const ExactContact exact = exact_contact(scene, world, state.constrained_tool, depth_query(run));
+        record(run, exact, scene.parts[exact.deepest].id, state.constrained_tool);
     }
 
   private:
@@ -259,8 +259,8 @@ Result<PenetrationRun> run_flicks(const collision::ToolShape& tool,
         }
         // A tool that has passed the rib no longer crosses it, so check the side as well.
         for (const glm::vec3& v : tool.solid.mesh.vertices)
-            if ((state.tool * Vec3(v)).x > 0.5 * mm)
-                run.depth = std::max(run.depth, (state.tool * Vec3(v)).x);
+            if ((state.constrained_tool * Vec3(v)).x > 0.5 * mm)
+                run.depth = std::max(run.depth, (state.constrained_tool * Vec3(v)).x);
     }
     return run;
 }
