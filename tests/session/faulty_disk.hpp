@@ -1,4 +1,4 @@
-// Fault injection for disk access: while an object exists, SQLite accesses files through it.
+// DiskFault injection for disk access: while an object exists, SQLite accesses files through it.
 //
 // Counts the operations that change a file (write, truncate, sync, delete). At a chosen one either the
 // process is killed, halfway through a write, or the disk is full from then on.
@@ -6,11 +6,11 @@
 
 namespace bolt::session::test {
 
-enum class Fault { none, full, kill };
+enum class DiskFault { none, full, kill };
 
 class FaultyDisk {
   public:
-    FaultyDisk(Fault fault, int at_operation);
+    FaultyDisk(DiskFault fault, int at_operation);
     FaultyDisk(const FaultyDisk&) = delete;
     FaultyDisk& operator=(const FaultyDisk&) = delete;
     ~FaultyDisk();

@@ -47,10 +47,10 @@ station::Layout layout_of(const ArmFacts& facts, const Pose& tool, double handle
 
 }  // namespace
 
-Result<Workplace> load_workplace(const std::string& name) {
+Result<TightenedAssembly> load_tightened_assembly(const std::string& name) {
     content::LoadedAssembly loaded = content::load_assembly(name);
     if (!loaded.ok()) return fail(loaded.errors.front());
-    Workplace place{std::move(loaded.assembly), {}};
+    TightenedAssembly place{std::move(loaded.assembly), {}};
     const servo::Setup setup =
         session::make_setup(place.assembly, place.assembly.law, {}, joint_seed, tick_length);
     place.state = servo::initial_state(setup);
@@ -65,7 +65,7 @@ Result<Workplace> load_workplace(const std::string& name) {
     return place;
 }
 
-ArmRig::ArmRig(Workplace& workplace, const RigOptions& options)
+ArmRig::ArmRig(TightenedAssembly& workplace, const RigOptions& options)
     : place(workplace), facts(*options.arm), pushes_only(options.grip.pushes_only) {
     layout = layout_of(facts, options.tool, place.assembly.wrench.handle_length);
     force::OutputLimits limits = station::limits_of(layout);

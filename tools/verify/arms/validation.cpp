@@ -10,7 +10,7 @@ namespace bolt::arm_validation {
 
 namespace {
 
-using Job = std::function<void(Workplace&, std::span<const Press>)>;
+using Job = std::function<void(TightenedAssembly&, std::span<const Press>)>;
 
 // Runs all jobs, each with the workplace of its thread. Returns the first error of loading one.
 Status run_jobs(const std::vector<Job>& jobs, const std::string& assembly, unsigned threads) {
@@ -18,7 +18,7 @@ Status run_jobs(const std::vector<Job>& jobs, const std::string& assembly, unsig
     std::mutex lock;
     std::optional<Error> error;
     const auto work = [&] {
-        Result<Workplace> place = load_workplace(assembly);
+        Result<TightenedAssembly> place = load_tightened_assembly(assembly);
         if (!place) {
             const std::lock_guard guard(lock);
             if (!error) error = place.error();
@@ -35,20 +35,20 @@ Status run_jobs(const std::vector<Job>& jobs, const std::string& assembly, unsig
     return {};
 }
 
-StableRange range_of(Workplace& place, std::span<const Press> presses, const RangeQuery& query) {
+StableRange range_of(TightenedAssembly& place, std::span<const Press> presses, const RangeQuery& query) {
     return stable_range(place, query, presses);
 }
 
 // Measures both springs in one respect.
 void add_range_jobs(std::vector<Job>& jobs, ArmResult& result) {
-    const auto add = [&](Spring spring, StableRange& range, bool controller, bool held) {
+    const auto add = [&](TestedSpring spring, StableRange& range, bool controller, bool held) {
         jobs.push_back([&range, query = RangeQuery{result.arm, spring, controller, held}](
-                           Workplace& place, std::span<const Press> presses) {
+                           TightenedAssembly& place, std::span<const Press> presses) {
             range = range_of(place, presses, query);
         });
     };
-    for (const Spring spring : {Spring::contact, Spring::nut}) {
-        SpringResult& s = spring == Spring::contact ? result.contact : result.nut;
+    for (const TestedSpring spring : {TestedSpring::contact, TestedSpring::nut}) {
+        SpringResult& s = spring == TestedSpring::contact ? result.contact : result.nut;
         add(spring, s.held, true, true);
         add(spring, s.uncontrolled, false, true);
         add(spring, s.free, true, false);
@@ -58,7 +58,7 @@ void add_range_jobs(std::vector<Job>& jobs, ArmResult& result) {
 void add_arm_jobs(std::vector<Job>& jobs, ArmResult& result) {
     add_range_jobs(jobs, result);
     for (const bool held : {true, false})
-        jobs.push_back([&result, held](Workplace& place, std::span<const Press> presses) {
+        jobs.push_back([&result, held](TightenedAssembly& place, std::span<const Press> presses) {
             RigOptions options;
             options.arm = result.arm;
             double rim = 0.0;
@@ -69,10 +69,10 @@ void add_arm_jobs(std::vector<Job>& jobs, ArmResult& result) {
 
 }  // namespace
 
-Outcome feel_of(Workplace& place, const RigOptions& options, bool held, std::span<const Press> presses,
-                double& swing_at_rim) {
-    std::optional<Outcome> worst;
-    const auto add = [&](Outcome outcome, bool at_rim) {
+FeelOutcome feel_of(TightenedAssembly& place, const RigOptions& options, bool held,
+                    std::span<const Press> presses, double& swing_at_rim) {
+    std::optional<FeelOutcome> worst;
+    const auto add = [&](FeelOutcome outcome, bool at_rim) {
         if (at_rim) {
             swing_at_rim = std::max(swing_at_rim, outcome.late_swing);
             outcome.late_swing = outcome.early_swing = 0.0;
@@ -89,10 +89,10 @@ Outcome feel_of(Workplace& place, const RigOptions& options, bool held, std::spa
         for (const Pull pull : {Pull::breakaway, Pull::yield, Pull::slip_off})
             add(run_pull(place, with, pull), pull == Pull::slip_off);
     }
-    return worst.value_or(Outcome{});
+    return worst.value_or(FeelOutcome{});
 }
 
-ArmResult measure(Workplace& place, const ArmFacts& arm) {
+ArmResult measure(TightenedAssembly& place, const ArmFacts& arm) {
     ArmResult result;
     result.arm = &arm;
     std::vector<Job> jobs;
@@ -125,7 +125,7 @@ Result<ValidationResult> validate(const ValidationOptions& options) {
     for (std::size_t a = 0; a < raw.size(); ++a)
         for (const bool guided : {false, true})
             for (std::size_t seed = 0; seed < count; ++seed)
-                jobs.push_back([&, a, guided, seed](Workplace& place, std::span<const Press>) {
+                jobs.push_back([&, a, guided, seed](TightenedAssembly& place, std::span<const Press>) {
                     (guided ? raw[a].guided : raw[a].free)[seed] =
                         run_approach(place, *result.approaches[a].arm, seed, guided);
                 });
