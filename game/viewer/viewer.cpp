@@ -254,8 +254,7 @@ void Viewer::draw_bar(const glm::vec2& size, float scale) {
         ImGui::SameLine();
         if (ImGui::RadioButton(fmt::format("{:g}×", speed).c_str(), speed_ == speed)) speed_ = speed;
     }
-    if (const TimelineMark* chapter = recording_->chapter_at(time_);
-        chapter != nullptr && chapter->joint >= 0) {
+    if (const auto* chapter = recording_->chapter_at(time_); chapter != nullptr && chapter->joint >= 0) {
         ImGui::SameLine(0.0F, 24.0F * scale);
         draw_text(step_text(*chapter));
     }

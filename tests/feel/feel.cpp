@@ -15,12 +15,12 @@ using namespace bolt::arm_validation;
 namespace {
 
 TightenedAssembly& zq350() {
-    static TightenedAssembly place = [] {
+    static TightenedAssembly tightened = [] {
         Result<TightenedAssembly> loaded = load_tightened_assembly("zq350");
         REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message()));
         return std::move(*loaded);
     }();
-    return place;
+    return tightened;
 }
 
 RigOptions with(const ArmFacts& arm) {

@@ -420,10 +420,10 @@ void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const 
                     fmt::format(" where it starts, {:.3g} mm above its seat", joint.design.start_gap / mm),
                     scene, messages);
     if (swings.most() <= 0.0) return;  // already reported
-    ExitPaths approach{seated, wrench.head_angle, wrench.head_size, wrench.reach};
-    std::uint32_t blocked = find_obstruction(around, plain, swings.plain, approach);
-    approach.jaw_angle = -wrench.head_angle;
-    if (blocked != no_part) blocked = find_obstruction(around, over, swings.turned_over, approach);
+    ExitPaths paths{seated, wrench.head_angle, wrench.head_size, wrench.reach};
+    std::uint32_t blocked = find_obstruction(around, plain, swings.plain, paths);
+    paths.jaw_angle = -wrench.head_angle;
+    if (blocked != no_part) blocked = find_obstruction(around, over, swings.turned_over, paths);
     if (blocked != no_part)
         messages.error(joint_pointer(index),
                        fmt::format("{} cannot be brought onto the nut, neither along the bolt nor from "

@@ -78,6 +78,6 @@ struct ExitPaths {
 // Returns the part that blocks the last path tried if every path from every free angle is blocked; no_part if
 // one is free.
 std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const FreeSwing& swing,
-                               const ExitPaths& approach);
+                               const ExitPaths& paths);
 
 }  // namespace bolt::geometry

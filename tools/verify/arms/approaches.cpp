@@ -41,14 +41,14 @@ struct ReachTask {
     Pose start;
 };
 
-ReachTask draw_reach_task(TightenedAssembly& place, Random& random) {
-    const servo::Setup setup = session::make_setup(place.assembly, place.assembly.law, {}, 1, 1e-3);
-    servo::ToolContact& contact = *place.state.tool_contact;
+ReachTask draw_reach_task(TightenedAssembly& tightened, Random& random) {
+    const servo::Setup setup = session::make_setup(tightened.assembly, tightened.assembly.law, {}, 1, 1e-3);
+    servo::ToolContact& contact = *tightened.state.tool_contact;
     ReachTask task;
     task.joint = std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(setup.nuts.size())),
                           setup.nuts.size() - 1);
     const servo::NutGeometry& nut = setup.nuts[task.joint];
-    const double angle = place.state.joints[task.joint].nut.angle;
+    const double angle = tightened.state.joints[task.joint].nut.angle;
     const motion::GripAngle grip =
         motion::choose_grip(setup, &contact, task.joint, angle, angle, 1.0, to_radians(30.0));
     task.nut = servo::nut_centre(nut, angle);
@@ -118,15 +118,15 @@ class Reach {
 
 }  // namespace
 
-Approach run_approach(TightenedAssembly& place, const ArmFacts& arm, std::uint64_t seed, bool guided) {
+Approach run_approach(TightenedAssembly& tightened, const ArmFacts& arm, std::uint64_t seed, bool guided) {
     Random random(seed, 77);
-    const ReachTask task = draw_reach_task(place, random);
+    const ReachTask task = draw_reach_task(tightened, random);
     RigOptions options;
     options.arm = &arm;
     options.grip = hand_grips()[usual_grip];
     options.tool = task.start;
     options.guided_joint = guided ? static_cast<int>(task.joint) : -1;
-    ArmRig rig(place, options);
+    ArmRig rig(tightened, options);
     Reach reach(rig, task);
     for (int i = 0; i < attempts && !reach.reached(); ++i) {
         // Drawn in every attempt, so that the attempts of both variants have the same errors.

@@ -39,7 +39,7 @@ struct RigOptions {
 };
 
 struct ArmRig {
-    ArmRig(TightenedAssembly& place, const RigOptions& options);
+    ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options);
     ArmRig(const ArmRig&) = delete;
     ArmRig& operator=(const ArmRig&) = delete;
     ~ArmRig();  // gives the contact models back
@@ -56,7 +56,7 @@ struct ArmRig {
     // N·m/rad, or N/m at the grip, of the wrench on a nut that does not turn, as the device feels it.
     [[nodiscard]] double nut_stiffness() const;
 
-    TightenedAssembly& place;
+    TightenedAssembly& tightened;
     const ArmFacts& facts;
     bool pushes_only;
     station::Layout layout;

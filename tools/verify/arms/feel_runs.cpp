@@ -167,15 +167,15 @@ FeelOutcome worse(const FeelOutcome& a, const FeelOutcome& b) {
     return w;
 }
 
-std::vector<Press> find_presses(TightenedAssembly& place, std::uint64_t seed) {
-    const servo::Setup setup = session::make_setup(place.assembly, place.assembly.law, {}, 1, 1e-3);
+std::vector<Press> find_presses(TightenedAssembly& tightened, std::uint64_t seed) {
+    const servo::Setup setup = session::make_setup(tightened.assembly, tightened.assembly.law, {}, 1, 1e-3);
     std::vector<Press> presses;
     Random random(seed, 41);
-    const collision::Box& casing = place.state.tool_contact->world.shapes.front().solid.box;
+    const collision::Box& casing = tightened.state.tool_contact->world.shapes.front().solid.box;
     for (const std::string_view name : {"face", "corner", "edge", "side", "near a bolt"})
         for (int tried = 0; tried < most_tries; ++tried) {
             const Aim aim = aim_at(casing, name, random);
-            const auto way = free_way(*place.state.tool_contact, aim.pose, aim.direction);
+            const auto way = free_way(*tightened.state.tool_contact, aim.pose, aim.direction);
             if (!way ||
                 near_a_bolt(setup, aim.pose.position + *way * aim.direction) != (name == "near a bolt"))
                 continue;
@@ -186,9 +186,9 @@ std::vector<Press> find_presses(TightenedAssembly& place, std::uint64_t seed) {
     return presses;
 }
 
-FeelOutcome run_press(TightenedAssembly& place, RigOptions options, const Press& press) {
+FeelOutcome run_press(TightenedAssembly& tightened, RigOptions options, const Press& press) {
     options.tool = press.start;
-    ArmRig rig(place, options);
+    ArmRig rig(tightened, options);
     const double stiffness = rig.arm.parameters.stiffness;
     const double strength =
         rig.pushes_only ? push : press_share(options.grip) * rig.layout.mover->limits.force;  // N
@@ -214,12 +214,12 @@ FeelOutcome run_press(TightenedAssembly& place, RigOptions options, const Press&
 namespace {
 
 // The pose of the wrench on the nut, `above` m higher than its middle.
-Pose wrench_on_nut(TightenedAssembly& place, double above) {
-    const servo::Setup setup = session::make_setup(place.assembly, place.assembly.law, {}, 1, 1e-3);
+Pose wrench_on_nut(TightenedAssembly& tightened, double above) {
+    const servo::Setup setup = session::make_setup(tightened.assembly, tightened.assembly.law, {}, 1, 1e-3);
     const servo::NutGeometry& nut = setup.nuts[pulled_joint];
-    const double angle = place.state.joints[pulled_joint].nut.angle;
-    const motion::GripAngle grip = motion::choose_grip(setup, &*place.state.tool_contact, pulled_joint, angle,
-                                                       angle, 1.0, to_radians(60.0));
+    const double angle = tightened.state.joints[pulled_joint].nut.angle;
+    const motion::GripAngle grip = motion::choose_grip(setup, &*tightened.state.tool_contact, pulled_joint,
+                                                       angle, angle, 1.0, to_radians(60.0));
     return {servo::nut_centre(nut, angle) + above * nut.axis,
             motion::tool_orientation(nut, grip.handle, grip.flipped)};
 }
@@ -246,9 +246,9 @@ double intended_angle(const ArmRig& rig, Pull pull) {
 
 }  // namespace
 
-FeelOutcome run_pull(TightenedAssembly& place, RigOptions options, Pull pull) {
-    options.tool = wrench_on_nut(place, pull == Pull::slip_off ? 0.0095 : 0.0);
-    ArmRig rig(place, options);
+FeelOutcome run_pull(TightenedAssembly& tightened, RigOptions options, Pull pull) {
+    options.tool = wrench_on_nut(tightened, pull == Pull::slip_off ? 0.0095 : 0.0);
+    ArmRig rig(tightened, options);
     const servo::NutGeometry& nut = rig.setup.nuts[pulled_joint];
     Measurement measurement(rig);
     while (rig.time < whole) {

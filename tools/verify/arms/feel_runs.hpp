@@ -42,7 +42,7 @@ struct Press {
 // A level wrench onto the flange, a corner of its jaw, its handle over an edge, and sideways against the
 // casing.
 inline constexpr std::uint64_t usual_presses = 2018;
-std::vector<Press> find_presses(TightenedAssembly& place, std::uint64_t seed = usual_presses);
+std::vector<Press> find_presses(TightenedAssembly& tightened, std::uint64_t seed = usual_presses);
 
 // A motion of the wrench on a nut.
 enum class Pull : std::uint8_t {
@@ -54,7 +54,7 @@ enum class Pull : std::uint8_t {
 inline constexpr std::string_view pull_names[] = {"hold", "breakaway", "yield", "slip off"};
 
 // `options.tool` and `guided_joint` are ignored.
-FeelOutcome run_press(TightenedAssembly& place, RigOptions options, const Press& press);
-FeelOutcome run_pull(TightenedAssembly& place, RigOptions options, Pull pull);
+FeelOutcome run_press(TightenedAssembly& tightened, RigOptions options, const Press& press);
+FeelOutcome run_pull(TightenedAssembly& tightened, RigOptions options, Pull pull);
 
 }  // namespace bolt::arm_validation

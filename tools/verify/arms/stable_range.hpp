@@ -32,6 +32,7 @@ struct RangeQuery {
 
 // The motions of the hand must be find_presses() of the same place. Assumes that a stiffer spring is never
 // more stable; the ratio of two tested factors bounds what a violation could hide.
-StableRange stable_range(TightenedAssembly& place, const RangeQuery& query, std::span<const Press> presses);
+StableRange stable_range(TightenedAssembly& tightened, const RangeQuery& query,
+                         std::span<const Press> presses);
 
 }  // namespace bolt::arm_validation

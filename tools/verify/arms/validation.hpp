@@ -27,10 +27,10 @@ struct ArmResult {
 
 // The worst outcome over the hands that hold the arm, or over the arm that no hand holds. A jaw on the nut's
 // rim (Pull::slip_off) counts with its energy and its steps; its swing goes to `swing_at_rim`.
-FeelOutcome feel_of(TightenedAssembly& place, const RigOptions& options, bool held,
+FeelOutcome feel_of(TightenedAssembly& tightened, const RigOptions& options, bool held,
                     std::span<const Press> presses, double& swing_at_rim);
 // Runs everything for one arm on the calling thread, 10 s.
-ArmResult measure(TightenedAssembly& place, const ArmFacts& arm);
+ArmResult measure(TightenedAssembly& tightened, const ArmFacts& arm);
 
 struct ApproachResult {
     const ArmFacts* arm = nullptr;
