@@ -12,7 +12,7 @@ namespace {
 
 using Job = std::function<void(TightenedAssembly&, std::span<const Press>)>;
 
-// Runs all jobs, each with the workplace of its thread. Returns the first error of loading one.
+// Runs all jobs, each with the assembly of its thread. Returns the first error of loading one.
 Status run_jobs(const std::vector<Job>& jobs, const std::string& assembly, unsigned threads) {
     std::atomic<std::size_t> next = 0;
     std::mutex lock;
