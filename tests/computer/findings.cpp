@@ -137,7 +137,7 @@ TEST_CASE("Findings: each fault is found, alone") {
 }
 
 TEST_CASE(
-    "ComputerFacts: the folder of the sessions need not exist; its disk is found, and nothing is written") {
+    "Computer facts: the folder of the sessions need not exist; its disk is found, and nothing is written") {
     const test::Folder folder;
     FactsRequest request;
     request.sessions = folder / "not" / "there";

@@ -1,4 +1,4 @@
-// DiskFault injection for disk access: while an object exists, SQLite accesses files through it.
+// Fault injection for disk access: while an object exists, SQLite accesses files through it.
 //
 // Counts the operations that change a file (write, truncate, sync, delete). At a chosen one either the
 // process is killed, halfway through a write, or the disk is full from then on.

@@ -51,7 +51,7 @@ struct Callback {
     void* argument;
 };
 
-// What the library keeps of its calls, and the faults that a test has caused.
+// The state of the library between calls, and the faults that a test has caused.
 struct Library {
     unsigned calibration = calibrated, raised = 0;
     std::string only_name{};

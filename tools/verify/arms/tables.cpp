@@ -97,7 +97,7 @@ std::string to_markdown(const ValidationResult& result) {
 Result<std::string> replace_tables(std::string_view text, std::string_view tables) {
     const std::size_t begin = text.find(tables_begin), end = text.find(tables_end);
     if (begin == std::string_view::npos || end == std::string_view::npos || end < begin)
-        return fail(ErrorCode::failed, "the file has no tightened for the tables",
+        return fail(ErrorCode::failed, "the file has no place for the tables",
                     fmt::format("the lines {} and {}", tables_begin, tables_end));
     return fmt::format("{}\n\n{}\n{}", text.substr(0, begin + tables_begin.size()), tables, text.substr(end));
 }
