@@ -1,4 +1,4 @@
-// What a plug-in reports of its arm, and which files are refused.
+// The report of a plug-in about its arm, and the plug-in files that are refused.
 #include <doctest/doctest.h>
 
 #include <fstream>
