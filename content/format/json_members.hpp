@@ -1,5 +1,4 @@
-// Reads the members of objects in a small file. `at` is the JSON pointer of the object. The first error is
-// kept with its position; later ones are ignored.
+// Reads small JSON files, member by member.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,11 +7,14 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "content/format/json_document.hpp"
 
 namespace bolt::content {
 
+// Reads the members of objects. `at` is the JSON pointer of the object. The first error is kept with its
+// position; later ones are ignored.
 struct MemberReader {
     using json = nlohmann::json;
     static constexpr std::size_t max_text = 200;  // bytes
@@ -65,5 +67,37 @@ struct MemberReader {
                        fmt::format("{} is not known here", in_quotes(key)), suggest(key, known));
     }
 };
+
+// How a small file begins.
+struct FileHead {
+    const char* name;                  // for messages: "station file"
+    const char* format;                // the value of its member "format"
+    std::vector<std::string> members;  // the other members of its object
+};
+
+// Parses a file that `head` describes. `read(members, root)` returns its value; the first error that is
+// reported is the result instead.
+template <class Read>
+auto parse_small_file(std::string_view text, const std::string& file, FileHead head, const Read& read)
+    -> Result<decltype(read(std::declval<MemberReader&>(), std::declval<const nlohmann::json&>()))> {
+    std::vector<Error> errors;
+    const auto document = JsonDocument::parse(text, file, errors);
+    if (!errors.empty()) return fail(errors.front());
+    MemberReader members{*document, {}};
+    const nlohmann::json& root = document->root();
+    if (!root.is_object()) {
+        members.report("", JsonPart::value, fmt::format("the {} is not an object", head.name),
+                       "a JSON object");
+        return fail(*members.first_error);
+    }
+    if (members.text(root, "", "format") != head.format)
+        members.report("/format", JsonPart::value, fmt::format("the format of the {} is unknown", head.name),
+                       fmt::format("\"format\": \"{}\"", head.format));
+    head.members.emplace_back("format");
+    members.check_known(root, "", head.members);
+    auto value = read(members, root);
+    if (members.first_error) return fail(*members.first_error);
+    return value;
+}
 
 }  // namespace bolt::content

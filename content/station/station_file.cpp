@@ -207,27 +207,16 @@ Quat orientation_of(const Mounting& mounting) {
 }
 
 Result<StationFile> parse_station(std::string_view text, const std::string& file) {
-    std::vector<Error> errors;
-    const auto document = JsonDocument::parse(text, file, errors);
-    if (!errors.empty()) return fail(errors.front());
-    MemberReader members{*document, {}};
-    const json& root = document->root();
-    if (!root.is_object()) {
-        members.report("", JsonPart::value, "the station file is not an object", "a JSON object");
-        return fail(*members.first_error);
-    }
-    if (members.text(root, "", "format") != station_format)
-        members.report("/format", JsonPart::value, "the format of the station file is unknown",
-                       fmt::format("\"format\": \"{}\"", station_format));
-    members.check_known(root, "", {"$schema", "format", "name", "arm", "wheel", "glove"});
-    StationFile station;
-    if (root.contains("$schema")) station.schema = members.text(root, "", "$schema", max_path);
-    if (root.contains("name")) station.name = members.text(root, "", "name");
-    read_arm(members, root, station.arm);
-    read_wheel(members, root, station.wheel);
-    read_glove(members, root, station.glove_port);
-    if (members.first_error) return fail(*members.first_error);
-    return station;
+    const FileHead head{"station file", station_format, {"$schema", "name", "arm", "wheel", "glove"}};
+    return parse_small_file(text, file, head, [](MemberReader& members, const json& root) {
+        StationFile station;
+        if (root.contains("$schema")) station.schema = members.text(root, "", "$schema", max_path);
+        if (root.contains("name")) station.name = members.text(root, "", "name");
+        read_arm(members, root, station.arm);
+        read_wheel(members, root, station.wheel);
+        read_glove(members, root, station.glove_port);
+        return station;
+    });
 }
 
 Result<StationFile> load_station(const std::filesystem::path& path) {

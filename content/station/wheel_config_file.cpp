@@ -59,25 +59,12 @@ double exact_degrees(double angle) {
 }
 
 Result<device::WheelConfig> parse_wheel_config(std::string_view text, const std::string& file) {
-    std::vector<Error> errors;
-    const auto document = JsonDocument::parse(text, file, errors);
-    if (!errors.empty()) return fail(errors.front());
-    MemberReader members{*document, {}};
-    const json& root = document->root();
-    if (!root.is_object()) {
-        members.report("", JsonPart::value, "the wheel configuration is not an object", "a JSON object");
-        return fail(*members.first_error);
-    }
-    if (members.text(root, "", "format") != wheel_config_format)
-        members.report("/format", JsonPart::value, "the format of the wheel configuration is unknown",
-                       fmt::format("\"format\": \"{}\"", wheel_config_format));
-    std::vector<std::string> known = wheel_config_members();
-    known.emplace_back("format");
-    members.check_known(root, "", known);
-    device::WheelConfig config;
-    read_wheel_config(members, root, "", config);
-    if (members.first_error) return fail(*members.first_error);
-    return config;
+    const FileHead head{"wheel configuration", wheel_config_format, wheel_config_members()};
+    return parse_small_file(text, file, head, [](MemberReader& members, const json& root) {
+        device::WheelConfig config;
+        read_wheel_config(members, root, "", config);
+        return config;
+    });
 }
 
 Result<device::WheelConfig> load_wheel_config(const std::filesystem::path& path) {

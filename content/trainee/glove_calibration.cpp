@@ -66,42 +66,33 @@ void read_fits(MemberReader& members, const json& root, GloveCalibration& to) {
 }  // namespace
 
 Result<GloveCalibration> parse_glove_calibration(std::string_view text, const std::string& file) {
-    std::vector<Error> errors;
-    const auto document = JsonDocument::parse(text, file, errors);
-    if (!errors.empty()) return fail(errors.front());
-    MemberReader members{*document, {}};
-    const json& root = document->root();
-    GloveCalibration read;
-    if (!root.is_object()) {
-        members.report("", JsonPart::value, "the glove calibration is not an object", "a JSON object");
-        return fail(*members.first_error);
-    }
-    if (members.text(root, "", "format") != calibration_format)
-        members.report("/format", JsonPart::value, "the format of the glove calibration is unknown",
-                       fmt::format("\"format\": \"{}\"", calibration_format));
-    members.check_known(
-        root, "",
-        {"format", "trainee", "glove", "hand", "sensors", "date", "quality", "hand_length_mm", "lines"});
-    read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
-    read.glove = members.text(root, "", "glove");
-    const std::string hand = members.text(root, "", "hand");
-    if (hand != "left" && hand != "right")
-        members.report("/hand", JsonPart::value, fmt::format("a hand cannot be {}", in_quotes(hand)),
-                       "\"left\" or \"right\"");
-    read.hand = hand == "left" ? hand::Side::left : hand::Side::right;
-    const double sensors = members.number(root, "", "sensors", 18, 22);
-    if (sensors != 18.0 && sensors != 22.0)
-        members.report("/sensors", JsonPart::value, "a glove cannot have this number of sensors", "18 or 22");
-    read.sensors = static_cast<std::size_t>(sensors);
-    read.date = members.text(root, "", "date");
-    if (!is_date(read.date))
-        members.report("/date", JsonPart::value, fmt::format("{} is not a date", in_quotes(read.date)),
-                       "a date as \"2026-11-22\"");
-    read.quality = members.number(root, "", "quality", 0.0, 1.0);
-    read.hand_length = 1e-3 * members.number(root, "", "hand_length_mm", 100.0, 300.0);
-    read_fits(members, root, read);
-    if (members.first_error) return fail(*members.first_error);
-    return read;
+    const FileHead head{
+        "glove calibration",
+        calibration_format,
+        {"trainee", "glove", "hand", "sensors", "date", "quality", "hand_length_mm", "lines"}};
+    return parse_small_file(text, file, head, [](MemberReader& members, const json& root) {
+        GloveCalibration read;
+        read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
+        read.glove = members.text(root, "", "glove");
+        const std::string hand = members.text(root, "", "hand");
+        if (hand != "left" && hand != "right")
+            members.report("/hand", JsonPart::value, fmt::format("a hand cannot be {}", in_quotes(hand)),
+                           "\"left\" or \"right\"");
+        read.hand = hand == "left" ? hand::Side::left : hand::Side::right;
+        const double sensors = members.number(root, "", "sensors", 18, 22);
+        if (sensors != 18.0 && sensors != 22.0)
+            members.report("/sensors", JsonPart::value, "a glove cannot have this number of sensors",
+                           "18 or 22");
+        read.sensors = static_cast<std::size_t>(sensors);
+        read.date = members.text(root, "", "date");
+        if (!is_date(read.date))
+            members.report("/date", JsonPart::value, fmt::format("{} is not a date", in_quotes(read.date)),
+                           "a date as \"2026-11-22\"");
+        read.quality = members.number(root, "", "quality", 0.0, 1.0);
+        read.hand_length = 1e-3 * members.number(root, "", "hand_length_mm", 100.0, 300.0);
+        read_fits(members, root, read);
+        return read;
+    });
 }
 
 std::string glove_calibration_text(const GloveCalibration& calibration) {

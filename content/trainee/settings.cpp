@@ -104,35 +104,25 @@ void read_keys(MemberReader& members, const json& root, TraineeSettings& to,
 
 Result<TraineeSettings> parse_settings(std::string_view text, const std::string& file,
                                        const SettingsVocabulary& known) {
-    std::vector<Error> errors;
-    const auto document = JsonDocument::parse(text, file, errors);
-    if (!errors.empty()) return fail(errors.front());
-    MemberReader members{*document, {}};
-    const json& root = document->root();
-    TraineeSettings read;
-    if (!root.is_object()) {
-        members.report("", JsonPart::value, "the settings file is not an object", "a JSON object");
-        return fail(*members.first_error);
-    }
-    if (members.text(root, "", "format") != settings_format)
-        members.report("/format", JsonPart::value, "the format of the settings file is unknown",
-                       fmt::format("\"format\": \"{}\"", settings_format));
-    members.check_known(root, "",
-                        {"format", "trainee", "language", "volume", "captions", "palette", "left_handed",
-                         "force_scale", "force_arrow", "seated_height_m", "law", "keys"});
-    read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
-    read_language(members, root, read, known);
-    read.volume = members.number(root, "", "volume", 0.0, 1.0);
-    read.captions = members.flag(root, "", "captions");
-    read_palette(members, root, read);
-    read.left_handed = members.flag(root, "", "left_handed");
-    read.force_scale = members.number(root, "", "force_scale", least_force_scale, 1.0);
-    if (root.contains("force_arrow")) read.force_arrow = members.flag(root, "", "force_arrow");
-    read_seat(members, root, read);
-    read_law(members, root, read);
-    read_keys(members, root, read, known);
-    if (members.first_error) return fail(*members.first_error);
-    return read;
+    const FileHead head{"settings file",
+                        settings_format,
+                        {"trainee", "language", "volume", "captions", "palette", "left_handed", "force_scale",
+                         "force_arrow", "seated_height_m", "law", "keys"}};
+    return parse_small_file(text, file, head, [&known](MemberReader& members, const json& root) {
+        TraineeSettings read;
+        read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
+        read_language(members, root, read, known);
+        read.volume = members.number(root, "", "volume", 0.0, 1.0);
+        read.captions = members.flag(root, "", "captions");
+        read_palette(members, root, read);
+        read.left_handed = members.flag(root, "", "left_handed");
+        read.force_scale = members.number(root, "", "force_scale", least_force_scale, 1.0);
+        if (root.contains("force_arrow")) read.force_arrow = members.flag(root, "", "force_arrow");
+        read_seat(members, root, read);
+        read_law(members, root, read);
+        read_keys(members, root, read, known);
+        return read;
+    });
 }
 
 std::string settings_text(const TraineeSettings& settings) {

@@ -53,7 +53,7 @@ Status summarize() {
     const words::LoadedWords english = words::load_words(words::words_folder(), "en");
     if (!english.ok()) return fail(english.errors.front());
     return print("In short:\n" +
-                 computer::describe(english.words, computer::findings(computer::find_out(request))));
+                 computer::describe(english.words, computer::findings(computer::gather_facts(request))));
 }
 
 std::string trial_header(const TrialOptions& options, const content::Assembly& assembly,

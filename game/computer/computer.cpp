@@ -50,7 +50,7 @@ fs::path existing_part(fs::path folder) {
 
 words::TextArgument why(const Error& error) { return {"why", error.message()}; }
 
-Finding gpu_finding(const Facts& facts) {
+Finding gpu_finding(const ComputerFacts& facts) {
     if (!facts.gpu)
         return {Severity::bad,
                 "finding.gpu_none",
@@ -64,7 +64,7 @@ Finding gpu_finding(const Facts& facts) {
     return {Severity::good, "finding.gpu", {{"gpu", facts.gpu->name}}, {}};
 }
 
-Finding sound_finding(const Facts& facts) {
+Finding sound_finding(const ComputerFacts& facts) {
     if (facts.sound) return {Severity::good, "finding.sound", {{"name", *facts.sound}}, {}};
     return {Severity::limited,
             "finding.no_sound",
@@ -72,14 +72,14 @@ Finding sound_finding(const Facts& facts) {
             words::TextKey("finding.no_sound.do")};
 }
 
-void add_devices(const Facts& facts, std::vector<Finding>& all) {
+void add_devices(const ComputerFacts& facts, std::vector<Finding>& all) {
     bool any = false, force = false;
     for (const device::ListedDevice& listed : facts.devices) {
         if (listed.kind == device::DeviceKind::other) continue;
         any = true;
         force = force || listed.kind != device::DeviceKind::puck;
         if (!listed.usable()) {
-            // The error says what to do.
+            // No remedy of our own: the error names one.
             all.push_back({Severity::limited,
                            "finding.device_refused",
                            {{"name", listed.name}, why(*listed.error)},
@@ -94,7 +94,7 @@ void add_devices(const Facts& facts, std::vector<Finding>& all) {
         all.push_back({Severity::limited, "finding.no_force", {}, words::TextKey("finding.no_force.do")});
 }
 
-void add_timing(const Facts& facts, std::vector<Finding>& all) {
+void add_timing(const ComputerFacts& facts, std::vector<Finding>& all) {
     if (!facts.timing) return;
     if (!*facts.timing) {
         all.push_back({Severity::limited, "finding.timing_failed", {why(facts.timing->error())}, {}});
@@ -115,7 +115,7 @@ void add_timing(const Facts& facts, std::vector<Finding>& all) {
                        words::TextKey("finding.privilege.do")});
 }
 
-Finding disk_finding(const Facts& facts) {
+Finding disk_finding(const ComputerFacts& facts) {
     if (!facts.folder_trouble.empty())
         return {Severity::bad,
                 "finding.folder",
@@ -170,8 +170,8 @@ Result<std::vector<ServoTiming>> time_servo(const std::string& assembly, const s
     return timings;
 }
 
-Facts find_out(const FactsRequest& request) {
-    Facts facts;
+ComputerFacts gather_facts(const FactsRequest& request) {
+    ComputerFacts facts;
     facts.gpu = request.gpu;
     if (auto sink = request.open_sound())
         facts.sound = (*sink)->name();
@@ -197,7 +197,7 @@ Facts find_out(const FactsRequest& request) {
     return facts;
 }
 
-std::vector<Finding> findings(const Facts& facts) {
+std::vector<Finding> findings(const ComputerFacts& facts) {
     std::vector<Finding> all{gpu_finding(facts), disk_finding(facts), sound_finding(facts)};
     add_devices(facts, all);
     add_timing(facts, all);

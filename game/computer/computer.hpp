@@ -1,5 +1,5 @@
-// Checks of the computer that the program runs on: facts that are found out, and findings in words with what
-// to do about them. The menu and `boltwright doctor` show the findings.
+// Checks of the computer on which the program runs. gather_facts() measures it; findings() states in words
+// what is good, what is missing and what to do about it. The menu and `boltwright doctor` show the findings.
 #pragma once
 
 #include <filesystem>
@@ -37,28 +37,28 @@ struct GpuFacts {
 // Of the GPU that draws. Fails if nothing can draw.
 Result<GpuFacts> find_gpu();
 
-struct Facts {
+struct ComputerFacts {
     Result<GpuFacts> gpu;
-    Result<std::string> sound;  // the name of the output, or why there is none
+    Result<std::string> sound;  // the name of the output
     std::vector<device::ListedDevice> devices;
     std::optional<Result<ServoTiming>> timing;  // none: not measured
     std::filesystem::path sessions;             // folder of the sessions; may not exist yet
-    std::string folder_trouble;                 // why sessions cannot be written there; empty: they can
+    std::string folder_trouble;                 // why sessions cannot be written there; empty if they can
     double free_space = 0.0;                    // bytes, where the sessions are kept
     bool films = false;                         // FFmpeg is installed
 };
 
 struct FactsRequest {
-    Result<GpuFacts> gpu;  // find_gpu(); while a GPU is in use, that one
+    Result<GpuFacts> gpu;  // the GPU in use, or the result of find_gpu()
     std::filesystem::path sessions;
     std::string assembly;  // whose servo is timed
     double seconds = 0.0;  // duration of the timing; 0: none
     audio::OpenSink open_sound = audio::open_openal;
 };
 
-// Takes as long as the timing, and some tenths of a second. Does not use Vulkan, so that another thread may
-// draw meanwhile. Writes no files.
-Facts find_out(const FactsRequest& request);
+// Takes as long as the timing and some tenths of a second more. Does not use Vulkan, so that another thread
+// may draw meanwhile. Writes no files.
+ComputerFacts gather_facts(const FactsRequest& request);
 
 enum class Severity : std::uint8_t {
     good,
@@ -76,7 +76,7 @@ struct Finding {
 inline constexpr double least_free_space = 1e9;  // bytes; less is a finding of its own
 
 // The findings, the worst first.
-std::vector<Finding> findings(const Facts& facts);
+std::vector<Finding> findings(const ComputerFacts& facts);
 
 // One line per finding, and one per remedy.
 std::string describe(const words::Words& words, const std::vector<Finding>& findings);

@@ -92,8 +92,8 @@ struct JointTexts {
 };
 
 JointTexts joint_texts(const JointResult& joint) {
-    if (joint.condition == joint::Condition::broken) return {"reason.broken", "advice.broken"};
-    if (joint.condition == joint::Condition::stripped) return {"reason.stripped", "advice.stripped"};
+    if (joint.condition == joint::JointCondition::broken) return {"reason.broken", "advice.broken"};
+    if (joint.condition == joint::JointCondition::stripped) return {"reason.stripped", "advice.stripped"};
     if (joint.torque_verdict == Verdict::none) return {"reason.not_loosened", "advice.not_loosened"};
     if (joint.torque_verdict == Verdict::low) return {"reason.torque_low", "advice.torque_low"};
     if (joint.torque_verdict == Verdict::high) return {"reason.torque_high", "advice.torque_high"};

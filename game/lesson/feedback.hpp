@@ -39,7 +39,7 @@ constexpr words::TextKey text_key(joint::Stage stage) {
     return keys[static_cast<int>(stage)];
 }
 
-constexpr words::TextKey text_key(joint::Condition condition) {
+constexpr words::TextKey text_key(joint::JointCondition condition) {
     constexpr words::TextKey keys[] = {"condition.sound", "condition.stripped", "condition.broken"};
     return keys[static_cast<int>(condition)];
 }

@@ -12,51 +12,51 @@ using words::TextKey;
 struct HintRow {
     Situation situation;
     TextKey text;
-    HandMotion motion;
+    HintMotion motion;
 };
 
 // In the order of the situations.
 constexpr HintRow hint_rows[] = {
-    {Situation::take_wrench, "hint.take_wrench", HandMotion::take},
-    {Situation::put_wrench_away, "hint.put_wrench_away", HandMotion::put_away},
-    {Situation::find_by_wrench, "hint.find_by_wrench", HandMotion::approach},
-    {Situation::find_by_fingers, "hint.find_by_fingers", HandMotion::reach},
-    {Situation::set_on, "hint.set_on", HandMotion::set_on},
-    {Situation::set_on_again, "hint.set_on_again", HandMotion::set_on},
-    {Situation::set_on_rounded, "hint.set_on_rounded", HandMotion::set_on},
-    {Situation::grip_nut, "hint.grip_nut", HandMotion::grip_nut},
-    {Situation::run_down, "hint.run_down", HandMotion::spin},
-    {Situation::run_down_by_wrench, "hint.run_down_by_wrench", HandMotion::pull_on},
-    {Situation::twist_back, "hint.twist_back", HandMotion::twist_back},
-    {Situation::seated, "hint.seated", HandMotion::lift},
-    {Situation::pull, "hint.pull", HandMotion::pull_on},
-    {Situation::pull_to_yield, "hint.pull_to_yield", HandMotion::pull_on},
-    {Situation::pull_to_click, "hint.pull_to_click", HandMotion::pull_on},
-    {Situation::set_back, "hint.set_back", HandMotion::set_back},
-    {Situation::ease, "hint.ease", HandMotion::pull_on},
-    {Situation::ease_to_yield, "hint.ease_to_yield", HandMotion::pull_on},
-    {Situation::stop, "hint.stop", HandMotion::lift},
-    {Situation::stop_at_yield, "hint.stop_at_yield", HandMotion::lift},
-    {Situation::stop_at_click, "hint.stop_at_click", HandMotion::lift},
-    {Situation::stop_too_much, "hint.stop_too_much", HandMotion::lift},
-    {Situation::take_off, "hint.take_off", HandMotion::lift},
-    {Situation::check, "hint.check", HandMotion::pull_on},
-    {Situation::checked, "hint.checked", HandMotion::lift},
-    {Situation::break_loose, "hint.break_loose", HandMotion::pull_off},
-    {Situation::turn_off, "hint.turn_off", HandMotion::pull_off},
-    {Situation::free, "hint.free", HandMotion::lift},
-    {Situation::wrong_joint, "hint.wrong_joint", HandMotion::lift},
-    {Situation::other_way_on, "hint.other_way_on", HandMotion::pull_on},
-    {Situation::other_way_off, "hint.other_way_off", HandMotion::pull_off},
-    {Situation::wrench_needed, "hint.wrench_needed", HandMotion::let_go},
-    {Situation::leave_broken, "hint.leave_broken", HandMotion::lift},
-    {Situation::leave_stripped, "hint.leave_stripped", HandMotion::lift},
-    {Situation::next, "hint.next", HandMotion::approach},
-    {Situation::round_run_down, "hint.round_run_down", HandMotion::reach},
-    {Situation::round_tighten, "hint.round_tighten", HandMotion::approach},
-    {Situation::round_recheck, "hint.round_recheck", HandMotion::approach},
-    {Situation::round_loosen, "hint.round_loosen", HandMotion::approach},
-    {Situation::all_done, "hint.all_done", HandMotion::none},
+    {Situation::take_wrench, "hint.take_wrench", HintMotion::take},
+    {Situation::put_wrench_away, "hint.put_wrench_away", HintMotion::put_away},
+    {Situation::find_by_wrench, "hint.find_by_wrench", HintMotion::approach},
+    {Situation::find_by_fingers, "hint.find_by_fingers", HintMotion::reach},
+    {Situation::set_on, "hint.set_on", HintMotion::set_on},
+    {Situation::set_on_again, "hint.set_on_again", HintMotion::set_on},
+    {Situation::set_on_rounded, "hint.set_on_rounded", HintMotion::set_on},
+    {Situation::grip_nut, "hint.grip_nut", HintMotion::grip_nut},
+    {Situation::run_down, "hint.run_down", HintMotion::spin},
+    {Situation::run_down_by_wrench, "hint.run_down_by_wrench", HintMotion::pull_on},
+    {Situation::twist_back, "hint.twist_back", HintMotion::twist_back},
+    {Situation::seated, "hint.seated", HintMotion::lift},
+    {Situation::pull, "hint.pull", HintMotion::pull_on},
+    {Situation::pull_to_yield, "hint.pull_to_yield", HintMotion::pull_on},
+    {Situation::pull_to_click, "hint.pull_to_click", HintMotion::pull_on},
+    {Situation::set_back, "hint.set_back", HintMotion::set_back},
+    {Situation::ease, "hint.ease", HintMotion::pull_on},
+    {Situation::ease_to_yield, "hint.ease_to_yield", HintMotion::pull_on},
+    {Situation::stop, "hint.stop", HintMotion::lift},
+    {Situation::stop_at_yield, "hint.stop_at_yield", HintMotion::lift},
+    {Situation::stop_at_click, "hint.stop_at_click", HintMotion::lift},
+    {Situation::stop_too_much, "hint.stop_too_much", HintMotion::lift},
+    {Situation::take_off, "hint.take_off", HintMotion::lift},
+    {Situation::check, "hint.check", HintMotion::pull_on},
+    {Situation::checked, "hint.checked", HintMotion::lift},
+    {Situation::break_loose, "hint.break_loose", HintMotion::pull_off},
+    {Situation::turn_off, "hint.turn_off", HintMotion::pull_off},
+    {Situation::free, "hint.free", HintMotion::lift},
+    {Situation::wrong_joint, "hint.wrong_joint", HintMotion::lift},
+    {Situation::other_way_on, "hint.other_way_on", HintMotion::pull_on},
+    {Situation::other_way_off, "hint.other_way_off", HintMotion::pull_off},
+    {Situation::wrench_needed, "hint.wrench_needed", HintMotion::let_go},
+    {Situation::leave_broken, "hint.leave_broken", HintMotion::lift},
+    {Situation::leave_stripped, "hint.leave_stripped", HintMotion::lift},
+    {Situation::next, "hint.next", HintMotion::approach},
+    {Situation::round_run_down, "hint.round_run_down", HintMotion::reach},
+    {Situation::round_tighten, "hint.round_tighten", HintMotion::approach},
+    {Situation::round_recheck, "hint.round_recheck", HintMotion::approach},
+    {Situation::round_loosen, "hint.round_loosen", HintMotion::approach},
+    {Situation::all_done, "hint.all_done", HintMotion::none},
 };
 static_assert(std::size(hint_rows) == situation_count);
 static_assert([] {
@@ -76,10 +76,10 @@ static_assert(std::size(motion_keys) == motion_count);
 const HintRow& row(Situation situation) { return hint_rows[static_cast<std::size_t>(situation)]; }
 
 // The hand motion that replaces `motion` if the fingers hold the nut.
-HandMotion adapt_to_grip(HandMotion motion, const WorkState& work) {
+HintMotion adapt_to_grip(HintMotion motion, const WorkState& work) {
     if (held_item(work) != HeldItem::nut_by_fingers) return motion;
-    if (motion == HandMotion::lift) return HandMotion::let_go;
-    return motion == HandMotion::pull_on ? HandMotion::spin : motion;
+    if (motion == HintMotion::lift) return HintMotion::let_go;
+    return motion == HintMotion::pull_on ? HintMotion::spin : motion;
 }
 
 std::vector<words::TextArgument> text_arguments(const WorkState& work) {
@@ -106,14 +106,14 @@ std::vector<words::TextArgument> text_arguments(const WorkState& work) {
 GhostKind Hint::ghost() const {
     if (level < 2) return GhostKind::none;
     switch (motion) {
-        case HandMotion::none:
+        case HintMotion::none:
             return GhostKind::none;
-        case HandMotion::take:
-        case HandMotion::reach:
-        case HandMotion::grip_nut:
-        case HandMotion::spin:
-        case HandMotion::twist_back:
-        case HandMotion::let_go:
+        case HintMotion::take:
+        case HintMotion::reach:
+        case HintMotion::grip_nut:
+        case HintMotion::spin:
+        case HintMotion::twist_back:
+        case HintMotion::let_go:
             return GhostKind::hand;
         default:
             return GhostKind::hand_and_wrench;
@@ -137,7 +137,7 @@ std::string hint_text(const words::Words& words, const Hint& hint) {
 }
 
 std::string motion_text(const words::Words& words, const Hint& hint, const ControlNames& controls) {
-    if (hint.level < 3 || hint.motion == HandMotion::none) return {};
+    if (hint.level < 3 || hint.motion == HintMotion::none) return {};
     const auto motion = static_cast<std::size_t>(hint.motion);
     return words::format_text(words, motion_keys[motion], {{"control", controls[motion]}});
 }
@@ -145,27 +145,27 @@ std::string motion_text(const words::Words& words, const Hint& hint, const Contr
 namespace {
 
 struct ControlRow {
-    HandMotion motion;
+    HintMotion motion;
     TextKey mouse, drag, device;
 };
 constexpr ControlRow control_rows[] = {
-    {HandMotion::take, "control.mouse.take", "control.drag.take", "control.device.take"},
-    {HandMotion::put_away, "control.mouse.put_away", "control.mouse.put_away", "control.device.put_away"},
-    {HandMotion::approach, "control.mouse.go", "control.drag.move", "control.device.move"},
-    {HandMotion::reach, "control.mouse.go", "control.drag.move", "control.device.move"},
-    {HandMotion::set_on, "control.mouse.go", "control.drag.move", "control.device.move"},
-    {HandMotion::grip_nut, "control.mouse.go", "control.drag.grip", "control.device.grip"},
-    {HandMotion::spin, "control.mouse.spin", "control.drag.spin", "control.device.turn"},
-    {HandMotion::twist_back, "control.mouse.again", "control.mouse.again", "control.device.twist_back"},
-    {HandMotion::let_go, "control.mouse.let_go", "control.mouse.let_go", "control.device.release"},
-    {HandMotion::pull_on, "control.mouse.pull", "control.mouse.pull", "control.device.turn"},
-    {HandMotion::pull_off, "control.mouse.pull", "control.mouse.pull", "control.device.turn"},
-    {HandMotion::lift, "control.mouse.let_go", "control.drag.lift", "control.device.move"},
-    {HandMotion::set_back, "control.mouse.again", "control.drag.set_back", "control.device.move"},
+    {HintMotion::take, "control.mouse.take", "control.drag.take", "control.device.take"},
+    {HintMotion::put_away, "control.mouse.put_away", "control.mouse.put_away", "control.device.put_away"},
+    {HintMotion::approach, "control.mouse.go", "control.drag.move", "control.device.move"},
+    {HintMotion::reach, "control.mouse.go", "control.drag.move", "control.device.move"},
+    {HintMotion::set_on, "control.mouse.go", "control.drag.move", "control.device.move"},
+    {HintMotion::grip_nut, "control.mouse.go", "control.drag.grip", "control.device.grip"},
+    {HintMotion::spin, "control.mouse.spin", "control.drag.spin", "control.device.turn"},
+    {HintMotion::twist_back, "control.mouse.again", "control.mouse.again", "control.device.twist_back"},
+    {HintMotion::let_go, "control.mouse.let_go", "control.mouse.let_go", "control.device.release"},
+    {HintMotion::pull_on, "control.mouse.pull", "control.mouse.pull", "control.device.turn"},
+    {HintMotion::pull_off, "control.mouse.pull", "control.mouse.pull", "control.device.turn"},
+    {HintMotion::lift, "control.mouse.let_go", "control.drag.lift", "control.device.move"},
+    {HintMotion::set_back, "control.mouse.again", "control.drag.set_back", "control.device.move"},
 };
 static_assert(std::size(control_rows) == motion_count - 1);  // all but `none`
 
-std::string& at(ControlNames& controls, HandMotion motion) {
+std::string& at(ControlNames& controls, HintMotion motion) {
     return controls.at(static_cast<std::size_t>(motion));
 }
 
@@ -189,7 +189,7 @@ ControlNames drag_controls(const words::Words& words, const std::string& tool_ke
 ControlNames device_controls(const words::Words& words, const std::string& button,
                              const std::string& tool_key) {
     ControlNames names = controls(words, &ControlRow::device, button);
-    at(names, HandMotion::put_away) =
+    at(names, HintMotion::put_away) =
         words::format_text(words, "control.device.put_away", {{"key", tool_key}});
     return names;
 }
@@ -199,9 +199,9 @@ namespace {
 ControlNames button_controls(const words::Words& words, const std::string& button,
                              const std::string& tool_key, TextKey move, TextKey turn) {
     ControlNames names = device_controls(words, button, tool_key);
-    for (const HandMotion motion : {HandMotion::approach, HandMotion::reach, HandMotion::set_on})
+    for (const HintMotion motion : {HintMotion::approach, HintMotion::reach, HintMotion::set_on})
         at(names, motion) = words::format_text(words, move, {{"key", button}});
-    for (const HandMotion motion : {HandMotion::spin, HandMotion::pull_on, HandMotion::pull_off})
+    for (const HintMotion motion : {HintMotion::spin, HintMotion::pull_on, HintMotion::pull_off})
         at(names, motion) = words::format_text(words, turn, {});
     return names;
 }
@@ -221,14 +221,14 @@ ControlNames keyboard_controls(const words::Words& words, const std::string& but
 namespace {
 
 struct FingerRow {
-    HandMotion motion;
+    HintMotion motion;
     TextKey text;
 };
-constexpr FingerRow finger_controls[] = {{HandMotion::take, "control.glove.take"},
-                                         {HandMotion::put_away, "control.glove.put_away"},
-                                         {HandMotion::grip_nut, "control.glove.grip"},
-                                         {HandMotion::twist_back, "control.glove.twist_back"},
-                                         {HandMotion::let_go, "control.glove.release"}};
+constexpr FingerRow finger_controls[] = {{HintMotion::take, "control.glove.take"},
+                                         {HintMotion::put_away, "control.glove.put_away"},
+                                         {HintMotion::grip_nut, "control.glove.grip"},
+                                         {HintMotion::twist_back, "control.glove.twist_back"},
+                                         {HintMotion::let_go, "control.glove.release"}};
 
 }  // namespace
 

@@ -13,7 +13,7 @@
 namespace bolt::lesson {
 
 // The hand motion that a hint requests. It selects the arrow and the control to name.
-enum class HandMotion : std::uint8_t {
+enum class HintMotion : std::uint8_t {
     none,
     take,
     put_away,
@@ -37,17 +37,17 @@ struct Hint {
     Situation situation = Situation::all_done;
     int level = 0;   // 0: text; 1: outline and arrow; 2: ghost; 3: animated motion and its control
     int joint = -1;  // the due joint; −1: none
-    HandMotion motion = HandMotion::none;
+    HintMotion motion = HintMotion::none;
     words::TextKey text = "hint.all_done";
     std::vector<words::TextArgument> arguments;
 
     [[nodiscard]] int outlined() const { return level >= 1 ? joint : -1; }
-    [[nodiscard]] HandMotion arrow() const { return level >= 1 ? motion : HandMotion::none; }
+    [[nodiscard]] HintMotion arrow() const { return level >= 1 ? motion : HintMotion::none; }
     [[nodiscard]] GhostKind ghost() const;
 };
 
-// `situation` gives the text, `underlying` the motion. They differ while the text announces a new step: the
-// motion is already that of the work itself.
+// `situation` selects the text and `underlying` the motion. They differ while the text announces a new step
+// and the arrow already shows its work.
 Hint make_hint(Situation situation, Situation underlying, int level, const WorkState& work);
 
 // The control for each motion as text ("hold F and drag").
@@ -85,8 +85,8 @@ ControlNames glove_controls(const words::Words& words, ControlNames moved_by);
 //   practice:   the same after a long time, or one level more for each request
 //   assessment: none, also on request
 //
-// A hint stays for 1.5 s. It goes earlier if the step changes, if the trainee has to stop, or if the trainee
-// has done what the hint asks.
+// A hint stays for at least 1.5 s. It is replaced earlier if the step changes, if the trainee has to stop, or
+// if the trainee has done what the hint requests.
 
 // Time without progress after which each level is reached, s.
 struct HintTimes {

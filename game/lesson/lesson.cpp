@@ -226,7 +226,8 @@ void report_excess_torque(Lesson& lesson, std::size_t joint, std::uint64_t tick)
                 fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, highest));
 }
 
-// Reports a nut turned the wrong way, once a visit. Not after excess torque: turning back corrects that.
+// Reports a nut that is turned the wrong way, once a visit. After excess torque it reports nothing, because
+// turning back is then the correction.
 void report_wrong_way(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];
     const world::Joint& now = joint_at(world, joint);
@@ -250,8 +251,7 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
     const double torque = nut.torque;
     const double work = lesson.task == Task::loosen ? -torque : torque;
     const bool fingers = lesson.grip == servo::Grip::fingers;
-    // A hand that lifts the wrench off the nut that it has just done can exert torque, but does not turn the
-    // nut.
+    // Lifting the wrench off a finished nut can exert torque without turning the nut.
     const LessonStep* due = lesson.due();
     const bool leaves = !fingers && due != nullptr && due->joint != joint &&
                         lesson.last_held_joint == static_cast<int>(joint) && track.done_in_pass == due->pass;
@@ -278,12 +278,12 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
         add_event(lesson, tick_of(world), EventKind::stage, static_cast<int>(joint),
                   static_cast<double>(nut.stage), std::string(joint::name(nut.stage)));
     }
-    const joint::Condition condition = nut.condition;
+    const joint::JointCondition condition = nut.condition;
     if (condition != track.result.condition) {
         track.result.condition = condition;
         track.result.torque = std::max(track.result.torque, track.peak_torque);
         const MistakeKind kind =
-            condition == joint::Condition::stripped ? MistakeKind::stripped : MistakeKind::broken;
+            condition == joint::JointCondition::stripped ? MistakeKind::stripped : MistakeKind::broken;
         add_mistake(lesson, tick_of(world), kind, joint, torque,
                     fmt::format("{} is {}", track.result.id, joint::name(condition)));
     }
@@ -373,7 +373,7 @@ void observe(Lesson& lesson, const world::ReadHaptics& world) {
     // The step of a broken bolt cannot be done; the lesson continues with the next one.
     const LessonStep* due = lesson.due();
     if (due != nullptr && lesson.held_joint < 0 &&
-        lesson.joints[due->joint].result.condition != joint::Condition::sound)
+        lesson.joints[due->joint].result.condition != joint::JointCondition::sound)
         end_step(lesson, world);
 }
 

@@ -70,7 +70,7 @@ struct JointTrack {
     bool worked = false;         // the hand has loaded or turned the nut in this visit
     double furthest = 0.0;       // rad, extreme nut angle of this visit: highest if tightening, else lowest
     bool seated = false;         // the nut was on its seat at `furthest`
-    bool turned_back = false;    // turned the wrong way in this visit, and reported
+    bool turned_back = false;    // turning the wrong way was reported in this visit
     int wrong_way_count = 0;     // visits in which it was turned the wrong way
     bool over_torqued = false;   // excess torque was reported since the nut was last off its seat
     int over_torque_count = 0;   // this and slip_count: totals, which undoing a step does not reduce

@@ -39,7 +39,7 @@ struct JointResult {
     Verdict torque_verdict = Verdict::none;
     Verdict angle_verdict = Verdict::none;
     Verdict overall = Verdict::none;  // OK only if each judged quantity is OK and the joint is sound
-    joint::Condition condition = joint::Condition::sound;
+    joint::JointCondition condition = joint::JointCondition::sound;
     int strokes = 0;
     int done_already = 0;  // visits after its step was done
     int out_of_turn = 0;   // visits before its step was due

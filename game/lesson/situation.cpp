@@ -6,12 +6,13 @@ namespace bolt::lesson {
 
 namespace {
 
-constexpr double near = 0.06;                // m from the nut: the trainee has found it
+constexpr double near = 0.06;                // m from the nut within which the trainee has found it
 constexpr double worn = 0.2e-3;              // m of wear at each corner
 constexpr double no_room = to_radians(3.0);  // remaining swing of the handle
-constexpr double last_part = 0.8;            // share of the lowest valid torque from which to pull slowly
-constexpr double let_go_share = 0.5;         // share of the peak torque below which the pull has ended
-constexpr double let_go_clicked = 0.15;      // the same after a click, which drops the torque by itself
+constexpr double last_part =
+    0.8;  // share of the lowest valid torque from which the trainee should pull slowly
+constexpr double let_go_share = 0.5;     // share of the peak torque below which the pull has ended
+constexpr double let_go_clicked = 0.15;  // the same after a click, which drops the torque by itself
 constexpr double broken_loose = to_radians(2.0);
 constexpr double turning = 0.02;         // rad/s
 constexpr double fingers_turning = 0.3;  // rad/s
@@ -106,8 +107,8 @@ Situation situation(const WorkState& work) {
     if (work.lesson.held_joint < 0) return without_nut(work, *due, fingers);
     if (work.lesson.held_joint != static_cast<int>(due->joint)) return Situation::wrong_joint;
     const world::Joint& joint = world::joint_at(work.world, due->joint);
-    if (joint.condition == joint::Condition::broken) return Situation::leave_broken;
-    if (joint.condition == joint::Condition::stripped) return Situation::leave_stripped;
+    if (joint.condition == joint::JointCondition::broken) return Situation::leave_broken;
+    if (joint.condition == joint::JointCondition::stripped) return Situation::leave_stripped;
     switch (due->kind) {
         case StepKind::run_down:
             return running_down(work, joint, fingers);

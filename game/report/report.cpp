@@ -319,7 +319,7 @@ void put_method(std::string& out, const analysis::SessionData& s) {
 
 std::string verdict_mark(const lesson::JointResult& result) {
     using lesson::Verdict;
-    if (result.condition != joint::Condition::sound)
+    if (result.condition != joint::JointCondition::sound)
         return fmt::format("<span class=\"v vh\">✕ {}</span>", joint::name(result.condition));
     constexpr std::string_view styles[] = {"vn", "vl", "vo", "vh"};
     constexpr std::string_view shapes[] = {"–", "▼ LOW", "✓ OK", "▲ HIGH"};

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double margin = 2.5e-3;     // m, distance that the search keeps
 constexpr double follow_s = 0.12;     // s, time constant of `shown`
-constexpr double stuck_depth = 1e-3;  // m: at a greater depth other starting points are tried
+constexpr double stuck_depth = 1e-3;  // m, depth from which other starting points are tried
 constexpr double good_enough = 3.0;   // mm², cost below which no other starting point is tried
 constexpr double cuff_begin = 0.012, cuff_end = 0.064;  // m behind the wrist
 constexpr double min_cuff = 0.1;                        // fraction of the cuff's length

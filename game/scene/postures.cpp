@@ -71,8 +71,8 @@ Vec3 between_pads(const hand::Hand& hand, const hand::Angles& angles) {
     return hand::fingertip_pad_centre(hand, joints, 1) - hand::fingertip_pad_centre(hand, joints, 0);
 }
 
-// The pinch whose pads touch the corners of a nut of that width (m across flats), since the nut turns between
-// them. Bisection over the abduction of the thumb.
+// The pinch whose pads touch the corners of a nut of that width (m across flats): the nut turns between the
+// pads. Found by bisection of the thumb's abduction.
 hand::Angles pinch_for_width(const hand::Hand& hand, double width) {
     const double goal = 2.0 / std::sqrt(3.0) * width + 2.0 * (hand::pad_radius + glove);
     double narrow = 5.0 * deg, wide = 65.0 * deg;

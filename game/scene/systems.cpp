@@ -218,8 +218,8 @@ void appearance_system(SceneWorld& world) {
             drawn.deformation = fingers.deformation;
             const double intrusion = glm::smoothstep(fade_begin, fade_end, fingers.clearance.depth);
             const float fade = std::max(fingers.nearness, static_cast<float>(intrusion));
-            // Never zero: an object without a tint uses another pipeline, which would be compiled during a
-            // pull.
+            // Never zero, because an object without a tint needs another pipeline, whose compilation would
+            // delay a pull.
             const float pallor = std::max(1e-3F, max_pallor * fingers.effort);
             world.add<Appearance>(entity, glm::vec4(pale_skin, pallor), 1.0F - max_fade * fade);
         });

@@ -56,7 +56,7 @@ void hide_ghosts(SceneWorld& world);
 void outline_joint(SceneWorld& world, std::size_t joint, const glm::vec4& color);
 void outline_tool(SceneWorld& world, const glm::vec4& color);
 
-// Selects what fades in front of a nut: everything but its own joint, or only the hand, which then fades in a
+// The objects that fade in front of a nut: all but its own joint, or only the hand. The hand alone fades in a
 // larger area.
 enum class Occluders : std::uint8_t { all, hand };
 void fade_occluders(SceneWorld& world, render::Scene& scene, const servo::Setup& setup, std::size_t joint,

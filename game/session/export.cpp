@@ -62,7 +62,7 @@ std::string summary_table(const content::Assembly& assembly, const lesson::Lesso
         const lesson::JointResult& joint = result.joints[i];
         const content::AssemblyJoint& planned = assembly.joints[i];
         std::string verdict(lesson::name(joint.overall));
-        if (joint.condition != joint::Condition::sound)
+        if (joint.condition != joint::JointCondition::sound)
             verdict += fmt::format(" ({})", joint::name(joint.condition));
         if (joint.out_of_turn > 0) verdict += fmt::format(", {}× out of turn", joint.out_of_turn);
         if (joint.done_already > 0) verdict += fmt::format(", {}× again", joint.done_already);

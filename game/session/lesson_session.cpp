@@ -54,7 +54,7 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
         const auto tightened = [&] {
             return joint.torque >= target || (into_yield && joint.stage == joint::Stage::yield);
         };
-        while (!tightened() && joint.condition == joint::Condition::sound && ++steps < max_steps) {
+        while (!tightened() && joint.condition == joint::JointCondition::sound && ++steps < max_steps) {
             const bool contact = joint.stage != joint::Stage::navigation;
             const double step = (contact ? 0.1 : 1.0) * speed * setup.dt;
             joint::turn_nut(setup.group, state.joints, i, joint.nut.angle + step, 1.0, setup.dt);

@@ -97,8 +97,8 @@ struct LessonOutcome {
     bool obstacles = false;  // the wrench could collide with the assembly
 };
 
-// Played by a person at a window or by a simulated trainee. Not copyable or movable, because the lesson
-// refers to its assembly.
+// A lesson that a person at a window or a simulated trainee performs. Not copyable or movable, because the
+// lesson refers to its assembly.
 class LessonSession {
   public:
     // Records the session into `file`. session::SessionWriter keeps an existing file under another name.

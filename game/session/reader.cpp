@@ -100,7 +100,7 @@ std::optional<lesson::JointResult> joint_of(const Statement& row) {
     const auto torque_verdict = named<lesson::Verdict>(row.text(6), 4);
     const auto angle_verdict = named<lesson::Verdict>(row.text(7), 4);
     const auto overall = named<lesson::Verdict>(row.text(8), 4);
-    const auto condition = named<joint::Condition>(row.text(9), 3);
+    const auto condition = named<joint::JointCondition>(row.text(9), 3);
     if (!torque_verdict || !angle_verdict || !overall || !condition) return std::nullopt;
     lesson::JointResult joint;
     joint.id = row.text(1);

@@ -105,8 +105,7 @@ class SessionWriter {
     SessionWriter& operator=(SessionWriter&& other) noexcept;
     ~SessionWriter();
 
-    // Commits after each full second. The data of the next three functions is committed with the current
-    // second.
+    // Commits after each full second, together with the data of the next three functions.
     Status append(const TickRecord& tick);
     Status add(const lesson::LessonEvent& event);
     // Replaces the result of the joint with the same id.

@@ -196,7 +196,7 @@ Status put_events(Database& database, std::uint64_t first_ordinal,
 Status put_timing(Database& database, const servo::Timing& timing, TableChecksums& checksums) {
     BOLT_TRY_ASSIGN(auto statement,
                     database.prepare("INSERT OR REPLACE INTO servo_time VALUES(?, ?, ?, ?, ?, ?)"));
-    checksums.servo_time = {};  // all rows are written again
+    checksums.servo_time = {};  // because all rows are written again
     for (const TimingRow& row : rows_of(timing)) {
         BOLT_TRY(statement.run_with(std::string_view(row.name), row.count, row.least, row.greatest, row.sum,
                                     std::span<const std::byte>(row.bins)));

@@ -36,26 +36,27 @@ void press(ActiveLesson& active, MouseCommand& command) {
     }
 }
 
-double handle_turn(const ActiveLesson& active, const Screen& screen, const glm::dvec2& drag) {
+double handle_turn(const ActiveLesson& active, const Projection& projection, const glm::dvec2& drag) {
     if (!hand_of(active).nut || hand_of(active).action != HandAction::holding || !hand_of(active).wrench)
         return 0.0;
     const servo::Setup& setup = active.session->setup();
     const glm::dvec2 lever = lever_on_screen(
-        screen, tool_of(active).pose, setup.nuts[*hand_of(active).nut].axis, setup.wrench.handle_length);
+        projection, tool_of(active).pose, setup.nuts[*hand_of(active).nut].axis, setup.wrench.handle_length);
     return drag_angle(lever, drag);
 }
 
-// From the viewer's frame to the assembly's, about the vertical.
+// The rotation about the vertical from the viewer's frame to the assembly's.
 Quat viewer_heading(const ActiveLesson& active) {
     return glm::angleAxis(active.view.camera.shown.yaw, Vec3(0, 1, 0));
 }
 
 // The scene in which the user drags the hand.
-DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active, const Screen& screen) {
+DragScene drag_scene(const scene::SceneWorld& world, const ActiveLesson& active,
+                     const Projection& projection) {
     const StationClient& client = *active.station;
     const servo::Setup& setup = active.session->setup();
     DragScene scene;
-    scene.screen = screen;
+    scene.projection = projection;
     scene.wrench = hand_of(active).wrench;
     scene.tool = scene.wrench ? tool_of(active).pose : client.latest.commanded_tool;
     scene.points_at_reachable = active.pointer.on_wrench || active.pointer.nut.has_value();
@@ -84,14 +85,14 @@ void move_camera(ActiveLesson& active, const FrameInput& input, double height, d
 void handle_input(const scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     const FrameInput& input = frame.input;
-    const Screen screen = screen_of(active, frame.size);
-    // In a slow frame the pointer may have left the place of the press already.
+    const Projection projection = projection_of(active, frame.size);
+    // In a slow frame the pointer may have moved since the press.
     const glm::dvec2 pointer = input.pressed_at.value_or(input.pointer);
     if (input.pressed_at || !active.pointer.drags_hand || !input.left_down) {
         active.pointer.nut =
-            nut_at(screen, pointer, active.session->setup(), nut_centres(world, active.session->setup()));
+            nut_at(projection, pointer, active.session->setup(), nut_centres(world, active.session->setup()));
         const Vec3 end = hand_of(active).rest * Vec3(active.session->setup().wrench.handle_length, 0.0, 0.0);
-        const auto off = pixels_to_segment(screen, pointer, hand_of(active).rest.position, end);
+        const auto off = pixels_to_segment(projection, pointer, hand_of(active).rest.position, end);
         active.pointer.on_wrench =
             !hand_of(active).wrench && !active.pointer.nut && off && *off < wrench_reach;
     }
@@ -99,14 +100,14 @@ void handle_input(const scene::SceneWorld& world, Frame& frame) {
     if (input.triggered(Action::undo)) request_undo(active.undo, active.session->lesson(), 1);
     if (active.station) {
         StationClient& client = *active.station;
-        // A device's hand does not point: it takes what it is beside.
+        // A device has no pointer: its hand takes what is beside it.
         if (!client.dragged || active.pointer.nut != hand_of(active).nut) active.pointer.nut.reset();
         active.pointer.on_wrench = client.near_wrench && (active.pointer.on_wrench || !client.dragged);
         active.pointer.drags_hand = client.dragged.has_value();
         if (client.dragged && !active.clock.paused)
             drag_hand(*client.dragged,
                       {input, client.keyboard.input(), client.keyboard.shift_down(), frame.seconds},
-                      drag_scene(world, active, screen));
+                      drag_scene(world, active, projection));
         FrameInput of_view = input;
         if (client.dragged && input.left_down) of_view.wheel = 0.0;
         move_camera(active, of_view, frame.size.y, frame.size.x / frame.size.y);
@@ -122,7 +123,7 @@ void handle_input(const scene::SceneWorld& world, Frame& frame) {
     if (input.triggered(Action::tool))
         (hand_of(active).wrench ? command.lay_down : command.take_wrench) = true;
     if (command.button_down) {
-        command.turn = handle_turn(active, screen, input.left_drag);
+        command.turn = handle_turn(active, projection, input.left_drag);
         command.spin = (input.pointer.x - active.pointer.press_position.x) / full_spin_drag;
     }
     if (active.undo.target && hand_of(active).nut) command.retreat = true;
@@ -161,7 +162,7 @@ void after_tick(const scene::SceneWorld& world, ActiveLesson& active) {
 
 bool continues(const ActiveLesson& active) { return continues(active.undo, *active.session); }
 
-// Writes the hand as mouse or station have moved it, which is newer than the input of the last tick.
+// Writes the pose that mouse or station gave the hand in this frame; the last tick had an older one.
 WorkingHand write_hand(scene::SceneWorld& world, const WorkingHand& hand) {
     WorkingHand& written = world.only<world::WorkingHand>() = hand;
     written.pinches = !hand.wrench && hand.nut && hand.action == HandAction::holding;
@@ -307,7 +308,7 @@ void coaching_system(scene::SceneWorld& world, Frame& frame) {
         if (active.clock.finished) color = view::color_of(active.palette, active.verdicts[i]);
         scene::outline_joint(world, i, color);
     }
-    const bool take_wrench_hint = hint != nullptr && hint->arrow() == lesson::HandMotion::take;
+    const bool take_wrench_hint = hint != nullptr && hint->arrow() == lesson::HintMotion::take;
     scene::outline_tool(world, active.pointer.on_wrench ? pointer_color
                                : take_wrench_hint       ? active.palette.due
                                                         : no_color);

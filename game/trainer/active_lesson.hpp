@@ -30,7 +30,7 @@ namespace bolt::trainer {
 
 // The target of the pointer.
 struct PointerState {
-    bool drags_hand = false;         // a left drag moves the hand, not the view
+    bool drags_hand = false;         // the drag of the left button moves the hand, not the view
     glm::dvec2 press_position{0.0};  // px, where the left button was pressed
     std::optional<std::size_t> nut;  // under the pointer
     // Mouse: the wrench at rest is under the pointer. Station: it is within reach of the hand.
@@ -147,6 +147,6 @@ inline constexpr ecs::System<scene::SceneWorld, Frame> frame_systems[] = {
     {"view", view_system},  {"labels", label_system},        {"present", present_system}};
 
 // The picture from the camera's present viewpoint.
-Screen screen_of(const ActiveLesson& active, const glm::dvec2& size);
+Projection projection_of(const ActiveLesson& active, const glm::dvec2& size);
 
 }  // namespace bolt::trainer

@@ -1,12 +1,9 @@
 #include "game/trainer/app.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
-#include <ctime>
 
 #include "game/sound/event_detection.hpp"
 #include "game/trainer/hud.hpp"
@@ -19,70 +16,6 @@ constexpr double longest_frame = 0.25;   // s; a slower frame delays the lesson 
 constexpr float text_size = 15.0F;       // points
 constexpr double timing_duration = 1.5;  // s, of the servo in the check of the computer
 
-// Names what the user presses or moves for each control of the current hand.
-lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys, const Equipment& equipment,
-                                   const StationClient* station) {
-    const std::string tool = key_name(keys, Action::tool);
-    if (station == nullptr) return lesson::mouse_controls(words, tool);
-    if (station->dragged) return lesson::drag_controls(words, tool);
-    const station::Layout& layout = station->link->layout();
-    const std::uint32_t held = layout.mover_buttons.dead_man;
-    const bool keyboard = equipment.devices.empty();
-    const std::string closes =
-        keyboard || held == 0
-            ? std::string(platform::name(platform::Key::space))
-            : words::format_text(
-                  words, "control.device.button",
-                  {{"number", words::Number{static_cast<double>(std::countr_zero(held) + 1), 0}}});
-    const bool feels = layout.mover && station::renders_force(*layout.mover);
-    lesson::ControlNames names = keyboard ? lesson::keyboard_controls(words, closes, tool)
-                                 : feels  ? lesson::device_controls(words, closes, tool)
-                                          : lesson::puck_controls(words, closes, tool);
-    const bool fingers = station->link->hand() != nullptr || (layout.mover && layout.mover->senses_gripper);
-    return fingers ? lesson::glove_controls(words, std::move(names)) : names;
-}
-
-// Adds every character that the interface may draw to its font.
-void add_characters(ui::Ui& ui, std::span<const words::Words> languages,
-                    std::span<const AssemblyEntry> assemblies) {
-    for (const words::Words& language : languages) {
-        ui.add_characters(language.name);
-        for (const std::string& text : language.texts) ui.add_characters(text);
-    }
-    for (const std::string_view sign : {"▼", "●", "▲", "◆", "▶", "✓", "✗", "–", "‹", "›"})
-        ui.add_characters(sign);
-    for (const AssemblyEntry& entry : assemblies) {
-        for (const auto& [code, title] : entry.title) ui.add_characters(title);
-        for (const auto& [code, text] : entry.instructions) ui.add_characters(text);
-        if (entry.error) ui.add_characters(entry.error->message());
-        for (const content::AssemblyVariant& variant : entry.variants)
-            for (const auto& [code, title] : variant.title) ui.add_characters(title);
-        for (const content::Tool& tool : entry.tools)
-            for (const auto& [code, title] : tool.title) ui.add_characters(title);
-    }
-}
-
-// Adds the characters of the menu's texts that are not known at the start: names that the trainee types or
-// that devices have, and the reasons in findings and errors.
-void add_characters(ui::Ui& ui, const words::Words& words, const Menu& menu, const LessonChoice& choice) {
-    ui.add_characters(choice.trainee);
-    for (const DeviceOption& option : menu.devices) ui.add_characters(option.name);
-    for (const computer::Finding& finding : menu.check.findings())
-        ui.add_characters(words::format_text(words, finding.text, finding.arguments));
-    if (menu.start_error) ui.add_characters(menu.start_error->message());
-}
-
-// One line with the median and 99th percentile of each system; sorts the times.
-std::string describe_times(std::map<std::string_view, std::vector<float>>& times_of) {
-    std::string line = "a frame's systems, median and p99 (ms):";
-    for (auto& [system, times] : times_of) {
-        std::sort(times.begin(), times.end());
-        line +=
-            fmt::format(" {} {:.2f} {:.2f}", system, times[times.size() / 2], times[times.size() * 99 / 100]);
-    }
-    return line;
-}
-
 std::string describe_event(const content::Assembly& assembly, const lesson::LessonEvent& event, double dt) {
     const std::string joint = event.joint >= 0
                                   ? assembly.joints[static_cast<std::size_t>(event.joint)].design.id + " "
@@ -91,48 +24,24 @@ std::string describe_event(const content::Assembly& assembly, const lesson::Less
                        lesson::name(event.kind), event.text);
 }
 
-// The folder of the next session, which is created: `out` itself, or "2026-11-25_15-40-12_zq350" in it.
-Result<std::filesystem::path> lesson_folder(const AppOptions& options, const LessonChoice& choice) {
-    std::filesystem::path folder = options.out;
-    if (options.folder_per_lesson) {
-        const std::string assembly = std::filesystem::path(choice.assembly).filename().string();
-        const std::string name =
-            fmt::format("{:%Y-%m-%d_%H-%M-%S}_{}", fmt::localtime(std::time(nullptr)), assembly);
-        folder /= name;
-        std::error_code ignored;
-        for (int i = 2; std::filesystem::exists(folder, ignored); ++i)
-            folder = options.out / fmt::format("{}_{}", name, i);
+// Adds the characters of the texts in all languages, and the symbols that stand in the code.
+void add_language_characters(ui::Ui& ui, std::span<const words::Words> languages) {
+    for (const words::Words& language : languages) {
+        ui.add_characters(language.name);
+        for (const std::string& text : language.texts) ui.add_characters(text);
     }
-    std::error_code problem;
-    std::filesystem::create_directories(folder, problem);
-    if (!problem) return folder;
-    Error error;
-    error.file = folder.string();
-    error.what = "this folder cannot be created: " + problem.message();
-    error.expected = "a folder that you may write to";
-    return fail(error);
-}
-
-UserFolders folders_of(const AppOptions& options) {
-    UserFolders folders{options.out, options.folder_per_lesson, options.settings_folder, {}};
-    if (const auto data = user_data_folder()) folders.assemblies = *data / "assemblies";
-    return folders;
+    for (const std::string_view sign : {"▼", "●", "▲", "◆", "▶", "✓", "✗", "–", "‹", "›"})
+        ui.add_characters(sign);
 }
 
 }  // namespace
-
-struct App::GpuResources {
-    view::GpuContext* context = nullptr;
-    std::unique_ptr<ui::Ui> ui;
-    std::unique_ptr<scene::GpuLessonModels> models;
-    std::optional<text::Fonts> fonts;
-};
 
 App::App(AppOptions options) : options_(std::move(options)) {
     if (options_.menu) {
         menu_.assemblies = list_assemblies();
         menu_.devices = device_options(options_.choice.equipment);
-        menu_.folders = folders_of(options_);
+        menu_.folders = {options_.out, options_.folder_per_lesson, options_.settings_folder, {}};
+        if (const auto data = user_data_folder()) menu_.folders.assemblies = *data / "assemblies";
         menu_.first_start = options_.first_start;
     }
     start_requested_ = !options_.menu;
@@ -165,9 +74,8 @@ Status App::start(view::GpuContext& gpu_context) {
     gpu_->context = &gpu_context;
     BOLT_TRY_ASSIGN(auto ui, ui::Ui::create(*gpu_context.device, {text_size}));
     gpu_->ui = std::move(ui);
-    add_characters(*gpu_->ui, languages_, menu_.assemblies);
-    for (const auto& folder : {menu_.folders.sessions, menu_.folders.settings, menu_.folders.assemblies})
-        gpu_->ui->add_characters(folder.string());
+    add_language_characters(*gpu_->ui, languages_);
+    add_constant_characters(*gpu_->ui, menu_);
     BOLT_TRY_ASSIGN(auto fonts, text::load_fonts());
     gpu_->fonts.emplace(std::move(fonts));
     return active_ ? upload_lesson() : Status{};
@@ -181,152 +89,6 @@ void App::release() {
     }
     pictures_.release();
     gpu_.reset();
-}
-
-// Uploads the models of the lesson and makes the entities that refer to them.
-Status App::upload_lesson() {
-    ActiveLesson& active = *active_;
-    BOLT_TRY(gpu_->context->device->idle());
-    BOLT_TRY_ASSIGN(auto models, scene::upload(*gpu_->context->device, context_->models));
-    gpu_->models = std::move(models);
-    BOLT_TRY_ASSIGN(auto workplace,
-                    scene::make_workplace(std::move(active.workplace.world), context_->models, *gpu_->models,
-                                          active.session->assembly(), active.session->setup()));
-    active.workplace = std::move(workplace);
-    active.scene = scene::make_lit_scene(active.workplace, gpu_->models->light);
-    return {};
-}
-
-// The choice of the menu; for the tour its nut, guided, with the same devices.
-LessonChoice App::lesson_choice() const {
-    LessonChoice choice = options_.choice;
-    if (options_.menu) choice.assembly = content::assembly_folder(choice.assembly).string();
-    if (!tour_requested_) return choice;
-    choice.assembly = content::assembly_folder(tour_assembly).string();
-    choice.variant.clear();
-    choice.tool.clear();
-    choice.mode = lesson::Mode::guided;
-    choice.task = lesson::Task::tighten;
-    return choice;
-}
-
-Status App::begin_lesson(float aspect) {
-    select_trainee();
-    save_preferences();
-    const LessonChoice choice = lesson_choice();
-    if (active_ && options_.choice.equipment.needs_station())
-        active_->station.reset();  // it holds the devices
-    BOLT_TRY_ASSIGN(folder_, lesson_folder(options_, choice));
-    LessonStart start{choice, preferences_.settings, options_.lesson, folder_, options_.start_station};
-    if (!choice.equipment.has_hardware()) return enter_lesson(start_lesson(start), aspect);
-    if (active_) BOLT_TRY(close_lesson());
-    starter_ = std::make_unique<LessonStarter>(std::move(start), std::move(given_up_));
-    arm_screen_ = {};
-    screen_ = ShownScreen::starting;
-    return {};
-}
-
-Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
-    if (!started) {
-        std::error_code ignored;
-        if (options_.folder_per_lesson) std::filesystem::remove(folder_, ignored);  // if it is still empty
-        return fail(started.error());
-    }
-    if (active_) {
-        BOLT_TRY(gpu_->context->device->idle());
-        active_.reset();
-    }
-    if (options_.on_start) options_.on_start(folder_);
-    context_ = std::move(started->context);
-    active_.emplace(std::move(started->active));
-    ActiveLesson& active = *active_;
-    for (const std::string& missing : context_->models.missing) log("not drawn: " + missing);
-    world::add_haptics(active.workplace.world, active.session->state());
-    BOLT_TRY(upload_lesson());
-    place_trainee(active, *context_, aspect);
-    active.sound.detector.surfaces =
-        sound::struck_surfaces(active.session->assembly(), active.session->obstacle_names());
-    if (options_.sound) {
-        auto live = sound::LiveSound::start(active.session->setup(), active.sound.detector.surfaces);
-        if (live)
-            active.sound.live = std::make_unique<sound::LiveSound>(std::move(*live));
-        else
-            log(live.error().message());
-    }
-    apply_preferences();
-    active.verdicts.assign(context_->assembly.joints.size(), lesson::Verdict::none);
-    outcome_.reset();
-    tour_ = tour_requested_ ? std::optional(Tour{}) : std::nullopt;
-    screen_ = ShownScreen::lesson;
-    menu_.first_start = false;
-    log(fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name, context_->assembly.variant,
-                    lesson::name(context_->options.mode), joint::name(context_->options.law)));
-    return {};
-}
-
-// An error of a start is shown in the menu if there is one.
-Status App::report_start(Status begun) {
-    if (begun) return {};
-    if (begun.error().lost || !options_.menu) return begun;
-    menu_.start_error = begun.error();
-    screen_ = ShownScreen::menu;
-    log(begun.error().message());
-    return {};
-}
-
-void App::cancel_start() {
-    if (!starter_) return;
-    starter_->give_up();
-    given_up_ = std::move(starter_);
-    screen_ = ShownScreen::menu;
-    closed_ = closed_ || !options_.menu;
-}
-
-// Shows what the arm needs, while a lesson starts and in a lesson, and takes the user's answer.
-void App::follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_answers) {
-    StationClient* client = screen_ == ShownScreen::lesson && active_->station ? &*active_->station : nullptr;
-    if (client != nullptr) pause_for_arm(*client, active_->clock);
-    const device::ArmNeeds needs = starter_            ? starter_->needs()
-                                   : client != nullptr ? client->needs
-                                                       : device::ArmNeeds{};
-    const std::string before = describe(arm_screen_.needs);
-    arm_screen_.in_lesson = client != nullptr;
-    update(arm_screen_, needs, settings_ ? 0.0 : seconds);  // the settings cover the question
-    if (const std::string now = describe(needs); now != before && !now.empty()) log(now);
-    if (!settings_) perform(action_of(arm_screen_, events, enter_answers));
-}
-
-// Releases the lesson whose result was shown, with the devices that its station holds.
-Status App::close_lesson() {
-    BOLT_TRY(gpu_->context->device->idle());
-    active_.reset();
-    gpu_->models.reset();
-    return {};
-}
-
-Status App::end_lesson() {
-    if (!active_ || screen_ != ShownScreen::lesson) return {};
-    ActiveLesson& active = *active_;
-    if (active.station)
-        if (const servo::Timing* timing = active.station->link->stop())
-            BOLT_TRY(active.session->record_timing(*timing));
-
-    BOLT_TRY_ASSIGN(auto outcome, active.session->finish(active.workplace.world));
-    outcome_ = std::move(outcome);
-    active.clock.finished = true;
-    for (std::size_t i = 0; i < active.verdicts.size(); ++i)
-        active.verdicts[i] = view::verdict_of(outcome_->result.joints[i]);
-    screen_ = ShownScreen::result;
-    log(fmt::format("lesson ended: {}, score {:.0f}", outcome_->result.finished ? "finished" : "not finished",
-                    outcome_->result.score));
-    log(describe_times(system_times_));
-    system_times_.clear();
-    if (active.clock.lag > 1.0)
-        log(fmt::format("drawing was too slow: the lesson lagged {:.0f} s behind real time",
-                        active.clock.lag));
-    if (options_.on_end)
-        return options_.on_end(active.session->assembly(), context_->options, *outcome_, folder_);
-    return {};
 }
 
 Status App::frame_while_hidden() {
@@ -374,7 +136,7 @@ void App::apply_preferences() {
         active.sound.captions = settings.captions ? std::optional(Captions{}) : std::nullopt;
 }
 
-// Starts what the first button of the menu, or the button "again" of the result, starts.
+// Does what the first button of the menu does, or the button "again" of the result.
 void App::press_start() {
     if (screen_ == ShownScreen::menu) tour_requested_ = menu_.first_start;
     start_requested_ = true;
@@ -390,7 +152,7 @@ void App::show_page(MenuPage page) {
     request.sessions = options_.out;
     request.assembly = lesson_choice().assembly;
     request.seconds = timing_duration;
-    menu_.check.start(options_.find_out, request);
+    menu_.check.start(options_.gather_facts, request);
 }
 
 void App::perform(ScreenAction action) {
@@ -453,7 +215,7 @@ Status App::run_systems(std::span<const platform::InputEvent> events, const glm:
     const bool in_lesson = screen_ == ShownScreen::lesson;
     if (active.station)
         active.station->keyboard.handle_events(in_lesson ? events : std::span<const platform::InputEvent>());
-    // The menu has a text field and the settings take keys for themselves.
+    // The menu has a text field, and the settings bind keys.
     const bool has_keys = screen_ != ShownScreen::menu && !settings_;
     const InputFocus focus{has_keys && !gpu_->ui->wants_pointer(), has_keys};
     const double shown = std::min(seconds, longest_frame);
@@ -519,13 +281,14 @@ Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
     const glm::dvec2 extent(size.width, size.height);
     ui.add_characters(input_.text);
     ui.add_characters(arm_screen_.needs.preparation.instruction);
-    if (screen_ == ShownScreen::menu) add_characters(ui, words_, menu_, options_.choice);
+    if (screen_ == ShownScreen::menu) add_changing_characters(ui, words_, menu_, options_.choice);
     BOLT_TRY(ui.begin(frame, input_));
     if (const auto picture = pictures_.picture(renderer); picture && !active_)
         ImGui::GetBackgroundDrawList()->AddImage(ui.picture(*picture), {0.0F, 0.0F},
                                                  {input_.size.x, input_.size.y});
-    buttons_.clear();
-    draw_screen({words_, languages_, extent, input_.scale, ui.heading_font(), buttons_, selected_language_});
+    drawn_widgets_.clear();
+    draw_screen(
+        {words_, languages_, extent, input_.scale, ui.heading_font(), drawn_widgets_, selected_language_});
     if (active_ && screen_ == ShownScreen::lesson)
         BOLT_TRY(draw_close_up({renderer, frame, ui}, *active_, extent, input_.scale));
     if (active_) active_->view.occupied = occupied_areas();
@@ -537,7 +300,7 @@ Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
 Status App::draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale) {
     static const render::Scene empty_scene;
     const glm::dvec2 extent(size.width, size.height);
-    const render::Eye eye = active_ ? screen_of(*active_, extent).eye : render::Eye{};
+    const render::Eye eye = active_ ? projection_of(*active_, extent).eye : render::Eye{};
     render::Renderer& renderer = *gpu_->context->renderer;
     BOLT_TRY(renderer.render(frame, active_ ? active_->scene : empty_scene, std::span(&eye, 1), size));
     if (active_) return {};
@@ -561,8 +324,7 @@ Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent
     if (screen_ == ShownScreen::menu && active_) BOLT_TRY(close_lesson());
     const bool chooses = screen_ == ShownScreen::menu || screen_ == ShownScreen::result;
     const bool can_start = chooses && !settings_ && menu_.page == MenuPage::choices;
-    // Enter presses the control that the keys have marked, if they have marked one, and ends the input of a
-    // name.
+    // While the arrow keys have marked a control, Enter presses it. While a name is typed, Enter ends it.
     const bool enter_starts = !gpu_->ui->navigates_by_keys() && !gpu_->ui->edits_text();
     bool close_settings = false;
     update_ui_input(input_, settings_
@@ -577,8 +339,8 @@ Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent
     for (const platform::InputEvent& event : events) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);
         const bool by_key = std::holds_alternative<platform::KeyEvent>(event);
-        if (can_start && starts(event) && (enter_starts || !by_key)) press_start();
-        if (screen_ == ShownScreen::menu && leaves(event)) show_page(MenuPage::choices);
+        if (can_start && is_confirmation(event) && (enter_starts || !by_key)) press_start();
+        if (screen_ == ShownScreen::menu && is_back(event)) show_page(MenuPage::choices);
     }
     BOLT_TRY(draw_pictures(frame, size, scale));
     BOLT_TRY(draw_interface(frame, size));

@@ -23,7 +23,7 @@ struct AppOptions {
     bool folder_per_lesson = false;                        // each lesson gets a folder of its own in `out`
     std::filesystem::path settings_folder, settings_file;  // Preferences::folder and ::file
     bool first_start = false;                              // the menu offers the tour first
-    ComputerCheck::FindOut find_out = computer::find_out;  // computer::find_out, or a test's
+    ComputerCheck::GatherFacts gather_facts = computer::gather_facts;  // tests replace it
     StartStation start_station = trainer::start_station;
 
     // Called with the folder of a lesson when it starts. Removes the files of an earlier lesson that would
@@ -67,7 +67,6 @@ class App : public view::WindowContent {
     Status end() override { return end_lesson(); }
 
     [[nodiscard]] bool closed() const override { return closed_; }
-    // True once after each request to switch between window and full screen.
     [[nodiscard]] bool take_full_screen_request() override {
         return std::exchange(full_screen_requested_, false);
     }
@@ -80,14 +79,19 @@ class App : public view::WindowContent {
     [[nodiscard]] const ComputerCheck& computer_check() const { return menu_.check; }
     [[nodiscard]] const LessonChoice& choice() const { return options_.choice; }
     [[nodiscard]] const std::optional<Tour>& tour() const { return tour_; }
-    [[nodiscard]] std::span<const ButtonPlace> buttons() const { return buttons_; }
+    [[nodiscard]] std::span<const DrawnWidget> drawn_widgets() const { return drawn_widgets_; }
     [[nodiscard]] const Preferences& preferences() const { return preferences_; }
     [[nodiscard]] bool shows_settings() const { return settings_.has_value(); }
     [[nodiscard]] const std::optional<Error>& start_error() const { return menu_.start_error; }
     [[nodiscard]] const ArmScreen& arm_screen() const { return arm_screen_; }
 
   private:
-    struct GpuResources;
+    struct GpuResources {
+        view::GpuContext* context = nullptr;
+        std::unique_ptr<ui::Ui> ui;
+        std::unique_ptr<scene::GpuLessonModels> models;
+        std::optional<text::Fonts> fonts;
+    };
     Status begin_lesson(float aspect);
     Status enter_lesson(Result<StartedLesson> started, float aspect);
     Status report_start(Status begun);
@@ -119,7 +123,7 @@ class App : public view::WindowContent {
     ShownScreen screen_ = ShownScreen::menu;
     Menu menu_;
     std::optional<SettingsScreen> settings_;  // while it is shown
-    std::vector<ButtonPlace> buttons_;        // in the last frame
+    std::vector<DrawnWidget> drawn_widgets_;  // in the last frame
     ui::UiInput input_;
     bool closed_ = false, full_screen_requested_ = false;
     bool start_requested_ = false, end_requested_ = false;

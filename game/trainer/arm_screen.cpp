@@ -47,8 +47,8 @@ ScreenAction action_of(const ArmScreen& screen, std::span<const platform::InputE
     const bool takes_answer = asks(screen.needs) && screen.shown >= question_time;
     for (const platform::InputEvent& event : events) {
         const bool answers = enter_answers || !std::holds_alternative<platform::KeyEvent>(event);
-        if (starts(event) && takes_answer && answers) return ScreenAction::permit_move;
-        if (leaves(event) && !screen.in_lesson) return ScreenAction::cancel_start;
+        if (is_confirmation(event) && takes_answer && answers) return ScreenAction::permit_move;
+        if (is_back(event) && !screen.in_lesson) return ScreenAction::cancel_start;
     }
     return ScreenAction::none;
 }

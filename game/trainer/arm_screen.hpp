@@ -10,22 +10,22 @@
 
 namespace bolt::trainer {
 
-// s for which the question is shown before a key answers it: the key that started the lesson may be pressed
-// twice.
+// s for which the question is shown before a key answers it, because the user may press the key that started
+// the lesson twice.
 inline constexpr double question_time = 0.5;
 
-// The needs on the screen, and how long it has shown them.
+// The needs that the screen shows, and for how long it has shown them.
 struct ArmScreen {
     device::ArmNeeds needs;
     bool in_lesson = false;
     double shown = 0.0;  // s
 };
 
-// Call once a frame. A new question begins again with its time.
+// Call once a frame. New needs restart the time.
 void update(ArmScreen& screen, const device::ArmNeeds& needs, double seconds);
 
-// The action of a key or of the controller. `enter_answers`: Enter presses no button that the keys have
-// marked.
+// The action of a key or of the controller. `enter_answers`: false while the arrow keys have marked a button,
+// which Enter then presses.
 ScreenAction action_of(const ArmScreen& screen, std::span<const platform::InputEvent> events,
                        bool enter_answers);
 
@@ -34,10 +34,10 @@ ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen);
 // Pauses the lesson while its arm needs something, and resumes it afterwards, unless the user had paused it.
 void pause_for_arm(StationClient& client, LessonClock& clock);
 
-// The text about warm motors; none: they are cool, or the arm does not report their heat.
+// The text about warm motors; none if they are cool, or if the arm does not report their heat.
 std::optional<words::TextKey> arm_warning(const device::Condition& condition);
 
-// One line for the log; empty: it needs nothing.
+// One line for the log; empty if the arm needs nothing.
 std::string describe(const device::ArmNeeds& needs);
 
 }  // namespace bolt::trainer

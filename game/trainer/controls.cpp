@@ -131,14 +131,14 @@ void update_button(ui::UiInput& input, const platform::ButtonEvent& event) {
 
 }  // namespace
 
-bool leaves(const platform::InputEvent& event) {
+bool is_back(const platform::InputEvent& event) {
     if (const auto* controller = std::get_if<platform::ControllerEvent>(&event))
         return controller->button == platform::ControllerButton::cancel && controller->down;
     const auto* key = std::get_if<platform::KeyEvent>(&event);
     return key != nullptr && key->key == PlatformKey::escape && key->down && !key->repeated;
 }
 
-bool starts(const platform::InputEvent& event) {
+bool is_confirmation(const platform::InputEvent& event) {
     if (const auto* controller = std::get_if<platform::ControllerEvent>(&event))
         return controller->button == platform::ControllerButton::start && controller->down;
     const auto* key = std::get_if<platform::KeyEvent>(&event);

@@ -82,12 +82,12 @@ FrameInput apply_events(InputState& state, std::span<const platform::InputEvent>
 // Updates the interface's input with the events of a frame, except size, scale and time.
 void update_ui_input(ui::UiInput& input, std::span<const platform::InputEvent> events);
 
-// True if the event leaves a page or the settings: Escape, or the controller's button for it.
-bool leaves(const platform::InputEvent& event);
-// True if the event starts what the screen offers first: Enter, or the controller's start button.
-bool starts(const platform::InputEvent& event);
+// True for Escape and the controller's cancel button, which close a page or the settings.
+bool is_back(const platform::InputEvent& event);
+// True for Enter and the controller's start button, which do what the first button of a screen does.
+bool is_confirmation(const platform::InputEvent& event);
 
-// False for modifiers and Escape, which always pauses a lesson and leaves a menu.
+// False for modifiers, and for Escape, which always pauses a lesson or closes a page.
 bool is_bindable(platform::Key key);
 
 enum class BindOutcome : std::uint8_t { done, swapped, refused };

@@ -15,37 +15,39 @@ constexpr double wheel_turn = to_radians(60.0);  // of the fingers for a notch
 constexpr double finger_turn = to_radians(2.5);  // of the fingers for a pixel of drag
 constexpr double key_speed = 0.25;               // m/s
 constexpr double key_turn_speed = 1.5;           // rad/s
-// 1/s, rate at which fingers that close beside a nut find it: placing a tool is what is trained, not
+// 1/s, rate at which closing fingers move onto the nut beside them. The lesson trains placing a tool, not
 // pinching.
 constexpr double finger_rate = 6.0;
 
-// 1/s: in the air the guiding force leads the hand, 2.7 cm/s for its largest force of 2.4 N. On a bolt the
-// hand holds what it has pulled.
+// 1/s, HandMotion::yielding in the air: the largest guiding force, 2.4 N, leads the hand at 2.7 cm/s. On a
+// bolt it is 0, because the hand holds what it has pulled.
 constexpr double air_yielding = 3.0;
 
-// A hand that lets a wrench go on a nut eases first, or the wrench would be as tense when it is taken again.
+// Before the hand releases a wrench on a nut, it yields for a short time. Otherwise the wrench would keep its
+// tension until the hand takes it again.
 constexpr double ease_time = 0.3;       // s
 constexpr double ease_yielding = 30.0;  // 1/s
 
 // A motion of the hand in the assembly's frame. The turn is about the tool's origin.
-struct Motion {
+struct HandShift {
     Vec3 shift{0.0};  // m
     Vec3 turn{0.0};   // rad
 };
 
 // The movement in the plane of the picture, at the depth of `point`, that looks like `drag` (px).
-Vec3 in_picture(const Screen& screen, const Vec3& point, const glm::dvec2& drag) {
-    const glm::dmat4 to_clip(screen.eye.clip_from_world);
+Vec3 in_picture(const Projection& projection, const Vec3& point, const glm::dvec2& drag) {
+    const glm::dmat4 to_clip(projection.eye.clip_from_world);
     const glm::dvec4 clip = to_clip * glm::dvec4(point, 1.0);
     if (clip.w <= 1e-9) return Vec3(0.0);
     const glm::dvec4 moved =
-        clip + glm::dvec4(2.0 * drag.x / screen.size.x, 2.0 * drag.y / screen.size.y, 0.0, 0.0) * clip.w;
+        clip +
+        glm::dvec4(2.0 * drag.x / projection.size.x, 2.0 * drag.y / projection.size.y, 0.0, 0.0) * clip.w;
     const glm::dvec4 at = glm::inverse(to_clip) * moved;
     return Vec3(at) / at.w - point;
 }
 
 Vec3 view_direction(const DragScene& scene) {
-    return glm::normalize(scene.tool.position - Vec3(scene.screen.eye.position));
+    return glm::normalize(scene.tool.position - Vec3(scene.projection.eye.position));
 }
 
 Vec3 grip_of(const DragScene& scene) {
@@ -58,41 +60,41 @@ Vec3 along_bolt(const DragScene& scene, const Vec3& axis, double notches) {
     return notches * wheel_step_on_bolt * away * axis;
 }
 
-Motion swing_on_bolt(const DragInput& input, const DragScene& scene) {
+HandShift swing_on_bolt(const DragInput& input, const DragScene& scene) {
     const Vec3& axis = scene.nut->axis;
-    const glm::dvec2 lever = lever_on_screen(scene.screen, scene.tool, axis, scene.handle_length);
+    const glm::dvec2 lever = lever_on_screen(scene.projection, scene.tool, axis, scene.handle_length);
     // Tightening a right-hand thread turns about −axis.
     const double angle = -drag_angle(lever, input.mouse.left_drag);
     const Vec3 handle = grip_of(scene) - scene.tool.position;
     return {angle * glm::cross(axis, handle) + along_bolt(scene, axis, input.mouse.wheel), Vec3(0.0)};
 }
 
-Motion twist_nut(const DragInput& input, const DragScene& scene) {
+HandShift twist_nut(const DragInput& input, const DragScene& scene) {
     const double angle = finger_turn * input.mouse.left_drag.x + wheel_turn * input.mouse.wheel;
     return {Vec3(0.0), -angle * scene.nut->axis};
 }
 
-Motion fingers_to_nut(const DragInput& input, const DragScene& scene) {
+HandShift fingers_to_nut(const DragInput& input, const DragScene& scene) {
     const double share = std::min(1.0, finger_rate * input.seconds);
     const Vec3 normal = scene.tool.orientation * Vec3(0.0, 0.0, 1.0);
     const Vec3 axis = glm::dot(normal, scene.nut->axis) < 0.0 ? -scene.nut->axis : scene.nut->axis;
     return {share * (scene.nut->centre - scene.tool.position), share * glm::cross(normal, axis)};
 }
 
-Motion in_the_air(const DragInput& input, const DragScene& scene) {
-    Motion motion;
+HandShift in_the_air(const DragInput& input, const DragScene& scene) {
+    HandShift motion;
     const Vec3 normal = scene.tool.orientation * Vec3(0.0, 0.0, 1.0);
     if (input.turns || input.mouse.turn_drag != glm::dvec2(0.0)) {
-        const glm::dvec2 lever = lever_on_screen(scene.screen, scene.tool, normal, scene.handle_length);
+        const glm::dvec2 lever = lever_on_screen(scene.projection, scene.tool, normal, scene.handle_length);
         motion.turn = -drag_angle(lever, input.mouse.left_drag) * normal;
     } else {
-        motion.shift = in_picture(scene.screen, grip_of(scene), input.mouse.left_drag);
+        motion.shift = in_picture(scene.projection, grip_of(scene), input.mouse.left_drag);
     }
     motion.shift += wheel_step * input.mouse.wheel * view_direction(scene);
     return motion;
 }
 
-Motion mouse_motion(const DraggedHand& hand, const DragInput& input, const DragScene& scene) {
+HandShift mouse_motion(const DraggedHand& hand, const DragInput& input, const DragScene& scene) {
     if (!input.mouse.left_down) return {};
     if (scene.nut && scene.engaged)
         return scene.wrench ? swing_on_bolt(input, scene) : twist_nut(input, scene);
@@ -114,7 +116,7 @@ void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene
     hand.motion.buttons = closed ? 1 : 0;
 
     hand.motion.yielding = eases ? ease_yielding : scene.engaged ? 0.0 : air_yielding;
-    Motion motion = mouse_motion(hand, input, scene);
+    HandShift motion = mouse_motion(hand, input, scene);
     motion.shift += key_speed * input.seconds * (scene.device * input.keys.along);
     motion.turn += key_turn_speed * input.seconds * (scene.device * input.keys.about);
     // The arm holds the grip, and a turn about the jaw moves it.

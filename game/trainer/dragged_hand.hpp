@@ -1,8 +1,8 @@
-// A hand that the mouse moves freely, for a simulated arm: drags, the wheel and keys change where the hand
-// wants to be; the arm's forces decide where it gets. In the air a drag moves the hand in the plane of the
-// picture and the wheel moves it along the view; with the right button or Shift held too, a drag turns the
-// tool about its own normal. On a bolt a drag swings the handle, and the wheel moves the wrench along the
-// bolt.
+// A hand that the mouse moves freely, for a simulated arm. Drags, the wheel and keys move the intended pose
+// of the hand; the forces of the arm determine how closely the hand follows it. In the air a drag moves the
+// hand in the plane of the picture and the wheel moves it along the view; with the right button or Shift held
+// too, a drag turns the tool about its own normal. On a bolt a drag swings the handle, and the wheel moves
+// the wrench along the bolt.
 #pragma once
 
 #include <optional>
@@ -19,12 +19,12 @@ struct DraggedHand {
     device::HandMotion motion;  // sent to the arm
     bool grasps = false;  // the left button was pressed on the wrench or the nut that the hand is beside
     bool held = false;    // the left button, in the last frame
-    double easing = 0.0;  // s for which the hand still lets a wrench on a nut spring back before it opens
+    double easing = 0.0;  // s until the hand opens; until then it lets the wrench on the nut spring back
 };
 
 // The view, the tool and the nut beside it, in the assembly's frame.
 struct DragScene {
-    Screen screen;
+    Projection projection;
     Pose tool;  // as it is drawn
     bool wrench = false;
     // The pointer is on the wrench or the nut that the hand is beside. A press elsewhere moves the open hand,
@@ -40,7 +40,7 @@ struct DragScene {
 struct DragInput {
     FrameInput mouse;
     device::PuckInput keys;  // in the arm's frame
-    bool turns = false;      // Shift is held: drags turn
+    bool turns = false;      // Shift is held: a drag turns the tool
     double seconds = 0.0;    // of the frame
 };
 

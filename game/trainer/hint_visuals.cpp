@@ -8,7 +8,7 @@ namespace bolt::trainer {
 
 namespace {
 
-using lesson::HandMotion;
+using lesson::HintMotion;
 using scene::MotionArrow;
 
 // Heights of a straight arrow above its target, relative to the nut's width.
@@ -43,10 +43,10 @@ MotionArrow finger_arrow(const MotionGeometry& geometry, double sense, const glm
 }
 
 // Shows the hand where it should work: fingers on the nut, or around the wrench at rest.
-void show_hand(scene::SceneWorld& world, ActiveLesson& active, HandMotion motion) {
+void show_hand(scene::SceneWorld& world, ActiveLesson& active, HintMotion motion) {
     const servo::Setup& setup = active.session->setup();
     const lesson::LessonStep* due = active.session->lesson().due();
-    if (motion == HandMotion::take) {
+    if (motion == HintMotion::take) {
         const std::size_t grip =
             scene::natural_grip(active.postures, hand_of(active).rest, Vec3(0, 1, 0), active.shoulder);
         scene::show_hand_ghost(world, hand_of(active).rest, active.postures.on_handle.at(grip));
@@ -56,7 +56,7 @@ void show_hand(scene::SceneWorld& world, ActiveLesson& active, HandMotion motion
     const Pose at{world::nut_centre(active.workplace.world, setup, due->joint),
                   motion::tool_orientation(nut, 0.0, false)};
     scene::show_hand_ghost(world, scene::frame_towards(at, active.shoulder, 0.0),
-                           motion == HandMotion::let_go ? active.postures.open : active.postures.on_nut);
+                           motion == HintMotion::let_go ? active.postures.open : active.postures.on_nut);
 }
 
 // The pose in which the hand would put the wrench on the nut. Cached per step, because the search casts rays.
@@ -95,34 +95,34 @@ MotionGeometry geometry_of(const ActiveLesson& active, const lesson::LessonStep&
 
 }  // namespace
 
-std::optional<MotionArrow> arrow_of(HandMotion motion, const MotionGeometry& geometry) {
+std::optional<MotionArrow> arrow_of(HintMotion motion, const MotionGeometry& geometry) {
     const Vec3& axis = geometry.nut.axis;
     const Vec3 grip = geometry.rest * Vec3(0.5 * geometry.handle_length, 0.0, 0.0);
     const double sense = geometry.loosens ? -1.0 : 1.0, width = geometry.nut.across_flats;
     switch (motion) {
-        case HandMotion::none:
+        case HintMotion::none:
             return std::nullopt;
-        case HandMotion::take:
+        case HintMotion::take:
             return down_to(grip, geometry.rest.orientation * Vec3(0, 0, 1), width, forward_color);
-        case HandMotion::put_away:
+        case HintMotion::put_away:
             return down_to(grip, geometry.rest.orientation * Vec3(0, 0, 1), width, backward_color);
-        case HandMotion::approach:
-        case HandMotion::reach:
-        case HandMotion::set_on:
-        case HandMotion::grip_nut:
+        case HintMotion::approach:
+        case HintMotion::reach:
+        case HintMotion::set_on:
+        case HintMotion::grip_nut:
             return down_to(geometry.nut_centre, axis, width, forward_color);
-        case HandMotion::spin:
+        case HintMotion::spin:
             return finger_arrow(geometry, 1.0, forward_color);
-        case HandMotion::twist_back:
+        case HintMotion::twist_back:
             return finger_arrow(geometry, -1.0, backward_color);
-        case HandMotion::pull_on:
+        case HintMotion::pull_on:
             return handle_arrow(geometry, 1.0, handle_height, forward_color);
-        case HandMotion::pull_off:
+        case HintMotion::pull_off:
             return handle_arrow(geometry, -1.0, handle_height, forward_color);
-        case HandMotion::set_back:
+        case HintMotion::set_back:
             return handle_arrow(geometry, -sense, return_height, backward_color);
-        case HandMotion::let_go:
-        case HandMotion::lift:
+        case HintMotion::let_go:
+        case HintMotion::lift:
             return up_from(geometry.nut_centre, axis, width);
     }
     return std::nullopt;

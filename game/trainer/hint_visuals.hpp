@@ -23,10 +23,10 @@ struct MotionGeometry {
     bool loosens = false;  // the step loosens the nut
 };
 
-// The arrow of a motion; none for HandMotion::none. A turn gets a round arrow about the bolt, clockwise from
+// The arrow of a motion; none for HintMotion::none. A turn gets a round arrow about the bolt, clockwise from
 // above to tighten; an approach or a lift a straight one along the bolt; taking or laying down the wrench a
 // straight one down to its resting place.
-std::optional<scene::MotionArrow> arrow_of(lesson::HandMotion motion, const MotionGeometry& geometry);
+std::optional<scene::MotionArrow> arrow_of(lesson::HintMotion motion, const MotionGeometry& geometry);
 
 // Shows the visuals of `hint`; null hides all.
 void show_hint_visuals(scene::SceneWorld& world, ActiveLesson& active, const lesson::Hint* hint);

@@ -34,7 +34,8 @@ inline constexpr double caption_duration = 2.0;  // s
 
 struct Captions {
     std::array<double, caption_count> remaining{};  // s for which each is still shown
-    std::array<double, caption_count> progress{};   // 0 … 1; a lasting sound gets its caption at 1
+    std::array<double, caption_count>
+        progress{};  // 0 … 1 of the duration after which a lasting sound gets its caption
 };
 
 // Call once a tick of `dt` seconds.

@@ -1,7 +1,10 @@
 #include "game/trainer/lesson_start.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <ctime>
 
 #include "haptics/force/output_limits.hpp"
 
@@ -129,6 +132,37 @@ void place_trainee(ActiveLesson& active, const LessonContext& context, float asp
     }
     active.view.close_up.enabled = context.options.mode == lesson::Mode::guided;
     active.view.camera.jump(first_view(active, context, aspect));
+}
+
+Result<std::filesystem::path> make_lesson_folder(const std::filesystem::path& out, bool folder_per_lesson,
+                                                 const std::string& assembly) {
+    std::filesystem::path folder = out;
+    if (folder_per_lesson) {
+        const std::string name = fmt::format("{:%Y-%m-%d_%H-%M-%S}_{}", fmt::localtime(std::time(nullptr)),
+                                             std::filesystem::path(assembly).filename().string());
+        folder /= name;
+        std::error_code ignored;
+        for (int i = 2; std::filesystem::exists(folder, ignored); ++i)
+            folder = out / fmt::format("{}_{}", name, i);
+    }
+    std::error_code problem;
+    std::filesystem::create_directories(folder, problem);
+    if (!problem) return folder;
+    Error error;
+    error.file = folder.string();
+    error.what = "this folder cannot be created: " + problem.message();
+    error.expected = "a folder that you may write to";
+    return fail(error);
+}
+
+Status start_sound(ActiveLesson& active, bool audible) {
+    active.sound.detector.surfaces =
+        sound::struck_surfaces(active.session->assembly(), active.session->obstacle_names());
+    if (!audible) return {};
+    BOLT_TRY_ASSIGN(auto live,
+                    sound::LiveSound::start(active.session->setup(), active.sound.detector.surfaces));
+    active.sound.live = std::make_unique<sound::LiveSound>(std::move(live));
+    return {};
 }
 
 }  // namespace bolt::trainer

@@ -38,7 +38,7 @@ Result<std::string> tool_of_station(const content::StationFile& station,
 joint::Law law_in_force(const LessonChoice& choice, const content::TraineeSettings& settings,
                         joint::Law assembly_law);
 
-// Starts a station for a lesson; trainer::start_station, or a test's.
+// trainer::start_station; tests replace it.
 using StartStation = std::function<Result<std::unique_ptr<station_setup::LessonStation>>(
     const content::Assembly&, const session::LessonOptions&, const Equipment&, const std::string& trainee,
     const device::ArmDialog&)>;
@@ -65,6 +65,11 @@ struct StartedLesson {
     ActiveLesson active;  // with session and station; its workplace is made when the models are on the GPU
 };
 
+// Creates the folder of the next session: `out` itself, or with `folder_per_lesson` a folder in it that is
+// named after the time and the assembly, such as "2026-11-25_15-40-12_zq350".
+Result<std::filesystem::path> make_lesson_folder(const std::filesystem::path& out, bool folder_per_lesson,
+                                                 const std::string& assembly);
+
 // Fails if the assembly cannot be loaded, a chosen device cannot be used, a model is damaged, or the session
 // file cannot be created. Close the station of an earlier lesson before, because it holds the devices.
 Result<StartedLesson> start_lesson(const LessonStart& start);
@@ -72,5 +77,9 @@ Result<StartedLesson> start_lesson(const LessonStart& start);
 // Places the hand, the wrench and the first view, once the workplace of `active` exists. `aspect`: width /
 // height of the picture.
 void place_trainee(ActiveLesson& active, const LessonContext& context, float aspect);
+
+// Prepares the cues of the lesson's sounds and, if `audible`, opens the sound output. Fails if there is no
+// output; the lesson then runs without sound.
+Status start_sound(ActiveLesson& active, bool audible);
 
 }  // namespace bolt::trainer

@@ -14,8 +14,8 @@ namespace bolt::trainer {
 
 class LessonStarter {
   public:
-    // Begins. `before`: an earlier start that was given up and may still hold the devices; the thread waits
-    // for its end first.
+    // Starts the thread. `before`: an earlier start that was given up and may still hold the devices; the
+    // thread waits for its end first.
     explicit LessonStarter(LessonStart start, std::unique_ptr<LessonStarter> before = {});
     LessonStarter(const LessonStarter&) = delete;
     LessonStarter& operator=(const LessonStarter&) = delete;
@@ -26,7 +26,7 @@ class LessonStarter {
     std::optional<Result<StartedLesson>> take();
 
     [[nodiscard]] device::ArmNeeds needs() const;
-    void permit_move();  // to the arm, for its next attempt
+    void permit_move();  // the arm may move by itself in its next attempt
     void give_up();      // the devices are released as soon as possible
 
   private:

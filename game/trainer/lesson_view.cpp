@@ -207,20 +207,20 @@ bool joint_out_of_view(ActiveLesson& active, const Frame& frame) {
         active.clock.paused)
         return false;
     const view::ViewTarget target = view_of(active, *joint);
-    const Screen screen = screen_of(active, frame.size);
-    const auto at = project(screen, target.nut);
+    const Projection projection = projection_of(active, frame.size);
+    const auto at = project(projection, target.nut);
     const glm::dvec2 edge = 0.04 * frame.size;
     const bool inside = at && at->x > edge.x && at->y > edge.y && at->x < frame.size.x - edge.x &&
                         at->y < frame.size.y - edge.y;
     const bool visible = inside && view::visibility_from(target, active.view.visibility,
-                                                         Vec3(screen.eye.position)) > min_visibility;
+                                                         Vec3(projection.eye.position)) > min_visibility;
     active.view.out_of_view = visible ? 0.0 : active.view.out_of_view + frame.seconds;
     return active.view.out_of_view > max_time_out_of_view;
 }
 
 }  // namespace
 
-Screen screen_of(const ActiveLesson& active, const glm::dvec2& size) {
+Projection projection_of(const ActiveLesson& active, const glm::dvec2& size) {
     return {view::eye_of(active.view.camera.shown, render::bounds(active.scene),
                          static_cast<float>(size.x / size.y)),
             size};
@@ -262,14 +262,15 @@ render::Label clamp_label(const ActiveLesson& active, const words::Words& words,
 }
 
 // Adds the areas of the nuts, so that no label covers another joint's nut.
-void add_nut_areas(const ActiveLesson& active, const Screen& screen,
+void add_nut_areas(const ActiveLesson& active, const Projection& projection,
                    std::vector<render::Rectangle>& occupied) {
     const servo::Setup& setup = active.session->setup();
     for (std::size_t i = 0; i < setup.nuts.size(); ++i) {
         const servo::NutGeometry& nut = setup.nuts[i];
         const Vec3 middle = world::nut_centre(active.workplace.world, setup, i);
-        const auto at = project(screen, middle), edge = project(screen, middle + nut.across_flats * nut.e1),
-                   other = project(screen, middle + nut.across_flats * nut.e2);
+        const auto at = project(projection, middle),
+                   edge = project(projection, middle + nut.across_flats * nut.e1),
+                   other = project(projection, middle + nut.across_flats * nut.e2);
         if (!at || !edge || !other) continue;
         const auto radius =
             static_cast<float>(0.6 * std::max(glm::distance(*at, *edge), glm::distance(*at, *other)));
@@ -308,10 +309,10 @@ void label_system(scene::SceneWorld& world, Frame& frame) {
             add_name(i, i == marked);
     }
     if (frame.fonts == nullptr) return;
-    const Screen screen = screen_of(active, frame.size);
+    const Projection projection = projection_of(active, frame.size);
     std::vector<render::Rectangle> occupied = active.view.occupied;
-    if (!active.view.clamp_map && !active.clock.finished) add_nut_areas(active, screen, occupied);
-    view::separate_labels(*frame.fonts, active.scene.labels, screen.eye, glm::vec2(frame.size), occupied);
+    if (!active.view.clamp_map && !active.clock.finished) add_nut_areas(active, projection, occupied);
+    view::separate_labels(*frame.fonts, active.scene.labels, projection.eye, glm::vec2(frame.size), occupied);
 }
 
 void present_system(scene::SceneWorld& world, Frame& frame) {

@@ -4,38 +4,23 @@
 #include <imgui/imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-
-#include "game/lesson/feedback.hpp"
-#include "game/session/contact_models.hpp"
-#include "game/trainer/tour.hpp"
 
 namespace bolt::trainer {
 
 namespace {
 
 // Lengths in points.
-constexpr float column_width = 480.0F, menu_margin = 24.0F, label_gap = 16.0F;
+constexpr float column_width = 480.0F, menu_margin = 24.0F;
 constexpr float card_width = 176.0F, thumbnail_height = 92.0F, card_padding = 6.0F;
 // Below this size the menu is one column that scrolls.
 constexpr float least_wide_width = 940.0F, least_wide_height = 690.0F;
 
-const ImVec4 chosen{0.16F, 0.47F, 0.66F, 1.0F}, not_chosen{0.17F, 0.20F, 0.24F, 1.0F};
 const ImVec4 primary{0.13F, 0.55F, 0.36F, 1.0F}, primary_hovered{0.16F, 0.64F, 0.42F, 1.0F};
 constexpr ImU32 column_color = IM_COL32(20, 24, 29, 244), strip_color = IM_COL32(20, 24, 29, 226),
                 picture_frame = IM_COL32(110, 190, 240, 255), no_picture = IM_COL32(40, 46, 54, 255);
 
 constexpr ImGuiWindowFlags menu_flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground;
-
-// The text in `language`, else in English, else `fallback`.
-std::string in_language(const std::map<std::string, std::string>& texts, const std::string& language,
-                        const std::string& fallback) {
-    for (const std::string& code : {language, std::string("en")})
-        if (const auto found = texts.find(code); found != texts.end()) return found->second;
-    return fallback;
-}
 
 bool is_wide(const glm::vec2& size, float scale) {
     return size.x >= least_wide_width * scale && size.y >= least_wide_height * scale;
@@ -45,73 +30,6 @@ float wrapped_height(const std::string& text, float width) {
     return ImGui::CalcTextSize(text.c_str(), text.c_str() + text.size(), false, width).y;
 }
 
-// Text that wraps at `width` px from here.
-void draw_paragraph(const std::string& text, float width, const glm::vec4& color) {
-    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
-    ImGui::PushStyleColor(ImGuiCol_Text, {color.r, color.g, color.b, color.a});
-    draw_text(text);
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
-}
-
-// px, of the longest label of a row and the gap after it.
-float label_width(const ScreenContext& context) {
-    float longest = 0.0F;
-    for (const words::TextKey label :
-         {words::TextKey("menu.task"), words::TextKey("menu.mode"), words::TextKey("menu.variant"),
-          words::TextKey("menu.tool"), words::TextKey("menu.law"), words::TextKey("menu.device"),
-          words::TextKey("menu.trainee")})
-        longest = std::max(longest, ImGui::CalcTextSize(context.words[label].c_str()).x);
-    return longest + label_gap * context.scale;
-}
-
-// A label with buttons beside it, of which one is chosen. Buttons that do not fit go into another line.
-class ChoiceRow {
-  public:
-    // `width`: px, of label and buttons.
-    ChoiceRow(const ScreenContext& context, const std::string& label, float width)
-        : left_(ImGui::GetCursorPosX() + label_width(context)), right_(ImGui::GetCursorPosX() + width) {
-        ImGui::AlignTextToFramePadding();
-        ImGui::PushStyleColor(ImGuiCol_Text, {muted_text.r, muted_text.g, muted_text.b, 1.0F});
-        draw_text(label);
-        ImGui::PopStyleColor();
-        ImGui::SameLine();
-        ImGui::SetCursorPosX(left_);
-    }
-
-    // Returns true when it is pressed.
-    bool button(const std::string& label, bool is_chosen) {
-        const ImGuiStyle& style = ImGui::GetStyle();
-        const float wide = ImGui::CalcTextSize(label.c_str()).x + 2.0F * style.FramePadding.x;
-        if (!first_) {
-            ImGui::SameLine(0.0F, 0.5F * style.ItemSpacing.x);
-            if (ImGui::GetCursorPosX() + wide > right_) {
-                ImGui::NewLine();
-                ImGui::SetCursorPosX(left_);
-            }
-        }
-        first_ = false;
-        ImGui::PushID(row_);  // two rows may have buttons of the same name
-        ImGui::PushStyleColor(ImGuiCol_Button, is_chosen ? chosen : not_chosen);
-        const bool pressed = ImGui::Button(label.c_str());
-        ImGui::PopStyleColor();
-        ImGui::PopID();
-        return pressed;
-    }
-
-  private:
-    int row_ = static_cast<int>(ImGui::GetCursorPosY());
-    float left_, right_;  // px in the window
-    bool first_ = true;
-};
-
-void text_field(const char* id, float width, std::string& value) {
-    std::array<char, 64> buffer{};
-    value.copy(buffer.data(), buffer.size() - 1);
-    ImGui::SetNextItemWidth(width);
-    if (ImGui::InputText(id, buffer.data(), buffer.size())) value = buffer.data();
-}
-
 const AssemblyEntry* selected_entry(const Menu& menu, const LessonChoice& choice) {
     const auto entry =
         std::find_if(menu.assemblies.begin(), menu.assemblies.end(),
@@ -119,135 +37,10 @@ const AssemblyEntry* selected_entry(const Menu& menu, const LessonChoice& choice
     return entry == menu.assemblies.end() ? nullptr : &*entry;
 }
 
-void select(const AssemblyEntry& entry, LessonChoice& choice) {
-    if (entry.name == choice.assembly) return;
-    choice.assembly = entry.name;
-    choice.variant.clear();
-    choice.tool = tool_of_station(choice.equipment.station, entry.tools).value_or(std::string());
-}
-
-void draw_task_and_mode(const ScreenContext& context, float width, LessonChoice& choice) {
-    const words::Words& words = context.words;
-    ChoiceRow tasks(context, words["menu.task"], width);
-    for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen}) {
-        if (tasks.button(words[lesson::text_key(task)], choice.task == task)) choice.task = task;
-        record_place(context, lesson::text_key(task));
-    }
-    ChoiceRow modes(context, words["menu.mode"], width);
-    for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment}) {
-        if (modes.button(words[lesson::text_key(mode)], choice.mode == mode)) choice.mode = mode;
-        record_place(context, lesson::text_key(mode));
-    }
-    const words::TextKey about = choice.mode == lesson::Mode::guided ? words::TextKey("mode.guided.about")
-                                 : choice.mode == lesson::Mode::practice
-                                     ? words::TextKey("mode.practice.about")
-                                     : words::TextKey("mode.assessment.about");
-    ImGui::Indent(label_width(context));
-    draw_paragraph(words[about], width - label_width(context), muted_text);
-    ImGui::Unindent(label_width(context));
-}
-
-// A selection replaces the law of the command line and is saved with the trainee's settings.
-void draw_laws(const ScreenContext& context, float width, joint::Law assembly_law, LessonChoice& choice,
-               content::TraineeSettings& settings) {
-    const joint::Law selected = law_in_force(choice, settings, assembly_law);
-    ChoiceRow row(context, context.words["menu.law"], width);
-    for (const auto& [key, law] : {std::pair{words::TextKey("menu.law.mechanistic"), joint::Law::mechanistic},
-                                   std::pair{words::TextKey("menu.law.published"), joint::Law::published}}) {
-        if (row.button(context.words[key], selected == law)) {
-            settings.law = joint::name(law);
-            choice.law.reset();
-        }
-        record_place(context, key);
-    }
-    ImGui::Indent(label_width(context));
-    draw_paragraph(
-        context.words[selected == joint::Law::mechanistic ? words::TextKey("menu.law.mechanistic.about")
-                                                          : words::TextKey("menu.law.published.about")],
-        width - label_width(context), muted_text);
-    ImGui::Unindent(label_width(context));
-}
-
-void draw_variants_and_tools(const ScreenContext& context, float width, const AssemblyEntry& entry,
-                             LessonChoice& choice) {
-    const std::string& language = context.words.language;
-    if (entry.variants.size() > 1) {
-        ChoiceRow row(context, context.words["menu.variant"], width);
-        for (const content::AssemblyVariant& variant : entry.variants) {
-            const std::string value = variant.name == entry.default_variant ? std::string() : variant.name;
-            if (row.button(in_language(variant.title, language, variant.name), choice.variant == value))
-                choice.variant = value;
-        }
-    }
-    if (entry.tools.size() > 1) {
-        ChoiceRow row(context, context.words["menu.tool"], width);
-        for (const content::Tool& tool : entry.tools) {
-            const std::string value = tool.name == entry.tools.front().name ? std::string() : tool.name;
-            if (row.button(in_language(tool.title, language, tool.name), choice.tool == value))
-                choice.tool = value;
-        }
-    }
-}
-
-void draw_devices(const ScreenContext& context, float width, std::span<const DeviceOption> devices,
-                  Equipment& equipment) {
-    ChoiceRow row(context, context.words["menu.device"], width);
-    for (const DeviceOption& option : devices) {
-        const words::TextKey mouse =
-            option.equipment.hand == HandMode::free ? words::TextKey("menu.free_hand") : "menu.mouse";
-        const std::string name = option.name.empty() ? context.words[mouse] : option.name;
-        Equipment next = option.equipment;
-        next.station = equipment.station;
-        next.wheel_config_file = equipment.wheel_config_file;
-        next.glove = equipment.glove;
-        if (row.button(name, equipment.devices == next.devices && equipment.hand == next.hand))
-            equipment = next;
-    }
-}
-
-// Names each model that the lesson needs and does not have.
-void draw_missing(const ScreenContext& context, float width, const Menu& menu, const AssemblyEntry& entry,
-                  const LessonChoice& choice) {
-    std::vector<std::string> missing;
-    if (!entry.error) {
-        if (!entry.contact_model) missing.push_back(context.words["menu.missing.contact"]);
-        const auto tool = std::find_if(entry.tools.begin(), entry.tools.end(), [&](const content::Tool& t) {
-            return t.name == choice.tool || choice.tool.empty();
-        });
-        if (tool != entry.tools.end() && tool->wrench.model.empty())
-            missing.push_back(context.words["menu.missing.tool"]);
-    }
-    for (const std::string& line : missing) draw_paragraph(line, width, warning_text);
-    const bool connected = std::any_of(menu.devices.begin(), menu.devices.end(),
-                                       [](const DeviceOption& o) { return !o.equipment.devices.empty(); });
-    if (!connected && choice.equipment.hand == HandMode::helped)
-        draw_paragraph(context.words["menu.missing.force"], width, muted_text);
-}
-
-// Why no lesson can start, or why the last one could not; empty: one can.
+// The reason why no lesson can start, or why the last one did not; empty if there is none.
 std::string start_problem(const Menu& menu, const AssemblyEntry* entry) {
     if (entry != nullptr && entry->error) return entry->error->message();
     return menu.start_error ? menu.start_error->message() : std::string();
-}
-
-ScreenAction draw_choices(const ScreenContext& context, float width, const Menu& menu, LessonChoice& choice,
-                          Preferences& preferences) {
-    ScreenAction action = ScreenAction::none;
-    const AssemblyEntry* entry = selected_entry(menu, choice);
-    draw_task_and_mode(context, width, choice);
-    if (entry != nullptr) {
-        draw_variants_and_tools(context, width, *entry, choice);
-        draw_laws(context, width, entry->law, choice, preferences.settings);
-    }
-    draw_devices(context, width, menu.devices, choice.equipment);
-    ChoiceRow row(context, context.words["menu.trainee"], width);
-    text_field("##trainee", width - label_width(context), choice.trainee);
-    record_place(context, "menu.trainee");
-    if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
-    ImGui::Spacing();
-    if (entry != nullptr) draw_missing(context, width, menu, *entry, choice);
-    if (preferences.trouble != Preferences::Trouble::none) draw_settings_file(context, preferences);
-    return action;
 }
 
 bool draw_wide_button(const ScreenContext& context, words::TextKey key, const ImVec2& size, bool is_primary) {
@@ -257,7 +50,7 @@ bool draw_wide_button(const ScreenContext& context, words::TextKey key, const Im
     }
     const bool pressed = ImGui::Button(context.words[key].c_str(), size);
     if (is_primary) ImGui::PopStyleColor(2);
-    record_place(context, key);
+    record_widget(context, key);
     return pressed;
 }
 
@@ -267,7 +60,7 @@ ScreenAction draw_start(const ScreenContext& context, float width, const Menu& m
     ScreenAction action = ScreenAction::none;
     const float line = ImGui::GetFrameHeight();
     const AssemblyEntry* entry = selected_entry(menu, choice);
-    if (menu.first_start) draw_paragraph(context.words["menu.tour.about"], width, muted_text);
+    if (menu.first_start) draw_wrapped(context.words["menu.tour.about"], muted_text, width);
     for (const bool tour : {menu.first_start, !menu.first_start}) {
         const bool first = tour == menu.first_start;
         const bool disabled = !tour && entry != nullptr && entry->error.has_value();
@@ -314,8 +107,8 @@ bool draw_card(const ScreenContext& context, const AssemblyEntry& entry, bool is
     ImGui::PushID(entry.name.c_str());
     const bool pressed = ImGui::Selectable("##card", is_selected, 0, size);
     ImGui::PopID();
-    record_place(context, "menu.assemblies");
-    context.places.back().assembly = entry.name;
+    record_widget(context, "menu.assemblies");
+    context.drawn_widgets.back().assembly = entry.name;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 low(at.x + padding, at.y + padding),
         high(at.x + size.x - padding, at.y + padding + thumbnail_height * scale);
@@ -349,8 +142,8 @@ void draw_cards(const ScreenContext& context, float width, const Menu& menu, con
     const int first = std::clamp(selected - shown / 2, 0, count - shown);
     const auto step = [&](const char* label, int by) {
         if (ImGui::Button(label, {arrow, 0.0F}))
-            select(menu.assemblies[static_cast<std::size_t>(std::clamp(selected + by, 0, count - 1))],
-                   choice);
+            choose_assembly(
+                menu.assemblies[static_cast<std::size_t>(std::clamp(selected + by, 0, count - 1))], choice);
     };
     if (!all) {
         step("‹", -1);
@@ -359,19 +152,12 @@ void draw_cards(const ScreenContext& context, float width, const Menu& menu, con
     for (int i = first; i < first + shown; ++i) {
         const AssemblyEntry& listed = menu.assemblies[static_cast<std::size_t>(i)];
         if (i > first) ImGui::SameLine();
-        if (draw_card(context, listed, i == selected, pictures)) select(listed, choice);
+        if (draw_card(context, listed, i == selected, pictures)) choose_assembly(listed, choice);
     }
     if (!all) {
         ImGui::SameLine();
         step("›", 1);
     }
-}
-
-std::string facts_of(const words::Words& words, const AssemblyEntry& entry) {
-    if (entry.joints == 1) return words::format_text(words, "menu.facts.one", {{"sizes", entry.sizes}});
-    return words::format_text(
-        words, "menu.facts.many",
-        {{"count", words::Number{static_cast<double>(entry.joints), 0}}, {"sizes", entry.sizes}});
 }
 
 void draw_title(const ScreenContext& context, const std::string& title) {
@@ -382,9 +168,9 @@ void draw_title(const ScreenContext& context, const std::string& title) {
 
 void draw_description(const ScreenContext& context, float width, const AssemblyEntry& entry) {
     draw_title(context, in_language(entry.title, context.words.language, entry.name));
-    if (entry.joints > 0) draw_paragraph(facts_of(context.words, entry), width, muted_text);
-    draw_paragraph(in_language(entry.instructions, context.words.language, ""), width,
-                   {0.93F, 0.94F, 0.95F, 1.0F});
+    if (entry.joints > 0) draw_wrapped(joints_text(context.words, entry), muted_text, width);
+    draw_wrapped(in_language(entry.instructions, context.words.language, ""), {0.93F, 0.94F, 0.95F, 1.0F},
+                 width);
 }
 
 // The languages as buttons whose right end is at `right` px.
@@ -397,10 +183,8 @@ void draw_language_buttons(const ScreenContext& context, float right, content::T
     ImGui::SetCursorPosX(right - width);
     for (const words::Words& language : context.languages) {
         const bool current = language.language == context.words.language;
-        ImGui::PushStyleColor(ImGuiCol_Button, current ? chosen : not_chosen);
-        if (ImGui::Button(language.name.c_str()))
+        if (draw_choice_button(language.name, current))
             context.selected_language = settings.language = language.language;
-        ImGui::PopStyleColor();
         ImGui::SameLine(0.0F, 0.5F * style.ItemSpacing.x);
     }
     ImGui::NewLine();
@@ -422,9 +206,9 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
     ImGui::SetCursorPos({edge, edge});
     ImGui::BeginGroup();
     draw_title(context, "Boltwright");
-    draw_paragraph(context.words["menu.tagline"], inner, muted_text);
+    draw_wrapped(context.words["menu.tagline"], muted_text, inner);
     ImGui::Dummy({0.0F, 0.5F * edge});
-    ScreenAction action = draw_choices(context, inner, menu, choice, preferences);
+    ScreenAction action = draw_choices(context, inner, {entry, menu.devices}, choice, preferences);
     const float spacing = ImGui::GetStyle().ItemSpacing.y;
     const float actions =
         3.5F * ImGui::GetFrameHeight() + 3.0F * spacing +
@@ -451,7 +235,7 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
     menu.covered = {column, height};
     ImGui::SetCursorPos({column + edge, size.y - height + edge});
     ImGui::BeginGroup();
-    if (!problem.empty()) draw_paragraph(problem, right_width, warning_text);
+    if (!problem.empty()) draw_wrapped(problem, warning_text, right_width);
     if (entry != nullptr) draw_description(context, right_width, *entry);
     ImGui::SetCursorPosY(size.y - edge - card);
     draw_cards(context, right_width, menu, pictures, choice);
@@ -472,10 +256,11 @@ ScreenAction draw_narrow(const ScreenContext& context, const Menu& menu, const M
     ScreenAction action = draw_start(context, width, menu, choice);
     action = first_of(action, draw_pages(context, width));
     const std::string problem = start_problem(menu, selected_entry(menu, choice));
-    if (!problem.empty()) draw_paragraph(problem, width, warning_text);
+    if (!problem.empty()) draw_wrapped(problem, warning_text, width);
     draw_cards(context, width, menu, pictures, choice);
-    action = first_of(action, draw_choices(context, width, menu, choice, preferences));
-    if (const AssemblyEntry* entry = selected_entry(menu, choice)) {
+    const AssemblyEntry* entry = selected_entry(menu, choice);
+    action = first_of(action, draw_choices(context, width, {entry, menu.devices}, choice, preferences));
+    if (entry != nullptr) {
         ImGui::Separator();
         draw_description(context, width, *entry);
     }
@@ -483,50 +268,21 @@ ScreenAction draw_narrow(const ScreenContext& context, const Menu& menu, const M
     return action;
 }
 
-std::string sizes_of(const content::Assembly& assembly) {
-    std::vector<std::string> sizes;
-    for (const content::AssemblyJoint& joint : assembly.joints) {
-        const std::string size =
-            fmt::format("{}×{:.0f}", joint.design.thread.size.name, 1e3 * joint.design.bolt_length);
-        if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
-    }
-    std::string text;
-    for (const std::string& size : sizes) text += (text.empty() ? "" : ", ") + size;
-    return text;
-}
-
-AssemblyEntry entry_of(const std::string& name) {
-    const content::LoadedAssembly loaded = content::load_assembly(content::assembly_folder(name));
-    const content::Assembly& assembly = loaded.assembly;
-    AssemblyEntry entry{name,
-                        assembly.variant,
-                        assembly.title,
-                        assembly.instructions,
-                        assembly.variants,
-                        assembly.tools,
-                        assembly.law,
-                        assembly.joints.size(),
-                        sizes_of(assembly),
-                        loaded.ok() && !session::missing_contact_model(assembly),
-                        {}};
-    if (!loaded.ok()) {
-        entry.error = loaded.errors.front();
-    } else if (assembly.models.model.empty()) {
-        entry.error.emplace();
-        entry.error->file = assembly.file;
-        entry.error->what = "this assembly has no model to draw";
-        entry.error->expected = "\"model\" with the name of a .glb file";
-    }
-    return entry;
-}
-
 }  // namespace
 
-std::vector<AssemblyEntry> list_assemblies() {
-    std::vector<AssemblyEntry> entries;
-    for (const std::string& name : content::assembly_names())
-        if (name != tour_assembly) entries.push_back(entry_of(name));
-    return entries;
+void add_constant_characters(ui::Ui& ui, const Menu& menu) {
+    for (const AssemblyEntry& entry : menu.assemblies) add_characters(ui, entry);
+    for (const auto& folder : {menu.folders.sessions, menu.folders.settings, menu.folders.assemblies})
+        ui.add_characters(folder.string());
+}
+
+void add_changing_characters(ui::Ui& ui, const words::Words& words, const Menu& menu,
+                             const LessonChoice& choice) {
+    ui.add_characters(choice.trainee);
+    for (const DeviceOption& option : menu.devices) ui.add_characters(option.name);
+    for (const computer::Finding& finding : menu.check.findings())
+        ui.add_characters(words::format_text(words, finding.text, finding.arguments));
+    if (menu.start_error) ui.add_characters(menu.start_error->message());
 }
 
 AssemblyPictures::Request picture_request(const Menu& menu, const std::string& selected, VkExtent2D size,

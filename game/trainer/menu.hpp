@@ -1,8 +1,6 @@
-// The menu: assemblies with their pictures, the choices for a lesson, and two pages about this computer and
-// the user's files.
+// The menu: the assemblies with their pictures, and the choices for a lesson. It opens two pages.
 #pragma once
 
-#include <future>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,59 +8,15 @@
 
 #include "content/words/words.hpp"
 #include "engine/ui/ui.hpp"
-#include "game/computer/computer.hpp"
+#include "game/trainer/assembly_entry.hpp"
 #include "game/trainer/assembly_pictures.hpp"
 #include "game/trainer/lesson_start.hpp"
+#include "game/trainer/menu_choices.hpp"
+#include "game/trainer/menu_pages.hpp"
 #include "game/trainer/preferences.hpp"
 #include "game/trainer/screens.hpp"
 
 namespace bolt::trainer {
-
-// An assembly in the menu.
-struct AssemblyEntry {
-    std::string name, default_variant;
-    std::map<std::string, std::string> title, instructions;  // by language
-    std::vector<content::AssemblyVariant> variants;
-    std::vector<content::Tool> tools;
-    joint::Law law = joint::Law::mechanistic;
-    std::size_t joints = 0;
-    std::string sizes;           // of the bolts: "M16×180, M16×75"
-    bool contact_model = false;  // for the assembly and its first tool
-    std::optional<Error> error;  // why no lesson can start
-};
-
-// All assemblies of content::assembly_names() except the tour's, also those with errors.
-std::vector<AssemblyEntry> list_assemblies();
-
-// Where the program keeps the user's files; empty: it does not.
-struct UserFolders {
-    std::filesystem::path sessions;
-    bool folder_per_lesson = false;  // each lesson has a folder in `sessions`
-    std::filesystem::path settings, assemblies;
-};
-
-// Checks the computer in the background: first without the timing of the servo, which takes seconds, then
-// with it.
-class ComputerCheck {
-  public:
-    using FindOut = std::function<computer::Facts(const computer::FactsRequest&)>;
-    // Does nothing while a check runs.
-    void start(FindOut find_out, const computer::FactsRequest& request);
-    // Call it every frame of the page.
-    void update();
-    // Those that are known; empty at first.
-    [[nodiscard]] const std::vector<computer::Finding>& findings() const { return findings_; }
-    [[nodiscard]] bool running() const { return running_.valid(); }
-
-  private:
-    FindOut find_out_;
-    computer::FactsRequest request_;
-    std::future<computer::Facts> running_;
-    bool with_timing_ = false;
-    std::vector<computer::Finding> findings_;
-};
-
-enum class MenuPage : std::uint8_t { choices, computer, files };
 
 struct Menu {
     std::vector<AssemblyEntry> assemblies;
@@ -71,8 +25,9 @@ struct Menu {
     bool first_start = false;  // the tour is offered first
     MenuPage page = MenuPage::choices;
     ComputerCheck check;
-    glm::vec2 covered{0.0F};  // px, at the left and at the bottom, that the menu covered last
-    // Assembly, language and window for which two columns are too tall; drawn in one that scrolls.
+    glm::vec2 covered{0.0F};  // px that the menu covered in the last frame, at the left and at the bottom
+    // Assembly, language and window size for which two columns did not fit: the menu is then one column that
+    // scrolls.
     std::string too_tall;
     std::optional<Error> start_error;  // why the last lesson could not start
 };
@@ -86,12 +41,15 @@ struct MenuPictures {
 AssemblyPictures::Request picture_request(const Menu& menu, const std::string& selected, VkExtent2D size,
                                           float scale);
 
+// Adds the characters of the menu's texts to the interface's font: those that never change, and those that
+// are not known at the start (names that the trainee types or that devices have, and the reasons in findings
+// and errors).
+void add_constant_characters(ui::Ui& ui, const Menu& menu);
+void add_changing_characters(ui::Ui& ui, const words::Words& words, const Menu& menu,
+                             const LessonChoice& choice);
+
 // Draws the page of the menu. It edits `choice`, and the law and language in `preferences`.
 ScreenAction draw_menu(const ScreenContext& context, Menu& menu, const MenuPictures& pictures,
                        LessonChoice& choice, Preferences& preferences);
-
-// Used by draw_menu.
-ScreenAction draw_computer_page(const ScreenContext& context, const ComputerCheck& check);
-ScreenAction draw_files_page(const ScreenContext& context, const UserFolders& folders);
 
 }  // namespace bolt::trainer

@@ -1,6 +1,6 @@
-#include <imgui/imgui.h>
+#include "game/trainer/menu_pages.hpp"
 
-#include "game/trainer/menu.hpp"
+#include <imgui/imgui.h>
 
 namespace bolt::trainer {
 
@@ -43,15 +43,15 @@ ScreenAction end_page(const ScreenContext& context) {
 
 }  // namespace
 
-void ComputerCheck::start(FindOut find_out, const computer::FactsRequest& request) {
+void ComputerCheck::start(GatherFacts gather_facts, const computer::FactsRequest& request) {
     if (running()) return;
     findings_.clear();
-    find_out_ = std::move(find_out);
+    gather_facts_ = std::move(gather_facts);
     request_ = request;
     with_timing_ = false;
     computer::FactsRequest quick = request;
     quick.seconds = 0.0;
-    running_ = std::async(std::launch::async, find_out_, quick);
+    running_ = std::async(std::launch::async, gather_facts_, quick);
 }
 
 void ComputerCheck::update() {
@@ -59,7 +59,7 @@ void ComputerCheck::update() {
     if (!running() || running_.wait_for(0s) != std::future_status::ready) return;
     findings_ = computer::findings(running_.get());
     if (std::exchange(with_timing_, true)) return;
-    running_ = std::async(std::launch::async, find_out_, request_);
+    running_ = std::async(std::launch::async, gather_facts_, request_);
 }
 
 ScreenAction draw_computer_page(const ScreenContext& context, const ComputerCheck& check) {

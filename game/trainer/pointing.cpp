@@ -13,24 +13,24 @@ constexpr double min_reach = 14.0;   // px, for a distant nut
 
 }  // namespace
 
-std::optional<glm::dvec2> project(const Screen& screen, const Vec3& point) {
-    const glm::dvec4 clip = glm::dmat4(screen.eye.clip_from_world) * glm::dvec4(point, 1.0);
+std::optional<glm::dvec2> project(const Projection& projection, const Vec3& point) {
+    const glm::dvec4 clip = glm::dmat4(projection.eye.clip_from_world) * glm::dvec4(point, 1.0);
     if (clip.w <= 1e-9) return std::nullopt;
-    return glm::dvec2(0.5 * (clip.x / clip.w + 1.0), 0.5 * (clip.y / clip.w + 1.0)) * screen.size;
+    return glm::dvec2(0.5 * (clip.x / clip.w + 1.0), 0.5 * (clip.y / clip.w + 1.0)) * projection.size;
 }
 
-std::optional<std::size_t> nut_at(const Screen& screen, const glm::dvec2& pointer, const servo::Setup& setup,
-                                  std::span<const Vec3> centres) {
+std::optional<std::size_t> nut_at(const Projection& projection, const glm::dvec2& pointer,
+                                  const servo::Setup& setup, std::span<const Vec3> centres) {
     std::optional<std::size_t> found;
     double nearest = 1.0;
     for (std::size_t i = 0; i < centres.size(); ++i) {
-        const auto at = project(screen, centres[i]);
+        const auto at = project(projection, centres[i]);
         if (!at) continue;
         // Apparent size: the projection of a length across the line of sight.
-        const Vec3 sight = centres[i] - Vec3(screen.eye.position);
+        const Vec3 sight = centres[i] - Vec3(projection.eye.position);
         const Vec3 helper = std::abs(sight.y) < 0.9 * glm::length(sight) ? Vec3(0, 1, 0) : Vec3(1, 0, 0);
         const Vec3 across = glm::normalize(glm::cross(sight, helper));
-        const auto beside = project(screen, centres[i] + 0.5 * setup.nuts[i].across_flats * across);
+        const auto beside = project(projection, centres[i] + 0.5 * setup.nuts[i].across_flats * across);
         if (!beside) continue;
         const double reach = std::max(pick_margin * glm::distance(*beside, *at), min_reach);
         const double off = glm::distance(pointer, *at) / reach;
@@ -41,9 +41,9 @@ std::optional<std::size_t> nut_at(const Screen& screen, const glm::dvec2& pointe
     return found;
 }
 
-std::optional<double> pixels_to_segment(const Screen& screen, const glm::dvec2& pointer, const Vec3& from,
-                                        const Vec3& to) {
-    const auto a = project(screen, from), b = project(screen, to);
+std::optional<double> pixels_to_segment(const Projection& projection, const glm::dvec2& pointer,
+                                        const Vec3& from, const Vec3& to) {
+    const auto a = project(projection, from), b = project(projection, to);
     if (!a || !b) return std::nullopt;
     const glm::dvec2 segment = *b - *a;
     const double length = glm::dot(segment, segment);
@@ -51,12 +51,14 @@ std::optional<double> pixels_to_segment(const Screen& screen, const glm::dvec2& 
     return glm::distance(pointer, *a + along * segment);
 }
 
-glm::dvec2 lever_on_screen(const Screen& screen, const Pose& tool, const Vec3& axis, double handle_length) {
+glm::dvec2 lever_on_screen(const Projection& projection, const Pose& tool, const Vec3& axis,
+                           double handle_length) {
     constexpr double step = 1e-3;  // rad
     const Vec3 arm = handle_length * (tool.orientation * Vec3(1, 0, 0));
     // Tightening turns about -axis.
     const Quat turn = glm::angleAxis(-step, axis);
-    const auto now = project(screen, tool.position + arm), then = project(screen, tool.position + turn * arm);
+    const auto now = project(projection, tool.position + arm),
+               then = project(projection, tool.position + turn * arm);
     if (!now || !then) return {min_lever, 0.0};
     const glm::dvec2 lever = (*then - *now) / step;
     const double length = glm::length(lever);

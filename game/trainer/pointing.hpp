@@ -10,28 +10,30 @@
 
 namespace bolt::trainer {
 
-// A picture and its eye. Positions in pixels, origin at the upper left corner, y down.
-struct Screen {
+// How the scene appears in the picture: its eye, and the size of the picture. Positions are in pixels, origin
+// at the upper left corner, y down.
+struct Projection {
     render::Eye eye;
     glm::dvec2 size{1.0};
 };
 
 // None for a point behind the eye.
-std::optional<glm::dvec2> project(const Screen& screen, const Vec3& point);
+std::optional<glm::dvec2> project(const Projection& projection, const Vec3& point);
 
 // The nut under the pointer: the nearest one in the picture within its apparent size plus a margin.
-std::optional<std::size_t> nut_at(const Screen& screen, const glm::dvec2& pointer, const servo::Setup& setup,
-                                  std::span<const Vec3> centres);
+std::optional<std::size_t> nut_at(const Projection& projection, const glm::dvec2& pointer,
+                                  const servo::Setup& setup, std::span<const Vec3> centres);
 
 // Distance in pixels from the pointer to the segment between two points; none if either is behind the eye.
-std::optional<double> pixels_to_segment(const Screen& screen, const glm::dvec2& pointer, const Vec3& from,
-                                        const Vec3& to);
+std::optional<double> pixels_to_segment(const Projection& projection, const glm::dvec2& pointer,
+                                        const Vec3& from, const Vec3& to);
 
 // Movement of the end of the handle in the picture per radian of tightening, px/rad, for a wrench at `tool`
 // on a nut with this axis. At least `min_lever` long, because otherwise a handle seen end-on would turn
 // at the slightest drag.
 inline constexpr double min_lever = 160.0;
-glm::dvec2 lever_on_screen(const Screen& screen, const Pose& tool, const Vec3& axis, double handle_length);
+glm::dvec2 lever_on_screen(const Projection& projection, const Pose& tool, const Vec3& axis,
+                           double handle_length);
 
 // Angle in rad by which a drag, in px, turns the handle.
 double drag_angle(const glm::dvec2& lever, const glm::dvec2& drag);

@@ -34,23 +34,34 @@ void draw_joint_table(const words::Words& words, std::span<const lesson::JointRe
 
 }  // namespace
 
-void record_place(const ScreenContext& context, words::TextKey key) {
+void record_widget(const ScreenContext& context, words::TextKey key) {
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-    context.places.push_back({key, {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}, high.x - low.x});
+    context.drawn_widgets.push_back(
+        {key, {0.5F * (low.x + high.x), 0.5F * (low.y + high.y)}, high.x - low.x});
 }
 
 bool draw_button(const ScreenContext& context, words::TextKey key) {
     const bool pressed = ImGui::Button(context.words[key].c_str(), {-1.0F, 0.0F});
-    record_place(context, key);
+    record_widget(context, key);
     return pressed;
 }
 
 void draw_text(const std::string& line) { ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size()); }
 
-void draw_wrapped(const std::string& line, const glm::vec4& color) {
+void draw_wrapped(const std::string& line, const glm::vec4& color, float width) {
+    ImGui::PushTextWrapPos(width > 0.0F ? ImGui::GetCursorPosX() + width : 0.0F);
     ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(color));
-    ImGui::TextWrapped("%s", line.c_str());
+    draw_text(line);
     ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+}
+
+bool draw_choice_button(const std::string& label, bool is_chosen) {
+    const ImVec4 chosen{0.16F, 0.47F, 0.66F, 1.0F}, not_chosen{0.17F, 0.20F, 0.24F, 1.0F};
+    ImGui::PushStyleColor(ImGuiCol_Button, is_chosen ? chosen : not_chosen);
+    const bool pressed = ImGui::Button(label.c_str());
+    ImGui::PopStyleColor();
+    return pressed;
 }
 
 void begin_panel(const ScreenContext& context, const char* name, float width, float opacity) {

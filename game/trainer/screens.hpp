@@ -35,8 +35,8 @@ enum class ScreenAction : std::uint8_t {
     quit,
 };
 
-// Where a control was drawn, so that tests can click on it.
-struct ButtonPlace {
+// Where a widget was drawn, so that tests can click on it.
+struct DrawnWidget {
     words::TextKey label;
     glm::vec2 middle{0.0F};  // px
     float width = 0.0F;      // px
@@ -51,7 +51,7 @@ struct ScreenContext {
     float scale;      // px per point
     ImFont* heading;  // a larger font
 
-    std::vector<ButtonPlace>& places;               // receives every control that is drawn
+    std::vector<DrawnWidget>& drawn_widgets;        // receives every widget that is drawn
     std::optional<std::string>& selected_language;  // receives the language that the user selects
 };
 
@@ -67,10 +67,13 @@ ScreenAction draw_result(const ScreenContext& context, const content::Assembly& 
 
 // A button across the window. Returns true when it is pressed.
 bool draw_button(const ScreenContext& context, words::TextKey key);
-// Stores the place of the control that was drawn last.
-void record_place(const ScreenContext& context, words::TextKey key);
+// Records the widget that was drawn last.
+void record_widget(const ScreenContext& context, words::TextKey key);
 void draw_text(const std::string& line);
-void draw_wrapped(const std::string& line, const glm::vec4& color);
+// `width`: px, at which the text wraps; 0: the rest of the window.
+void draw_wrapped(const std::string& line, const glm::vec4& color, float width = 0.0F);
+// A button of a row of which one is chosen. Returns true when it is pressed.
+bool draw_choice_button(const std::string& label, bool is_chosen);
 inline constexpr glm::vec4 muted_text{0.75F, 0.8F, 0.85F, 1.0F};    // for explanations
 inline constexpr glm::vec4 warning_text{1.0F, 0.55F, 0.45F, 1.0F};  // for what is wrong or missing
 void draw_languages(const ScreenContext& context, content::TraineeSettings& settings);

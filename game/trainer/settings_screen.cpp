@@ -65,7 +65,7 @@ std::vector<platform::InputEvent> SettingsScreen::take_keys(std::span<const plat
         const bool pressed = key != nullptr && key->down && !key->repeated;
         if (closes) {
             remaining.push_back(event);
-        } else if (leaves(event)) {
+        } else if (is_back(event)) {
             closes = !waiting_;
             waiting_.reset();
         } else if (waiting_ && pressed) {
@@ -81,9 +81,9 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
     const words::Words& words = context.words;
     draw_languages(context, settings);
     draw_slider(words["menu.sound"].c_str(), settings.volume, {});
-    record_place(context, "menu.sound");
+    record_widget(context, "menu.sound");
     ImGui::Checkbox(words["menu.captions"].c_str(), &settings.captions);
-    record_place(context, "menu.captions");
+    record_widget(context, "menu.captions");
     ImGui::AlignTextToFramePadding();
     draw_text(words["menu.palette"]);
     for (const auto& [key, kind] :
@@ -91,24 +91,24 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
           std::pair{words::TextKey("menu.palette.distinct"), content::PaletteKind::distinct}}) {
         ImGui::SameLine();
         if (ImGui::RadioButton(words[key].c_str(), settings.palette == kind)) settings.palette = kind;
-        record_place(context, key);
+        record_widget(context, key);
     }
     ImGui::Separator();
     ImGui::Checkbox(words["menu.left_handed"].c_str(), &settings.left_handed);
-    record_place(context, "menu.left_handed");
+    record_widget(context, "menu.left_handed");
     bool seated = settings.seated_eye_height.has_value();
     if (ImGui::Checkbox(words["menu.seated"].c_str(), &seated))
         settings.seated_eye_height = seated ? std::optional(default_seat) : std::nullopt;
-    record_place(context, "menu.seated");
+    record_widget(context, "menu.seated");
     if (settings.seated_eye_height) {
         draw_slider(words["settings.seated_height"].c_str(), *settings.seated_eye_height,
                     {content::min_seated_eye_height, content::max_seated_eye_height, "%.2f m", 1.0});
-        record_place(context, "settings.seated_height");
+        record_widget(context, "settings.seated_height");
     }
     draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::least_force_scale, 1.0});
-    record_place(context, "menu.force_scale");
+    record_widget(context, "menu.force_scale");
     ImGui::Checkbox(words["menu.force_arrow"].c_str(), &settings.force_arrow);
-    record_place(context, "menu.force_arrow");
+    record_widget(context, "menu.force_arrow");
 }
 
 void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
@@ -123,7 +123,7 @@ void SettingsScreen::draw_keys(const ScreenContext& context, KeyMap& keys) {
             waiting_ = waits ? std::nullopt : std::optional(action);
             message_.clear();
         }
-        record_place(context, text_key(action));
+        record_widget(context, text_key(action));
         ImGui::PopID();
         ImGui::SameLine();
         draw_text(words[text_key(action)]);

@@ -11,8 +11,8 @@ class SettingsScreen {
     // Returns close_settings or none. `in_lesson`: adds the note about changes that wait for the next lesson.
     ScreenAction draw(const ScreenContext& context, Preferences& preferences, bool in_lesson);
 
-    // Handles the keys of a frame and returns the events that remain for the interface: a key that an action
-    // waits for is bound to it; Escape cancels the wait, or closes the screen (`closes`).
+    // Handles the keys of a frame and returns the events that remain for the interface. After a click on an
+    // action the next key is bound to it; Escape cancels that, or closes the screen (`closes`).
     std::vector<platform::InputEvent> take_keys(std::span<const platform::InputEvent> events,
                                                 const words::Words& words, KeyMap& keys, bool& closes);
 
@@ -21,7 +21,7 @@ class SettingsScreen {
     void draw_keys(const ScreenContext& context, KeyMap& keys);
     void bind_key(platform::Key key, const words::Words& words, KeyMap& keys);
 
-    std::optional<Action> waiting_;  // the action whose next key is being waited for
+    std::optional<Action> waiting_;  // the action to which the next key is bound
     std::string message_;            // about the last key that was pressed
 };
 

@@ -1,6 +1,7 @@
 #include "game/trainer/station_client.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -282,6 +283,28 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
     client.link->set_controls(controls);
     client.hand_closed = closes;
     return send_commands(client, session, intent);
+}
+
+lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys, const Equipment& equipment,
+                                   const StationClient* client) {
+    const std::string tool = key_name(keys, Action::tool);
+    if (client == nullptr) return lesson::mouse_controls(words, tool);
+    if (client->dragged) return lesson::drag_controls(words, tool);
+    const station::Layout& layout = client->link->layout();
+    const std::uint32_t held = layout.mover_buttons.dead_man;
+    const bool keyboard = equipment.devices.empty();
+    const std::string closes =
+        keyboard || held == 0
+            ? std::string(platform::name(platform::Key::space))
+            : words::format_text(
+                  words, "control.device.button",
+                  {{"number", words::Number{static_cast<double>(std::countr_zero(held) + 1), 0}}});
+    const bool feels = layout.mover && station::renders_force(*layout.mover);
+    lesson::ControlNames names = keyboard ? lesson::keyboard_controls(words, closes, tool)
+                                 : feels  ? lesson::device_controls(words, closes, tool)
+                                          : lesson::puck_controls(words, closes, tool);
+    const bool fingers = client->link->hand() != nullptr || has_gripper(*client);
+    return fingers ? lesson::glove_controls(words, std::move(names)) : names;
 }
 
 }  // namespace bolt::trainer

@@ -12,6 +12,7 @@
 #include "content/station/station_file.hpp"
 #include "engine/base/math.hpp"
 #include "engine/platform/input.hpp"
+#include "game/lesson/hints.hpp"
 #include "game/session/lesson_session.hpp"
 #include "game/station/station_setup.hpp"
 #include "game/trainer/controls.hpp"
@@ -36,7 +37,7 @@ class KeyboardPuck {
     std::bitset<256> down_;
 };
 
-// The way in which mouse and keyboard move the hand where no device does.
+// How mouse and keyboard move the hand if no device does.
 enum class HandMode : std::uint8_t {
     helped,    // the mouse chooses a nut, and the hand goes there by itself
     free,      // the mouse moves the hand, which feels the forces of a simulated arm; runs with the frames
@@ -53,7 +54,7 @@ struct Equipment {
     double force_scale = 1.0;                 // 0 … 1 of the devices' maximum force
     HandMode hand = HandMode::helped;         // if none of the devices moves the hand
 
-    // True if its start may take seconds, or until the user has prepared an arm.
+    // True if its start may take seconds, or last until the user has prepared an arm.
     [[nodiscard]] bool has_hardware() const { return !devices.empty() || !glove.empty(); }
     [[nodiscard]] bool needs_station() const { return has_hardware() || hand != HandMode::helped; }
     bool operator==(const Equipment&) const = default;
@@ -82,10 +83,9 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
 // The lesson's side of a station. The station's servo thread steps the ticks and serves the devices. The
 // lesson repeats every tick with its own servo, and sends its controls with every frame.
 //
-// The hand closes by a device's button or gripper, the space bar or a glove. It takes the wrench if it closes
-// beside it, and holds a nut with the fingers if it closes beside a nut. A key lays the wrench down; a gloved
-// hand and a gripper open.
-
+// The hand closes by a device's button or gripper, the space bar or a glove. If it closes beside the wrench,
+// it takes the wrench; if it closes beside a nut, it holds the nut with the fingers. Of a wrench and a nut
+// the nearer one counts. A key lays the wrench down; a gloved hand and a gripper lay it down by opening.
 struct StationClient {
     std::unique_ptr<station_setup::LessonStation> link;
     Pose home, rest;                 // initial pose of the tool, and where the wrench lies
@@ -105,8 +105,8 @@ struct StationClient {
     std::vector<std::string> troubles;
     device::Condition condition;  // of the device that moves the tool
     device::ArmNeeds needs;       // of the device that moves the tool, after it was lost
-    bool waits_for_arm = false;   // the lesson is paused until it has what it needs
-    bool paused_before = false;   // the user had paused the lesson already
+    bool waits_for_arm = false;   // the lesson is paused until the arm has what it needs
+    bool paused_before = false;   // the user had paused the lesson before the arm did
     hand::Skeleton fingers;       // of a gloved hand, in the frame of the wrench, in the hand or at rest
     bool gloved = false;
     bool glove_lost = false;         // the glove sends no valid samples
@@ -119,6 +119,10 @@ struct StationClient {
 inline constexpr double forearm_range = to_radians(120.0);
 
 WorkingHand hand_of(const StationClient& client);
+
+// Names what the user presses or moves for each control of the hand. `client`: null without a station.
+lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys, const Equipment& equipment,
+                                   const StationClient* client);
 
 // The user's input for the station in one frame.
 struct StationIntent {

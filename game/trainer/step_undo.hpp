@@ -11,7 +11,7 @@ namespace bolt::trainer {
 // A pending request; it is granted once the hand is off the nut.
 struct StepUndo {
     std::optional<std::size_t> target;  // the step to restart
-    bool by_mistake = false;            // does not expire
+    bool by_mistake = false;            // requested by a mistake; such a request does not expire
     double age = 0.0;                   // s since the request
 };
 

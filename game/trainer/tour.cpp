@@ -12,7 +12,7 @@ constexpr double enough_turn = 0.25;  // rad, of the view
 
 bool& done(Tour& tour, TourStep step) { return tour.done.at(static_cast<std::size_t>(step)); }
 
-std::string motion(const lesson::ControlNames& controls, lesson::HandMotion motion) {
+std::string motion(const lesson::ControlNames& controls, lesson::HintMotion motion) {
     return controls.at(static_cast<std::size_t>(motion));
 }
 
@@ -26,7 +26,16 @@ double view_drag(const Frame& frame) {
 
 }  // namespace
 
-std::size_t Tour::current() const {
+LessonChoice tour_choice(LessonChoice choice) {
+    choice.assembly = content::assembly_folder(tour_assembly).string();
+    choice.variant.clear();
+    choice.tool.clear();
+    choice.mode = lesson::Mode::guided;
+    choice.task = lesson::Task::tighten;
+    return choice;
+}
+
+std::size_t Tour::due_step() const {
     return static_cast<std::size_t>(std::find(done.begin(), done.end(), false) - done.begin());
 }
 
@@ -50,7 +59,7 @@ void update(Tour& tour, const Frame& frame) {
 
 std::string tour_text(const words::Words& words, TourStep step, const ActiveLesson& active,
                       const lesson::ControlNames& controls) {
-    using lesson::HandMotion;
+    using lesson::HintMotion;
     const auto key = [&](Action action) { return key_name(active.input.keys, action); };
     switch (step) {
         case TourStep::look:
@@ -61,21 +70,21 @@ std::string tour_text(const words::Words& words, TourStep step, const ActiveLess
             return words::format_text(words, "tour.find", {{"key", key(Action::find_view)}});
         case TourStep::run_down:
             return words::format_text(words, "tour.run_down",
-                                      {{"grip", motion(controls, HandMotion::grip_nut)},
-                                       {"turn", motion(controls, HandMotion::spin)}});
+                                      {{"grip", motion(controls, HintMotion::grip_nut)},
+                                       {"turn", motion(controls, HintMotion::spin)}});
         case TourStep::help:
             return words::format_text(words, "tour.help", {{"key", key(Action::hint)}});
         case TourStep::pause:
             return words::format_text(words, "tour.pause", {{"key", key(Action::pause)}});
         case TourStep::take:
-            return words::format_text(words, "tour.take", {{"control", motion(controls, HandMotion::take)}});
+            return words::format_text(words, "tour.take", {{"control", motion(controls, HintMotion::take)}});
         case TourStep::tighten:
             return words::format_text(
                 words, "tour.tighten",
                 {{"torque",
                   words::torque_number(active.session->assembly().joints.front().spec.torque.target)},
-                 {"set_on", motion(controls, HandMotion::set_on)},
-                 {"pull", motion(controls, HandMotion::pull_on)}});
+                 {"set_on", motion(controls, HintMotion::set_on)},
+                 {"pull", motion(controls, HintMotion::pull_on)}});
     }
     return {};
 }
@@ -91,15 +100,15 @@ void draw_tour(const Tour& tour, const ActiveLesson& active, const HudText& text
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoInputs |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
-    const std::size_t current = tour.current();
+    const std::size_t due = tour.due_step();
     const float indent = 1.6F * ImGui::GetFontSize();
     for (std::size_t i = 0; i < tour_step_count; ++i) {
         const bool is_done = tour.done.at(i);
-        const ImVec4 color = is_done        ? ImVec4(0.5F, 0.75F, 0.55F, 1.0F)
-                             : i == current ? ImVec4(1.0F, 0.85F, 0.4F, 1.0F)
-                                            : ImVec4(0.62F, 0.65F, 0.68F, 1.0F);
+        const ImVec4 color = is_done    ? ImVec4(0.5F, 0.75F, 0.55F, 1.0F)
+                             : i == due ? ImVec4(1.0F, 0.85F, 0.4F, 1.0F)
+                                        : ImVec4(0.62F, 0.65F, 0.68F, 1.0F);
         ImGui::PushStyleColor(ImGuiCol_Text, color);
-        ImGui::TextUnformatted(is_done ? "✓" : i == current ? "▶" : "·");
+        ImGui::TextUnformatted(is_done ? "✓" : i == due ? "▶" : "·");
         ImGui::SameLine(indent);
         const std::string text = tour_text(*texts.words, static_cast<TourStep>(i), active, *texts.controls);
         ImGui::PushTextWrapPos(width - ImGui::GetStyle().WindowPadding.x);

@@ -7,13 +7,17 @@
 #include "content/words/words.hpp"
 #include "game/lesson/hints.hpp"
 #include "game/trainer/active_lesson.hpp"
+#include "game/trainer/lesson_start.hpp"
 
 namespace bolt::trainer {
 
 // The assembly of the tour, under content/assemblies. The menu does not list it.
 inline constexpr const char* tour_assembly = "first-nut";
 
-// In the order in which they are listed and asked for. They may be done in any order.
+// The lesson of the tour, guided, with the trainee and the devices of `choice`.
+LessonChoice tour_choice(LessonChoice choice);
+
+// In the order of the list. The trainee may do them in any order.
 enum class TourStep : std::uint8_t {
     look,  // turn the view
     zoom,
@@ -32,7 +36,7 @@ struct Tour {
     bool paused = false;  // the lesson is paused; its end completes TourStep::pause
 
     // The first step that is not done; `tour_step_count` if all are.
-    [[nodiscard]] std::size_t current() const;
+    [[nodiscard]] std::size_t due_step() const;
 };
 
 // Call once a frame, after the systems: ticks off the steps that the trainee has done in this frame.

@@ -1,4 +1,4 @@
-// The components of an entity that is drawn, in a model on show and in the workplace of a lesson.
+// The components of an entity that is drawn, in a shown model and in the workplace of a lesson.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct Drawable {
     const render::GpuModel* model = nullptr;
     std::uint32_t mesh = 0;
     int node = -1;                                                     // in the model that it came from
-    bool moves = false;                                                // its shadow is drawn anew each frame
+    bool moves = false;                                                // its shadow is drawn again each frame
     std::shared_ptr<const render::Deformation> deformation = nullptr;  // null: rigid
 };
 
@@ -42,7 +42,7 @@ struct Fadable {
     bool fades = true;
 };
 
-// The world of a model on show. The world of a lesson has these components and others (scene::SceneWorld).
+// The world of a shown model. The world of a lesson has these components and others (scene::SceneWorld).
 using ModelWorld = ecs::Registry<Transform, Drawable, Appearance, Outline, Fadable>;
 
 using ReadDrawables =

@@ -36,13 +36,13 @@ struct Canvas {
 };
 
 Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instance,
-                           const WindowChoice& choice) {
+                           const WindowRunOptions& options) {
     const gpu::MakeSurface make_surface = [&] { return window.make_surface(instance); };
     BOLT_TRY_ASSIGN(auto surface, make_surface());
     render::RendererOptions renderer;
     renderer.level_error_px = level_error;
     Canvas canvas;
-    BOLT_TRY_ASSIGN(auto gpu_context, make_gpu_context(instance, {choice.gpu, surface.get()}, renderer));
+    BOLT_TRY_ASSIGN(auto gpu_context, make_gpu_context(instance, {options.gpu, surface.get()}, renderer));
     canvas.gpu_context = std::move(gpu_context);
     BOLT_TRY_ASSIGN(auto swapchain,
                     gpu::Swapchain::create(*canvas.gpu_context.device, std::move(surface), make_surface));
@@ -62,10 +62,10 @@ Status draw(WindowContent& content, Canvas& canvas, platform::Window& window,
 }
 
 Status run_until_closed(WindowContent& content, Canvas& canvas, platform::Window& window,
-                        const WindowChoice& choice) {
+                        const WindowRunOptions& options) {
     platform::Pace pace{platform::Clock::now(), platform::period_of(window.refresh_rate()), 0};
     double last = seconds();
-    while (!content.closed() && !(choice.stop && choice.stop())) {
+    while (!content.closed() && !(options.stop && options.stop())) {
         const bool minimised = canvas.swapchain->plan().extent.width == 0;
         const std::vector<platform::InputEvent> events =
             minimised ? window.wait_for_events(0.1) : window.poll_events();
@@ -92,8 +92,8 @@ void OrbitControl::stop() {
     held_ = platform::Button::other;
 }
 
-bool OrbitControl::apply(std::span<const platform::InputEvent> events, const Picture& picture, Orbit& orbit,
-                         const render::BoundingBox& box) {
+bool OrbitControl::apply(std::span<const platform::InputEvent> events, const PictureShape& picture,
+                         Orbit& orbit, const render::BoundingBox& box) {
     using namespace platform;
     bool moved = false;
     for (const InputEvent& event : events) {
@@ -125,17 +125,17 @@ bool OrbitControl::apply(std::span<const platform::InputEvent> events, const Pic
 }
 
 Status run_in_window(WindowContent& content, platform::Window& window, const gpu::Instance& instance,
-                     const WindowChoice& choice) {
+                     const WindowRunOptions& options) {
     gpu::DeviceLossPolicy loss_policy;
     for (;;) {
         Status result;
         {
-            Result<Canvas> canvas = make_canvas(window, instance, choice);
+            Result<Canvas> canvas = make_canvas(window, instance, options);
             if (!canvas) {
                 result = fail(canvas.error());
             } else {
                 result = content.start(canvas->gpu_context);
-                if (result) result = run_until_closed(content, *canvas, window, choice);
+                if (result) result = run_until_closed(content, *canvas, window, options);
                 content.release();
                 // Without the saved pipelines the next start is only slower.
                 (void)canvas->gpu_context.renderer->save_pipelines();

@@ -1,4 +1,4 @@
-// Runs what a program shows in a desktop window.
+// Runs the content of a desktop window: calls it for every frame, and restarts it after the loss of the GPU.
 #pragma once
 
 #include <functional>
@@ -38,12 +38,12 @@ class WindowContent {
 // Moves an orbit with the mouse: left button turns, right or middle button moves the target, the wheel zooms.
 class OrbitControl {
   public:
-    struct Picture {
+    struct PictureShape {
         double height = 1.0;  // px
         double aspect = 1.0;  // width / height
     };
     // Returns true if the orbit moved. `box`: of the model.
-    bool apply(std::span<const platform::InputEvent> events, const Picture& picture, Orbit& orbit,
+    bool apply(std::span<const platform::InputEvent> events, const PictureShape& picture, Orbit& orbit,
                const render::BoundingBox& box);
     // Ends a drag, for example because the pointer is over a panel.
     void stop();
@@ -55,14 +55,15 @@ class OrbitControl {
     glm::dvec2 cursor_{0.0};
 };
 
-struct WindowChoice {
+// How run_in_window() runs the content.
+struct WindowRunOptions {
     std::string gpu;             // part of the name of the GPU to use; empty: the best
     std::function<bool()> stop;  // polled every frame; true closes the window
 };
 
-// Returns when the window is closed. A lost GPU is started again and the content goes on, unless it was lost
-// shortly before (gpu::DeviceLossPolicy).
+// Returns when the window is closed. After the loss of the GPU it creates a new GPU context and restarts the
+// content, unless the GPU was lost shortly before (gpu::DeviceLossPolicy).
 Status run_in_window(WindowContent& content, platform::Window& window, const gpu::Instance& instance,
-                     const WindowChoice& choice = {});
+                     const WindowRunOptions& options = {});
 
 }  // namespace bolt::view

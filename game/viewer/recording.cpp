@@ -10,8 +10,8 @@ namespace {
 constexpr double shortest_period = 0.02;     // s
 constexpr std::size_t most_states = 50'000;  // bounds the memory of a long session
 
-std::vector<Mark> marks_of(const std::vector<lesson::LessonEvent>& events, double dt) {
-    std::vector<Mark> marks;
+std::vector<TimelineMark> marks_of(const std::vector<lesson::LessonEvent>& events, double dt) {
+    std::vector<TimelineMark> marks;
     for (const lesson::LessonEvent& event : events)
         if (event.kind == lesson::EventKind::step_begin || event.kind == lesson::EventKind::mistake)
             marks.push_back({static_cast<double>(event.tick) * dt, event.joint,
@@ -20,10 +20,10 @@ std::vector<Mark> marks_of(const std::vector<lesson::LessonEvent>& events, doubl
 }
 
 // Adds the explanations of the mistakes of this tick.
-void explain_mistakes(std::vector<Mark>& marks, const session::ReplayTick& tick) {
+void explain_mistakes(std::vector<TimelineMark>& marks, const session::ReplayTick& tick) {
     for (const lesson::LessonEvent& event : tick.lesson.events) {
         if (event.kind != lesson::EventKind::mistake) continue;
-        for (Mark& mark : marks)
+        for (TimelineMark& mark : marks)
             if (mark.mistake && mark.event.tick == event.tick && mark.joint == event.joint &&
                 mark.event.text == event.text)
                 mark.explanation = lesson::mistake_of(tick.lesson, event);
@@ -37,16 +37,16 @@ std::size_t Recording::index_at(double time) const {
     return std::min(static_cast<std::size_t>(index), states.size() - 1);
 }
 
-const Mark* Recording::chapter_at(double time) const {
-    const Mark* chapter = nullptr;
-    for (const Mark& mark : marks)
+const TimelineMark* Recording::chapter_at(double time) const {
+    const TimelineMark* chapter = nullptr;
+    for (const TimelineMark& mark : marks)
         if (!mark.mistake && mark.time <= time) chapter = &mark;
     return chapter;
 }
 
 double Recording::neighbouring_chapter(double time, int by) const {
     double before = 0.0;
-    for (const Mark& mark : marks) {
+    for (const TimelineMark& mark : marks) {
         if (mark.mistake) continue;
         if (by > 0 && mark.time > time + 1e-9) return mark.time;
         if (mark.time < time - 1.0) before = mark.time;

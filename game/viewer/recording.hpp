@@ -13,7 +13,7 @@
 namespace bolt::viewer {
 
 // A mark on the time line. Chapters are the steps of the lesson.
-struct Mark {
+struct TimelineMark {
     double time = 0.0;  // s
     int joint = -1;     // index; −1: none
     bool mistake = false;
@@ -42,14 +42,14 @@ struct Recording {
     std::vector<RecordedState> states;    // the first one at the start of the lesson
     std::vector<lesson::Lesson> lessons;  // as they were when a step began or ended
     std::vector<std::size_t> lesson_of;   // for each of `states` an index into `lessons`
-    std::vector<Mark> marks;              // in order of time
+    std::vector<TimelineMark> marks;      // in order of time
     std::uint64_t mismatches = 0;         // ticks that differ from the recording
 
     [[nodiscard]] double duration() const { return static_cast<double>(states.size() - 1) * period; }
     // The state nearest to the time.
     [[nodiscard]] std::size_t index_at(double time) const;
     // The step of the lesson at the time: the last mark before it that is no mistake. Null before the first.
-    [[nodiscard]] const Mark* chapter_at(double time) const;
+    [[nodiscard]] const TimelineMark* chapter_at(double time) const;
     // The beginning of the next chapter (`by` 1), or of the one that lasts at `time` (`by` −1; the previous
     // one within its first second). The end or the start of the session if there is none.
     [[nodiscard]] double neighbouring_chapter(double time, int by) const;

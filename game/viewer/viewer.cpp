@@ -66,13 +66,13 @@ Status Viewer::start(view::GpuContext& gpu_context) {
 
 void Viewer::release() {
     if (gpu_ && gpu_->context->device) (void)gpu_->context->device->idle();
-    if (picture_ == Picture::drawn) picture_ = Picture::requested;  // a lost GPU has lost the picture
+    if (picture_ == SavedPicture::drawn) picture_ = SavedPicture::requested;  // it was lost with the GPU
     gpu_.reset();
 }
 
 void Viewer::seek(double time) { time_ = std::clamp(time, 0.0, recording_->duration()); }
 
-// At the end it begins again.
+// At the end of the session, playing starts at the beginning.
 void Viewer::toggle_playing() {
     if (!playing_ && time_ >= recording_->duration()) seek(0.0);
     playing_ = !playing_;
@@ -98,7 +98,7 @@ void Viewer::start_film() {
     film_ = std::async(std::launch::async, options_.make_film, film_file_, view_name_);
 }
 
-void Viewer::press(platform::Key key) {
+void Viewer::handle_key(platform::Key key) {
     using platform::Key;
     switch (key) {
         case Key::space:
@@ -125,7 +125,7 @@ void Viewer::press(platform::Key key) {
             view_name_.clear();
             return;
         case Key::p:
-            picture_ = Picture::requested;
+            picture_ = SavedPicture::requested;
             return;
         case Key::v:
             return start_film();
@@ -145,7 +145,7 @@ void Viewer::handle_events(std::span<const platform::InputEvent> events, VkExten
     for (const platform::InputEvent& event : events) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);
         if (const auto* key = std::get_if<platform::KeyEvent>(&event); key != nullptr && key->down)
-            press(key->key);
+            handle_key(key->key);
     }
     if (gpu_->ui->wants_pointer()) return mouse_.stop();
     const double height = size.height, aspect = size.width / height;
@@ -165,7 +165,7 @@ void Viewer::advance(double seconds) {
 const world::Joint* Viewer::joint_at_work() const {
     const RecordedState& state = recording_->states[recording_->index_at(time_)];
     const std::int16_t held = state.contact.joint;
-    const Mark* chapter = recording_->chapter_at(time_);
+    const TimelineMark* chapter = recording_->chapter_at(time_);
     const int joint = held >= 0 ? held : chapter != nullptr ? chapter->joint : 0;
     if (joint < 0) return nullptr;
     return &state.joints[static_cast<std::size_t>(joint)];
@@ -186,7 +186,7 @@ void Viewer::follow_work(double aspect) {
 }
 
 // "F1: Tighten to 72 N·m", as the lesson shows it.
-std::string Viewer::step_text(const Mark& chapter) const {
+std::string Viewer::step_text(const TimelineMark& chapter) const {
     if (chapter.joint < 0) return chapter.event.text;
     const std::string& id =
         recording_->start.assembly.joints[static_cast<std::size_t>(chapter.joint)].design.id;
@@ -217,8 +217,8 @@ void Viewer::draw_time_line(float scale) {
     const float middle = 0.5F * (low.y + high.y), half = 3.0F * scale;
     draw.AddRectFilled({low.x, middle - half}, {high.x, middle + half}, line_color, half);
     draw.AddRectFilled({low.x, middle - half}, {x_of(time_), middle + half}, played_color, half);
-    const Mark* nearest = nullptr;
-    for (const Mark& mark : recording_->marks) {
+    const TimelineMark* nearest = nullptr;
+    for (const TimelineMark& mark : recording_->marks) {
         const float x = x_of(mark.time);
         if (mark.mistake)
             draw.AddTriangleFilled({x - 5.0F * scale, low.y}, {x + 5.0F * scale, low.y},
@@ -244,20 +244,20 @@ void Viewer::draw_bar(const glm::vec2& size, float scale) {
     ImGui::SetNextWindowSize({size.x, height});
     ImGui::SetNextWindowBgAlpha(0.9F);
     ImGui::Begin("##bar", nullptr, panel_flags);
-    if (ImGui::Button("|<")) press(platform::Key::page_up);
+    if (ImGui::Button("|<")) handle_key(platform::Key::page_up);
     ImGui::SameLine();
     if (ImGui::Button((playing_ ? words["viewer.pause"] : words["viewer.play"]).c_str(),
                       {90.0F * scale, 0.0F}))
         toggle_playing();
     ImGui::SameLine();
-    if (ImGui::Button(">|")) press(platform::Key::page_down);
+    if (ImGui::Button(">|")) handle_key(platform::Key::page_down);
     ImGui::SameLine();
     draw_text(fmt::format("{:6.1f} / {:.1f} s", time_, recording_->duration()));
     for (const double speed : speeds) {
         ImGui::SameLine();
         if (ImGui::RadioButton(fmt::format("{:g}×", speed).c_str(), speed_ == speed)) speed_ = speed;
     }
-    if (const Mark* chapter = recording_->chapter_at(time_); chapter != nullptr && chapter->joint >= 0) {
+    if (const auto* chapter = recording_->chapter_at(time_); chapter != nullptr && chapter->joint >= 0) {
         ImGui::SameLine(0.0F, 24.0F * scale);
         draw_text(step_text(*chapter));
     }
@@ -337,7 +337,7 @@ void Viewer::draw_clamps(float scale) {
 
 void Viewer::draw_saving() {
     const words::Words& words = options_.words;
-    if (ImGui::Button(words["viewer.picture"].c_str(), {-1.0F, 0.0F})) picture_ = Picture::requested;
+    if (ImGui::Button(words["viewer.picture"].c_str(), {-1.0F, 0.0F})) picture_ = SavedPicture::requested;
     if (film_.valid()) {
         draw_text(words["viewer.making"]);
     } else if (ImGui::Button(words["viewer.film"].c_str(), {-1.0F, 0.0F})) {
@@ -363,7 +363,7 @@ void Viewer::draw_panel(const glm::vec2& size, float scale) {
     ImGui::SetNextWindowSize({width, size.y - 82.0F * scale});
     ImGui::SetNextWindowBgAlpha(0.82F);
     ImGui::Begin("##panel", nullptr, panel_flags);
-    if (ImGui::RadioButton(words["viewer.follow"].c_str(), follows_)) press(platform::Key::f);
+    if (ImGui::RadioButton(words["viewer.follow"].c_str(), follows_)) handle_key(platform::Key::f);
     for (std::size_t i = 0; i < models_.machine.views.size(); ++i) {
         const std::string& name = models_.machine.views[i].name;
         if (i % 3 != 0) ImGui::SameLine();
@@ -380,9 +380,9 @@ void Viewer::draw_panel(const glm::vec2& size, float scale) {
     ImGui::End();
 }
 
-// Writes the picture that the frame before rendered.
+// Writes the picture that the previous frame rendered.
 Status Viewer::save_picture() {
-    picture_ = Picture::none;
+    picture_ = SavedPicture::none;
     view::GpuContext& gpu = *gpu_->context;
     BOLT_TRY(gpu.device->idle());
     const render::ImageLayer made = gpu.renderer->picture(0, saved_group);
@@ -410,7 +410,7 @@ void Viewer::finish_film() {
 
 Status Viewer::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events, VkExtent2D size,
                      float scale, double seconds) {
-    if (picture_ == Picture::drawn) BOLT_TRY(save_picture());
+    if (picture_ == SavedPicture::drawn) BOLT_TRY(save_picture());
     finish_film();
     trainer::update_ui_input(input_, events);
     input_.keys = {};  // all keys are the viewer's: the interface would press its focused button as well
@@ -436,11 +436,11 @@ Status Viewer::frame(gpu::FrameContext& frame, std::span<const platform::InputEv
     const render::BoundingBox box = render::bounds(replay.scene);
     const render::Eye eye = view::eye_of(camera_.shown, box, aspect);
     BOLT_TRY(renderer.render(frame, replay.scene, std::span(&eye, 1), size));
-    if (picture_ == Picture::requested) {
+    if (picture_ == SavedPicture::requested) {
         const render::Eye wide = view::eye_of(
             camera_.shown, box, static_cast<float>(saved_size.width) / static_cast<float>(saved_size.height));
         BOLT_TRY(renderer.render(frame, replay.scene, std::span(&wide, 1), saved_size, saved_group));
-        picture_ = Picture::drawn;
+        picture_ = SavedPicture::drawn;
     }
     BOLT_TRY(gpu_->ui->begin(frame, input_));
     draw_bar(input_.size, scale);

@@ -17,7 +17,7 @@ struct ViewerOptions {
     std::filesystem::path session;  // pictures and films are saved beside it
     words::Words words;
     hand::Side hand = hand::Side::right;  // the working hand
-    double at = 0.0;                      // s, where it begins
+    double at = 0.0;                      // s, time that is shown first
     // Makes a film of the session from a named view (empty: following the work). Runs on a thread of its own.
     std::function<Status(const std::filesystem::path& file, const std::string& view)> make_film;
 };
@@ -53,11 +53,11 @@ class Viewer : public view::WindowContent {
     Viewer(std::unique_ptr<Recording> recording, ViewerOptions options, scene::LessonModels models);
     void handle_events(std::span<const platform::InputEvent> events, VkExtent2D size);
     void toggle_playing();
-    void press(platform::Key key);
+    void handle_key(platform::Key key);
     void show_view(std::size_t number);  // a named view
     void change_speed(int by);           // to the next of the offered speeds
     void start_film();
-    [[nodiscard]] std::string step_text(const Mark& chapter) const;
+    [[nodiscard]] std::string step_text(const TimelineMark& chapter) const;
     void seek(double time);
     void advance(double seconds);
     void follow_work(double aspect);
@@ -88,7 +88,7 @@ class Viewer : public view::WindowContent {
     ui::UiInput input_;
     std::array<glm::vec2, 2> time_line_{};
     std::string message_;  // about what was saved
-    enum class Picture : std::uint8_t { none, requested, drawn } picture_ = Picture::none;
+    enum class SavedPicture : std::uint8_t { none, requested, drawn } picture_ = SavedPicture::none;
     std::future<Status> film_;
     std::filesystem::path film_file_;
     std::unique_ptr<GpuResources> gpu_;

@@ -29,7 +29,7 @@ struct ServoClock {
 struct Joint {
     std::size_t index = 0;  // in the assembly
     joint::Stage stage = joint::Stage::navigation;
-    joint::Condition condition = joint::Condition::sound;
+    joint::JointCondition condition = joint::JointCondition::sound;
     double angle = 0.0;      // of the nut from its hand-started position, tightening positive
     double speed = 0.0;      // rad/s of the nut
     double torque = 0.0;     // of wrench or fingers on the nut, tightening positive

@@ -2,6 +2,7 @@
 // contacts to the few that constrain the tool.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
@@ -105,6 +106,38 @@ struct DeferredContact {
     std::uint32_t pair = 0;    // index of the body
     bool of_tool = false;      // the sample is the tool's
     bool resolved = false;     // the exact query has been done, with or without a contact as its result
+};
+
+// Collects contacts in a buffer of fixed size; when it is full, a nearer contact replaces the furthest.
+struct ContactCollector {
+    std::span<Contact> buffer;
+    std::size_t count = 0;
+    double complete_within;  // m; all contacts nearer than this are in the buffer
+    std::span<DeferredContact> deferred;
+    std::size_t deferred_count = 0;
+    std::uint32_t work = 0;
+
+    bool defer(const DeferredContact& one) {
+        if (deferred_count == deferred.size()) return false;
+        deferred[deferred_count++] = one;
+        return true;
+    }
+
+    void add(const Contact& contact) {
+        if (count < buffer.size()) {
+            buffer[count++] = contact;
+            if (count == buffer.size()) std::make_heap(buffer.begin(), buffer.end(), nearer);
+            return;
+        }
+        if (nearer(contact, buffer.front())) {
+            complete_within = std::min(complete_within, buffer.front().distance);
+            std::pop_heap(buffer.begin(), buffer.end(), nearer);
+            buffer.back() = contact;
+            std::push_heap(buffer.begin(), buffer.end(), nearer);
+        } else {
+            complete_within = std::min(complete_within, contact.distance);
+        }
+    }
 };
 
 // Computes a deferred contact. Returns false if there is no contact within the band.

@@ -195,7 +195,7 @@ double signed_torque(const GroupParameters& group, const JointState& joint, Dire
     return published_read(group.published, joint.published, to_degrees(joint.nut.angle), direction).torque;
 }
 
-bool has_failed(const JointState& joint) { return joint.condition != Condition::sound; }
+bool has_failed(const JointState& joint) { return joint.condition != JointCondition::sound; }
 
 // Tightens until the torque is reached or the joint fails, then rests for 10 s.
 void tighten_to(const GroupParameters& group, std::vector<JointState>& joints, double torque,

@@ -61,7 +61,7 @@ struct JointState {
     // 0…1, active share of the additional friction at rest; decreases as the nut turns.
     double breakaway = 0.0;
     Stage stage = Stage::navigation;
-    Condition condition = Condition::sound;
+    JointCondition condition = JointCondition::sound;
     MechanisticState mechanistic;
     PublishedState published;
 };

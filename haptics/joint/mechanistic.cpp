@@ -178,7 +178,7 @@ void flow(const MechanisticParameters& p, MechanisticState& s, double closure, c
         };
         const double rest = balanced_closure(p.seat, 1e-3 * p.seat.touch_force, start, evaluate);
         s.stripped += progress * std::max(0.0, closure - rest);
-        s.condition = Condition::stripped;
+        s.condition = JointCondition::stripped;
         return;
     }
     const auto evaluate = [&](BalanceIterate& t) {
@@ -190,13 +190,13 @@ void flow(const MechanisticParameters& p, MechanisticState& s, double closure, c
     };
     const double low = 0.5 * std::min(capacity.bolt.load, p.bolt.neck_load) / capacity.ratio;
     s.plastic += progress * std::max(0.0, closure - balanced_closure(p.seat, low, start, evaluate));
-    if (s.plastic >= p.bolt.fracture) s.condition = Condition::broken;
+    if (s.plastic >= p.bolt.fracture) s.condition = JointCondition::broken;
 }
 
 Stage stage_of(const MechanisticParameters& p, const MechanisticState& s, double ratio,
                const PlasticCurve::LoadSlope& bolt) {
     if (s.clamp < p.seat.touch_force) return Stage::navigation;
-    if (s.condition == Condition::stripped) return Stage::yield;
+    if (s.condition == JointCondition::stripped) return Stage::yield;
     const double linear = 1.0 / p.seat.compliance;
     if (ratio * s.clamp >= 0.999 * bolt.load) {
         // Yield-controlled tightening stops where the gradient has fallen to half; the yield stage begins at
@@ -299,7 +299,7 @@ void advance(const MechanisticParameters& p, MechanisticState& s, double angle, 
     if (final_embedding > s.embedding)
         s.embedding += -std::expm1(-dt / p.embedding_time) * (final_embedding - s.embedding);
 
-    if (s.condition == Condition::broken) {
+    if (s.condition == JointCondition::broken) {
         s.clamp = s.stiffness = 0.0;
         s.stage = Stage::navigation;
         return;
@@ -315,7 +315,7 @@ void advance(const MechanisticParameters& p, MechanisticState& s, double angle, 
         const double closure = free_closure(p, s, angle);
         flow(p, s, closure, capacity, dt);
         const double force_change = load.stiffness * (free_closure(p, s, angle) - closure);
-        load = s.condition == Condition::broken
+        load = s.condition == JointCondition::broken
                    ? SeatSpring::Load{}
                    : p.seat.at(free_closure(p, s, angle), load.force + force_change);
         s.clamp = load.force;

@@ -92,7 +92,7 @@ struct MechanisticState {
     double stiffness = 0.0;   // dF/dx of the elastic joint, N/m
     double neighbours = 0.0;  // m, closure taken up by the other joints of the group
     Stage stage = Stage::navigation;
-    Condition condition = Condition::sound;
+    JointCondition condition = JointCondition::sound;
 };
 
 // Torque that turns the nut on or off from the present state, and its slope over the angle.

@@ -17,7 +17,7 @@ enum class Law : std::uint8_t { published, mechanistic };
 enum class Stage : std::uint8_t { navigation, transition, linearity, yield };
 inline constexpr int stage_count = 4;
 
-enum class Condition : std::uint8_t { sound, stripped, broken };
+enum class JointCondition : std::uint8_t { sound, stripped, broken };
 
 constexpr std::string_view name(Law law) { return law == Law::published ? "published" : "mechanistic"; }
 
@@ -26,7 +26,7 @@ constexpr std::string_view name(Stage stage) {
     return names[static_cast<int>(stage)];
 }
 
-constexpr std::string_view name(Condition condition) {
+constexpr std::string_view name(JointCondition condition) {
     constexpr std::string_view names[] = {"sound", "stripped", "broken"};
     return names[static_cast<int>(condition)];
 }

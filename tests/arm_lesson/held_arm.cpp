@@ -6,55 +6,19 @@
 #include "haptics/device/haply_messages.hpp"
 #include "haptics/device/open_haptics.hpp"
 #include "haptics/device/simulated_arm.hpp"
-#include "haptics/device/vendor_library.hpp"
 #include "tests/device/driver_contract.hpp"
-#include "tools/emulate/arms/force_dimension.h"
+#include "tests/support/emulated_arms.hpp"
 #include "tools/emulate/arms/haply_model.hpp"
-#include "tools/emulate/arms/open_haptics.h"
 
 namespace bolt::test {
 
 namespace {
 
-device::VendorLibrary emulated(const char* path) {
-    const std::vector<std::filesystem::path> paths{path};
-    auto library = device::VendorLibrary::open(paths);
-    REQUIRE_MESSAGE(library, (library ? "" : library.error().message()));
-    return std::move(*library);
-}
-
-struct ForceDimensionControls {
+// The controls of an emulated library and the clock of its arm, s.
+template <class Controls>
+struct ArmAndTime {
     double now = 0.0;
-    decltype(emu_reset)* reset = nullptr;
-    decltype(emu_advance)* advance = nullptr;
-    decltype(emu_intend)* intend = nullptr;
-    decltype(emu_turn)* turn = nullptr;
-    decltype(emu_initialized)* initialized = nullptr;
-    decltype(emu_active_wrist)* active_wrist = nullptr;
-    decltype(emu_buttons)* buttons = nullptr;
-    decltype(emu_unplug)* unplug = nullptr;
-    decltype(emu_speed_limit)* speed_limit = nullptr;
-    decltype(emu_stale)* stale = nullptr;
-    decltype(emu_corrupt)* corrupt = nullptr;
-    decltype(emu_millimetres)* millimetres = nullptr;
-    decltype(emu_force)* force = nullptr;
-};
-
-struct OpenHapticsControls {
-    double now = 0.0;
-    decltype(emu_hd_reset)* reset = nullptr;
-    decltype(emu_hd_advance)* advance = nullptr;
-    decltype(emu_hd_intend)* intend = nullptr;
-    decltype(emu_hd_turn)* turn = nullptr;
-    decltype(emu_hd_buttons)* buttons = nullptr;
-    decltype(emu_hd_unplug)* unplug = nullptr;
-    decltype(emu_hd_speed_limit)* speed_limit = nullptr;
-    decltype(emu_hd_heat)* heat = nullptr;
-    decltype(emu_hd_corrupt)* corrupt = nullptr;
-    decltype(emu_hd_raise)* raise = nullptr;
-    decltype(emu_hd_late)* late = nullptr;
-    decltype(emu_hd_switch_off)* switch_off = nullptr;
-    decltype(emu_hd_force)* force = nullptr;
+    Controls controls;
 };
 
 constexpr Vec3 touch_centre(0.0, 0.01, 0.01);  // m, of the box that the emulated Touch reports
@@ -169,22 +133,8 @@ std::unique_ptr<HeldArm> haply_arm() {
 
 std::unique_ptr<HeldArm> force_dimension_arm(bool active, ArmClock clock) {
     auto arm = std::make_unique<HeldArm>();
-    const auto c = std::make_shared<ForceDimensionControls>();
-    auto library = emulated(BOLT_EMULATED_FORCE_DIMENSION);
-    library.find("emu_reset", c->reset);
-    library.find("emu_advance", c->advance);
-    library.find("emu_intend", c->intend);
-    library.find("emu_turn", c->turn);
-    library.find("emu_initialized", c->initialized);
-    library.find("emu_active_wrist", c->active_wrist);
-    library.find("emu_buttons", c->buttons);
-    library.find("emu_unplug", c->unplug);
-    library.find("emu_speed_limit", c->speed_limit);
-    library.find("emu_stale", c->stale);
-    library.find("emu_corrupt", c->corrupt);
-    library.find("emu_millimetres", c->millimetres);
-    library.find("emu_force", c->force);
-    REQUIRE(library.check());
+    const auto held = std::make_shared<ArmAndTime<ForceDimensionControls>>();
+    const std::shared_ptr<ForceDimensionControls> c(held, &held->controls);
     if (clock == ArmClock::virtual_time) c->reset();
     c->initialized(1);
     c->active_wrist(active ? 1 : 0);
@@ -209,7 +159,7 @@ std::unique_ptr<HeldArm> force_dimension_arm(bool active, ArmClock clock) {
     if (clock == ArmClock::computer) return arm;
     const auto api = device::load_force_dimension({BOLT_EMULATED_FORCE_DIMENSION});
     REQUIRE(api);
-    arm->timer = advancing_timer(c->now, c->advance);
+    arm->timer = advancing_timer(held->now, c->advance);
     arm->open = [api = *api, timer = arm->timer] {
         return device::open_force_dimension(api, {0, false}, timer);
     };
@@ -223,22 +173,8 @@ std::unique_ptr<HeldArm> force_dimension_arm(bool active, ArmClock clock) {
 
 std::unique_ptr<HeldArm> open_haptics_arm(ArmClock clock) {
     auto arm = std::make_unique<HeldArm>();
-    const auto c = std::make_shared<OpenHapticsControls>();
-    auto library = emulated(BOLT_EMULATED_OPEN_HAPTICS);
-    library.find("emu_hd_reset", c->reset);
-    library.find("emu_hd_advance", c->advance);
-    library.find("emu_hd_intend", c->intend);
-    library.find("emu_hd_turn", c->turn);
-    library.find("emu_hd_buttons", c->buttons);
-    library.find("emu_hd_unplug", c->unplug);
-    library.find("emu_hd_speed_limit", c->speed_limit);
-    library.find("emu_hd_heat", c->heat);
-    library.find("emu_hd_corrupt", c->corrupt);
-    library.find("emu_hd_raise", c->raise);
-    library.find("emu_hd_late", c->late);
-    library.find("emu_hd_switch_off", c->switch_off);
-    library.find("emu_hd_force", c->force);
-    REQUIRE(library.check());
+    const auto held = std::make_shared<ArmAndTime<OpenHapticsControls>>();
+    const std::shared_ptr<OpenHapticsControls> c(held, &held->controls);
     if (clock == ArmClock::virtual_time) c->reset();
     arm->name = "OpenHaptics";
     arm->intend = [c](const Pose& pose) {
@@ -263,7 +199,7 @@ std::unique_ptr<HeldArm> open_haptics_arm(ArmClock clock) {
     if (clock == ArmClock::computer) return arm;
     const auto api = device::load_open_haptics({BOLT_EMULATED_OPEN_HAPTICS});
     REQUIRE(api);
-    arm->timer = advancing_timer(c->now, c->advance);
+    arm->timer = advancing_timer(held->now, c->advance);
     arm->open = [api = *api, timer = arm->timer] { return device::open_open_haptics(api, timer); };
     arm->faults = {
         {"unplugged", [c] { c->unplug(1); }, [c] { c->unplug(0); }},

@@ -35,8 +35,8 @@ ServoTiming timing_of(bool adequate) {
 }
 
 // A computer without faults, with everything connected.
-Facts good_facts() {
-    Facts facts;
+ComputerFacts good_facts() {
+    ComputerFacts facts;
     facts.gpu = GpuFacts{"a graphics card", false};
     facts.sound = "a sound card";
     facts.devices = {device_of("a puck", device::DeviceKind::puck),
@@ -54,7 +54,7 @@ const Finding* find(const std::vector<Finding>& all, words::TextKey text) {
     return found == all.end() ? nullptr : &*found;
 }
 
-Severity severity_of(const Facts& facts, words::TextKey text) {
+Severity severity_of(const ComputerFacts& facts, words::TextKey text) {
     const std::vector<Finding> all = findings(facts);
     const Finding* found = find(all, text);
     REQUIRE(found != nullptr);
@@ -74,7 +74,7 @@ TEST_CASE("Findings: a computer without faults has only good ones, each with its
 }
 
 TEST_CASE("Findings: each fault is found, alone") {
-    Facts facts = good_facts();
+    ComputerFacts facts = good_facts();
     SUBCASE("nothing can draw") {
         facts.gpu = fail(error_of("no driver"));
         CHECK(severity_of(facts, "finding.gpu_none") == Severity::bad);
@@ -136,13 +136,14 @@ TEST_CASE("Findings: each fault is found, alone") {
     }
 }
 
-TEST_CASE("Facts: the folder of the sessions need not exist; its disk is found, and nothing is written") {
+TEST_CASE(
+    "Computer facts: the folder of the sessions need not exist; its disk is found, and nothing is written") {
     const test::Folder folder;
     FactsRequest request;
     request.sessions = folder / "not" / "there";
     request.gpu = GpuFacts{"none", false};
     request.open_sound = []() -> Result<std::unique_ptr<audio::Sink>> { return fail(error_of("no card")); };
-    const Facts facts = find_out(request);
+    const ComputerFacts facts = gather_facts(request);
     CHECK(facts.folder_trouble.empty());
     const double available = static_cast<double>(std::filesystem::space(folder.path()).available);
     CHECK(std::abs(facts.free_space - available) < 0.2 * available);  // others write meanwhile
@@ -151,7 +152,7 @@ TEST_CASE("Facts: the folder of the sessions need not exist; its disk is found, 
     CHECK_FALSE(facts.timing);
 
     request.sessions = "/proc/sessions";  // even root may not write there
-    const Facts elsewhere = find_out(request);
+    const ComputerFacts elsewhere = gather_facts(request);
     CHECK((elsewhere.folder_trouble.empty() && elsewhere.free_space >= least_free_space) == false);
 }
 

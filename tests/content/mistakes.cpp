@@ -11,14 +11,14 @@ using namespace content_test;
 namespace {
 
 // One edit of a correct file, and the complete list of messages that it causes.
-struct Mistake {
+struct FileMistake {
     const char* from;
     const char* to;
     std::vector<std::string> messages;
 };
 
 // clang-format off
-const Mistake mistakes[] = {
+const FileMistake mistakes[] = {
     {R"("size": "M8")", R"("size": "M9")",
      {R"(22:15: /joint_types/M8x30/size: "M9" is not a known thread size; expected one of M4 to M39, a fine pitch as in "M16x1.5")"}},
     {R"("size": "M8")", R"("size": "M8x1.2")",
@@ -278,7 +278,7 @@ const Mistake mistakes[] = {
 
 TEST_CASE("Errors: every mistake is reported at its position with an expectation") {
     const std::string good = cover();
-    for (const Mistake& c : mistakes) {
+    for (const FileMistake& c : mistakes) {
         CAPTURE(std::string(c.from));
         CAPTURE(std::string(c.to));
         const std::vector<std::string> given = messages(edited(good, c.from, c.to));

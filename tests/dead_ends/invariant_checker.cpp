@@ -110,7 +110,7 @@ void InvariantChecker::check_verdicts() {
         const bool off =
             joint.torque_verdict == lesson::Verdict::low || joint.torque_verdict == lesson::Verdict::high ||
             joint.angle_verdict == lesson::Verdict::low || joint.angle_verdict == lesson::Verdict::high ||
-            joint.condition != joint::Condition::sound;
+            joint.condition != joint::JointCondition::sound;
         if (ok && off) report(joint.id + " is rated OK despite a failed criterion");
         if (!std::isfinite(joint.torque) || !std::isfinite(joint.angle) || !std::isfinite(joint.clamp))
             report(joint.id + " has a result that is not finite");

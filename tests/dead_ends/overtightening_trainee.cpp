@@ -42,7 +42,7 @@ JointAttempt random_attempt(Random& random, const session::LessonSession& sessio
 
 bool done(const JointAttempt& v, const session::LessonSession& session) {
     const joint::JointState& joint = session.state().joints[v.joint];
-    return v.peak >= v.goal || joint.condition != joint::Condition::sound || session.time() > v.until;
+    return v.peak >= v.goal || joint.condition != joint::JointCondition::sound || session.time() > v.until;
 }
 
 // Presses, drags as far as there is room, releases and presses again.

@@ -6,9 +6,8 @@
 #include <limits>
 
 #include "haptics/device/connected_devices.hpp"
-#include "haptics/device/vendor_library.hpp"
 #include "tests/device/driver_contract.hpp"
-#include "tools/emulate/arms/force_dimension.h"
+#include "tests/support/emulated_arms.hpp"
 
 namespace device_force_dimension_test {
 
@@ -18,62 +17,17 @@ using namespace bolt::test;
 
 namespace {
 
-struct Controls {
-    decltype(emu_reset)* reset = nullptr;
-    decltype(emu_advance)* advance = nullptr;
-    decltype(emu_intend)* intend = nullptr;
-    decltype(emu_turn)* turn = nullptr;
-    decltype(emu_initialized)* initialized = nullptr;
-    decltype(emu_active_wrist)* active_wrist = nullptr;
-    decltype(emu_buttons)* buttons = nullptr;
-    decltype(emu_unplug)* unplug = nullptr;
-    decltype(emu_in_use)* in_use = nullptr;
-    decltype(emu_speed_limit)* speed_limit = nullptr;
-    decltype(emu_model)* model = nullptr;
-    decltype(emu_gripper)* gripper = nullptr;
-    decltype(emu_weight)* weight = nullptr;
-    decltype(emu_speed_limit_changes)* speed_limit_changes = nullptr;
-    decltype(emu_position)* position = nullptr;
-    decltype(emu_force)* force = nullptr;
-    decltype(emu_moved_by_itself)* moved_by_itself = nullptr;
-    decltype(emu_braked)* braked = nullptr;
-    decltype(emu_open)* open = nullptr;
-};
-
 // An emulated arm whose clock is the driver's.
 struct Bench {
     ForceDimensionApi api;
-    Controls arm;
+    ForceDimensionControls arm;
     double now = 0.0;
     Timer timer = advancing_timer(now, arm.advance);
 
     Bench() {
-        const std::vector<std::filesystem::path> path{BOLT_EMULATED_FORCE_DIMENSION};
-        const auto loaded = load_force_dimension(path);
+        const auto loaded = load_force_dimension({BOLT_EMULATED_FORCE_DIMENSION});
         REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message()));
         api = *loaded;
-        auto library = VendorLibrary::open(path);
-        REQUIRE(library);
-        library->find("emu_reset", arm.reset);
-        library->find("emu_advance", arm.advance);
-        library->find("emu_intend", arm.intend);
-        library->find("emu_turn", arm.turn);
-        library->find("emu_initialized", arm.initialized);
-        library->find("emu_active_wrist", arm.active_wrist);
-        library->find("emu_buttons", arm.buttons);
-        library->find("emu_unplug", arm.unplug);
-        library->find("emu_in_use", arm.in_use);
-        library->find("emu_speed_limit", arm.speed_limit);
-        library->find("emu_model", arm.model);
-        library->find("emu_gripper", arm.gripper);
-        library->find("emu_weight", arm.weight);
-        library->find("emu_speed_limit_changes", arm.speed_limit_changes);
-        library->find("emu_position", arm.position);
-        library->find("emu_force", arm.force);
-        library->find("emu_moved_by_itself", arm.moved_by_itself);
-        library->find("emu_braked", arm.braked);
-        library->find("emu_open", arm.open);
-        REQUIRE(library->check());
         arm.reset();
         arm.initialized(1);
     }

@@ -5,11 +5,10 @@
 
 #include "haptics/device/connected_devices.hpp"
 #include "haptics/device/device_thread.hpp"
-#include "haptics/device/vendor_library.hpp"
 #include "tests/device/support.hpp"
+#include "tests/support/emulated_arms.hpp"
 #include "tests/support/environment.hpp"
 #include "tests/support/folder.hpp"
-#include "tools/emulate/arms/force_dimension.h"
 
 namespace device_preparation_test {
 
@@ -23,34 +22,23 @@ namespace {
 struct InstalledLibrary {
     test::Folder folder;
     test::EnvironmentVariable sdk{"FDSDK", folder.path().c_str()};
-    decltype(emu_reset)* reset = nullptr;
-    decltype(emu_initialized)* initialized = nullptr;
-    decltype(emu_unplug)* unplug = nullptr;
-    decltype(emu_moved_by_itself)* moved_by_itself = nullptr;
+    test::ForceDimensionControls arm;
 
     InstalledLibrary() {
         const fs::path place = folder / "lib/release/lin-x86_64-gcc";
         fs::create_directories(place);
         fs::create_symlink(BOLT_EMULATED_FORCE_DIMENSION, place / "libdrd.so.3");
-        const std::vector<fs::path> path{place / "libdrd.so.3"};
-        auto library = VendorLibrary::open(path);
-        REQUIRE(library);
-        library->find("emu_reset", reset);
-        library->find("emu_initialized", initialized);
-        library->find("emu_unplug", unplug);
-        library->find("emu_moved_by_itself", moved_by_itself);
-        REQUIRE(library->check());
-        reset();
+        arm.reset();
     }
-    ~InstalledLibrary() { reset(); }
+    ~InstalledLibrary() { arm.reset(); }
     InstalledLibrary(const InstalledLibrary&) = delete;
     InstalledLibrary& operator=(const InstalledLibrary&) = delete;
 
     // The arm is switched off and on again: it has forgotten its position.
     void power_cycle() const {
-        unplug(1);
-        unplug(0);
-        initialized(0);
+        arm.unplug(1);
+        arm.unplug(0);
+        arm.initialized(0);
     }
 };
 
@@ -89,13 +77,13 @@ TEST_CASE("Preparation: an arm moves when it is permitted, and asks again after 
     CHECK(supervisor.report().state == DeviceState::absent);
     CHECK(supervisor.report().preparation == Preparation{DeviceNeed::permission, {}});
     CHECK(supervisor.report().refusals > 2);
-    CHECK(library.moved_by_itself() == 0);
+    CHECK(library.arm.moved_by_itself() == 0);
 
     options.permission->give();
     poll(supervisor, time, 3.0);
     CHECK(supervisor.report().state != DeviceState::absent);
     CHECK(supervisor.report().preparation == Preparation{});
-    CHECK(library.moved_by_itself() == 1);
+    CHECK(library.arm.moved_by_itself() == 1);
     CHECK_FALSE(options.permission->active());
 
     library.power_cycle();
@@ -103,12 +91,12 @@ TEST_CASE("Preparation: an arm moves when it is permitted, and asks again after 
     CHECK(supervisor.report().losses == 1);
     poll(supervisor, time, 3.0);
     CHECK(supervisor.report().preparation.need == DeviceNeed::permission);
-    CHECK(library.moved_by_itself() == 1);
+    CHECK(library.arm.moved_by_itself() == 1);
 }
 
 TEST_CASE("Preparation: a permission that an attempt did not need is used up") {
     const InstalledLibrary library;
-    library.initialized(1);
+    library.arm.initialized(1);
     OpenOptions options;
     options.permission = std::make_shared<MovePermission>();
     options.permission->give();
@@ -116,7 +104,7 @@ TEST_CASE("Preparation: a permission that an attempt did not need is used up") {
     CHECK(open());
     library.power_cycle();
     CHECK_FALSE(open());
-    CHECK(library.moved_by_itself() == 0);
+    CHECK(library.arm.moved_by_itself() == 0);
 }
 
 TEST_CASE("Preparation: waiting for it does not count as time in which the device must open") {

@@ -14,13 +14,13 @@ using namespace bolt::arm_validation;
 
 namespace {
 
-Workplace& zq350() {
-    static Workplace place = [] {
-        Result<Workplace> loaded = load_workplace("zq350");
+TightenedAssembly& zq350() {
+    static TightenedAssembly tightened = [] {
+        Result<TightenedAssembly> loaded = load_tightened_assembly("zq350");
         REQUIRE_MESSAGE(loaded, (loaded ? "" : loaded.error().message()));
         return std::move(*loaded);
     }();
-    return place;
+    return tightened;
 }
 
 RigOptions with(const ArmFacts& arm) {
@@ -73,14 +73,14 @@ TEST_CASE("Arm feel: at the announced limits no arm gives energy, trembles, or s
     for (const ArmFacts& facts : arm_table()) {
         CAPTURE(std::string(facts.name));
         double at_rim = 0.0;
-        const Outcome held = feel_of(zq350(), with(facts), true, presses, at_rim);
+        const FeelOutcome held = feel_of(zq350(), with(facts), true, presses, at_rim);
         CHECK_FALSE(gives_energy(held));
         CHECK(held.record.greatest_energy <= energy_at_any_time);
         CHECK_FALSE(trembles(held));
         CHECK(step_percent(held, facts.announced()) <= largest_step);
         CHECK(held.touched);
         // No hand but the friction of the arm damps it: a first bounce may give energy, but it may not go on.
-        const Outcome alone = feel_of(zq350(), with(facts), false, presses, at_rim);
+        const FeelOutcome alone = feel_of(zq350(), with(facts), false, presses, at_rim);
         CHECK(alone.record.energy <= energy_at_any_time);
         CHECK_FALSE(trembles(alone));
         CHECK(step_percent(alone, facts.announced()) <= largest_step);
@@ -113,7 +113,7 @@ TEST_CASE("Arm feel: a wrench that the casing holds back does not push the hand 
             CAPTURE(std::string(grip.name));
             RigOptions options = with(arm(key));
             options.grip = grip;
-            const Outcome outcome = run_press(zq350(), options, *near);
+            const FeelOutcome outcome = run_press(zq350(), options, *near);
             CHECK(outcome.touched);
             CHECK(is_stable(outcome));
         }

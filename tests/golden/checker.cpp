@@ -9,7 +9,7 @@
 #include <string>
 
 #include "engine/base/random.hpp"
-#include "tests/golden/stage.hpp"
+#include "tests/golden/golden_studio.hpp"
 #include "tests/support/folder.hpp"
 #include "tests/support/skip.hpp"
 #include "tools/verify/imagediff/flip.hpp"
@@ -28,11 +28,12 @@ render::Picture noise() {
 }
 
 // A checker with this picture as its only reference.
-test::Gallery with_reference(const Folder& folder, const render::Picture& picture) {
-    test::Gallery gallery{folder / "references", folder / "failures", "driver A", "driver A", true};
-    REQUIRE(test::hold(gallery, "noise", picture).passes);
-    gallery.update = false;
-    return gallery;
+test::ReferencePictures with_reference(const Folder& folder, const render::Picture& picture) {
+    test::ReferencePictures pictures{folder / "references", folder / "failures", "driver A", "driver A",
+                                     true};
+    REQUIRE(test::compare_with_reference(pictures, "noise", picture).passes);
+    pictures.update = false;
+    return pictures;
 }
 
 }  // namespace
@@ -40,15 +41,15 @@ test::Gallery with_reference(const Folder& folder, const render::Picture& pictur
 TEST_CASE("Golden: on the pinned driver one pixel that differs by one level fails and is shown") {
     const Folder folder;
     render::Picture picture = noise();
-    const test::Gallery gallery = with_reference(folder, picture);
-    CHECK(test::hold(gallery, "noise", picture).passes);
-    CHECK_FALSE(std::filesystem::exists(gallery.failures));
+    const test::ReferencePictures pictures = with_reference(folder, picture);
+    CHECK(test::compare_with_reference(pictures, "noise", picture).passes);
+    CHECK_FALSE(std::filesystem::exists(pictures.failures));
     picture.rgba[4 * 627 + 1] ^= 1U;
-    const test::Verdict verdict = test::hold(gallery, "noise", picture);
-    CHECK_FALSE(verdict.passes);
-    CHECK(verdict.why.find("largest difference 1 of 255") != std::string::npos);
-    const auto actual = imagediff::read_png(gallery.failures / "noise.actual.png");
-    const auto difference = imagediff::read_png(gallery.failures / "noise.difference.png");
+    const test::PictureComparison comparison = test::compare_with_reference(pictures, "noise", picture);
+    CHECK_FALSE(comparison.passes);
+    CHECK(comparison.why.find("largest difference 1 of 255") != std::string::npos);
+    const auto actual = imagediff::read_png(pictures.failures / "noise.actual.png");
+    const auto difference = imagediff::read_png(pictures.failures / "noise.difference.png");
     REQUIRE(actual.has_value());
     REQUIRE(difference.has_value());
     CHECK(actual->rgb[3 * 627 + 1] == picture.rgba[4 * 627 + 1]);
@@ -60,30 +61,30 @@ TEST_CASE("Golden: on the pinned driver one pixel that differs by one level fail
 TEST_CASE("Golden: on another driver small differences pass; a changed patch and a shifted picture do not") {
     const Folder folder;
     const render::Picture picture = noise();
-    test::Gallery gallery = with_reference(folder, picture);
-    gallery.driver = "driver B";
+    test::ReferencePictures pictures = with_reference(folder, picture);
+    pictures.driver = "driver B";
     render::Picture rounded = picture;
     for (std::size_t i = 0; i < rounded.rgba.size(); i += 3) rounded.rgba[i] ^= 1U;
-    CHECK(test::hold(gallery, "noise", rounded).passes);
+    CHECK(test::compare_with_reference(pictures, "noise", rounded).passes);
     render::Picture patched = picture;
     for (std::size_t i = 4 * 400; i < 4 * 440; ++i) patched.rgba[i] = 255;
-    CHECK_FALSE(test::hold(gallery, "noise", patched).passes);
+    CHECK_FALSE(test::compare_with_reference(pictures, "noise", patched).passes);
     render::Picture shifted = picture;
     std::rotate(shifted.rgba.begin(), shifted.rgba.begin() + 4, shifted.rgba.end());
-    CHECK_FALSE(test::hold(gallery, "noise", shifted).passes);
+    CHECK_FALSE(test::compare_with_reference(pictures, "noise", shifted).passes);
 }
 
 TEST_CASE("Golden: a missing reference fails and is not created; another size fails too") {
     const Folder folder;
     const render::Picture picture = noise();
-    const test::Gallery gallery = with_reference(folder, picture);
-    const test::Verdict missing = test::hold(gallery, "unheard-of", picture);
+    const test::ReferencePictures pictures = with_reference(folder, picture);
+    const test::PictureComparison missing = test::compare_with_reference(pictures, "unheard-of", picture);
     CHECK_FALSE(missing.passes);
     CHECK(missing.why.find("no reference") != std::string::npos);
-    CHECK_FALSE(std::filesystem::exists(gallery.references / "unheard-of.png"));
-    CHECK(std::filesystem::exists(gallery.failures / "unheard-of.actual.png"));
+    CHECK_FALSE(std::filesystem::exists(pictures.references / "unheard-of.png"));
+    CHECK(std::filesystem::exists(pictures.failures / "unheard-of.actual.png"));
     const render::Picture taller{picture.height, picture.width, picture.rgba};
-    CHECK_FALSE(test::hold(gallery, "noise", taller).passes);
+    CHECK_FALSE(test::compare_with_reference(pictures, "noise", taller).passes);
 }
 
 TEST_CASE("Golden: a driver has the references of its version, a new version those of the first") {
@@ -102,10 +103,10 @@ TEST_CASE("Golden: a driver has the references of its version, a new version tho
 }
 
 TEST_CASE("Golden: every version of a driver has the same pictures, and the current driver is known") {
-    const test::Stage stage;
-    CHECK_FALSE(stage.pictures.driver.empty());
+    const test::GoldenStudio golden;
+    CHECK_FALSE(golden.pictures.driver.empty());
     std::map<std::string, std::set<std::string>> names;  // of pictures, by folder
-    const auto pictures = stage.pictures.references.parent_path();
+    const auto pictures = golden.pictures.references.parent_path();
     for (const auto& file : std::filesystem::recursive_directory_iterator(pictures))
         if (file.is_regular_file())
             names[file.path().parent_path().filename()].insert(file.path().filename());
@@ -115,7 +116,7 @@ TEST_CASE("Golden: every version of a driver has the same pictures, and the curr
         CHECK(in_folder.contains("driver.txt"));
         CHECK(in_folder == names.begin()->second);
     }
-    if (stage.pictures.driver != stage.pictures.pinned_driver)
+    if (golden.pictures.driver != golden.pictures.pinned_driver)
         test::skip_part("pictures are compared within a tolerance, not exactly: this driver is " +
-                        stage.pictures.driver + "; expected " + stage.pictures.pinned_driver);
+                        golden.pictures.driver + "; expected " + golden.pictures.pinned_driver);
 }

@@ -1,7 +1,7 @@
 // Golden pictures of lights and shadows.
 #include <doctest/doctest.h>
 
-#include "tests/golden/stage.hpp"
+#include "tests/golden/golden_studio.hpp"
 
 using namespace bolt;
 using namespace bolt::render;
@@ -15,10 +15,10 @@ struct Table {
                   ball = globe(metal({0.56F, 0.57F, 0.58F}, 0.3F));
     GpuModel gpu_floor, gpu_block, gpu_ball;
 
-    explicit Table(Stage& stage)
-        : gpu_floor(stage.studio.upload(floor)),
-          gpu_block(stage.studio.upload(block)),
-          gpu_ball(stage.studio.upload(ball)) {}
+    explicit Table(GoldenStudio& golden)
+        : gpu_floor(golden.studio.upload(floor)),
+          gpu_block(golden.studio.upload(block)),
+          gpu_ball(golden.studio.upload(ball)) {}
 
     void set(Scene& scene) const {
         add_model(scene, floor, gpu_floor, at({0, 0, 0}, glm::vec3(3.2F)));
@@ -32,9 +32,9 @@ Eye above() { return eye_at({1.5F, 4.2F, 7.5F}, {0, 0.3F, 0}); }
 }  // namespace
 
 TEST_CASE("Golden: a lamp casts shadows of objects, but not of ghosts and marks") {
-    Stage stage;
-    const Table table(stage);
-    Scene scene = stage.scene();
+    GoldenStudio golden;
+    const Table table(golden);
+    Scene scene = golden.scene();
     table.set(scene);
     add_model(scene, table.ball, table.gpu_ball, at({-1.9F, 0.4F, 1.4F}, glm::vec3(0.4F)));
     scene.objects.back().opacity = 0.5F;
@@ -42,23 +42,23 @@ TEST_CASE("Golden: a lamp casts shadows of objects, but not of ghosts and marks"
     scene.objects.back().flat = true;
     scene.lights.push_back(lamp({0.7F, -1.0F, 0.25F}, 2.0F));
     scene.environment_intensity = 0.35F;
-    stage.shoot("shadow", scene, above());
+    golden.shoot("shadow", scene, above());
 }
 
 TEST_CASE("Golden: ambient occlusion darkens the floor under and between objects") {
-    Stage stage;
-    const Table table(stage);
-    Scene scene = stage.scene();
+    GoldenStudio golden;
+    const Table table(golden);
+    Scene scene = golden.scene();
     table.set(scene);
     add_model(scene, table.block, table.gpu_block, at({-0.1F, 0.4F, -0.9F}, {0.15F, 0.4F, 1.0F}));
     scene.occlusion_radius = 0.6F;
-    stage.shoot("occlusion", scene, above());
+    golden.shoot("occlusion", scene, above());
 }
 
 TEST_CASE("Golden: a point light with a range and a spot light illuminate objects") {
-    Stage stage;
-    const Table table(stage);
-    Scene scene = stage.scene();
+    GoldenStudio golden;
+    const Table table(golden);
+    Scene scene = golden.scene();
     table.set(scene);
     assets::Model lights;
     for (int i = 0; i < 2; ++i) {
@@ -79,23 +79,23 @@ TEST_CASE("Golden: a point light with a range and a spot light illuminate object
     }
     add_lights(scene, lights);
     scene.environment_intensity = 0.15F;
-    stage.shoot("lamps", scene, above());
+    golden.shoot("lamps", scene, above());
 }
 
 TEST_CASE("Golden: the sky and its reflection follow rotation, intensity and exposure") {
-    Stage stage;
+    GoldenStudio golden;
     assets::Model ball = globe(metal(glm::vec3(0.95F), 0.0F));
-    const GpuModel gpu_ball = stage.studio.upload(ball);
+    const GpuModel gpu_ball = golden.studio.upload(ball);
     std::vector<Picture> pictures;
     for (const float turn : {0.0F, 1.2F}) {
-        Scene scene = stage.scene();
+        Scene scene = golden.scene();
         scene.background.w = 0.0F;
         scene.environment_turn = turn;
         scene.environment_intensity = turn > 0.0F ? 1.6F : 1.0F;
         scene.exposure = turn > 0.0F ? 0.5F : 1.0F;
         add_model(scene, ball, gpu_ball, at({0, 0, 0}));
         pictures.push_back(
-            stage.studio.shoot(scene, eye_at({0, 0.8F, 4}, {0, 0, 0}, 1.0F, 1.0F), {112, 112}));
+            golden.studio.shoot(scene, eye_at({0, 0.8F, 4}, {0, 0, 0}, 1.0F, 1.0F), {112, 112}));
     }
-    stage.check("sky", joined(pictures));
+    golden.check("sky", joined(pictures));
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "tests/golden/stage.hpp"
+#include "tests/golden/golden_studio.hpp"
 
 using namespace bolt;
 using namespace bolt::render;
@@ -75,7 +75,7 @@ void texture_all(assets::Model& model) {
 }  // namespace
 
 TEST_CASE("Golden: metal, paint, clear coat and brushed steel from smooth to rough") {
-    Stage stage;
+    GoldenStudio golden;
     const std::vector<assets::Material> materials = rows_of_materials();
     assets::Model model = globe(materials[0]);
     model.materials = materials;
@@ -85,8 +85,8 @@ TEST_CASE("Golden: metal, paint, clear coat and brushed steel from smooth to rou
         model.meshes.push_back({"ball", {ball}, {}});
         model.meshes.back().primitives[0].material = i;
     }
-    const GpuModel gpu_model = stage.studio.upload(model);
-    Scene scene = stage.scene();
+    const GpuModel gpu_model = golden.studio.upload(model);
+    Scene scene = golden.scene();
     for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
         Object object;
         object.model = &gpu_model;
@@ -97,11 +97,11 @@ TEST_CASE("Golden: metal, paint, clear coat and brushed steel from smooth to rou
     }
     scene.lights.push_back(lamp({-0.5F, -0.8F, -0.6F}, 1.5F));
     scene.lights.back().casts_shadow = false;
-    stage.shoot("materials", scene, eye_at({0, 0, 30}, {0, 0, 0}, 0.29F, 1.25F), {250, 200});
+    golden.shoot("materials", scene, eye_at({0, 0, 30}, {0, 0, 0}, 0.29F, 1.25F), {250, 200});
 }
 
 TEST_CASE("Golden: all five maps, with and without tangents, rotated and repeated") {
-    Stage stage;
+    GoldenStudio golden;
     assets::Model with = cube(paint(glm::vec3(1.0F))), without = cube(paint(glm::vec3(1.0F)), false),
                   small = globe(paint(glm::vec3(1.0F)));
     for (assets::Model* model : {&with, &without, &small}) texture_all(*model);
@@ -113,9 +113,9 @@ TEST_CASE("Golden: all five maps, with and without tangents, rotated and repeate
         ref->offset = {0.1F, 0.2F};
     }
     small.materials[0].emissive = glm::vec3(0.0F);
-    const GpuModel a = stage.studio.upload(with), b = stage.studio.upload(without),
-                   c = stage.studio.upload(small);
-    Scene scene = stage.scene();
+    const GpuModel a = golden.studio.upload(with), b = golden.studio.upload(without),
+                   c = golden.studio.upload(small);
+    Scene scene = golden.scene();
     const glm::mat4 turned(glm::vec4(0.8F, 0, -0.6F, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0.6F, 0, 0.8F, 0),
                            glm::vec4(-1.6F, 0, 0, 1));
     add_model(scene, with, a, turned);
@@ -123,11 +123,11 @@ TEST_CASE("Golden: all five maps, with and without tangents, rotated and repeate
     add_model(scene, small, c, at({0, 2.2F, -1.5F}));
     scene.lights.push_back(lamp({-0.5F, -0.7F, -0.8F}, 1.2F));
     scene.lights.back().casts_shadow = false;
-    stage.shoot("maps", scene, eye_at({0, 2.5F, 9}, {0, 0.5F, 0}));
+    golden.shoot("maps", scene, eye_at({0, 2.5F, 9}, {0, 0.5F, 0}));
 }
 
 TEST_CASE("Golden: alpha mask and blend, and vertex colours") {
-    Stage stage;
+    GoldenStudio golden;
     assets::Model mask = plate(paint({0.7F, 0.5F, 0.2F}));
     mask.meshes[0].primitives[0].texcoords[0] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     mask.materials[0].base_color_texture.texture = add_texture(mask, 64, [](int x, int y) {
@@ -144,15 +144,15 @@ TEST_CASE("Golden: alpha mask and blend, and vertex colours") {
     red.materials[0].base_color = {0.9F, 0.15F, 0.1F, 0.6F};
     assets::Model colors = plate(paint(glm::vec3(1.0F)));
     colors.meshes[0].primitives[0].colors = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 1, 1}, {1, 1, 1, 1}};
-    const GpuModel a = stage.studio.upload(mask), b = stage.studio.upload(glass),
-                   c = stage.studio.upload(red), d = stage.studio.upload(colors);
+    const GpuModel a = golden.studio.upload(mask), b = golden.studio.upload(glass),
+                   c = golden.studio.upload(red), d = golden.studio.upload(colors);
     const glm::mat4 upright(glm::vec4(1, 0, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, -1, 0, 0),
                             glm::vec4(0, 0, 0, 1));
-    Scene scene = stage.scene();
+    Scene scene = golden.scene();
     // Nearer panes are listed first: the renderer has to sort blended parts.
     add_model(scene, red, c, at({0.9F, 0.2F, 1.5F}, glm::vec3(0.8F)) * upright);
     add_model(scene, glass, b, at({0.1F, 0.6F, 0.6F}, glm::vec3(0.8F)) * upright);
     add_model(scene, mask, a, at({-1.1F, 0.4F, 1.0F}, glm::vec3(0.9F)) * upright);
     add_model(scene, colors, d, at({0, -0.6F, 0}, glm::vec3(2.2F)));
-    stage.shoot("alpha", scene, eye_at({0.8F, 2.2F, 7.5F}, {0, 0.1F, 0}));
+    golden.shoot("alpha", scene, eye_at({0.8F, 2.2F, 7.5F}, {0, 0.1F, 0}));
 }

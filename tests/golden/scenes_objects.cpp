@@ -1,14 +1,14 @@
 // Golden pictures of modified objects: mirrored, stretched, ghosts, tinted, unlit.
 #include <doctest/doctest.h>
 
-#include "tests/golden/stage.hpp"
+#include "tests/golden/golden_studio.hpp"
 
 using namespace bolt;
 using namespace bolt::render;
 using namespace bolt::test;
 
 TEST_CASE("Golden: mirrored and stretched objects, lit from one side") {
-    Stage stage;
+    GoldenStudio golden;
     assets::Model block = cube(paint(glm::vec3(1.0F)));
     block.materials[0].base_color_texture.texture = add_texture(block, 64, [](int x, int y) {
         // An F shows the orientation.
@@ -21,8 +21,8 @@ TEST_CASE("Golden: mirrored and stretched objects, lit from one side") {
     });
     assets::Model ball = globe(metal({0.56F, 0.57F, 0.58F}, 0.35F));
     ball.materials[0].anisotropy = 0.7F;
-    const GpuModel a = stage.studio.upload(block), b = stage.studio.upload(ball);
-    Scene scene = stage.scene();
+    const GpuModel a = golden.studio.upload(block), b = golden.studio.upload(ball);
+    Scene scene = golden.scene();
     const glm::mat4 turned(glm::vec4(0.8F, 0, -0.6F, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0.6F, 0, 0.8F, 0),
                            glm::vec4(0, 0, 0, 1));
     add_model(scene, block, a, at({-3.2F, 1.2F, 0}) * turned);
@@ -33,15 +33,15 @@ TEST_CASE("Golden: mirrored and stretched objects, lit from one side") {
     add_model(scene, ball, b, at({3.2F, -1.5F, 0}, {1.4F, 0.5F, 1.0F}) * turned);
     scene.lights.push_back(lamp({-1.0F, -0.4F, -0.6F}, 1.5F));
     scene.lights.back().casts_shadow = false;
-    stage.shoot("mirrored", scene, eye_at({0, 0.6F, 14.5F}, {0, -0.1F, 0}, 0.56F));
+    golden.shoot("mirrored", scene, eye_at({0, 0.6F, 14.5F}, {0, -0.1F, 0}, 0.56F));
 }
 
 TEST_CASE("Golden: ghosts, tints and unlit marks") {
-    Stage stage;
+    GoldenStudio golden;
     const assets::Model ball = globe(metal({0.9F, 0.72F, 0.45F}, 0.3F)),
                         block = cube(paint({0.2F, 0.3F, 0.35F}));
-    const GpuModel gpu_ball = stage.studio.upload(ball), gpu_block = stage.studio.upload(block);
-    Scene scene = stage.scene();
+    const GpuModel gpu_ball = golden.studio.upload(ball), gpu_block = golden.studio.upload(block);
+    Scene scene = golden.scene();
     for (int i = 0; i < 3; ++i)
         add_model(scene, block, gpu_block,
                   at({2.4F * static_cast<float>(i - 1), 0, -1.6F}, {0.5F, 1.3F, 0.5F}));
@@ -56,15 +56,15 @@ TEST_CASE("Golden: ghosts, tints and unlit marks") {
     balls[4].tint = {0.1F, 0.4F, 0.9F, 1.0F};
     balls[4].flat = true;
     scene.lights.push_back(lamp({-0.4F, -0.8F, -0.6F}, 1.5F));
-    stage.shoot("ghosts", scene, eye_at({0, 0.8F, 12}, {0, 0, 0}, 0.5F));
+    golden.shoot("ghosts", scene, eye_at({0, 0.8F, 12}, {0, 0, 0}, 0.5F));
 }
 
 TEST_CASE("Golden: outlines visible through occluders, and a cut-away cone") {
-    Stage stage;
+    GoldenStudio golden;
     const assets::Model ball = globe(metal({0.56F, 0.57F, 0.58F}, 0.3F)),
                         block = cube(paint({0.15F, 0.35F, 0.4F}));
-    const GpuModel gpu_ball = stage.studio.upload(ball), gpu_block = stage.studio.upload(block);
-    Scene scene = stage.scene();
+    const GpuModel gpu_ball = golden.studio.upload(ball), gpu_block = golden.studio.upload(block);
+    Scene scene = golden.scene();
     for (const float x : {-2.0F, 2.0F}) {
         add_model(scene, ball, gpu_ball, at({x, 0, -1.5F}));
         add_model(scene, block, gpu_block, at({x, -0.6F, 1.0F}, {1.2F, 0.9F, 0.4F}));
@@ -74,5 +74,5 @@ TEST_CASE("Golden: outlines visible through occluders, and a cut-away cone") {
     scene.objects[3].cut = true;
     scene.cut_away = {{2.0F, -0.2F, -0.5F}, 0.45F, 1.0F};
     scene.lights.push_back(lamp({-0.4F, -0.8F, -0.6F}, 1.5F));
-    stage.shoot("marks", scene, eye_at({0, 1.2F, 11}, {0, -0.2F, 0}, 0.5F));
+    golden.shoot("marks", scene, eye_at({0, 1.2F, 11}, {0, -0.2F, 0}, 0.5F));
 }

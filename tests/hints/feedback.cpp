@@ -86,9 +86,9 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and a piece of adv
         {"B1 was turned by 55° from the snug torque; at most 40° are allowed.", "advice.angle_high",
          [](Outcome& r) { r.done(0, 70.0, 55.0); }},
         {"The bolt of B1 broke.", "advice.broken",
-         [](Outcome& r) { r.state.joints[0].condition = joint::Condition::broken; }},
+         [](Outcome& r) { r.state.joints[0].condition = joint::JointCondition::broken; }},
         {"The thread of B1 was stripped.", "advice.stripped",
-         [](Outcome& r) { r.state.joints[0].condition = joint::Condition::stripped; }},
+         [](Outcome& r) { r.state.joints[0].condition = joint::JointCondition::stripped; }},
         {"B1 is off its seat again and holds nothing.", "advice.off_seat",
          [](Outcome& r) { r.state.joints[0].stage = joint::Stage::navigation; }},
         {"A joint was worked on out of turn once.", "advice.out_of_turn",
@@ -169,8 +169,8 @@ TEST_CASE("Feedback: enumeration values have distinct names in every language") 
                 text_key(Verdict::high)});
         differ({text_key(joint::Stage::navigation), text_key(joint::Stage::transition),
                 text_key(joint::Stage::linearity), text_key(joint::Stage::yield)});
-        differ({text_key(joint::Condition::sound), text_key(joint::Condition::stripped),
-                text_key(joint::Condition::broken)});
+        differ({text_key(joint::JointCondition::sound), text_key(joint::JointCondition::stripped),
+                text_key(joint::JointCondition::broken)});
         for (std::size_t a = 0; a < force::fault_kinds; ++a)
             for (std::size_t b = 0; b < a; ++b)
                 CHECK(words[text_key(static_cast<force::Fault>(a))] !=

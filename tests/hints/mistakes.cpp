@@ -70,13 +70,13 @@ TEST_CASE("Mistakes: each mistake has its complete text and remedy in every lang
         {MistakeKind::stripped, "The thread of A is stripped.",
          [](Bench& b) {
              b.turn(0, 30.0);
-             b.state.joints[0].condition = joint::Condition::stripped;
+             b.state.joints[0].condition = joint::JointCondition::stripped;
              b.tick(0, servo::Grip::wrench, 1.0);
          }},
         {MistakeKind::broken, "The bolt of A is broken.",
          [](Bench& b) {
              b.turn(0, 30.0);
-             b.state.joints[0].condition = joint::Condition::broken;
+             b.state.joints[0].condition = joint::JointCondition::broken;
              b.tick(0, servo::Grip::wrench, 1.0);
          }},
     };
@@ -111,7 +111,7 @@ TEST_CASE("Mistakes: a graver mistake replaces a lesser one after its minimum du
     w.b.seat_both();
     w.b.turn(0, 80.0);
     CHECK(w.after(0.2) == MistakeKind::over_torque);
-    w.b.state.joints[0].condition = joint::Condition::broken;
+    w.b.state.joints[0].condition = joint::JointCondition::broken;
     w.b.tick(0, servo::Grip::wrench, 1.0);
     CHECK(w.after(0.2) == MistakeKind::over_torque);
     CHECK(w.after(min_mistake_duration) == MistakeKind::broken);

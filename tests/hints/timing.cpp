@@ -35,7 +35,7 @@ TEST_CASE("Hints: guided: the level rises with the time without progress") {
         if (hint.level > level) reached.push_back(time);
         level = hint.level;
         CHECK(hint.outlined() == (level >= 1 ? 0 : -1));
-        CHECK((hint.arrow() != HandMotion::none) == (level >= 1));
+        CHECK((hint.arrow() != HintMotion::none) == (level >= 1));
         CHECK((hint.ghost() != GhostKind::none) == (level >= 2));
     }
     CHECK(level == 3);

@@ -172,7 +172,7 @@ TEST_CASE("Derive: stripping lasts over three quarters of the nut's height") {
     for (int i = 0; i < 100'000; ++i) {
         turn_nut(group, joints, 0, joints[0].nut.angle + 1e-3, 1.0, 1e-3);
         highest = std::max(highest, joints[0].clamp);
-        if (joints[0].condition != Condition::stripped) continue;
+        if (joints[0].condition != JointCondition::stripped) continue;
         if (sheared_at == 0.0) sheared_at = joints[0].nut.angle;
         if (joints[0].clamp < 0.01 * highest) break;
         const double gone = joints[0].mechanistic.stripped / (0.75 * design.thread.size.nut_height);

@@ -245,16 +245,16 @@ TEST_CASE(
         const GroupParameters group = test::single(design);
         std::vector<JointState> joints = initial_state(group, 1);
         double highest = 0.0;
-        for (int i = 0; i < 60'000 && joints[0].condition != Condition::broken; ++i) {
+        for (int i = 0; i < 60'000 && joints[0].condition != JointCondition::broken; ++i) {
             turn_nut(group, joints, 0, joints[0].nut.angle + 1e-3, 1.0, 1e-3);
             highest = std::max(highest, joints[0].clamp);
             REQUIRE(joints[0].clamp >= 0.0);
         }
-        CHECK(joints[0].condition == (weak_nut ? Condition::stripped : Condition::broken));
+        CHECK(joints[0].condition == (weak_nut ? JointCondition::stripped : JointCondition::broken));
         if (weak_nut) CHECK(highest == doctest::Approx(300e6 * group.joints[0].thread.A_s).epsilon(0.01));
         CHECK(joints[0].clamp < 0.02 * highest);
         turn_nut(group, joints, 0, 0.0, -1.0, 1e-3);
-        CHECK(joints[0].condition != Condition::sound);
+        CHECK(joints[0].condition != JointCondition::sound);
     }
 }
 

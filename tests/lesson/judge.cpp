@@ -89,7 +89,8 @@ TEST_CASE("Judge: a joint off its seat, broken or stripped is not OK, whatever i
     Bench bench;
     bench.state.joints[0].stage = joint::Stage::navigation;
     CHECK(bench.joint().overall == Verdict::low);
-    for (const joint::Condition condition : {joint::Condition::broken, joint::Condition::stripped}) {
+    for (const joint::JointCondition condition :
+         {joint::JointCondition::broken, joint::JointCondition::stripped}) {
         Bench damaged;
         damaged.state.joints[1].condition = condition;
         CHECK(damaged.joint(1).overall == Verdict::high);
@@ -117,7 +118,7 @@ TEST_CASE("Judge: every deduction has a reason, and the score is at least 0") {
     CHECK(one.result().reasons[0].text.find("B1") != std::string::npos);
 
     Bench broken;
-    broken.state.joints[2].condition = joint::Condition::broken;
+    broken.state.joints[2].condition = joint::JointCondition::broken;
     CHECK(broken.result().score == doctest::Approx(62.5));  // one and a half
 
     Bench untidy;
@@ -127,7 +128,7 @@ TEST_CASE("Judge: every deduction has a reason, and the score is at least 0") {
     CHECK(untidy.result().reasons.size() == 2);
 
     Bench all;
-    for (std::size_t i = 0; i < 4; ++i) all.state.joints[i].condition = joint::Condition::broken;
+    for (std::size_t i = 0; i < 4; ++i) all.state.joints[i].condition = joint::JointCondition::broken;
     CHECK(all.result().score == 0.0);
 
     Bench left;

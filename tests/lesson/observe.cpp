@@ -266,7 +266,7 @@ TEST_CASE("Lesson: a broken bolt keeps its torque and is reported, and the lesso
     Script s;
     s.seat_both();
     for (int i = 0; i <= 100; ++i) s.tick(0, servo::Grip::wrench, 1.2 * i, 1.0);
-    s.state.joints[0].condition = joint::Condition::broken;
+    s.state.joints[0].condition = joint::JointCondition::broken;
     s.tick(0, servo::Grip::wrench, 0.0);
     CHECK(s.lesson.current == 2);  // not before the release
     s.idle();

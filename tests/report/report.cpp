@@ -55,7 +55,7 @@ TEST_CASE("Report: shows the figures of the results") {
         CHECK(has(cells, ">" + number(to_degrees(r.angle), 1) + "°<"));
         CHECK(has(cells, ">" + number(1e-3 * r.clamp, 1) + " <"));
         CHECK(has(cells, ">" + std::to_string(r.strokes) + "<"));
-        if (r.condition == joint::Condition::sound) {
+        if (r.condition == joint::JointCondition::sound) {
             CHECK(has(cells, std::string(name(r.overall))));
         } else {
             CHECK(has(cells, "✕ stripped"));

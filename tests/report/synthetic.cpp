@@ -186,7 +186,7 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
     if (options.slips) {
         data.joints[7].done_already = 1;
         data.joints[data.assembly.passes[2].order[6]].out_of_turn = 1;
-        data.joints[11].condition = joint::Condition::stripped;
+        data.joints[11].condition = joint::JointCondition::stripped;
         data.joints[11].overall = lesson::Verdict::high;
         data.reasons = {{100.0, "twelve joints to do"},
                         {-8.0, "J05: torque 12 % above the target"},

@@ -39,7 +39,7 @@ TEST_CASE("Disk full: from any file operation on it is an error, and the committ
         bool made = false;
         Status done;
         {
-            const FaultyDisk disk(Fault::full, at);
+            const FaultyDisk disk(DiskFault::full, at);
             auto writer = create_script(path);
             made = writer.has_value();
             if (!made) {

@@ -11,7 +11,7 @@ namespace bolt::session::test {
 namespace {
 
 struct Faults {
-    Fault fault = Fault::none;
+    DiskFault fault = DiskFault::none;
     int at = 0;
     int done = 0;
     bool installed = false;
@@ -35,7 +35,7 @@ bool is_due() { return ++faults.done > faults.at; }
 
 // For operations that need no space on the disk.
 void count_or_die() {
-    if (is_due() && faults.fault == Fault::kill) die();
+    if (is_due() && faults.fault == DiskFault::kill) die();
 }
 
 int close(sqlite3_file* file) { return real_of(file)->pMethods->xClose(real_of(file)); }
@@ -44,8 +44,8 @@ int read(sqlite3_file* file, void* to, int size, sqlite3_int64 at) {
 }
 int write(sqlite3_file* file, const void* from, int size, sqlite3_int64 at) {
     sqlite3_file* const real = real_of(file);
-    if (is_due() && faults.fault == Fault::full) return SQLITE_FULL;
-    if (faults.done > faults.at && faults.fault == Fault::kill) {
+    if (is_due() && faults.fault == DiskFault::full) return SQLITE_FULL;
+    if (faults.done > faults.at && faults.fault == DiskFault::kill) {
         real->pMethods->xWrite(real, from, size / 2, at);
         die();
     }
@@ -107,7 +107,7 @@ sqlite3_vfs faulty_disk;
 
 }  // namespace
 
-FaultyDisk::FaultyDisk(Fault fault, int at_operation) {
+FaultyDisk::FaultyDisk(DiskFault fault, int at_operation) {
     if (faults.installed) std::abort();
     faults = {fault, at_operation, 0, true};
     real_disk = sqlite3_vfs_find(nullptr);

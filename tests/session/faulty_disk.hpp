@@ -6,11 +6,11 @@
 
 namespace bolt::session::test {
 
-enum class Fault { none, full, kill };
+enum class DiskFault { none, full, kill };
 
 class FaultyDisk {
   public:
-    FaultyDisk(Fault fault, int at_operation);
+    FaultyDisk(DiskFault fault, int at_operation);
     FaultyDisk(const FaultyDisk&) = delete;
     FaultyDisk& operator=(const FaultyDisk&) = delete;
     ~FaultyDisk();

@@ -69,7 +69,7 @@ TEST_CASE("Killed process: after a kill at any file operation the session opens"
         const auto path = folder / "a.session";
         script_session(path, old_ticks);
         const ChildEnd end = run_child([&](const auto& report) {
-            const FaultyDisk disk(Fault::kill, at);
+            const FaultyDisk disk(DiskFault::kill, at);
             return record_script(path, report);
         });
         if (!end.killed) {
@@ -96,7 +96,7 @@ TEST_CASE("Killed process: a kill during the replacement of a cut-short session 
         const auto path = folder / "a.session";
         leave_cut_short(path, at % 2 == 0);
         const ChildEnd end = run_child([&](const auto&) {
-            const FaultyDisk disk(Fault::kill, at);
+            const FaultyDisk disk(DiskFault::kill, at);
             return create_script(path) ? 0 : 1;
         });
         if (!end.killed) {

@@ -154,7 +154,7 @@ lesson::LessonResult sample_result() {
         joint.torque_verdict = static_cast<lesson::Verdict>(i % 4);
         joint.angle_verdict = static_cast<lesson::Verdict>((i + 1) % 4);
         joint.overall = static_cast<lesson::Verdict>((i + 2) % 4);
-        joint.condition = static_cast<joint::Condition>(i % 3);
+        joint.condition = static_cast<joint::JointCondition>(i % 3);
         joint.strokes = i;
         joint.done_already = i % 2;
         joint.out_of_turn = 2147483647 - i;

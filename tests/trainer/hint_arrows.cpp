@@ -9,7 +9,7 @@
 
 using namespace bolt;
 using namespace bolt::trainer;
-using lesson::HandMotion;
+using lesson::HintMotion;
 
 namespace {
 
@@ -41,7 +41,7 @@ TEST_CASE(
         MotionGeometry place{nut, nut.seat, {}, {}, 0.3, false};
         place.tool.position = nut.seat;
         place.tool.orientation = glm::normalize(glm::quat_cast(glm::dmat3(nut.e2, -nut.e1, nut.axis)));
-        const auto turned = [&](HandMotion motion, bool loosens) {
+        const auto turned = [&](HintMotion motion, bool loosens) {
             place.loosens = loosens;
             const auto arrow = arrow_of(motion, place);
             REQUIRE(arrow);
@@ -56,14 +56,14 @@ TEST_CASE(
             CHECK(std::abs(area) == doctest::Approx(r * r * std::sin(scene::arrow_sweep)));
             return area;
         };
-        CHECK(turned(HandMotion::pull_on, false) < 0.0);
-        CHECK(turned(HandMotion::spin, false) < 0.0);
-        CHECK(turned(HandMotion::pull_off, true) > 0.0);
-        CHECK(turned(HandMotion::twist_back, false) > 0.0);
-        CHECK(turned(HandMotion::set_back, false) > 0.0);
-        CHECK(turned(HandMotion::set_back, true) < 0.0);
+        CHECK(turned(HintMotion::pull_on, false) < 0.0);
+        CHECK(turned(HintMotion::spin, false) < 0.0);
+        CHECK(turned(HintMotion::pull_off, true) > 0.0);
+        CHECK(turned(HintMotion::twist_back, false) > 0.0);
+        CHECK(turned(HintMotion::set_back, false) > 0.0);
+        CHECK(turned(HintMotion::set_back, true) < 0.0);
         // The arrow begins at the handle.
-        const auto pull = arrow_of(HandMotion::pull_on, place);
+        const auto pull = arrow_of(HintMotion::pull_on, place);
         const Vec3 tail = at(*pull, on_arc(0.0)) - nut.seat;
         CHECK(glm::dot(tail, nut.e2) == doctest::Approx(0.45 * 0.3));
         CHECK(glm::dot(tail, nut.e1) == doctest::Approx(0.0).epsilon(1e-9));
@@ -74,19 +74,19 @@ TEST_CASE("Hint arrows: a straight arrow points to the nut or away from it and s
     Random random(8, 1);
     const servo::NutGeometry nut = some_nut(random);
     const MotionGeometry place{nut, nut.seat, {}, {{1.0, 2.0, 3.0}, {}}, 0.3, false};
-    for (const HandMotion motion : {HandMotion::approach, HandMotion::reach, HandMotion::set_on,
-                                    HandMotion::grip_nut, HandMotion::lift, HandMotion::let_go}) {
+    for (const HintMotion motion : {HintMotion::approach, HintMotion::reach, HintMotion::set_on,
+                                    HintMotion::grip_nut, HintMotion::lift, HintMotion::let_go}) {
         const auto arrow = arrow_of(motion, place);
         REQUIRE(arrow);
         const double tail = glm::dot(at(*arrow, Vec3(0.0)) - nut.seat, nut.axis),
                      tip = glm::dot(at(*arrow, Vec3(0, 0, 1)) - nut.seat, nut.axis);
-        const bool away = motion == HandMotion::lift || motion == HandMotion::let_go;
+        const bool away = motion == HintMotion::lift || motion == HintMotion::let_go;
         CHECK((tip > tail) == away);
         CHECK(std::min(tip, tail) > 0.03);
         CHECK((arrow->color == backward_color) == away);
     }
-    CHECK_FALSE(arrow_of(HandMotion::none, place));
-    const auto take = arrow_of(HandMotion::take, place);
+    CHECK_FALSE(arrow_of(HintMotion::none, place));
+    const auto take = arrow_of(HintMotion::take, place);
     CHECK(at(*take, Vec3(0, 0, 1)).x == doctest::Approx(1.15));  // the middle of the handle
 }
 

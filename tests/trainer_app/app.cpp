@@ -270,7 +270,7 @@ TEST_CASE("Trainer: a press counts at its position even if the pointer moves on 
     driver.move(away);
     for (int i = 0; i < 40 && p.mouse.action != HandAction::resting; ++i) driver.frame();
     REQUIRE_FALSE(p.pointer.nut);
-    const auto there = project(driver.screen(), servo::nut_centre(p.session->setup().nuts[other], 0.0));
+    const auto there = project(driver.projection(), servo::nut_centre(p.session->setup().nuts[other], 0.0));
     REQUIRE(there);
     driver.frame({platform::CursorEvent{*there}, platform::ButtonEvent{platform::Button::left, true, *there},
                   platform::CursorEvent{away}});

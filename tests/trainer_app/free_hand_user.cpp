@@ -39,7 +39,7 @@ void FreeHandUser::hold(bool left, const std::optional<Vec3>& at) {
     left_ = left;
     presses += left ? 1 : 0;
     if (left) {
-        pointer_ = at ? project(driver_.screen(), *at).value_or(nowhere) : nowhere;
+        pointer_ = at ? project(driver_.projection(), *at).value_or(nowhere) : nowhere;
         driver_.move(pointer_);
     }
     driver_.frame({platform::ButtonEvent{platform::Button::left, left, pointer_}});
@@ -55,9 +55,9 @@ void FreeHandUser::frame(const glm::dvec2& px, double notches) {
 }
 
 void FreeHandUser::drag_by(const Vec3& at, const Vec3& error) {
-    const Screen screen = driver_.screen();
-    const auto from = project(screen, at), to = project(screen, at + error);
-    const Vec3 view = glm::normalize(at - Vec3(screen.eye.position));
+    const Projection projection = driver_.projection();
+    const auto from = project(projection, at), to = project(projection, at + error);
+    const Vec3 view = glm::normalize(at - Vec3(projection.eye.position));
     const glm::dvec2 px = from && to ? gain * (*to - *from) : glm::dvec2(0.0);
     frame(px, gain * glm::dot(error, view) / notch);
 }
@@ -142,9 +142,9 @@ void FreeHandUser::tighten() {
             return;
         }
         const double share = std::clamp(1.0 - torque / due()->torque, 0.1, 1.0);
-        const Screen screen = driver_.screen();
+        const Projection projection = driver_.projection();
         const glm::dvec2 lever =
-            lever_on_screen(screen, tool_of(lesson()).pose, axis(), setup.wrench.handle_length);
+            lever_on_screen(projection, tool_of(lesson()).pose, axis(), setup.wrench.handle_length);
         swung += pull_step * share;
         frame(lever * (pull_step * share));
     }

@@ -88,8 +88,8 @@ void HeadlessTrainer::release(const glm::dvec2& at) {
 glm::dvec2 HeadlessTrainer::hold(std::size_t joint) {
     const auto on = [&] { return lesson().session->state().engagement.joint == static_cast<int>(joint); };
     const session::LessonSession& session = *lesson().session;
-    const auto at = project(
-        screen(), servo::nut_centre(session.setup().nuts[joint], session.state().joints[joint].nut.angle));
+    const auto at = project(projection(), servo::nut_centre(session.setup().nuts[joint],
+                                                            session.state().joints[joint].nut.angle));
     REQUIRE(at);
     move(*at);
     REQUIRE(lesson().pointer.nut == joint);

@@ -35,9 +35,9 @@ void wait_for_pictures(HeadlessTrainer& driver) {
     driver.frame();
 }
 
-const ButtonPlace* find_button(const HeadlessTrainer& driver, words::TextKey label,
+const DrawnWidget* find_button(const HeadlessTrainer& driver, words::TextKey label,
                                const std::string& assembly = {}) {
-    for (const ButtonPlace& place : driver.app().buttons())
+    for (const DrawnWidget& place : driver.app().drawn_widgets())
         if (place.label == label && place.assembly == assembly) return &place;
     return nullptr;
 }
@@ -45,7 +45,7 @@ const ButtonPlace* find_button(const HeadlessTrainer& driver, words::TextKey lab
 void press_card(HeadlessTrainer& driver, const std::string& assembly) {
     driver.frame();
     driver.frame();
-    const ButtonPlace* card = find_button(driver, "menu.assemblies", assembly);
+    const DrawnWidget* card = find_button(driver, "menu.assemblies", assembly);
     REQUIRE(card != nullptr);
     const glm::dvec2 at(card->middle);
     driver.press(at);
@@ -94,7 +94,7 @@ TEST_CASE("Menu: each assembly has a card with its picture, and the chosen one i
     const render::Picture shown = driver.picture();
     for (const char* name : {"zq350", "cover-m8", "dn200-pn16"}) {
         CAPTURE(name);
-        const ButtonPlace* card = find_button(driver, "menu.assemblies", name);
+        const DrawnWidget* card = find_button(driver, "menu.assemblies", name);
         REQUIRE(card != nullptr);
         const glm::vec2 middle = card->middle - glm::vec2(0.0F, 10.0F);  // of the thumbnail
         CHECK(difference_from_first_texel(bare, middle, 15) < 1.0);
@@ -213,7 +213,7 @@ TEST_CASE(
     for (const words::TextKey key : {words::TextKey("menu.start"), words::TextKey("menu.tour"),
                                      words::TextKey("menu.settings"), words::TextKey("menu.quit")}) {
         CAPTURE(key.row().name);
-        const ButtonPlace* button = find_button(driver, key);
+        const DrawnWidget* button = find_button(driver, key);
         REQUIRE(button != nullptr);
         CHECK(button->middle.y > 0.0F);
         CHECK(button->middle.y < static_cast<float>(driver.size().y));
@@ -281,7 +281,7 @@ TEST_CASE(
                   words::TextKey("menu.files"), words::TextKey("menu.quit"),
                   words::TextKey("mode.practice")}) {
                 CAPTURE(label.row().name);
-                const ButtonPlace* button = find_button(driver, label);
+                const DrawnWidget* button = find_button(driver, label);
                 REQUIRE(button != nullptr);
                 CHECK(button->middle.x - 0.5F * button->width >= 0.0F);
                 CHECK(button->middle.x + 0.5F * button->width <= static_cast<float>(screen.size.width));
@@ -321,9 +321,9 @@ TEST_CASE("Menu: an assembly of the user is listed; one with mistakes says why a
 TEST_CASE("Menu: the page about this computer shows what is found at once, and the timing afterwards") {
     int calls = 0;
     AppOptions o = options("cover-m8", true);
-    o.find_out = [&](const computer::FactsRequest& request) {
+    o.gather_facts = [&](const computer::FactsRequest& request) {
         ++calls;
-        computer::Facts facts;
+        computer::ComputerFacts facts;
         facts.gpu = request.gpu;
         facts.sound = "a sound card";
         facts.sessions = request.sessions;
@@ -368,7 +368,7 @@ TEST_CASE("Tour: it is offered at the first start, and each control is ticked of
         return driver.app().tour()->done.at(static_cast<std::size_t>(step));
     };
     CHECK(driver.lesson().session->assembly().name == tour_assembly);
-    CHECK(driver.app().tour()->current() == 0);
+    CHECK(driver.app().tour()->due_step() == 0);
 
     const glm::dvec2 empty(300.0, 20.0);
     driver.move(empty);
@@ -383,7 +383,7 @@ TEST_CASE("Tour: it is offered at the first start, and each control is ticked of
     CHECK(done(TourStep::zoom));
     driver.key(Key::v);
     CHECK(done(TourStep::find));
-    CHECK(driver.app().tour()->current() == static_cast<std::size_t>(TourStep::run_down));
+    CHECK(driver.app().tour()->due_step() == static_cast<std::size_t>(TourStep::run_down));
     driver.key(Key::h);
     CHECK(done(TourStep::help));
     driver.key(Key::escape);
@@ -399,7 +399,7 @@ TEST_CASE("Tour: it is offered at the first start, and each control is ticked of
     REQUIRE(driver.app().screen() == ShownScreen::result);
     CHECK(driver.outcome()->result.finished);
     CHECK(driver.outcome()->result.duration < 60.0);
-    CHECK(driver.app().tour()->current() == tour_step_count);
+    CHECK(driver.app().tour()->due_step() == tour_step_count);
     driver.press_button("menu.menu");
     driver.frame();
     CHECK(driver.app().screen() == ShownScreen::menu);

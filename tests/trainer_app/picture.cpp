@@ -150,9 +150,10 @@ TEST_CASE("Labels: the name of the due joint covers no other nut from any viewpo
         const std::size_t due = p.session->lesson().due()->joint;
         const glm::vec2 picture(320.0F, 180.0F);
         for (const render::Label& label : p.scene.labels) {
-            const view::LabelBox box = view::box_of(*fonts, label, driver.screen().eye, picture);
+            const view::LabelBox box = view::box_of(*fonts, label, driver.projection().eye, picture);
             for (std::size_t i = 0; box.visible && i < p.session->setup().nuts.size(); ++i) {
-                const auto nut = project(driver.screen(), servo::nut_centre(p.session->setup().nuts[i], 0.0));
+                const auto nut =
+                    project(driver.projection(), servo::nut_centre(p.session->setup().nuts[i], 0.0));
                 if (i == due || !nut) continue;
                 const glm::vec2 at(*nut);
                 ++named;

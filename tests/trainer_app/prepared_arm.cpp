@@ -72,9 +72,9 @@ platform::InputEvent press_of(platform::ControllerButton button) {
 }
 
 bool shows(const HeadlessTrainer& driver, words::TextKey label) {
-    const auto buttons = driver.app().buttons();
+    const auto buttons = driver.app().drawn_widgets();
     return std::any_of(buttons.begin(), buttons.end(),
-                       [&](const ButtonPlace& button) { return button.label == label; });
+                       [&](const DrawnWidget& button) { return button.label == label; });
 }
 
 // Records frames until the condition holds.

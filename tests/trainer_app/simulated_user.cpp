@@ -64,7 +64,7 @@ std::optional<glm::dvec2> SimulatedUser::nut_on_screen() {
     const servo::Setup& setup = lesson().session->setup();
     const std::size_t joint = due()->joint;
     const auto at =
-        project(driver_.screen(),
+        project(driver_.projection(),
                 servo::nut_centre(setup.nuts[joint], lesson().session->state().joints[joint].nut.angle));
     if (!at || at->x < edge || at->y < edge || at->x > driver_.size().x - edge ||
         at->y > driver_.size().y - edge)
@@ -96,8 +96,8 @@ bool SimulatedUser::pull(std::size_t joint, glm::dvec2& pointer) {
     const double until = torque_share * step_due.torque;
     if (lesson::requires_yield(session.lesson(), step_due) ? yields : torque >= until) return true;
     if (hand_of(lesson()).room < spent * lesson().mouse.room) return true;
-    const glm::dvec2 lever = lever_on_screen(driver_.screen(), tool_of(lesson()).pose, setup.nuts[joint].axis,
-                                             setup.wrench.handle_length);
+    const glm::dvec2 lever = lever_on_screen(driver_.projection(), tool_of(lesson()).pose,
+                                             setup.nuts[joint].axis, setup.wrench.handle_length);
     const double share = std::max(slowest_share, 1.0 - torque / until);
     pointer += lever * (fastest_drag * share * (now() - since));
     driver_.move(pointer);

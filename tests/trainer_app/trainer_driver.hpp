@@ -25,7 +25,7 @@ class TrainerDriver {
     // none.
     void press_button(words::TextKey label, float off = 0.0F);
     [[nodiscard]] const trainer::ActiveLesson& lesson() const { return *app().lesson(); }
-    [[nodiscard]] trainer::Screen screen() const { return trainer::screen_of(lesson(), size()); }
+    [[nodiscard]] trainer::Projection projection() const { return trainer::projection_of(lesson(), size()); }
 
   protected:
     TrainerDriver() = default;

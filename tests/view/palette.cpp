@@ -73,6 +73,6 @@ TEST_CASE("Palette: each verdict has its own symbol") {
     CHECK(color_of({}, Verdict::none).w == 0.0F);
     lesson::JointResult broken;
     broken.overall = Verdict::ok;
-    broken.condition = joint::Condition::broken;
+    broken.condition = joint::JointCondition::broken;
     CHECK(verdict_of(broken) == Verdict::high);
 }

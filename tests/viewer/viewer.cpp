@@ -111,7 +111,7 @@ TEST_CASE("Recording: its states are those of the replay, to the bit") {
 TEST_CASE("Recording: a chapter for each step that began, in order, and neighbours of any time") {
     const std::unique_ptr<Recording> recording = need(replay_session(recorded()));
     std::vector<double> chapters;
-    for (const Mark& mark : recording->marks)
+    for (const TimelineMark& mark : recording->marks)
         if (!mark.mistake) chapters.push_back(mark.time);
     std::size_t begun = 0;
     for (const lesson::LessonEvent& event : need(recorded().events()))
@@ -131,7 +131,7 @@ TEST_CASE("Recording: each mistake is explained in the language of the viewer") 
     const words::LoadedWords german = words::load_words(words::words_folder(), "de");
     REQUIRE(german.ok());
     std::size_t mistakes = 0;
-    for (const Mark& mark : recording->marks) {
+    for (const TimelineMark& mark : recording->marks) {
         if (!mark.mistake) continue;
         ++mistakes;
         REQUIRE_MESSAGE(mark.explanation, mark.event.text);

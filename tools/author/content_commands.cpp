@@ -246,14 +246,14 @@ std::vector<std::string> models_of(const content::Assembly& assembly) {
     return files;
 }
 
-struct ValidationResult {
+struct AssemblyReport {
     std::vector<Error> errors;
     std::string remarks;  // notes that are not errors, one line each
 };
 
 // Checks an assembly that has loaded without errors.
-ValidationResult validate(const content::Assembly& assembly) {
-    ValidationResult result;
+AssemblyReport validate(const content::Assembly& assembly) {
+    AssemblyReport result;
     geometry::Findings findings = geometry::check_geometry(assembly);
     result.errors = std::move(findings.errors);
     for (const Error& note : findings.notes) result.remarks += fmt::format("note: {}\n", note.message());
@@ -285,7 +285,7 @@ int run_validate(const std::vector<std::string>& assemblies, const std::string& 
             worst = std::max(worst, print_error(loaded.errors));
             continue;
         }
-        const ValidationResult result = validate(loaded.assembly);
+        const AssemblyReport result = validate(loaded.assembly);
         std::string text = result.remarks;
         if (result.errors.empty())
             text += fmt::format("{}: {} joints, {} passes, variant {}: no mistakes\n", loaded.assembly.file,

@@ -83,7 +83,7 @@ void yielding_tick(benchmark::State& state) {
     double angle = 0.0;
     for (auto _ : state) {
         angle += 2e-4;
-        if (joints[0].condition != Condition::sound) {
+        if (joints[0].condition != JointCondition::sound) {
             state.PauseTiming();
             joints = initial_state(group, 1);
             angle = 0.9;

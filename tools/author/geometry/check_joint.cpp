@@ -331,21 +331,22 @@ constexpr double clearance = 0.2 * mm;             // between the wrench and the
 
 // The swing of a wrench as it is and turned over.
 struct SwingPair {
-    Swing plain, turned_over;
+    FreeSwing plain, turned_over;
 
-    [[nodiscard]] double width(const Swing& swing) const {
+    [[nodiscard]] double width(const FreeSwing& swing) const {
         const Arc* arc = swing.widest();
         return arc != nullptr ? arc->width() : 0.0;
     }
     [[nodiscard]] double most() const { return std::max(width(plain), width(turned_over)); }
     [[nodiscard]] double least() const { return std::min(width(plain), width(turned_over)); }
-    [[nodiscard]] const Swing& wider() const {
+    [[nodiscard]] const FreeSwing& wider() const {
         return width(turned_over) > width(plain) ? turned_over : plain;
     }
 };
 
 // Appends the jaw angles of every free arc. Ignores arcs that are too narrow to bring a wrench into.
-void add_jaw_angles(const Swing& swing, double head_angle, std::vector<std::pair<double, double>>& angles) {
+void add_jaw_angles(const FreeSwing& swing, double head_angle,
+                    std::vector<std::pair<double, double>>& angles) {
     for (const Arc& arc : swing.arcs)
         if (arc.width() > min_arc) angles.emplace_back(arc.from + head_angle, arc.to + head_angle);
 }
@@ -365,7 +366,7 @@ std::string name_of(const FlattenedModel& scene, std::uint32_t part) {
     return part < scene.parts.size() ? content::in_quotes(scene.parts[part].name) : "no part";
 }
 
-std::string describe_limits(const FlattenedModel& scene, const Swing& swing) {
+std::string describe_limits(const FlattenedModel& scene, const FreeSwing& swing) {
     const Arc* arc = swing.widest();
     if (arc == nullptr) return fmt::format("{} is in its way", name_of(scene, swing.blocking));
     if (arc->before == arc->after) return fmt::format("{} is on both sides", name_of(scene, arc->before));
@@ -419,10 +420,10 @@ void check_wrench(const content::AssemblyJoint& joint, std::size_t index, const 
                     fmt::format(" where it starts, {:.3g} mm above its seat", joint.design.start_gap / mm),
                     scene, messages);
     if (swings.most() <= 0.0) return;  // already reported
-    Approach approach{seated, wrench.head_angle, wrench.head_size, wrench.reach};
-    std::uint32_t blocked = find_obstruction(around, plain, swings.plain, approach);
-    approach.jaw_angle = -wrench.head_angle;
-    if (blocked != no_part) blocked = find_obstruction(around, over, swings.turned_over, approach);
+    ExitPaths paths{seated, wrench.head_angle, wrench.head_size, wrench.reach};
+    std::uint32_t blocked = find_obstruction(around, plain, swings.plain, paths);
+    paths.jaw_angle = -wrench.head_angle;
+    if (blocked != no_part) blocked = find_obstruction(around, over, swings.turned_over, paths);
     if (blocked != no_part)
         messages.error(joint_pointer(index),
                        fmt::format("{} cannot be brought onto the nut, neither along the bolt nor from "

@@ -196,13 +196,13 @@ double find_edge(const SwingProbe& probe, double free, double blocked, std::uint
 
 }  // namespace
 
-const Arc* Swing::widest() const {
+const Arc* FreeSwing::widest() const {
     const auto it = std::max_element(arcs.begin(), arcs.end(),
                                      [](const Arc& a, const Arc& b) { return a.width() < b.width(); });
     return it == arcs.end() ? nullptr : &*it;
 }
 
-Swing find_free_swing(const Bvh& surroundings, const Bvh& wrench, double height) {
+FreeSwing find_free_swing(const Bvh& surroundings, const Bvh& wrench, double height) {
     const SwingProbe probe{surroundings, wrench, height};
     const int samples = sample_count(wrench);
     const double step = 2.0 * pi / samples;
@@ -212,7 +212,7 @@ Swing find_free_swing(const Bvh& surroundings, const Bvh& wrench, double height)
         hits.push_back(probe(i * step));
         if (hits.back() != no_part) ++counts[hits.back()];
     }
-    Swing swing;
+    FreeSwing swing;
     if (counts.empty()) {
         swing.arcs.push_back({0.0, 2.0 * pi, no_part, no_part});
         return swing;
@@ -280,11 +280,11 @@ struct PathProbe {
 
 }  // namespace
 
-std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const Swing& swing,
-                               const Approach& approach) {
+std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const FreeSwing& swing,
+                               const ExitPaths& paths) {
     if (surroundings.nodes().empty()) return no_part;
-    const Vec3 start{0.0, approach.height, 0.0}, up{0.0, 1.0, 0.0};
-    const double lift = std::clamp(surroundings.box().high.y - approach.height, 0.0, max_lift) + 2.0 * step;
+    const Vec3 start{0.0, paths.height, 0.0}, up{0.0, 1.0, 0.0};
+    const double lift = std::clamp(surroundings.box().high.y - paths.height, 0.0, max_lift) + 2.0 * step;
     std::uint32_t hit = swing.blocking;
     for (const Arc& arc : swing.arcs) {
         const int tries = 1 + static_cast<int>(arc.width() / turn_step);
@@ -293,12 +293,12 @@ std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const
             PathProbe path{surroundings, wrench, angle};
             if (path.free(start, up, lift)) return no_part;
             // Sideways off the nut: the wrench moves towards the bottom of its jaw, along its handle.
-            const double away = angle + approach.jaw_angle, off = jaw_to_tip * approach.head_size;
+            const double away = angle + paths.jaw_angle, off = jaw_to_tip * paths.head_size;
             const Vec3 direction{std::cos(away), 0.0, -std::sin(away)};
             PathProbe sideways{surroundings, wrench, angle};
             if (sideways.free(start, direction, off) &&
                 (sideways.free(start + off * direction, up, lift) ||
-                 sideways.free(start + off * direction, direction, 2.0 * approach.reach)))
+                 sideways.free(start + off * direction, direction, 2.0 * paths.reach)))
                 return no_part;
             hit = sideways.hit;
         }

@@ -54,7 +54,7 @@ struct Arc {
 };
 
 // The free arcs of one revolution of a wrench on a nut.
-struct Swing {
+struct FreeSwing {
     std::vector<Arc> arcs;             // in the order of their angles; empty: the wrench fits at no angle
     std::uint32_t blocking = no_part;  // the part that collides at the most angles
 
@@ -62,13 +62,13 @@ struct Swing {
 };
 
 // `wrench` as from place_on_nut(), `height` m above the joint's origin.
-Swing find_free_swing(const Bvh& surroundings, const Bvh& wrench, double height);
+FreeSwing find_free_swing(const Bvh& surroundings, const Bvh& wrench, double height);
 
 // Returns true if the intervals [from, to], taken modulo `period`, cover the whole period.
 bool covers_period(std::vector<std::pair<double, double>> intervals, double period);
 
 // Geometry of the paths by which a wrench can leave the nut: up along the bolt, or sideways out of the jaw.
-struct Approach {
+struct ExitPaths {
     double height = 0.0;     // m, of the wrench on the nut above the joint's origin
     double jaw_angle = 0.0;  // rad about +Y, from the handle to the jaw
     double head_size = 0.0;  // m
@@ -77,7 +77,7 @@ struct Approach {
 
 // Returns the part that blocks the last path tried if every path from every free angle is blocked; no_part if
 // one is free.
-std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const Swing& swing,
-                               const Approach& approach);
+std::uint32_t find_obstruction(const Bvh& surroundings, const Bvh& wrench, const FreeSwing& swing,
+                               const ExitPaths& paths);
 
 }  // namespace bolt::geometry

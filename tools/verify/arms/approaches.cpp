@@ -33,7 +33,7 @@ bool is_free(servo::ToolContact& contact, const Pose& pose) {
                .count == 0;
 }
 
-struct Task {
+struct ReachTask {
     std::size_t joint = 0;
     Vec3 nut{0.0};  // m, its middle
     Vec3 axis{0.0};
@@ -41,14 +41,14 @@ struct Task {
     Pose start;
 };
 
-Task draw_task(Workplace& place, Random& random) {
-    const servo::Setup setup = session::make_setup(place.assembly, place.assembly.law, {}, 1, 1e-3);
-    servo::ToolContact& contact = *place.state.tool_contact;
-    Task task;
+ReachTask draw_reach_task(TightenedAssembly& tightened, Random& random) {
+    const servo::Setup setup = session::make_setup(tightened.assembly, tightened.assembly.law, {}, 1, 1e-3);
+    servo::ToolContact& contact = *tightened.state.tool_contact;
+    ReachTask task;
     task.joint = std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(setup.nuts.size())),
                           setup.nuts.size() - 1);
     const servo::NutGeometry& nut = setup.nuts[task.joint];
-    const double angle = place.state.joints[task.joint].nut.angle;
+    const double angle = tightened.state.joints[task.joint].nut.angle;
     const motion::GripAngle grip =
         motion::choose_grip(setup, &contact, task.joint, angle, angle, 1.0, to_radians(30.0));
     task.nut = servo::nut_centre(nut, angle);
@@ -69,7 +69,7 @@ Task draw_task(Workplace& place, Random& random) {
 
 class Reach {
   public:
-    Reach(ArmRig& rig, const Task& task)
+    Reach(ArmRig& rig, const ReachTask& task)
         : rig_(rig), task_(task), before_(rig.output().constrained_tool.position) {
         approach_.straight = glm::distance(task.nut, before_);
     }
@@ -111,7 +111,7 @@ class Reach {
     }
 
     ArmRig& rig_;
-    const Task& task_;
+    const ReachTask& task_;
     Vec3 before_;  // m, where the jaw was
     double last_touch_ = -1.0;
     Approach approach_;
@@ -119,15 +119,15 @@ class Reach {
 
 }  // namespace
 
-Approach run_approach(Workplace& place, const ArmFacts& arm, std::uint64_t seed, bool guided) {
+Approach run_approach(TightenedAssembly& tightened, const ArmFacts& arm, std::uint64_t seed, bool guided) {
     Random random(seed, 77);
-    const Task task = draw_task(place, random);
+    const ReachTask task = draw_reach_task(tightened, random);
     RigOptions options;
     options.arm = &arm;
     options.grip = hand_grips()[usual_grip];
     options.tool = task.start;
     options.guided_joint = guided ? static_cast<int>(task.joint) : -1;
-    ArmRig rig(place, options);
+    ArmRig rig(tightened, options);
     Reach reach(rig, task);
     for (int i = 0; i < attempts && !reach.reached(); ++i) {
         // Drawn in every attempt, so that the attempts of both variants have the same errors.

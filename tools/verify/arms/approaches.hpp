@@ -23,7 +23,7 @@ struct Approach {
 
 // One reach: straight from a seeded place around a seeded nut, with minimum jerk at the speed of a person,
 // and an error of aim. If the jaw does not come to the nut, the hand tries again from where it is.
-Approach run_approach(Workplace& place, const ArmFacts& arm, std::uint64_t seed, bool guided);
+Approach run_approach(TightenedAssembly& tightened, const ArmFacts& arm, std::uint64_t seed, bool guided);
 
 struct ApproachSummary {
     std::size_t count = 0, missed = 0;

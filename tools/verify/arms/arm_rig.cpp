@@ -47,34 +47,34 @@ station::Layout layout_of(const ArmFacts& facts, const Pose& tool, double handle
 
 }  // namespace
 
-Result<Workplace> load_workplace(const std::string& name) {
+Result<TightenedAssembly> load_tightened_assembly(const std::string& name) {
     content::LoadedAssembly loaded = content::load_assembly(name);
     if (!loaded.ok()) return fail(loaded.errors.front());
-    Workplace place{std::move(loaded.assembly), {}};
+    TightenedAssembly tightened{std::move(loaded.assembly), {}};
     const servo::Setup setup =
-        session::make_setup(place.assembly, place.assembly.law, {}, joint_seed, tick_length);
-    place.state = servo::initial_state(setup);
-    BOLT_TRY(session::pretighten(place.assembly, setup, place.state));
-    Result<std::optional<servo::ToolContact>> contact = session::load_tool_contact(place.assembly, setup);
+        session::make_setup(tightened.assembly, tightened.assembly.law, {}, joint_seed, tick_length);
+    tightened.state = servo::initial_state(setup);
+    BOLT_TRY(session::pretighten(tightened.assembly, setup, tightened.state));
+    Result<std::optional<servo::ToolContact>> contact = session::load_tool_contact(tightened.assembly, setup);
     if (!contact) return fail(contact.error());
     if (!contact->has_value())
         return fail(ErrorCode::bad_content, name + ": has no contact model",
                     "\"contact_model\" in assembly.json");
-    place.state.tool_contact = std::move(*contact);
-    session::seat_nuts(setup, *place.state.tool_contact);
-    return place;
+    tightened.state.tool_contact = std::move(*contact);
+    session::seat_nuts(setup, *tightened.state.tool_contact);
+    return tightened;
 }
 
-ArmRig::ArmRig(Workplace& workplace, const RigOptions& options)
-    : place(workplace), facts(*options.arm), pushes_only(options.grip.pushes_only) {
-    layout = layout_of(facts, options.tool, place.assembly.wrench.handle_length);
+ArmRig::ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options)
+    : tightened(tightened_assembly), facts(*options.arm), pushes_only(options.grip.pushes_only) {
+    layout = layout_of(facts, options.tool, tightened.assembly.wrench.handle_length);
     force::OutputLimits limits = station::limits_of(layout);
     if (!options.controller) limits.damping = limits.angular_damping = 0.0;
-    setup = session::make_setup(place.assembly, place.assembly.law, limits, joint_seed, tick_length);
+    setup = session::make_setup(tightened.assembly, tightened.assembly.law, limits, joint_seed, tick_length);
     setup.wrench.stiffness *= options.wrench_factor;
     servo = servo::initial_state(setup);
-    servo.joints = place.state.joints;
-    servo.tool_contact = std::exchange(place.state.tool_contact, std::nullopt);
+    servo.joints = tightened.state.joints;
+    servo.tool_contact = std::exchange(tightened.state.tool_contact, std::nullopt);
     reset_contact(*servo.tool_contact, setup);
     stiffen(servo.tool_contact->parameters.coupling, options.coupling_factor);
     station = station::initial_state(layout);
@@ -90,7 +90,7 @@ ArmRig::ArmRig(Workplace& workplace, const RigOptions& options)
     time = 0.0;
 }
 
-ArmRig::~ArmRig() { place.state.tool_contact = std::exchange(servo.tool_contact, std::nullopt); }
+ArmRig::~ArmRig() { tightened.state.tool_contact = std::exchange(servo.tool_contact, std::nullopt); }
 
 void ArmRig::tick() {
     Pose sensed = device::encoder_pose(arm);

@@ -13,13 +13,13 @@
 namespace bolt::arm_validation {
 
 // An assembly with its contact models and tightened joints. A rig borrows it, so one for each thread.
-struct Workplace {
+struct TightenedAssembly {
     content::Assembly assembly;
     servo::State state;  // all joints tightened
 };
 
 // Fails if the assembly is invalid or has no contact models.
-Result<Workplace> load_workplace(const std::string& assembly);
+Result<TightenedAssembly> load_tightened_assembly(const std::string& assembly);
 
 // Effects of the arm on the hand. Forces are those of the device.
 struct Record {
@@ -39,7 +39,7 @@ struct RigOptions {
 };
 
 struct ArmRig {
-    ArmRig(Workplace& place, const RigOptions& options);
+    ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options);
     ArmRig(const ArmRig&) = delete;
     ArmRig& operator=(const ArmRig&) = delete;
     ~ArmRig();  // gives the contact models back
@@ -56,7 +56,7 @@ struct ArmRig {
     // N·m/rad, or N/m at the grip, of the wrench on a nut that does not turn, as the device feels it.
     [[nodiscard]] double nut_stiffness() const;
 
-    Workplace& place;
+    TightenedAssembly& tightened;
     const ArmFacts& facts;
     bool pushes_only;
     station::Layout layout;

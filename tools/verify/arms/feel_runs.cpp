@@ -61,7 +61,7 @@ class Measurement {
         if (rig.time >= late_begin) late_.add(points);
         outcome_.touched = outcome_.touched || felt;
     }
-    Outcome finish(const ArmRig& rig) {
+    FeelOutcome finish(const ArmRig& rig) {
         outcome_.record = rig.record;
         outcome_.held = !rig.pushes_only;
         outcome_.early_swing = early_.swing;
@@ -72,7 +72,7 @@ class Measurement {
   private:
     double lever_;  // m
     SwingMeter early_, late_;
-    Outcome outcome_;
+    FeelOutcome outcome_;
 };
 
 // Share of the device's greatest force with which a hand presses; a looser grip presses less.
@@ -138,24 +138,24 @@ bool near_a_bolt(const servo::Setup& setup, const Vec3& jaw) {
 
 }  // namespace
 
-bool gives_energy(const Outcome& o) { return o.record.energy > (o.held ? 0.0 : energy_of_free_arm); }
+bool gives_energy(const FeelOutcome& o) { return o.record.energy > (o.held ? 0.0 : energy_of_free_arm); }
 
-bool trembles(const Outcome& o) {
+bool trembles(const FeelOutcome& o) {
     return o.late_swing > perceptible_swing && o.late_swing > 0.3 * o.early_swing;
 }
 
-bool is_stable(const Outcome& o) {
+bool is_stable(const FeelOutcome& o) {
     return !gives_energy(o) && o.record.greatest_energy <= energy_at_any_time && !trembles(o);
 }
 
-double step_percent(const Outcome& o, const device::Description& arm) {
+double step_percent(const FeelOutcome& o, const device::Description& arm) {
     const double force = o.record.step / arm.limits.force;
     const double torque = arm.limits.torque > 0.0 ? o.record.torque_step / arm.limits.torque : 0.0;
     return 100.0 * std::max(force, torque);
 }
 
-Outcome worse(const Outcome& a, const Outcome& b) {
-    Outcome w = trembles(b) || (!trembles(a) && b.late_swing > a.late_swing) ? b : a;
+FeelOutcome worse(const FeelOutcome& a, const FeelOutcome& b) {
+    FeelOutcome w = trembles(b) || (!trembles(a) && b.late_swing > a.late_swing) ? b : a;
     const auto most = [&](double Record::*value) {
         w.record.*value = std::max(a.record.*value, b.record.*value);
     };
@@ -167,15 +167,15 @@ Outcome worse(const Outcome& a, const Outcome& b) {
     return w;
 }
 
-std::vector<Press> find_presses(Workplace& place, std::uint64_t seed) {
-    const servo::Setup setup = session::make_setup(place.assembly, place.assembly.law, {}, 1, 1e-3);
+std::vector<Press> find_presses(TightenedAssembly& tightened, std::uint64_t seed) {
+    const servo::Setup setup = session::make_setup(tightened.assembly, tightened.assembly.law, {}, 1, 1e-3);
     std::vector<Press> presses;
     Random random(seed, 41);
-    const collision::Box& casing = place.state.tool_contact->world.shapes.front().solid.box;
+    const collision::Box& casing = tightened.state.tool_contact->world.shapes.front().solid.box;
     for (const std::string_view name : {"face", "corner", "edge", "side", "near a bolt"})
         for (int tried = 0; tried < most_tries; ++tried) {
             const Aim aim = aim_at(casing, name, random);
-            const auto way = free_way(*place.state.tool_contact, aim.pose, aim.direction);
+            const auto way = free_way(*tightened.state.tool_contact, aim.pose, aim.direction);
             if (!way ||
                 near_a_bolt(setup, aim.pose.position + *way * aim.direction) != (name == "near a bolt"))
                 continue;
@@ -186,9 +186,9 @@ std::vector<Press> find_presses(Workplace& place, std::uint64_t seed) {
     return presses;
 }
 
-Outcome run_press(Workplace& place, RigOptions options, const Press& press) {
+FeelOutcome run_press(TightenedAssembly& tightened, RigOptions options, const Press& press) {
     options.tool = press.start;
-    ArmRig rig(place, options);
+    ArmRig rig(tightened, options);
     const double stiffness = rig.arm.parameters.stiffness;
     const double strength =
         rig.pushes_only ? push : press_share(options.grip) * rig.layout.mover->limits.force;  // N
@@ -214,12 +214,12 @@ Outcome run_press(Workplace& place, RigOptions options, const Press& press) {
 namespace {
 
 // The pose of the wrench on the nut, `above` m higher than its middle.
-Pose wrench_on_nut(Workplace& place, double above) {
-    const servo::Setup setup = session::make_setup(place.assembly, place.assembly.law, {}, 1, 1e-3);
+Pose wrench_on_nut(TightenedAssembly& tightened, double above) {
+    const servo::Setup setup = session::make_setup(tightened.assembly, tightened.assembly.law, {}, 1, 1e-3);
     const servo::NutGeometry& nut = setup.nuts[pulled_joint];
-    const double angle = place.state.joints[pulled_joint].nut.angle;
-    const motion::GripAngle grip = motion::choose_grip(setup, &*place.state.tool_contact, pulled_joint, angle,
-                                                       angle, 1.0, to_radians(60.0));
+    const double angle = tightened.state.joints[pulled_joint].nut.angle;
+    const motion::GripAngle grip = motion::choose_grip(setup, &*tightened.state.tool_contact, pulled_joint,
+                                                       angle, angle, 1.0, to_radians(60.0));
     return {servo::nut_centre(nut, angle) + above * nut.axis,
             motion::tool_orientation(nut, grip.handle, grip.flipped)};
 }
@@ -246,9 +246,9 @@ double intended_angle(const ArmRig& rig, Pull pull) {
 
 }  // namespace
 
-Outcome run_pull(Workplace& place, RigOptions options, Pull pull) {
-    options.tool = wrench_on_nut(place, pull == Pull::slip_off ? 0.0095 : 0.0);
-    ArmRig rig(place, options);
+FeelOutcome run_pull(TightenedAssembly& tightened, RigOptions options, Pull pull) {
+    options.tool = wrench_on_nut(tightened, pull == Pull::slip_off ? 0.0095 : 0.0);
+    ArmRig rig(tightened, options);
     const servo::NutGeometry& nut = rig.setup.nuts[pulled_joint];
     Measurement measurement(rig);
     while (rig.time < whole) {

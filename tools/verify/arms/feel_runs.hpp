@@ -10,7 +10,7 @@
 
 namespace bolt::arm_validation {
 
-struct Outcome {
+struct FeelOutcome {
     Record record;
     // m, of the grip within 40 ms, straight motion left out: after the hand's last motion, and a second
     // later.
@@ -24,13 +24,13 @@ struct Outcome {
 inline constexpr double energy_at_any_time = 1e-3, energy_of_free_arm = force::max_credit;
 inline constexpr double perceptible_swing = 100e-6;  // m
 
-bool gives_energy(const Outcome& outcome);
-bool trembles(const Outcome& outcome);
-bool is_stable(const Outcome& outcome);
+bool gives_energy(const FeelOutcome& outcome);
+bool trembles(const FeelOutcome& outcome);
+bool is_stable(const FeelOutcome& outcome);
 // % of the greatest force or torque, whichever is more, in a millisecond.
-double step_percent(const Outcome& outcome, const device::Description& arm);
+double step_percent(const FeelOutcome& outcome, const device::Description& arm);
 // The worse of both in each respect.
-Outcome worse(const Outcome& a, const Outcome& b);
+FeelOutcome worse(const FeelOutcome& a, const FeelOutcome& b);
 
 // A motion of the wrench onto the casing.
 struct Press {
@@ -42,7 +42,7 @@ struct Press {
 // A level wrench onto the flange, a corner of its jaw, its handle over an edge, and sideways against the
 // casing.
 inline constexpr std::uint64_t usual_presses = 2018;
-std::vector<Press> find_presses(Workplace& place, std::uint64_t seed = usual_presses);
+std::vector<Press> find_presses(TightenedAssembly& tightened, std::uint64_t seed = usual_presses);
 
 // A motion of the wrench on a nut.
 enum class Pull : std::uint8_t {
@@ -54,7 +54,7 @@ enum class Pull : std::uint8_t {
 inline constexpr std::string_view pull_names[] = {"hold", "breakaway", "yield", "slip off"};
 
 // `options.tool` and `guided_joint` are ignored.
-Outcome run_press(Workplace& place, RigOptions options, const Press& press);
-Outcome run_pull(Workplace& place, RigOptions options, Pull pull);
+FeelOutcome run_press(TightenedAssembly& tightened, RigOptions options, const Press& press);
+FeelOutcome run_pull(TightenedAssembly& tightened, RigOptions options, Pull pull);
 
 }  // namespace bolt::arm_validation

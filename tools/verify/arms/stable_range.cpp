@@ -12,35 +12,37 @@ RigOptions rig_options(const RangeQuery& query, const HandGrip& grip, double fac
     options.arm = query.arm;
     options.grip = grip;
     options.controller = query.controller;
-    (query.spring == Spring::contact ? options.coupling_factor : options.wrench_factor) = factor;
+    (query.spring == TestedSpring::contact ? options.coupling_factor : options.wrench_factor) = factor;
     return options;
 }
 
-bool stable_at(Workplace& place, const RangeQuery& query, std::span<const Press> presses, double factor) {
+bool stable_at(TightenedAssembly& tightened, const RangeQuery& query, std::span<const Press> presses,
+               double factor) {
     for (const HandGrip& grip : hand_grips()) {
         if (grip.pushes_only == query.held) continue;
         const RigOptions options = rig_options(query, grip, factor);
-        if (query.spring == Spring::nut) {
-            if (!is_stable(run_pull(place, options, Pull::hold))) return false;
+        if (query.spring == TestedSpring::nut) {
+            if (!is_stable(run_pull(tightened, options, Pull::hold))) return false;
             continue;
         }
         for (const Press& press : presses)
-            if (!is_stable(run_press(place, options, press))) return false;
+            if (!is_stable(run_press(tightened, options, press))) return false;
     }
     return true;
 }
 
-double used_stiffness(Workplace& place, const RangeQuery& query) {
-    const ArmRig rig(place, rig_options(query, hand_grips()[usual_grip], 1.0));
-    return query.spring == Spring::contact ? rig.coupling_stiffness() : rig.nut_stiffness();
+double used_stiffness(TightenedAssembly& tightened, const RangeQuery& query) {
+    const ArmRig rig(tightened, rig_options(query, hand_grips()[usual_grip], 1.0));
+    return query.spring == TestedSpring::contact ? rig.coupling_stiffness() : rig.nut_stiffness();
 }
 
 }  // namespace
 
-StableRange stable_range(Workplace& place, const RangeQuery& query, std::span<const Press> presses) {
+StableRange stable_range(TightenedAssembly& tightened, const RangeQuery& query,
+                         std::span<const Press> presses) {
     StableRange range;
-    range.used = used_stiffness(place, query);
-    const auto stable = [&](double factor) { return stable_at(place, query, presses, factor); };
+    range.used = used_stiffness(tightened, query);
+    const auto stable = [&](double factor) { return stable_at(tightened, query, presses, factor); };
     // Doubles or halves from the factor in use until the border lies between two factors.
     double good = 0.0, bad = 0.0;
     for (double factor = 1.0; factor <= greatest_factor; factor *= 2.0) {

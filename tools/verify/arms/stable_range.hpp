@@ -9,7 +9,7 @@
 
 namespace bolt::arm_validation {
 
-enum class Spring : std::uint8_t {
+enum class TestedSpring : std::uint8_t {
     contact,  // the coupling: wrench and casing
     nut,      // the wrench on a tightened nut, as torque or as force at the grip
 };
@@ -25,13 +25,14 @@ struct StableRange {
 
 struct RangeQuery {
     const ArmFacts* arm = nullptr;
-    Spring spring = Spring::contact;
+    TestedSpring spring = TestedSpring::contact;
     bool controller = true;
     bool held = true;  // by a loose, a usual and a stiff grip; false: by no hand
 };
 
 // The motions of the hand must be find_presses() of the same place. Assumes that a stiffer spring is never
 // more stable; the ratio of two tested factors bounds what a violation could hide.
-StableRange stable_range(Workplace& place, const RangeQuery& query, std::span<const Press> presses);
+StableRange stable_range(TightenedAssembly& tightened, const RangeQuery& query,
+                         std::span<const Press> presses);
 
 }  // namespace bolt::arm_validation

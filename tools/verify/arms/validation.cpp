@@ -10,22 +10,22 @@ namespace bolt::arm_validation {
 
 namespace {
 
-using Job = std::function<void(Workplace&, std::span<const Press>)>;
+using Job = std::function<void(TightenedAssembly&, std::span<const Press>)>;
 
-// Runs all jobs, each with the workplace of its thread. Returns the first error of loading one.
+// Runs all jobs, each with the assembly of its thread. Returns the first error of loading one.
 Status run_jobs(const std::vector<Job>& jobs, const std::string& assembly, unsigned threads) {
     std::atomic<std::size_t> next = 0;
     std::mutex lock;
     std::optional<Error> error;
     const auto work = [&] {
-        Result<Workplace> place = load_workplace(assembly);
-        if (!place) {
+        Result<TightenedAssembly> tightened = load_tightened_assembly(assembly);
+        if (!tightened) {
             const std::lock_guard guard(lock);
-            if (!error) error = place.error();
+            if (!error) error = tightened.error();
             return;
         }
-        const std::vector<Press> presses = find_presses(*place);
-        for (std::size_t i = next++; i < jobs.size(); i = next++) jobs[i](*place, presses);
+        const std::vector<Press> presses = find_presses(*tightened);
+        for (std::size_t i = next++; i < jobs.size(); i = next++) jobs[i](*tightened, presses);
     };
     std::vector<std::thread> others;
     for (unsigned i = 1; i < threads; ++i) others.emplace_back(work);
@@ -35,20 +35,20 @@ Status run_jobs(const std::vector<Job>& jobs, const std::string& assembly, unsig
     return {};
 }
 
-StableRange range_of(Workplace& place, std::span<const Press> presses, const RangeQuery& query) {
-    return stable_range(place, query, presses);
+StableRange range_of(TightenedAssembly& tightened, std::span<const Press> presses, const RangeQuery& query) {
+    return stable_range(tightened, query, presses);
 }
 
 // Measures both springs in one respect.
 void add_range_jobs(std::vector<Job>& jobs, ArmResult& result) {
-    const auto add = [&](Spring spring, StableRange& range, bool controller, bool held) {
+    const auto add = [&](TestedSpring spring, StableRange& range, bool controller, bool held) {
         jobs.push_back([&range, query = RangeQuery{result.arm, spring, controller, held}](
-                           Workplace& place, std::span<const Press> presses) {
-            range = range_of(place, presses, query);
+                           TightenedAssembly& tightened, std::span<const Press> presses) {
+            range = range_of(tightened, presses, query);
         });
     };
-    for (const Spring spring : {Spring::contact, Spring::nut}) {
-        SpringResult& s = spring == Spring::contact ? result.contact : result.nut;
+    for (const TestedSpring spring : {TestedSpring::contact, TestedSpring::nut}) {
+        SpringResult& s = spring == TestedSpring::contact ? result.contact : result.nut;
         add(spring, s.held, true, true);
         add(spring, s.uncontrolled, false, true);
         add(spring, s.free, true, false);
@@ -58,21 +58,21 @@ void add_range_jobs(std::vector<Job>& jobs, ArmResult& result) {
 void add_arm_jobs(std::vector<Job>& jobs, ArmResult& result) {
     add_range_jobs(jobs, result);
     for (const bool held : {true, false})
-        jobs.push_back([&result, held](Workplace& place, std::span<const Press> presses) {
+        jobs.push_back([&result, held](TightenedAssembly& tightened, std::span<const Press> presses) {
             RigOptions options;
             options.arm = result.arm;
             double rim = 0.0;
-            (held ? result.held : result.free) = feel_of(place, options, held, presses, rim);
+            (held ? result.held : result.free) = feel_of(tightened, options, held, presses, rim);
             if (held) result.swing_at_rim = rim;
         });
 }
 
 }  // namespace
 
-Outcome feel_of(Workplace& place, const RigOptions& options, bool held, std::span<const Press> presses,
-                double& swing_at_rim) {
-    std::optional<Outcome> worst;
-    const auto add = [&](Outcome outcome, bool at_rim) {
+FeelOutcome feel_of(TightenedAssembly& tightened, const RigOptions& options, bool held,
+                    std::span<const Press> presses, double& swing_at_rim) {
+    std::optional<FeelOutcome> worst;
+    const auto add = [&](FeelOutcome outcome, bool at_rim) {
         if (at_rim) {
             swing_at_rim = std::max(swing_at_rim, outcome.late_swing);
             outcome.late_swing = outcome.early_swing = 0.0;
@@ -83,22 +83,22 @@ Outcome feel_of(Workplace& place, const RigOptions& options, bool held, std::spa
     for (const HandGrip& grip : hand_grips()) {
         if (grip.pushes_only == held) continue;
         with.grip = grip;
-        for (const Press& press : presses) add(run_press(place, with, press), false);
-        add(run_pull(place, with, Pull::hold), false);
+        for (const Press& press : presses) add(run_press(tightened, with, press), false);
+        add(run_pull(tightened, with, Pull::hold), false);
         if (!held || grip.stiffness < hand_grips()[usual_grip].stiffness) continue;  // too weak to tighten
         for (const Pull pull : {Pull::breakaway, Pull::yield, Pull::slip_off})
-            add(run_pull(place, with, pull), pull == Pull::slip_off);
+            add(run_pull(tightened, with, pull), pull == Pull::slip_off);
     }
-    return worst.value_or(Outcome{});
+    return worst.value_or(FeelOutcome{});
 }
 
-ArmResult measure(Workplace& place, const ArmFacts& arm) {
+ArmResult measure(TightenedAssembly& tightened, const ArmFacts& arm) {
     ArmResult result;
     result.arm = &arm;
     std::vector<Job> jobs;
     add_arm_jobs(jobs, result);
-    const std::vector<Press> presses = find_presses(place);
-    for (const Job& job : jobs) job(place, presses);
+    const std::vector<Press> presses = find_presses(tightened);
+    for (const Job& job : jobs) job(tightened, presses);
     return result;
 }
 
@@ -125,9 +125,9 @@ Result<ValidationResult> validate(const ValidationOptions& options) {
     for (std::size_t a = 0; a < raw.size(); ++a)
         for (const bool guided : {false, true})
             for (std::size_t seed = 0; seed < count; ++seed)
-                jobs.push_back([&, a, guided, seed](Workplace& place, std::span<const Press>) {
+                jobs.push_back([&, a, guided, seed](TightenedAssembly& tightened, std::span<const Press>) {
                     (guided ? raw[a].guided : raw[a].free)[seed] =
-                        run_approach(place, *result.approaches[a].arm, seed, guided);
+                        run_approach(tightened, *result.approaches[a].arm, seed, guided);
                 });
     BOLT_TRY(run_jobs(jobs, options.assembly, options.threads));
     for (std::size_t a = 0; a < raw.size(); ++a) {

@@ -21,16 +21,16 @@ struct SpringResult {
 struct ArmResult {
     const ArmFacts* arm = nullptr;
     SpringResult contact, nut;
-    Outcome held, free;
+    FeelOutcome held, free;
     double swing_at_rim = 0.0;  // m, late swing of a held jaw that hangs on the nut by its rim
 };
 
 // The worst outcome over the hands that hold the arm, or over the arm that no hand holds. A jaw on the nut's
 // rim (Pull::slip_off) counts with its energy and its steps; its swing goes to `swing_at_rim`.
-Outcome feel_of(Workplace& place, const RigOptions& options, bool held, std::span<const Press> presses,
-                double& swing_at_rim);
+FeelOutcome feel_of(TightenedAssembly& tightened, const RigOptions& options, bool held,
+                    std::span<const Press> presses, double& swing_at_rim);
 // Runs everything for one arm on the calling thread, 10 s.
-ArmResult measure(Workplace& place, const ArmFacts& arm);
+ArmResult measure(TightenedAssembly& tightened, const ArmFacts& arm);
 
 struct ApproachResult {
     const ArmFacts* arm = nullptr;

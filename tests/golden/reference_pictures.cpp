@@ -1,4 +1,4 @@
-#include "tests/golden/golden.hpp"
+#include "tests/golden/reference_pictures.hpp"
 
 #include <fmt/format.h>
 
@@ -61,20 +61,21 @@ std::string first_line(const fs::path& path) {
     return text ? text->substr(0, text->find('\n')) : "";
 }
 
-Verdict renew(const Gallery& gallery, const std::string& name, const imagediff::RgbImage& picture) {
-    Status kept = write_png(gallery.references / (name + ".png"), picture);
-    if (kept) kept = write_file(gallery.references / "driver.txt", gallery.driver + "\n");
+PictureComparison renew(const ReferencePictures& pictures, const std::string& name,
+                        const imagediff::RgbImage& picture) {
+    Status kept = write_png(pictures.references / (name + ".png"), picture);
+    if (kept) kept = write_file(pictures.references / "driver.txt", pictures.driver + "\n");
     return {kept.has_value(), kept ? "" : kept.error().message()};
 }
 
-Verdict failed(const Gallery& gallery, const std::string& name, const std::string& why,
-               const imagediff::RgbImage& picture, const imagediff::RgbImage* reference) {
-    Status kept = write_png(gallery.failures / (name + ".actual.png"), picture);
+PictureComparison failed(const ReferencePictures& pictures, const std::string& name, const std::string& why,
+                         const imagediff::RgbImage& picture, const imagediff::RgbImage* reference) {
+    Status kept = write_png(pictures.failures / (name + ".actual.png"), picture);
     if (kept && reference != nullptr)
-        kept = write_png(gallery.failures / (name + ".difference.png"),
+        kept = write_png(pictures.failures / (name + ".difference.png"),
                          stretched_difference(*reference, picture));
     return {false, fmt::format("{}: {}; {}", name, why,
-                               kept ? "see " + (gallery.failures / (name + ".*.png")).string()
+                               kept ? "see " + (pictures.failures / (name + ".*.png")).string()
                                     : kept.error().message())};
 }
 
@@ -121,27 +122,27 @@ fs::path references_for(const fs::path& pictures, const std::string& driver, boo
     return others.empty() ? pictures / folder : *std::min_element(others.begin(), others.end());
 }
 
-Gallery gallery(const gpu::Device& device) {
+ReferencePictures reference_pictures(const gpu::Device& device) {
     const bool update = std::getenv("BOLT_GOLDEN_UPDATE") != nullptr;
-    Gallery here{references_for(fs::path(BOLT_GOLDEN) / "pictures", device.driver(), update),
-                 BOLT_GOLDEN_FAILURES, driver_of(device), "", update};
+    ReferencePictures here{references_for(fs::path(BOLT_GOLDEN) / "pictures", device.driver(), update),
+                           BOLT_GOLDEN_FAILURES, driver_of(device), "", update};
     here.pinned_driver = first_line(here.references / "driver.txt");
     if (const char* failures = std::getenv("BOLT_GOLDEN_FAILURES")) here.failures = failures;
     return here;
 }
 
-Verdict hold(const Gallery& gallery, const std::string& name, const render::Picture& picture,
-             const Tolerance& tolerance) {
+PictureComparison compare_with_reference(const ReferencePictures& pictures, const std::string& name,
+                                         const render::Picture& picture, const Tolerance& tolerance) {
     const imagediff::RgbImage actual = without_alpha(picture);
-    if (gallery.update) return renew(gallery, name, actual);
-    const fs::path file = gallery.references / (name + ".png");
+    if (pictures.update) return renew(pictures, name, actual);
+    const fs::path file = pictures.references / (name + ".png");
     const Result<imagediff::RgbImage> reference = imagediff::read_png(file);
     if (!reference)
-        return failed(gallery, name, "no reference: " + reference.error().message(), actual, nullptr);
+        return failed(pictures, name, "no reference: " + reference.error().message(), actual, nullptr);
     const Result<imagediff::Difference> difference = imagediff::compare(*reference, actual);
-    if (!difference) return failed(gallery, name, difference.error().message(), actual, nullptr);
+    if (!difference) return failed(pictures, name, difference.error().message(), actual, nullptr);
     const double off = share_off(*reference, actual, tolerance.channel);
-    const bool exact = gallery.driver == gallery.pinned_driver;
+    const bool exact = pictures.driver == pictures.pinned_driver;
     const bool passes = exact ? difference->largest == 0
                               : difference->mean_flip <= tolerance.mean_flip && off <= tolerance.share;
     const std::string numbers = fmt::format(
@@ -151,10 +152,10 @@ Verdict hold(const Gallery& gallery, const std::string& name, const render::Pict
         tolerance.channel);
     if (passes) return {true, numbers};
     const std::string wanted =
-        exact ? "every pixel as it is, for " + gallery.driver + " drew it"
+        exact ? "every pixel as it is, for " + pictures.driver + " drew it"
               : fmt::format("mean FLIP {} and {} % at most, for {} is not {}", tolerance.mean_flip,
-                            100.0 * tolerance.share, gallery.driver, gallery.pinned_driver);
-    return failed(gallery, name, numbers + ", expected " + wanted, actual, &*reference);
+                            100.0 * tolerance.share, pictures.driver, pictures.pinned_driver);
+    return failed(pictures, name, numbers + ", expected " + wanted, actual, &*reference);
 }
 
 render::Picture joined(const std::vector<render::Picture>& pictures) {

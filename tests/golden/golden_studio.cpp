@@ -1,23 +1,23 @@
-#include "tests/golden/stage.hpp"
+#include "tests/golden/golden_studio.hpp"
 
 #include <glm/geometric.hpp>
 
 namespace bolt::test {
 
-render::Scene Stage::scene() {
+render::Scene GoldenStudio::scene() {
     render::Scene scene;
     scene.environment = &light;
     scene.background = {0.32F, 0.34F, 0.36F, 1.0F};
     return scene;
 }
 
-void Stage::check(const std::string& name, const render::Picture& picture) {
-    const Verdict verdict = hold(pictures, name, picture);
-    CHECK_MESSAGE(verdict.passes, verdict.why);
+void GoldenStudio::check(const std::string& name, const render::Picture& picture) {
+    const PictureComparison comparison = compare_with_reference(pictures, name, picture);
+    CHECK_MESSAGE(comparison.passes, comparison.why);
 }
 
-void Stage::shoot(const std::string& name, const render::Scene& scene, const render::Eye& eye,
-                  VkExtent2D extent) {
+void GoldenStudio::shoot(const std::string& name, const render::Scene& scene, const render::Eye& eye,
+                         VkExtent2D extent) {
     check(name, studio.shoot(scene, eye, extent));
 }
 

@@ -1,14 +1,14 @@
 // The set-up of golden pictures: a renderer with its light, and models that reveal typical errors.
 #pragma once
 
-#include "tests/golden/golden.hpp"
+#include "tests/golden/reference_pictures.hpp"
 #include "tests/render/support.hpp"
 
 namespace bolt::test {
 
-struct Stage {
+struct GoldenStudio {
     Studio studio;
-    Gallery pictures = gallery(studio.device());
+    ReferencePictures pictures = reference_pictures(studio.device());
     render::EnvironmentLight light = studio.light(shading::studio_environment(128));
 
     // An empty scene with this light on grey.

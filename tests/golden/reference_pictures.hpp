@@ -19,15 +19,15 @@ struct Tolerance {
     double share = 0.015;  // fraction of the pixels that may differ
 };
 
-struct Gallery {
+struct ReferencePictures {
     std::filesystem::path references, failures;
     std::string driver;         // the current driver
     std::string pinned_driver;  // the driver of the references
     bool update = false;        // write the reference instead of comparing
 };
 
-// Returns this project's checker for pictures of the device.
-Gallery gallery(const gpu::Device& device);
+// The project's references for pictures of this device.
+ReferencePictures reference_pictures(const gpu::Device& device);
 
 // The folder in `pictures` with the references of this version of a driver: "llvmpipe Mesa 22.3.6 (LLVM
 // 15.0.6)" has "llvmpipe-Mesa-22.3.6-LLVM-15.0.6". A version without a folder gets the first of the others,
@@ -38,15 +38,15 @@ std::filesystem::path references_for(const std::filesystem::path& pictures, cons
 // Name, version and processor.
 std::string driver_of(const gpu::Device& device);
 
-struct Verdict {
+struct PictureComparison {
     bool passes = false;
     std::string why;  // figures, and the paths of the pictures
 };
 
 // Compares a picture with its reference. A failure writes NAME.actual.png and NAME.difference.png (per
 // channel, stretched to the full range).
-Verdict hold(const Gallery& gallery, const std::string& name, const render::Picture& picture,
-             const Tolerance& tolerance = {});
+PictureComparison compare_with_reference(const ReferencePictures& pictures, const std::string& name,
+                                         const render::Picture& picture, const Tolerance& tolerance = {});
 
 // Joins pictures of equal height side by side.
 render::Picture joined(const std::vector<render::Picture>& pictures);

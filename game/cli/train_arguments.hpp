@@ -1,0 +1,51 @@
+// The options of boltwright train, and what they choose.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/base/result.hpp"
+#include "game/trainees/trainee.hpp"
+#include "game/trainer/station_client.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace bolt::cli {
+
+struct TrainArguments {
+    std::string assembly = "zq350";
+    std::string variant, tool;
+    std::string mode = "guided";
+    std::string task = "tighten";
+    std::string law;
+    std::vector<std::string> devices;
+    std::string hand = "helped";
+    std::string glove;  // empty: the station file's, or none
+    std::string station_file, wheel_config_file;
+    bool hmd = false;
+    bool headless = false;
+    bool start = false, full_screen = false, validate = false, silent = false;
+    std::string trainee, language, settings;
+    std::string size = "1280x720", gpu;
+    bool quiet = false, no_pictures = false, no_guide = false, view_help = false;
+    bool obstacles = false, no_obstacles = false;
+    std::string trainee_profile = "expert";  // of a simulated trainee
+    std::uint64_t seed = 1;
+    std::string out = "out";
+    bool folder_per_lesson = false;  // each lesson of a window gets a folder of its own in `out`
+    bool first_start = false;        // the menu offers the tour first
+};
+
+void add_train_options(CLI::App& train, TrainArguments& options);
+
+// The devices of the options. A missing device is an error; there is no silent fallback.
+Result<trainer::Equipment> equipment_of(const TrainArguments& options);
+
+// The lesson and the simulated trainee of the options.
+Result<trainees::TrainOptions> train_options(const TrainArguments& options,
+                                             const content::Assembly& assembly);
+
+}  // namespace bolt::cli

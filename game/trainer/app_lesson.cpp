@@ -1,0 +1,157 @@
+// The part of App that starts and ends a lesson.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "game/trainer/app.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+// One line with the median and 99th percentile of each system; sorts the times.
+std::string describe_times(std::map<std::string_view, std::vector<float>>& times_of) {
+    std::string line = "a frame's systems, median and p99 (ms):";
+    for (auto& [system, times] : times_of) {
+        std::sort(times.begin(), times.end());
+        line +=
+            fmt::format(" {} {:.2f} {:.2f}", system, times[times.size() / 2], times[times.size() * 99 / 100]);
+    }
+    return line;
+}
+
+}  // namespace
+
+// Uploads the models of the lesson and makes the entities that refer to them.
+Status App::upload_lesson() {
+    ActiveLesson& active = *active_;
+    BOLT_TRY(gpu_->context->device->idle());
+    BOLT_TRY_ASSIGN(auto models, scene::upload(*gpu_->context->device, context_->models));
+    gpu_->models = std::move(models);
+    BOLT_TRY_ASSIGN(auto workplace,
+                    scene::make_workplace(std::move(active.workplace.world), context_->models, *gpu_->models,
+                                          active.session->assembly(), active.session->setup()));
+    active.workplace = std::move(workplace);
+    active.scene = scene::make_lit_scene(active.workplace, gpu_->models->light);
+    return {};
+}
+
+// The choice of the menu, or the tour with the same devices.
+LessonChoice App::lesson_choice() const {
+    LessonChoice choice = options_.choice;
+    if (options_.menu) choice.assembly = content::assembly_folder(choice.assembly).string();
+    return tour_requested_ ? tour_choice(std::move(choice)) : choice;
+}
+
+Status App::begin_lesson(float aspect) {
+    select_trainee();
+    save_preferences();
+    const LessonChoice choice = lesson_choice();
+    if (active_ && options_.choice.equipment.needs_station())
+        active_->station.reset();  // it holds the devices
+    BOLT_TRY_ASSIGN(folder_, make_lesson_folder(options_.out, options_.folder_per_lesson, choice.assembly));
+    LessonStart start{choice, preferences_.settings, options_.lesson, folder_, options_.start_station};
+    if (!choice.equipment.has_hardware()) return enter_lesson(start_lesson(start), aspect);
+    if (active_) BOLT_TRY(close_lesson());
+    starter_ = std::make_unique<LessonStarter>(std::move(start), std::move(given_up_));
+    arm_screen_ = {};
+    screen_ = ShownScreen::starting;
+    return {};
+}
+
+Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
+    if (!started) {
+        std::error_code ignored;
+        if (options_.folder_per_lesson) std::filesystem::remove(folder_, ignored);  // if it is still empty
+        return fail(started.error());
+    }
+    if (active_) {
+        BOLT_TRY(gpu_->context->device->idle());
+        active_.reset();
+    }
+    if (options_.on_start) options_.on_start(folder_);
+    context_ = std::move(started->context);
+    active_.emplace(std::move(started->active));
+    ActiveLesson& active = *active_;
+    for (const std::string& missing : context_->models.missing) log("not drawn: " + missing);
+    world::add_haptics(active.workplace.world, active.session->state());
+    BOLT_TRY(upload_lesson());
+    place_trainee(active, *context_, aspect);
+    if (const Status sounds = start_sound(active, options_.sound); !sounds) log(sounds.error().message());
+    apply_preferences();
+    active.verdicts.assign(context_->assembly.joints.size(), lesson::Verdict::none);
+    outcome_.reset();
+    tour_ = tour_requested_ ? std::optional(Tour{}) : std::nullopt;
+    screen_ = ShownScreen::lesson;
+    menu_.first_start = false;
+    log(fmt::format("lesson begun: {} {}, {}, law {}", context_->assembly.name, context_->assembly.variant,
+                    lesson::name(context_->options.mode), joint::name(context_->options.law)));
+    return {};
+}
+
+// An error of a start is shown in the menu if there is one.
+Status App::report_start(Status begun) {
+    if (begun) return {};
+    if (begun.error().lost || !options_.menu) return begun;
+    menu_.start_error = begun.error();
+    screen_ = ShownScreen::menu;
+    log(begun.error().message());
+    return {};
+}
+
+void App::cancel_start() {
+    if (!starter_) return;
+    starter_->give_up();
+    given_up_ = std::move(starter_);
+    screen_ = ShownScreen::menu;
+    closed_ = closed_ || !options_.menu;
+}
+
+// Shows what the arm needs, before and during a lesson, and performs the user's answer.
+void App::follow_arm(std::span<const platform::InputEvent> events, double seconds, bool enter_answers) {
+    StationClient* client = screen_ == ShownScreen::lesson && active_->station ? &*active_->station : nullptr;
+    if (client != nullptr) pause_for_arm(*client, active_->clock);
+    const device::ArmNeeds needs = starter_            ? starter_->needs()
+                                   : client != nullptr ? client->needs
+                                                       : device::ArmNeeds{};
+    const std::string before = describe(arm_screen_.needs);
+    arm_screen_.in_lesson = client != nullptr;
+    update(arm_screen_, needs, settings_ ? 0.0 : seconds);  // the settings cover the question
+    if (const std::string now = describe(needs); now != before && !now.empty()) log(now);
+    if (!settings_) perform(action_of(arm_screen_, events, enter_answers));
+}
+
+// Releases the lesson whose result was shown, with the devices that its station holds.
+Status App::close_lesson() {
+    BOLT_TRY(gpu_->context->device->idle());
+    active_.reset();
+    gpu_->models.reset();
+    return {};
+}
+
+Status App::end_lesson() {
+    if (!active_ || screen_ != ShownScreen::lesson) return {};
+    ActiveLesson& active = *active_;
+    if (active.station)
+        if (const servo::Timing* timing = active.station->link->stop())
+            BOLT_TRY(active.session->record_timing(*timing));
+
+    BOLT_TRY_ASSIGN(auto outcome, active.session->finish(active.workplace.world));
+    outcome_ = std::move(outcome);
+    active.clock.finished = true;
+    for (std::size_t i = 0; i < active.verdicts.size(); ++i)
+        active.verdicts[i] = view::verdict_of(outcome_->result.joints[i]);
+    screen_ = ShownScreen::result;
+    log(fmt::format("lesson ended: {}, score {:.0f}", outcome_->result.finished ? "finished" : "not finished",
+                    outcome_->result.score));
+    log(describe_times(system_times_));
+    system_times_.clear();
+    if (active.clock.lag > 1.0)
+        log(fmt::format("drawing was too slow: the lesson lagged {:.0f} s behind real time",
+                        active.clock.lag));
+    if (options_.on_end)
+        return options_.on_end(active.session->assembly(), context_->options, *outcome_, folder_);
+    return {};
+}
+
+}  // namespace bolt::trainer

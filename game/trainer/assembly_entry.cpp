@@ -1,0 +1,84 @@
+#include "game/trainer/assembly_entry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "game/session/contact_models.hpp"
+#include "game/trainer/tour.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+std::string sizes_of(const content::Assembly& assembly) {
+    std::vector<std::string> sizes;
+    for (const content::AssemblyJoint& joint : assembly.joints) {
+        const std::string size =
+            fmt::format("{}×{:.0f}", joint.design.thread.size.name, 1e3 * joint.design.bolt_length);
+        if (std::find(sizes.begin(), sizes.end(), size) == sizes.end()) sizes.push_back(size);
+    }
+    std::string text;
+    for (const std::string& size : sizes) text += (text.empty() ? "" : ", ") + size;
+    return text;
+}
+
+AssemblyEntry entry_of(const std::string& name) {
+    const content::LoadedAssembly loaded = content::load_assembly(content::assembly_folder(name));
+    const content::Assembly& assembly = loaded.assembly;
+    AssemblyEntry entry{name,
+                        assembly.variant,
+                        assembly.title,
+                        assembly.instructions,
+                        assembly.variants,
+                        assembly.tools,
+                        assembly.law,
+                        assembly.joints.size(),
+                        sizes_of(assembly),
+                        loaded.ok() && !session::missing_contact_model(assembly),
+                        {}};
+    if (!loaded.ok()) {
+        entry.error = loaded.errors.front();
+    } else if (assembly.models.model.empty()) {
+        entry.error.emplace();
+        entry.error->file = assembly.file;
+        entry.error->what = "this assembly has no model to draw";
+        entry.error->expected = "\"model\" with the name of a .glb file";
+    }
+    return entry;
+}
+
+}  // namespace
+
+std::vector<AssemblyEntry> list_assemblies() {
+    std::vector<AssemblyEntry> entries;
+    for (const std::string& name : content::assembly_names())
+        if (name != tour_assembly) entries.push_back(entry_of(name));
+    return entries;
+}
+
+std::string in_language(const std::map<std::string, std::string>& texts, const std::string& language,
+                        const std::string& fallback) {
+    for (const std::string& code : {language, std::string("en")})
+        if (const auto found = texts.find(code); found != texts.end()) return found->second;
+    return fallback;
+}
+
+std::string joints_text(const words::Words& words, const AssemblyEntry& entry) {
+    if (entry.joints == 1) return words::format_text(words, "menu.facts.one", {{"sizes", entry.sizes}});
+    return words::format_text(
+        words, "menu.facts.many",
+        {{"count", words::Number{static_cast<double>(entry.joints), 0}}, {"sizes", entry.sizes}});
+}
+
+void add_characters(ui::Ui& ui, const AssemblyEntry& entry) {
+    for (const auto& [code, title] : entry.title) ui.add_characters(title);
+    for (const auto& [code, text] : entry.instructions) ui.add_characters(text);
+    if (entry.error) ui.add_characters(entry.error->message());
+    for (const content::AssemblyVariant& variant : entry.variants)
+        for (const auto& [code, title] : variant.title) ui.add_characters(title);
+    for (const content::Tool& tool : entry.tools)
+        for (const auto& [code, title] : tool.title) ui.add_characters(title);
+}
+
+}  // namespace bolt::trainer

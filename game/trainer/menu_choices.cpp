@@ -1,0 +1,200 @@
+#include "game/trainer/menu_choices.hpp"
+
+#include <imgui/imgui.h>
+
+#include <algorithm>
+#include <array>
+
+#include "game/lesson/feedback.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr float label_gap = 16.0F;  // points
+
+// px, of the longest label of a row and the gap after it.
+float label_width(const ScreenContext& context) {
+    float longest = 0.0F;
+    for (const words::TextKey label :
+         {words::TextKey("menu.task"), words::TextKey("menu.mode"), words::TextKey("menu.variant"),
+          words::TextKey("menu.tool"), words::TextKey("menu.law"), words::TextKey("menu.device"),
+          words::TextKey("menu.trainee")})
+        longest = std::max(longest, ImGui::CalcTextSize(context.words[label].c_str()).x);
+    return longest + label_gap * context.scale;
+}
+
+// A label with buttons beside it, of which one is chosen. Buttons that do not fit go into another line.
+class ChoiceRow {
+  public:
+    // `width`: px, of label and buttons.
+    ChoiceRow(const ScreenContext& context, const std::string& label, float width)
+        : left_(ImGui::GetCursorPosX() + label_width(context)), right_(ImGui::GetCursorPosX() + width) {
+        ImGui::AlignTextToFramePadding();
+        ImGui::PushStyleColor(ImGuiCol_Text, {muted_text.r, muted_text.g, muted_text.b, 1.0F});
+        draw_text(label);
+        ImGui::PopStyleColor();
+        ImGui::SameLine();
+        ImGui::SetCursorPosX(left_);
+    }
+
+    // Returns true when it is pressed.
+    bool button(const std::string& label, bool is_chosen) {
+        const ImGuiStyle& style = ImGui::GetStyle();
+        const float wide = ImGui::CalcTextSize(label.c_str()).x + 2.0F * style.FramePadding.x;
+        if (!first_) {
+            ImGui::SameLine(0.0F, 0.5F * style.ItemSpacing.x);
+            if (ImGui::GetCursorPosX() + wide > right_) {
+                ImGui::NewLine();
+                ImGui::SetCursorPosX(left_);
+            }
+        }
+        first_ = false;
+        ImGui::PushID(row_);  // two rows may have buttons of the same name
+        const bool pressed = draw_choice_button(label, is_chosen);
+        ImGui::PopID();
+        return pressed;
+    }
+
+  private:
+    int row_ = static_cast<int>(ImGui::GetCursorPosY());
+    float left_, right_;  // px in the window
+    bool first_ = true;
+};
+
+void text_field(const char* id, float width, std::string& value) {
+    std::array<char, 64> buffer{};
+    value.copy(buffer.data(), buffer.size() - 1);
+    ImGui::SetNextItemWidth(width);
+    if (ImGui::InputText(id, buffer.data(), buffer.size())) value = buffer.data();
+}
+
+void draw_task_and_mode(const ScreenContext& context, float width, LessonChoice& choice) {
+    const words::Words& words = context.words;
+    ChoiceRow tasks(context, words["menu.task"], width);
+    for (const lesson::Task task : {lesson::Task::tighten, lesson::Task::loosen}) {
+        if (tasks.button(words[lesson::text_key(task)], choice.task == task)) choice.task = task;
+        record_widget(context, lesson::text_key(task));
+    }
+    ChoiceRow modes(context, words["menu.mode"], width);
+    for (const lesson::Mode mode : {lesson::Mode::guided, lesson::Mode::practice, lesson::Mode::assessment}) {
+        if (modes.button(words[lesson::text_key(mode)], choice.mode == mode)) choice.mode = mode;
+        record_widget(context, lesson::text_key(mode));
+    }
+    const words::TextKey about = choice.mode == lesson::Mode::guided ? words::TextKey("mode.guided.about")
+                                 : choice.mode == lesson::Mode::practice
+                                     ? words::TextKey("mode.practice.about")
+                                     : words::TextKey("mode.assessment.about");
+    ImGui::Indent(label_width(context));
+    draw_wrapped(words[about], muted_text, width - label_width(context));
+    ImGui::Unindent(label_width(context));
+}
+
+// A selection replaces the law of the command line and is saved with the trainee's settings.
+void draw_laws(const ScreenContext& context, float width, joint::Law assembly_law, LessonChoice& choice,
+               content::TraineeSettings& settings) {
+    const joint::Law selected = law_in_force(choice, settings, assembly_law);
+    ChoiceRow row(context, context.words["menu.law"], width);
+    for (const auto& [key, law] : {std::pair{words::TextKey("menu.law.mechanistic"), joint::Law::mechanistic},
+                                   std::pair{words::TextKey("menu.law.published"), joint::Law::published}}) {
+        if (row.button(context.words[key], selected == law)) {
+            settings.law = joint::name(law);
+            choice.law.reset();
+        }
+        record_widget(context, key);
+    }
+    ImGui::Indent(label_width(context));
+    draw_wrapped(
+        context.words[selected == joint::Law::mechanistic ? words::TextKey("menu.law.mechanistic.about")
+                                                          : words::TextKey("menu.law.published.about")],
+        muted_text, width - label_width(context));
+    ImGui::Unindent(label_width(context));
+}
+
+void draw_variants_and_tools(const ScreenContext& context, float width, const AssemblyEntry& entry,
+                             LessonChoice& choice) {
+    const std::string& language = context.words.language;
+    if (entry.variants.size() > 1) {
+        ChoiceRow row(context, context.words["menu.variant"], width);
+        for (const content::AssemblyVariant& variant : entry.variants) {
+            const std::string value = variant.name == entry.default_variant ? std::string() : variant.name;
+            if (row.button(in_language(variant.title, language, variant.name), choice.variant == value))
+                choice.variant = value;
+        }
+    }
+    if (entry.tools.size() > 1) {
+        ChoiceRow row(context, context.words["menu.tool"], width);
+        for (const content::Tool& tool : entry.tools) {
+            const std::string value = tool.name == entry.tools.front().name ? std::string() : tool.name;
+            if (row.button(in_language(tool.title, language, tool.name), choice.tool == value))
+                choice.tool = value;
+        }
+    }
+}
+
+void draw_devices(const ScreenContext& context, float width, std::span<const DeviceOption> devices,
+                  Equipment& equipment) {
+    ChoiceRow row(context, context.words["menu.device"], width);
+    for (const DeviceOption& option : devices) {
+        const words::TextKey mouse =
+            option.equipment.hand == HandMode::free ? words::TextKey("menu.free_hand") : "menu.mouse";
+        const std::string name = option.name.empty() ? context.words[mouse] : option.name;
+        Equipment next = option.equipment;
+        next.station = equipment.station;
+        next.wheel_config_file = equipment.wheel_config_file;
+        next.glove = equipment.glove;
+        if (row.button(name, equipment.devices == next.devices && equipment.hand == next.hand))
+            equipment = next;
+    }
+}
+
+// Names each model that the lesson lacks, and says that no device with forces is connected.
+void draw_missing(const ScreenContext& context, float width, const ChoiceOptions& options,
+                  const LessonChoice& choice) {
+    const AssemblyEntry& entry = *options.entry;
+    std::vector<std::string> missing;
+    if (!entry.error) {
+        if (!entry.contact_model) missing.push_back(context.words["menu.missing.contact"]);
+        const auto tool = std::find_if(entry.tools.begin(), entry.tools.end(), [&](const content::Tool& t) {
+            return t.name == choice.tool || choice.tool.empty();
+        });
+        if (tool != entry.tools.end() && tool->wrench.model.empty())
+            missing.push_back(context.words["menu.missing.tool"]);
+    }
+    for (const std::string& line : missing) draw_wrapped(line, warning_text, width);
+    const bool connected = std::any_of(options.devices.begin(), options.devices.end(),
+                                       [](const DeviceOption& o) { return !o.equipment.devices.empty(); });
+    if (!connected && choice.equipment.hand == HandMode::helped)
+        draw_wrapped(context.words["menu.missing.force"], muted_text, width);
+}
+
+}  // namespace
+
+void choose_assembly(const AssemblyEntry& entry, LessonChoice& choice) {
+    if (entry.name == choice.assembly) return;
+    choice.assembly = entry.name;
+    choice.variant.clear();
+    choice.tool = tool_of_station(choice.equipment.station, entry.tools).value_or(std::string());
+}
+
+ScreenAction draw_choices(const ScreenContext& context, float width, const ChoiceOptions& options,
+                          LessonChoice& choice, Preferences& preferences) {
+    ScreenAction action = ScreenAction::none;
+    const AssemblyEntry* entry = options.entry;
+    draw_task_and_mode(context, width, choice);
+    if (entry != nullptr) {
+        draw_variants_and_tools(context, width, *entry, choice);
+        draw_laws(context, width, entry->law, choice, preferences.settings);
+    }
+    draw_devices(context, width, options.devices, choice.equipment);
+    ChoiceRow row(context, context.words["menu.trainee"], width);
+    text_field("##trainee", width - label_width(context), choice.trainee);
+    record_widget(context, "menu.trainee");
+    if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
+    ImGui::Spacing();
+    if (entry != nullptr) draw_missing(context, width, options, choice);
+    if (preferences.trouble != Preferences::Trouble::none) draw_settings_file(context, preferences);
+    return action;
+}
+
+}  // namespace bolt::trainer
