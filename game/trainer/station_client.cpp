@@ -166,18 +166,13 @@ bool pinches(const hand::Skeleton& hand) {
     return glm::distance(hand.position[hand::thumb_tip], hand.position[hand::index_tip]) < pinch_distance;
 }
 
-bool has_gripper(const StationClient& client) {
-    const station::Layout& layout = client.link->layout();
-    return layout.mover && layout.mover->senses_gripper;
-}
-
 // Grip of a hand without a glove, or of the fingers of a gloved hand; the station determines when a gloved
 // hand holds the wrench.
 servo::Grip grip_of(const StationClient& client, bool closes, const StationIntent& intent) {
     const bool has_wrench =
         (client.gloved ? client.latest.input.grip : client.controls.grip) == servo::Grip::wrench;
     const bool engaged = client.latest.output.joint >= 0;
-    if (has_wrench && !client.gloved && has_gripper(client) && !closes) return servo::Grip::none;
+    if (has_wrench && !client.gloved && client.has_gripper && !closes) return servo::Grip::none;
     if (has_wrench && !client.gloved)
         return intent.toggle_wrench && !engaged ? servo::Grip::none : servo::Grip::wrench;
     if (has_wrench) return servo::Grip::none;
@@ -193,6 +188,7 @@ void update_client(StationClient& client, const session::LessonSession& session)
     client.condition = client.link->condition();
     const station::DisplayedHand* hand = client.link->hand();
     client.gloved = hand != nullptr;
+    client.has_gripper = client.link->layout().mover && client.link->layout().mover->senses_gripper;
     client.glove_lost = hand != nullptr && hand->lost;
     if (hand != nullptr && hand->has_frame) client.fingers = hand->joints;
     const double within = client.near_nut ? nut_release_distance : nut_capture_distance;
@@ -237,7 +233,7 @@ WorkingHand hand_of(const StationClient& client) {
     hand.action = engaged ? HandAction::holding : hand.nut ? HandAction::lowering : HandAction::resting;
     hand.pose = hand.to = client.latest.commanded_tool;
     hand.rest = client.latest.resting_wrench.value_or(client.rest);
-    if (has_gripper(client)) hand.closing = 1.0 - client.latest.gripper.opening;
+    if (client.has_gripper) hand.closing = 1.0 - client.latest.gripper.opening;
     if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
         hand.room = std::max(
             0.0, forearm_range - std::abs(client.latest.output.nut_angle - client.nut_angle_at_grip));
@@ -303,7 +299,7 @@ lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys
     lesson::ControlNames names = keyboard ? lesson::keyboard_controls(words, closes, tool)
                                  : feels  ? lesson::device_controls(words, closes, tool)
                                           : lesson::puck_controls(words, closes, tool);
-    const bool fingers = client->link->hand() != nullptr || has_gripper(*client);
+    const bool fingers = client->link->hand() != nullptr || (layout.mover && layout.mover->senses_gripper);
     return fingers ? lesson::glove_controls(words, std::move(names)) : names;
 }
 

@@ -109,6 +109,7 @@ struct StationClient {
     bool paused_before = false;   // the user had paused the lesson before the arm did
     hand::Skeleton fingers;       // of a gloved hand, in the frame of the wrench, in the hand or at rest
     bool gloved = false;
+    bool has_gripper = false;        // of the device that moves the tool
     bool glove_lost = false;         // the glove sends no valid samples
     double nut_angle_at_grip = 0.0;  // rad, angle of the held nut when it was engaged
 };
