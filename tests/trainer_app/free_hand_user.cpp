@@ -37,20 +37,19 @@ Pose FreeHandUser::hand() const {
 void FreeHandUser::hold(bool left, const std::optional<Vec3>& at) {
     if (left == left_) return;
     left_ = left;
-    presses += left ? 1 : 0;
-    if (left) {
-        pointer_ = at ? project(driver_.screen(), *at).value_or(nowhere) : nowhere;
-        driver_.move(pointer_);
-    }
-    driver_.frame({platform::ButtonEvent{platform::Button::left, left, pointer_}});
+    notches_ = 0.0;
+    if (!left) return driver_.release(pointer_);
+    ++presses;
+    pointer_ = at ? project(driver_.screen(), *at).value_or(nowhere) : nowhere;
+    driver_.press(pointer_);
 }
 
 void FreeHandUser::frame(const glm::dvec2& px, double notches) {
     pointer_ += px;
-    std::vector<platform::InputEvent> events;
-    if (px != glm::dvec2(0.0)) events.emplace_back(platform::CursorEvent{pointer_});
-    if (notches != 0.0) events.emplace_back(platform::WheelEvent{{0.0, notches}, pointer_});
-    driver_.frame(events);
+    notches_ += notches;
+    const int whole = static_cast<int>(notches_);
+    notches_ -= whole;
+    driver_.drag(pointer_, whole);
     on_frame();
 }
 

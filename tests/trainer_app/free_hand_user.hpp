@@ -4,13 +4,13 @@
 
 #include <functional>
 
-#include "tests/trainer_app/headless_trainer.hpp"
+#include "tests/trainer_app/trainer_driver.hpp"
 
 namespace bolt::test {
 
 class FreeHandUser {
   public:
-    explicit FreeHandUser(HeadlessTrainer& driver) : driver_(driver) {}
+    explicit FreeHandUser(TrainerDriver& driver) : driver_(driver) {}
 
     // Until the lesson is over, has lasted `longest` s, or has reached step `steps`.
     void play(double longest, std::size_t steps = SIZE_MAX);
@@ -42,8 +42,9 @@ class FreeHandUser {
     void tighten();
     void lift();
 
-    HeadlessTrainer& driver_;
+    TrainerDriver& driver_;
     glm::dvec2 pointer_{80.0, 45.0};
+    double notches_ = 0.0;  // of the wheel, too few for a whole one yet
     bool left_ = false;
 };
 
