@@ -1,8 +1,8 @@
 // A hand that the mouse moves freely, for a simulated arm: drags, the wheel and keys change where the hand
 // wants to be; the arm's forces decide where it gets. In the air a drag moves the hand in the plane of the
 // picture and the wheel moves it along the view; with the right button or Shift held too, a drag turns the
-// tool about its own normal. On a bolt a drag swings the handle, and the wheel moves the wrench along the
-// bolt.
+// tool about its own normal. Beside a bolt a drag moves the wrench across the bolt and the wheel along it. On
+// a bolt a drag swings the handle, and the wheel moves the wrench along the bolt.
 #pragma once
 
 #include <optional>
@@ -19,6 +19,7 @@ struct DraggedHand {
     device::HandMotion motion;  // sent to the arm
     bool grasps = false;  // the left button was pressed on the wrench or the nut that the hand is beside
     bool held = false;    // the left button, in the last frame
+    double wheel = 0.0;   // notches that the hand has still to follow
     double easing = 0.0;  // s for which the hand still lets a wrench on a nut spring back before it opens
 };
 

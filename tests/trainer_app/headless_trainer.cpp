@@ -85,6 +85,10 @@ void HeadlessTrainer::release(const glm::dvec2& at) {
     frame({platform::ButtonEvent{platform::Button::left, false, at}});
 }
 
+void HeadlessTrainer::turn_button(const glm::dvec2& at, bool down) {
+    frame({platform::ButtonEvent{platform::Button::right, down, at}});
+}
+
 void HeadlessTrainer::drag(const glm::dvec2& to, int notches) {
     std::vector<platform::InputEvent> events{platform::CursorEvent{to}};
     if (notches != 0) events.emplace_back(platform::WheelEvent{{0.0, static_cast<double>(notches)}, to});

@@ -97,6 +97,15 @@ void WindowDriver::release(const glm::dvec2& at) {
     frame();
 }
 
+void WindowDriver::turn_button(const glm::dvec2& at, bool down) {
+    const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+    if (down)
+        hand_->press(x, y, 3);
+    else
+        hand_->release(x, y, 3);
+    frame();
+}
+
 void WindowDriver::drag(const glm::dvec2& to, int notches) {
     const int x = static_cast<int>(to.x), y = static_cast<int>(to.y);
     hand_->point(x, y);
