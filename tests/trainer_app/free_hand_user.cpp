@@ -132,6 +132,8 @@ void FreeHandUser::drag_by(const Vec3& error) {
         across -= above * up;
         notches = above / notch_on_bolt * (glm::dot(up, view) < 0.0 ? -1.0 : 1.0);
     }
+    // Towards the eye is away from the work: first the wheel, then the drag.
+    if (!beside_bolt() && hand_of(lesson()).wrench && notches < -1.0) across = Vec3(0.0);
     const auto from = project(screen, at), to = project(screen, at + across);
     frame(from && to ? share * (*to - *from) : glm::dvec2(0.0), share * notches);
 }
@@ -176,13 +178,17 @@ bool FreeHandUser::sees(const Vec3& point) const {
            at->y < 0.95 * size.y;
 }
 
-// Looks at the whole if the hand is not in the picture, else at the nut if that is not.
+// Shows the nut and the hand: the whole machine, and from further away until both are in the picture.
 void FreeHandUser::look() {
-    const bool sees_both = sees(nut()) && sees(hand().position);
-    if (sees_both) return;
+    const auto shown = [&] { return sees(nut()) && sees(hand().position) && sees(grip_of(hand())); };
+    if (shown()) return;
     hold(false);
-    driver_.key(sees(nut()) || !sees(hand().position) ? platform::Key::f : platform::Key::v);
+    driver_.key(platform::Key::f);
     wait(0.8);
+    for (int i = 0; i < 8 && going() && !shown(); ++i) {
+        driver_.drag(0.5 * driver_.size(), -1);
+        wait(0.3);
+    }
 }
 
 void FreeHandUser::run_down() {
