@@ -103,9 +103,6 @@ void FreeHandUser::frame(const glm::dvec2& px, double notches) {
     notches_ += notches;
     const int whole = static_cast<int>(notches_);
     notches_ -= whole;
-    if (std::getenv("FHDBG"))
-        std::printf("   frm pointer %.1f %.1f px %.2f %.2f notches %.2f left %d\n", pointer_.x, pointer_.y,
-                    px.x, px.y, notches, left_);
     const double before = now();
     driver_.drag(pointer_, whole);
     on_frame();
@@ -159,10 +156,6 @@ bool FreeHandUser::lead_to(const Pose& target, double near, double longest, bool
             wrench && turned ? glm::dot(normal, turn_between(tool.orientation, target.orientation)) : 0.0;
         turns = !beside_bolt() && std::abs(angle) > (turns ? turned_well : askew);
         if (!turns && glm::length(error) < near && std::abs(angle) < askew) return true;
-        if (std::getenv("FHDBG"))
-            std::printf("   dbg %.2f turns %d angle %.1f err %.1f %.1f %.1f dt %.3f beside %d\n", now(),
-                        turns, to_degrees(angle), 1e3 * error.x, 1e3 * error.y, 1e3 * error.z, seconds_,
-                        beside_bolt());
         if (turns)
             turn_by(angle, normal);
         else
