@@ -11,7 +11,10 @@ namespace {
 
 constexpr double wheel_step = 0.02;              // m along the view for a notch
 constexpr double wheel_step_on_bolt = 0.01;      // m along the bolt
-constexpr double wheel_turn = to_radians(60.0);  // of the fingers for a notch
+constexpr double wheel_turn = to_radians(30.0);  // of the fingers for a notch: within the lead of the arm
+// s in which the hand follows a notch of the wheel. At once, it would hit the work at 1 m/s, and fingers
+// would slip off the nut.
+constexpr double wheel_time = 0.1;
 constexpr double finger_turn = to_radians(2.5);  // of the fingers for a pixel of drag
 constexpr double key_speed = 0.25;               // m/s
 constexpr double key_turn_speed = 1.5;           // rad/s
@@ -22,6 +25,15 @@ constexpr double finger_rate = 6.0;
 // 1/s, HandMotion::yielding in the air: the largest guiding force, 2.4 N, leads the hand at 2.7 cm/s. On a
 // bolt it is 0, because the hand holds what it has pulled.
 constexpr double air_yielding = 3.0;
+
+// m that the hand leads the arm in the air. Its spring of 300 N/m then pulls with less than the 12 N of the
+// arm, so that it cannot push through a wall that holds the wrench.
+constexpr double air_lead = 0.035;
+
+constexpr double least_depth = 0.15;  // m before the eye
+
+// Sine of the smallest angle between the view and the plane across a bolt in which a drag moves the wrench.
+constexpr double least_slope = 0.25;
 
 // Before the hand releases a wrench on a nut, it yields for a short time. Otherwise the wrench would keep its
 // tension until the hand takes it again.
@@ -34,24 +46,39 @@ struct HandShift {
     Vec3 turn{0.0};   // rad
 };
 
-// The movement in the plane of the picture, at the depth of `point`, that looks like `drag` (px).
+// The movement in the plane of the picture, at the depth of `point`, that looks like `drag` (px). A point
+// beside or behind the eye counts as a little before it: the hand must not be lost there.
 Vec3 in_picture(const Projection& projection, const Vec3& point, const glm::dvec2& drag) {
     const glm::dmat4 to_clip(projection.eye.clip_from_world);
-    const glm::dvec4 clip = to_clip * glm::dvec4(point, 1.0);
-    if (clip.w <= 1e-9) return Vec3(0.0);
+    glm::dvec4 clip = to_clip * glm::dvec4(point, 1.0);
+    const glm::dvec3 ahead(to_clip[0][3], to_clip[1][3], to_clip[2][3]);  // gradient of the depth
+    if (clip.w < least_depth)
+        clip = to_clip *
+               glm::dvec4(point + Vec3(ahead) * ((least_depth - clip.w) / glm::dot(ahead, ahead)), 1.0);
     const glm::dvec4 moved =
         clip +
         glm::dvec4(2.0 * drag.x / projection.size.x, 2.0 * drag.y / projection.size.y, 0.0, 0.0) * clip.w;
-    const glm::dvec4 at = glm::inverse(to_clip) * moved;
-    return Vec3(at) / at.w - point;
+    const glm::dmat4 to_world = glm::inverse(to_clip);
+    const glm::dvec4 from = to_world * clip, at = to_world * moved;
+    return Vec3(at) / at.w - Vec3(from) / from.w;
 }
 
 Vec3 view_direction(const DragScene& scene) {
     return glm::normalize(scene.tool.position - Vec3(scene.projection.eye.position));
 }
 
+bool turns_tool(const DragInput& input) { return input.turns || input.mouse.turn_drag != glm::dvec2(0.0); }
+
 Vec3 grip_of(const DragScene& scene) {
     return scene.tool * Vec3(scene.wrench ? scene.handle_length : 0.0, 0.0, 0.0);
+}
+
+// The notches of this frame, of all that the wheel was turned while the button is held.
+double smooth_wheel(DraggedHand& hand, const DragInput& input) {
+    hand.wheel = input.mouse.left_down ? hand.wheel + input.mouse.wheel : 0.0;
+    const double followed = std::min(1.0, input.seconds / wheel_time) * hand.wheel;
+    hand.wheel -= followed;
+    return followed;
 }
 
 // Away from the viewer along the bolt for a positive number of notches.
@@ -81,10 +108,26 @@ HandShift fingers_to_nut(const DragInput& input, const DragScene& scene) {
     return {share * (scene.nut->centre - scene.tool.position), share * glm::cross(normal, axis)};
 }
 
+// The shift that looks like `shift` in the picture but keeps the height above the bolt. Seen too flat, it
+// would be too long; `shift` is then returned.
+Vec3 across_bolt(const DragScene& scene, const Vec3& axis, const Vec3& shift) {
+    const Vec3 view = glm::normalize(grip_of(scene) - Vec3(scene.projection.eye.position));
+    const double slope = glm::dot(view, axis);
+    return std::abs(slope) < least_slope ? shift : shift - glm::dot(shift, axis) / slope * view;
+}
+
+// Beside a bolt a drag and the wheel move the wrench across and along the bolt: nobody sees its depth well
+// enough to place the jaw along the view.
+HandShift beside_bolt(const DragInput& input, const DragScene& scene) {
+    const Vec3& axis = scene.nut->axis;
+    const Vec3 shift = in_picture(scene.projection, grip_of(scene), input.mouse.left_drag);
+    return {across_bolt(scene, axis, shift) + along_bolt(scene, axis, input.mouse.wheel), Vec3(0.0)};
+}
+
 HandShift in_the_air(const DragInput& input, const DragScene& scene) {
     HandShift motion;
-    const Vec3 normal = scene.tool.orientation * Vec3(0.0, 0.0, 1.0);
-    if (input.turns || input.mouse.turn_drag != glm::dvec2(0.0)) {
+    if (turns_tool(input)) {
+        const Vec3 normal = scene.tool.orientation * Vec3(0.0, 0.0, 1.0);
         const glm::dvec2 lever = lever_on_screen(scene.projection, scene.tool, normal, scene.handle_length);
         motion.turn = -drag_angle(lever, input.mouse.left_drag) * normal;
     } else {
@@ -99,6 +142,7 @@ HandShift mouse_motion(const DraggedHand& hand, const DragInput& input, const Dr
     if (scene.nut && scene.engaged)
         return scene.wrench ? swing_on_bolt(input, scene) : twist_nut(input, scene);
     if (scene.nut && !scene.wrench && hand.grasps) return fingers_to_nut(input, scene);
+    if (scene.nut && scene.wrench && !turns_tool(input)) return beside_bolt(input, scene);
     return in_the_air(input, scene);
 }
 
@@ -115,8 +159,11 @@ void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene
     const bool closed = (hand.held && (hand.grasps || scene.wrench)) || input.keys.buttons != 0 || eases;
     hand.motion.buttons = closed ? 1 : 0;
 
+    hand.motion.lead = scene.engaged ? device::HandMotion{}.lead : air_lead;
     hand.motion.yielding = eases ? ease_yielding : scene.engaged ? 0.0 : air_yielding;
-    HandShift motion = mouse_motion(hand, input, scene);
+    DragInput smooth = input;
+    smooth.mouse.wheel = smooth_wheel(hand, input);
+    HandShift motion = mouse_motion(hand, smooth, scene);
     motion.shift += key_speed * input.seconds * (scene.device * input.keys.along);
     motion.turn += key_turn_speed * input.seconds * (scene.device * input.keys.about);
     // The arm holds the grip, and a turn about the jaw moves it.

@@ -1,8 +1,8 @@
 // A hand that the mouse moves freely, for a simulated arm. Drags, the wheel and keys move the intended pose
 // of the hand; the forces of the arm determine how closely the hand follows it. In the air a drag moves the
 // hand in the plane of the picture and the wheel moves it along the view; with the right button or Shift held
-// too, a drag turns the tool about its own normal. On a bolt a drag swings the handle, and the wheel moves
-// the wrench along the bolt.
+// too, a drag turns the tool about its own normal. Beside a bolt a drag moves the wrench across the bolt and
+// the wheel along it. On a bolt a drag swings the handle, and the wheel moves the wrench along the bolt.
 #pragma once
 
 #include <optional>
@@ -19,6 +19,7 @@ struct DraggedHand {
     device::HandMotion motion;  // sent to the arm
     bool grasps = false;  // the left button was pressed on the wrench or the nut that the hand is beside
     bool held = false;    // the left button, in the last frame
+    double wheel = 0.0;   // notches that the hand has still to follow
     double easing = 0.0;  // s until the hand opens; until then it lets the wrench on the nut spring back
 };
 

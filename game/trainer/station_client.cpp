@@ -199,8 +199,9 @@ void update_client(StationClient& client, const session::LessonSession& session)
                                  ? distance_to_handle(hand_at, *resting, session.setup().wrench.handle_length)
                                  : std::numeric_limits<double>::infinity();
     client.near_wrench = to_wrench < station::handle_capture_distance;
-    client.nut_is_nearer =
-        client.near_nut && glm::distance(hand_at, nut_at(session, *client.near_nut)) < to_wrench;
+    // A dragged hand closes on what the pointer is pressed on.
+    client.nut_is_nearer = !client.dragged && client.near_nut &&
+                           glm::distance(hand_at, nut_at(session, *client.near_nut)) < to_wrench;
 }
 
 // Sends one-time commands: checkpoints, undo, and moves of the tool to its initial pose.

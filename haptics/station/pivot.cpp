@@ -10,9 +10,9 @@ namespace {
 using force::Pivot;
 
 // m from a bolt's axis, and above and below its nut's way, within which the wrench pivots about the bolt;
-// half more to leave it. The guiding force aligns the jaw from the same distance
-// (GuidingParameters::alignment_distance).
-constexpr double pivot_radius = 0.08, pivot_above = 0.06, pivot_below = 0.02;
+// half more to leave it. Lower, the wrench is beside the work, and a turn would drive the jaw under its edge.
+// The guiding force aligns the jaw from the same distance (GuidingParameters::alignment_distance).
+constexpr double pivot_radius = 0.08, pivot_above = 0.06, pivot_below = 0.002;
 constexpr double pivot_alignment = 0.7;  // cosine of the largest angle between the tool's normal and the bolt
 constexpr double pivot_rate = 1.0;  // rad/s, at most, at which the wrench turns to a bolt that it comes near
 // m and rad by which obstacles hold a wrench back that no longer turns to a bolt: it would push the hand

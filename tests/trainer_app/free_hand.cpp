@@ -3,7 +3,11 @@
 
 #include "game/scene/annotations.hpp"
 #include "game/session/session_file.hpp"
+#include "tests/support/skip.hpp"
+#include "tests/trainer/one_joint.hpp"
 #include "tests/trainer_app/free_hand_user.hpp"
+#include "tests/trainer_app/hand_comparison.hpp"
+#include "tests/trainer_app/headless_trainer.hpp"
 
 using namespace bolt;
 using namespace bolt::trainer;
@@ -58,7 +62,19 @@ TEST_CASE("Free hand: a simulated user aligns and tightens the nut by dragging a
     CHECK(driver.app().screen() == ShownScreen::result);
     REQUIRE(driver.outcome());
     CHECK(driver.outcome()->result.joints.front().overall == lesson::Verdict::ok);
-    CHECK(user.presses < 10);
+    CHECK(user.presses < 20);
+}
+
+TEST_CASE("Free hand: the wrench comes over the casing to a bolt of the reducer, and tightens it") {
+    const test::OneJoint one("zq350");
+    HeadlessTrainer driver(free_hand(one.name().c_str()), {{320, 180}, 0.3F, 0.05});
+    driver.frame();
+    test::FreeHandUser user(driver);
+    user.play(120.0);
+    REQUIRE(driver.outcome());
+    CHECK(driver.outcome()->result.finished);
+    CHECK(driver.outcome()->result.score >= 80.0);
+    CHECK(user.presses < 20);
 }
 
 TEST_CASE("Free hand: fingers and wrench leave a nut without a mistake, and go to the next among obstacles") {
@@ -73,4 +89,27 @@ TEST_CASE("Free hand: fingers and wrench leave a nut without a mistake, and go t
         CHECK(track.result.out_of_turn == 0);
         CHECK(track.slip_count == 0);
     }
+}
+
+TEST_CASE("Free hand: the helped and the free hand play the lessons of the comparison") {
+    if (!test::compares_hands())
+        return test::skip_rest("it takes the minutes of lessons; BOLTWRIGHT_COMPARE_HANDS=1 plays them");
+    const test::OneJoint bolt("zq350");
+    for (const auto& [name, assembly] :
+         {std::pair<std::string, std::string>{"cover-m8", "cover-m8"}, {"ZQ350, one bolt", bolt.name()}})
+        for (const auto hand : {HandMode::helped, HandMode::free}) {
+            AppOptions options = test::options(assembly.c_str(), false);
+            options.choice.equipment.hand = hand;
+            const std::string label = hand == HandMode::free ? "free" : "helped";
+            options.out = std::filesystem::path(BOLT_TRAINER_OUT) / ("headless_" + label);
+            HeadlessTrainer driver(std::move(options), {{320, 180}, 0.3F, 0.05});
+            driver.frame();
+            const int presses = test::play_with_hand(driver, hand, 900.0);
+            for (int i = 0; i < 3; ++i) driver.frame();
+            const test::HandMeasures played =
+                test::measure_hand(driver, driver.folder() / "session.boltwright", presses);
+            MESSAGE(test::table_row(name + ", " + label, played));
+            CHECK(played.finished);
+            CHECK(played.score >= 80.0);
+        }
 }

@@ -11,89 +11,178 @@ using namespace trainer;
 
 namespace {
 
-const glm::dvec2 nowhere(2.0, 2.0);  // px, a corner of the picture
-constexpr double gain = 0.25;        // of the visible error that one frame corrects
-constexpr double hover = 0.03;       // m above the nut
-constexpr double arrived = 0.008;    // m
-constexpr double notch = 0.02;       // m of a wheel's notch
-constexpr double pull_step = 0.03;   // rad of a frame
-constexpr double aligned = to_radians(3.0);
-constexpr double stroke = to_radians(50.0);
+constexpr double correction = 5.0;           // 1/s, rate at which the visible error is corrected
+constexpr double largest_correction = 0.35;  // of the error in a frame, because the arm follows late
+constexpr double hand_speed = 0.35;          // m/s
+constexpr double hand_turn = 2.0;            // rad/s
+constexpr double notch = 0.02;               // m of a wheel's notch in the air
+constexpr double notch_on_bolt = 0.01;       // m, also beside a bolt
+constexpr double aligned = to_radians(4.0), turned_well = to_radians(2.0), askew = to_radians(10.0);
+constexpr double level_error = 0.004;        // m beside the bolt's axis at which the jaw may go down
+constexpr double most_hover = 0.045;         // m above the nut
+constexpr double pull_speed = 0.6;           // rad/s of the handle
+constexpr double slowest_pull = 0.08;        // of pull_speed
+constexpr double stroke = to_radians(50.0);  // rad
+constexpr double lift_speed = 0.15;          // m/s
+constexpr double spin_rate = 12.0;           // notches/s of the wheel
+constexpr double margin = 0.04;              // of the picture, in which the pointer presses anew
+constexpr double rises[] = {0.13, 0.25,
+                            0.45};  // m above the start and the nut, where no bolt turns the wrench
 
 }  // namespace
 
-Vec3 FreeHandUser::nut() const {
-    const std::size_t joint = due()->joint;
-    return servo::nut_centre(lesson().session->setup().nuts[joint],
-                             lesson().session->state().joints[joint].nut.angle);
+bool FreeHandUser::going_on(std::size_t joint) const {
+    return going() && due() != nullptr && due()->joint == joint;
 }
 
-Vec3 FreeHandUser::axis() const { return lesson().session->setup().nuts[due()->joint].axis; }
+Vec3 FreeHandUser::nut() const {
+    return servo::nut_centre(setup().nuts[due()->joint], state().joints[due()->joint].nut.angle);
+}
+
+Vec3 FreeHandUser::axis() const { return setup().nuts[due()->joint].axis; }
 
 Pose FreeHandUser::hand() const {
     return hand_of(lesson()).wrench ? tool_of(lesson()).pose : hand_of(lesson()).pose;
 }
 
-void FreeHandUser::hold(bool left, const std::optional<Vec3>& at) {
-    if (left == left_) return;
-    left_ = left;
-    presses += left ? 1 : 0;
-    if (left) {
-        pointer_ = at ? project(driver_.projection(), *at).value_or(nowhere) : nowhere;
-        driver_.move(pointer_);
-    }
-    driver_.frame({platform::ButtonEvent{platform::Button::left, left, pointer_}});
+Vec3 FreeHandUser::grip_of(const Pose& pose) const {
+    return pose * Vec3(hand_of(lesson()).wrench ? setup().wrench.handle_length : 0.0, 0.0, 0.0);
 }
 
-void FreeHandUser::frame(const glm::dvec2& px, double notches) {
-    pointer_ += px;
-    std::vector<platform::InputEvent> events;
-    if (px != glm::dvec2(0.0)) events.emplace_back(platform::CursorEvent{pointer_});
-    if (notches != 0.0) events.emplace_back(platform::WheelEvent{{0.0, notches}, pointer_});
-    driver_.frame(events);
+bool FreeHandUser::beside_bolt() const {
+    return hand_of(lesson()).wrench && hand_of(lesson()).nut.has_value();
+}
+
+glm::dvec2 FreeHandUser::free_place(const glm::dvec2& direction) const {
+    const glm::dvec2 size = driver_.size();
+    const auto nut_place = due() != nullptr ? project(driver_.projection(), nut()) : std::nullopt;
+    glm::dvec2 best = 0.5 * size;
+    double most = -1e9;
+    for (const double x : {0.25, 0.4, 0.6, 0.75})
+        for (const double y : {0.35, 0.5, 0.65}) {
+            const glm::dvec2 at = glm::dvec2(x, y) * size;
+            const bool on_nut = nut_place && glm::distance(at, *nut_place) < 0.2 * size.y;
+            const double room = -glm::dot(at - 0.5 * size, direction) - (on_nut ? 1e3 * size.x : 0.0);
+            if (room <= most) continue;
+            most = room;
+            best = at;
+        }
+    return best;
+}
+
+void FreeHandUser::hold(bool left, const std::optional<Vec3>& at, const glm::dvec2& direction) {
+    if (left == left_) return;
+    if (!left) turn(false);
+    left_ = left;
+    notches_ = 0.0;
+    if (!left) return driver_.release(pointer_);
+    ++presses;
+    const auto place = at ? project(driver_.projection(), *at) : std::nullopt;
+    pointer_ = place.value_or(free_place(direction));
+    driver_.press(pointer_);
+}
+
+void FreeHandUser::turn(bool right) {
+    if (right == right_) return;
+    right_ = right;
+    driver_.turn_button(pointer_, right);
     on_frame();
 }
 
-void FreeHandUser::drag_by(const Vec3& at, const Vec3& error) {
-    const Projection projection = driver_.projection();
-    const auto from = project(projection, at), to = project(projection, at + error);
-    const Vec3 view = glm::normalize(at - Vec3(projection.eye.position));
-    const glm::dvec2 px = from && to ? gain * (*to - *from) : glm::dvec2(0.0);
-    frame(px, gain * glm::dot(error, view) / notch);
+void FreeHandUser::frame(const glm::dvec2& px, double notches) {
+    const glm::dvec2 to = pointer_ + px, size = driver_.size();
+    const bool outside = to.x < margin * size.x || to.y < margin * size.y || to.x > (1.0 - margin) * size.x ||
+                         to.y > (1.0 - margin) * size.y;
+    if (left_ && outside && glm::length(px) > 0.0) {
+        const bool right = right_;
+        hold(false);
+        hold(true, {}, px / glm::length(px));
+        turn(right);
+    }
+    pointer_ = glm::clamp(pointer_ + px, glm::dvec2(0.0), size - 1.0);
+    notches_ += notches;
+    const int whole = static_cast<int>(notches_);
+    notches_ -= whole;
+    const double before = now();
+    driver_.drag(pointer_, whole);
+    on_frame();
+    if (going()) seconds_ = std::clamp(now() - before, 0.01, 0.25);
 }
 
-bool FreeHandUser::reach(double height, double longest) {
-    const servo::Setup& setup = lesson().session->setup();
-    const std::size_t joint = due()->joint;
-    for (const double until = now() + longest; going() && due() != nullptr && now() < until;) {
-        if (engaged() >= 0) return true;
-        const Pose tool = hand();
-        const Vec3 up = axis(), target = nut() + height * up;
-        Vec3 error = target - tool.position;
+void FreeHandUser::wait(double seconds) {
+    for (const double until = now() + seconds - 1e-6; going() && now() < until;) frame();
+}
+
+void FreeHandUser::drag_by(const Vec3& error) {
+    turn(false);
+    const Projection screen = driver_.projection();
+    const Vec3 at = sees(grip_of(hand())) ? grip_of(hand()) : hand().position;
+    const Vec3 view = glm::normalize(at - Vec3(screen.eye.position));
+    const double length = glm::length(error);
+    const double share = std::min(std::min(largest_correction, correction * seconds_),
+                                  length > 0.0 ? hand_speed * seconds_ / length : 0.0);
+    Vec3 across = error;
+    double notches = glm::dot(error, view) / notch;
+    if (beside_bolt()) {
+        const Vec3& up = setup().nuts[*hand_of(lesson()).nut].axis;
         const double above = glm::dot(error, up);
-        const Vec3 level = error - above * up;
-        // Over the nut first, then down; from below up at once.
-        if (glm::length(level) > 0.02 && above < 0.0) error = level;
-        Vec3 at = tool.position;
-        if (hand_of(lesson()).wrench) {
-            const double length = setup.wrench.handle_length;
-            const servo::NutGeometry& geometry = setup.nuts[joint];
-            const collision::JawSeat seat =
-                collision::seat_of(setup.wrench.jaw, servo::prism_of(geometry),
-                                   servo::on_nut(geometry, lesson().session->state().joints[joint].nut.angle,
-                                                 servo::at_pose(tool)));
-            const Vec3 handle = tool.orientation * Vec3(length, 0.0, 0.0);
-            at += handle;
-            // Turning about −axis tightens; the misalignment is positive if the jaw is ahead.
-            if (glm::length(level) < 0.05) error += seat.misalignment * glm::cross(up, handle);
-            // A jaw that does not fit would rest on the nut: align it above.
-            const bool fits = std::abs(seat.misalignment) < aligned;
-            if (height == 0.0 && !fits && above > -hover && above < 0.0) error += hover * up;
-        }
-        if ((height > 0.0 || !hand_of(lesson()).wrench) && glm::length(error) < arrived) return true;
-        drag_by(at, error);
+        across -= above * up;
+        notches = above / notch_on_bolt * (glm::dot(up, view) < 0.0 ? -1.0 : 1.0);
+    }
+    // Towards the eye is away from the work: first the wheel, then the drag.
+    if (!beside_bolt() && hand_of(lesson()).wrench && notches < -1.0) across = Vec3(0.0);
+    const auto from = project(screen, at), to = project(screen, at + across);
+    frame(from && to ? share * (*to - *from) : glm::dvec2(0.0), share * notches);
+}
+
+void FreeHandUser::turn_by(double angle, const Vec3& about) {
+    turn(true);
+    const double most = hand_turn * seconds_;
+    const double share = std::min(largest_correction, correction * seconds_);
+    // The lever is that of a turn about −about.
+    const glm::dvec2 lever =
+        lever_on_screen(driver_.projection(), hand(), about, setup().wrench.handle_length);
+    frame(-std::clamp(share * angle, -most, most) * lever);
+}
+
+bool FreeHandUser::lead_to(const Pose& target, double near, double longest, bool turned) {
+    const bool wrench = hand_of(lesson()).wrench;
+    bool turns = false;
+    for (const double until = now() + longest; going() && due() != nullptr && now() < until;) {
+        if (engaged() >= 0) return false;
+        const Pose tool = hand();
+        const Vec3 error = grip_of(target) - grip_of(tool);
+        const Vec3 normal = tool.orientation * Vec3(0.0, 0.0, 1.0);
+        const double angle =
+            wrench && turned ? glm::dot(normal, turn_between(tool.orientation, target.orientation)) : 0.0;
+        turns = !beside_bolt() && std::abs(angle) > (turns ? turned_well : askew);
+        if (!turns && glm::length(error) < near && std::abs(angle) < askew) return true;
+        if (turns)
+            turn_by(angle, normal);
+        else
+            drag_by(error);
     }
     return false;
+}
+
+bool FreeHandUser::sees(const Vec3& point) const {
+    const glm::dvec2 size = driver_.size();
+    const auto at = project(driver_.projection(), point);
+    return at && at->x > 0.05 * size.x && at->y > 0.05 * size.y && at->x < 0.95 * size.x &&
+           at->y < 0.95 * size.y;
+}
+
+// Shows the nut and the hand: the whole machine, and from further away until both are in the picture.
+void FreeHandUser::look() {
+    const auto shown = [&] { return sees(nut()) && sees(hand().position) && sees(grip_of(hand())); };
+    if (shown()) return;
+    hold(false);
+    driver_.key(platform::Key::f);
+    wait(0.8);
+    for (int i = 0; i < 8 && going() && !shown(); ++i) {
+        driver_.drag(0.5 * driver_.size(), -1);
+        wait(0.3);
+    }
 }
 
 void FreeHandUser::run_down() {
@@ -103,59 +192,171 @@ void FreeHandUser::run_down() {
         frame();
         return;
     }
+    look();
     const std::size_t joint = due()->joint, step = lesson().session->lesson().current;
     hold(true);
-    if (!reach(0.0, 8.0)) return;
+    if (!lead_to({nut(), hand().orientation}, 0.008, 8.0) && engaged() < 0) return;
     hold(false);
     hold(true, nut());  // beside the nut: now the fingers close
-    for (const double until = now() + 20.0;
-         going() && due() != nullptr && now() < until && lesson().session->lesson().current == step &&
-         lesson().session->state().joints[joint].stage == joint::Stage::navigation;)
-        frame({engaged() >= 0 ? 12.0 : 0.0, 0.0});
+    for (const double until = now() + 30.0; going_on(joint) && now() < until &&
+                                            lesson().session->lesson().current == step &&
+                                            state().joints[joint].stage == joint::Stage::navigation;)
+        frame(glm::dvec2(0.0), engaged() >= 0 ? spin_rate * seconds_ : 0.0);
     hold(false);
-    for (int i = 0; i < 5; ++i) frame();
+    wait(0.25);
+    if (!going()) return;
     hold(true);
-    drag_by(hand().position, 0.1 * axis() / gain);
+    lead_to({hand().position + 0.1 * setup().nuts[joint].axis, hand().orientation}, 0.02, 2.0);
+}
+
+void FreeHandUser::take_wrench() {
+    hold(false);
+    driver_.key(platform::Key::home);
+    hold(true, hand_of(lesson()).rest * Vec3(0.05, 0.0, 0.0));
+    for (int i = 0; i < 5; ++i) frame();
+}
+
+// The head is asymmetric. Each preferred angle is one at which the jaw fits unturned, because a mouse does
+// not turn the wrench over.
+motion::GripAngle FreeHandUser::choose_side() const {
+    const std::size_t joint = due()->joint;
+    const servo::NutGeometry& geometry = setup().nuts[joint];
+    const double nut_angle = state().joints[joint].nut.angle;
+    const bool loosens = due()->kind == lesson::StepKind::loosen;
+    const double sign = loosens ? -1.0 : 1.0;
+    const Vec3 near = hand_of(lesson()).rest.position - geometry.seat;
+    const double preferred =
+        -std::atan2(glm::dot(near, geometry.e2), glm::dot(near, geometry.e1)) - 0.5 * sign * stroke;
+    const auto& contact = state().tool_contact;
+    std::vector<std::pair<double, motion::GripAngle>> sides;
+    for (int sixth = 0; sixth < 6; ++sixth) {
+        const double fits = nut_angle + setup().wrench.head_angle + sixth * pi / 3.0;
+        const motion::GripAngle side =
+            motion::choose_grip(setup(), contact ? &*contact : nullptr, joint, nut_angle, fits, sign, stroke);
+        if (side.flipped) continue;
+        const double off = std::abs(std::remainder(side.handle - preferred, 2.0 * pi));
+        sides.emplace_back(off + 4.0 * (stroke - side.room), side);
+    }
+    if (sides.empty()) return {preferred, false, stroke};
+    std::sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    return sides[misses_ % sides.size()].second;
+}
+
+// Straight up, turned there, across, and down: along the lowest such way on which the wrench touches nothing.
+std::vector<Pose> FreeHandUser::way_to(const Pose& over) const {
+    const Vec3 up = axis();
+    const Pose from = hand();
+    const auto& contact = state().tool_contact;
+    const auto is_free = [&](const Pose& a, const Pose& b) {
+        const motion::ReachPath path = motion::plan_reach(setup(), *contact, a, b, up, 0.0);
+        return path.waypoints.empty() && glm::length(path.bulge) == 0.0;
+    };
+    std::vector<Pose> way;
+    for (const double rise : rises) {
+        const double height = rise + std::max(glm::dot(from.position, up), glm::dot(over.position, up));
+        const auto raised = [&](const Pose& pose) {
+            return pose.position + (height - glm::dot(pose.position, up)) * up;
+        };
+        way = {{raised(from), from.orientation},
+               {raised(from), over.orientation},
+               {raised(over), over.orientation},
+               over};
+        if (!contact) break;
+        if (is_free(from, way[0]) && is_free(way[0], way[1]) && is_free(way[1], way[2]) &&
+            is_free(way[2], over))
+            break;
+    }
+    return way;
+}
+
+// Leads the wrench over the nut and onto it.
+bool FreeHandUser::approach() {
+    const std::size_t joint = due()->joint;
+    const servo::NutGeometry& geometry = setup().nuts[joint];
+    const auto& contact = state().tool_contact;
+    const motion::GripAngle side = choose_side();
+    room_ = side.room;
+    const double nut_angle = state().joints[joint].nut.angle;
+    const double height =
+        contact ? motion::hover_height(setup(), *contact, joint, nut_angle, side, most_hover) : most_hover;
+    const Pose seated{nut(), motion::tool_orientation(geometry, side.handle, false)};
+    const Pose over{nut() + height * geometry.axis, seated.orientation};
+    hold(true);
+    const std::vector<Pose> way = way_to(over);
+    for (std::size_t i = 0; i < way.size(); ++i)
+        if (!lead_to(way[i], 0.02, 6.0, i > 0)) return engaged() == static_cast<int>(joint);
+    if (!lead_to(over, 0.006, 6.0)) return engaged() == static_cast<int>(joint);
+    return lower(seated);
+}
+
+bool FreeHandUser::lower(const Pose& seated) {
+    const std::size_t joint = due()->joint;
+    const servo::NutGeometry& geometry = setup().nuts[joint];
+    const Vec3 up = geometry.axis;
+    for (const double until = now() + 6.0; going_on(joint) && now() < until;) {
+        if (engaged() >= 0) return engaged() == static_cast<int>(joint);
+        const Pose tool = hand();
+        const Vec3 error = seated.position - tool.position;
+        const Vec3 level = error - glm::dot(error, up) * up;
+        const collision::JawSeat seat = collision::seat_of(
+            setup().wrench.jaw, servo::prism_of(geometry),
+            servo::on_nut(geometry, state().joints[joint].nut.angle, servo::at_pose(tool)));
+        const Vec3 handle = grip_of(tool) - tool.position;
+        // Turning about −axis tightens; the misalignment is positive if the jaw is ahead.
+        const Vec3 swing = seat.misalignment * glm::cross(up, handle);
+        const bool fits = std::abs(seat.misalignment) < aligned && glm::length(level) < level_error;
+        // A jaw that does not fit would rest on the nut: align it above.
+        const double height = fits ? 0.0 : 0.8 * geometry.height + 0.5 * setup().wrench.jaw.thickness;
+        drag_by(level + swing + (glm::dot(error, up) + height) * up);
+    }
+    return false;
 }
 
 void FreeHandUser::tighten() {
-    if (!hand_of(lesson()).wrench) {
-        hold(false);
-        driver_.key(platform::Key::home);
-        hold(true, hand_of(lesson()).rest * Vec3(0.05, 0.0, 0.0));
-        for (int i = 0; i < 5; ++i) frame();
-        return;
-    }
+    if (!hand_of(lesson()).wrench) return take_wrench();
+    look();
+    const std::size_t joint = due()->joint, step = lesson().session->lesson().current;
+    if (engaged() >= 0 && engaged() != static_cast<int>(joint)) lift();
     hold(true);
-    if (engaged() >= 0 && engaged() != static_cast<int>(due()->joint)) lift();
-    if (engaged() < 0 && !(reach(hover, 10.0) && (reach(0.0, 6.0) || engaged() >= 0))) return;
-    const std::size_t joint = due()->joint;
-    const servo::Setup& setup = lesson().session->setup();
-    double swung = 0.0;
-    while (going() && due() != nullptr && due()->joint == joint && engaged() == static_cast<int>(joint) &&
-           swung < stroke) {
-        const double torque = lesson().session->state().joints[joint].torque;
-        if (torque >= torque_share * due()->torque) {
-            hold(false);
-            for (int i = 0; i < 10; ++i) frame();
-            lift();
-            return;
-        }
-        const double share = std::clamp(1.0 - torque / due()->torque, 0.1, 1.0);
-        const Projection projection = driver_.projection();
-        const glm::dvec2 lever =
-            lever_on_screen(projection, tool_of(lesson()).pose, axis(), setup.wrench.handle_length);
-        swung += pull_step * share;
-        frame(lever * (pull_step * share));
+    if (engaged() < 0 && !approach()) {
+        ++misses_;
+        ++new_starts;
+        return lift();
     }
+    if (going_on(joint)) pull();
     lift();
+    if (going() && lesson().session->lesson().current != step) misses_ = 0;
 }
 
-// Off the nut with the wheel, as a drag would swing the wrench.
+void FreeHandUser::pull() {
+    const std::size_t joint = due()->joint;
+    const double begin = state().engagement.hand_angle;
+    double furthest = begin, moved = now();
+    while (going_on(joint) && engaged() == static_cast<int>(joint)) {
+        const double torque = state().joints[joint].torque, until = torque_share * due()->torque;
+        const bool yields = state().joints[joint].stage == joint::Stage::yield;
+        if (lesson::requires_yield(lesson().session->lesson(), *due()) ? yields : torque >= until) break;
+        const double angle = state().engagement.hand_angle;
+        if (angle > furthest + 0.01) furthest = angle, moved = now();
+        if (angle - begin > std::min(room_, stroke) || now() > moved + 2.0) break;
+        const glm::dvec2 lever = lever_on_screen(driver_.projection(), tool_of(lesson()).pose, axis(),
+                                                 setup().wrench.handle_length);
+        frame(lever * (pull_speed * seconds_ * std::clamp(1.0 - torque / until, slowest_pull, 1.0)));
+    }
+    hold(false);
+    wait(0.5);
+}
+
+// Off the nut with the wheel, as a drag would swing the wrench; then on, clear of it.
 void FreeHandUser::lift() {
+    if (!going()) return;
     hold(true);
-    for (int i = 0; i < 60 && going() && engaged() >= 0; ++i) frame({}, -0.5);
-    for (int i = 0; i < 4 && going(); ++i) frame({}, -0.5);
+    const Vec3 up = setup().nuts.front().axis;
+    const double from = glm::dot(hand().position, up);
+    for (const double until = now() + 1.5; going() && now() < until;) {
+        if (engaged() < 0 && glm::dot(hand().position, up) > from + 0.9 * most_hover) return;
+        frame({}, -lift_speed * seconds_ / notch_on_bolt);
+    }
 }
 
 void FreeHandUser::play(double longest, std::size_t steps) {

@@ -85,6 +85,16 @@ void HeadlessTrainer::release(const glm::dvec2& at) {
     frame({platform::ButtonEvent{platform::Button::left, false, at}});
 }
 
+void HeadlessTrainer::turn_button(const glm::dvec2& at, bool down) {
+    frame({platform::ButtonEvent{platform::Button::right, down, at}});
+}
+
+void HeadlessTrainer::drag(const glm::dvec2& to, int notches) {
+    std::vector<platform::InputEvent> events{platform::CursorEvent{to}};
+    if (notches != 0) events.emplace_back(platform::WheelEvent{{0.0, static_cast<double>(notches)}, to});
+    frame(events);
+}
+
 glm::dvec2 HeadlessTrainer::hold(std::size_t joint) {
     const auto on = [&] { return lesson().session->state().engagement.joint == static_cast<int>(joint); };
     const session::LessonSession& session = *lesson().session;

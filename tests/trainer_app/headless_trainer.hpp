@@ -47,6 +47,8 @@ class HeadlessTrainer : public TrainerDriver {
     void move(const glm::dvec2& to) override;
     void press(const glm::dvec2& at) override;
     void release(const glm::dvec2& at) override;
+    void turn_button(const glm::dvec2& at, bool down) override;
+    void drag(const glm::dvec2& to, int notches) override;
     // Presses on a nut and waits until the hand holds it. Returns the position in px.
     glm::dvec2 hold(std::size_t joint);
 

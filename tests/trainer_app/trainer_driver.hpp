@@ -17,6 +17,10 @@ class TrainerDriver {
     virtual void move(const glm::dvec2& to) = 0;   // px
     virtual void press(const glm::dvec2& at) = 0;  // px, moves there first
     virtual void release(const glm::dvec2& at) = 0;
+    // Presses or releases the right button while the left is held: a free hand then turns the tool.
+    virtual void turn_button(const glm::dvec2& at, bool down) = 0;
+    // Moves the pointer, px, and turns the wheel by whole notches, positive upwards, in one frame.
+    virtual void drag(const glm::dvec2& to, int notches) = 0;
 
     [[nodiscard]] virtual const trainer::App& app() const = 0;
     [[nodiscard]] virtual glm::dvec2 size() const = 0;  // px

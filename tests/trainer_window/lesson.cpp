@@ -74,22 +74,11 @@ TEST_CASE("Window: a whole lesson from the menu to the result") {
     REQUIRE(size);
     test::Program program(std::move(options), {size->width, size->height});
     test::WindowDriver driver(*program.app, program.window);
-    std::exception_ptr thrown;
-    std::thread user_thread([&] {
-        try {
-            driver.run([&] { play_all(driver, !environment("BOLT_FILM_OVERDO").empty()); });
-        } catch (...) {
-            thrown = std::current_exception();
-        }
-    });
-    const Status run = view::run_in_window(*program.app, program.window, *program.instance,
-                                           {{}, [&] { return driver.turn(); }});
-    driver.window_closed();
-    user_thread.join();
+    const Status run = test::run_with_user(
+        program, driver, [&] { play_all(driver, !environment("BOLT_FILM_OVERDO").empty()); });
     const std::vector<std::string> log = program.log.lines();
     for (std::size_t i = 0; i < log.size(); ++i)
         if (filmed || i + 3 >= log.size()) MESSAGE(log[i]);
-    if (thrown) std::rethrow_exception(thrown);
     CHECK_MESSAGE(run.has_value(), (run ? "" : run.error().message()));
     REQUIRE(program.played);
     CHECK(program.played->result.finished);

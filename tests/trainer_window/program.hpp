@@ -4,11 +4,14 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <functional>
 #include <mutex>
+#include <thread>
 
 #include "game/trainer/app.hpp"
 #include "game/view/window.hpp"
 #include "tests/support/need.hpp"
+#include "tests/trainer_window/window_driver.hpp"
 
 namespace bolt::test {
 
@@ -69,5 +72,23 @@ struct Program {
         for (const std::string& message : instance->log().messages) FAIL_CHECK(message);
     }
 };
+
+// Runs the program while `act` uses it in a thread of its own, until `act` is done. Throws what `act` throws.
+inline Status run_with_user(Program& program, WindowDriver& driver, const std::function<void()>& act) {
+    std::exception_ptr thrown;
+    std::thread user_thread([&] {
+        try {
+            driver.run(act);
+        } catch (...) {
+            thrown = std::current_exception();
+        }
+    });
+    const Status run = view::run_in_window(*program.app, program.window, *program.instance,
+                                           {{}, [&] { return driver.turn(); }});
+    driver.window_closed();
+    user_thread.join();
+    if (thrown) std::rethrow_exception(thrown);
+    return run;
+}
 
 }  // namespace bolt::test

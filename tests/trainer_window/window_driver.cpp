@@ -1,5 +1,6 @@
 #include "tests/trainer_window/window_driver.hpp"
 
+#include <cstdlib>
 #include <stdexcept>
 
 namespace bolt::test {
@@ -93,6 +94,25 @@ void WindowDriver::press(const glm::dvec2& at) {
 
 void WindowDriver::release(const glm::dvec2& at) {
     hand_->release(static_cast<int>(at.x), static_cast<int>(at.y));
+    frame();
+}
+
+void WindowDriver::turn_button(const glm::dvec2& at, bool down) {
+    const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
+    if (down)
+        hand_->press(x, y, 3);
+    else
+        hand_->release(x, y, 3);
+    frame();
+}
+
+void WindowDriver::drag(const glm::dvec2& to, int notches) {
+    const int x = static_cast<int>(to.x), y = static_cast<int>(to.y);
+    hand_->point(x, y);
+    for (int i = 0; i < std::abs(notches); ++i) {
+        hand_->press(x, y, notches > 0 ? 4 : 5);
+        hand_->release(x, y, notches > 0 ? 4 : 5);
+    }
     frame();
 }
 

@@ -30,6 +30,8 @@ class WindowDriver final : public TrainerDriver {
     void move(const glm::dvec2& to) override;
     void press(const glm::dvec2& at) override;
     void release(const glm::dvec2& at) override;
+    void turn_button(const glm::dvec2& at, bool down) override;
+    void drag(const glm::dvec2& to, int notches) override;
     [[nodiscard]] const trainer::App& app() const override { return app_; }
     [[nodiscard]] glm::dvec2 size() const override;
 
