@@ -14,7 +14,7 @@ constexpr double wheel_step_on_bolt = 0.01;      // m along the bolt
 constexpr double wheel_turn = to_radians(30.0);  // of the fingers for a notch: within the lead of the arm
 // s in which the hand follows a notch of the wheel. At once, it would hit the work at 1 m/s, and fingers
 // would slip off the nut.
-constexpr double wheel_time = 0.1;
+constexpr double wheel_time = 0.1, least_notch = 1e-3;
 constexpr double finger_turn = to_radians(2.5);  // of the fingers for a pixel of drag
 constexpr double key_speed = 0.25;               // m/s
 constexpr double key_turn_speed = 1.5;           // rad/s
@@ -77,7 +77,7 @@ Vec3 grip_of(const DragScene& scene) {
 double smooth_wheel(DraggedHand& hand, const DragInput& input) {
     hand.wheel = input.mouse.left_down ? hand.wheel + input.mouse.wheel : 0.0;
     const double followed = std::min(1.0, input.seconds / wheel_time) * hand.wheel;
-    hand.wheel -= followed;
+    hand.wheel = std::abs(hand.wheel - followed) < least_notch ? 0.0 : hand.wheel - followed;
     return followed;
 }
 
@@ -159,10 +159,12 @@ void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene
     const bool closed = (hand.held && (hand.grasps || scene.wrench)) || input.keys.buttons != 0 || eases;
     hand.motion.buttons = closed ? 1 : 0;
 
-    hand.motion.lead = scene.engaged ? device::HandMotion{}.lead : air_lead;
     hand.motion.yielding = eases ? ease_yielding : scene.engaged ? 0.0 : air_yielding;
     DragInput smooth = input;
     smooth.mouse.wheel = smooth_wheel(hand, input);
+    // Only a pull at the handle needs all the strength: a mouse may pull a bolt too tight.
+    const bool pulls = scene.engaged && smooth.mouse.wheel == 0.0;
+    hand.motion.lead = pulls ? device::HandMotion{}.lead : air_lead;
     HandShift motion = mouse_motion(hand, smooth, scene);
     motion.shift += key_speed * input.seconds * (scene.device * input.keys.along);
     motion.turn += key_turn_speed * input.seconds * (scene.device * input.keys.about);

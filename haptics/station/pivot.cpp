@@ -82,7 +82,9 @@ void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationSt
     const Pivot pivot{nut.seat, nut.axis};
     const Vec3 lever_end = force::lever_end(s.workspace, s.workspace.commanded_tool);
     const double lever_arm = s.workspace.lever_arm;
-    const double max_turn = is_held_back(last, s.output) ? 0.0 : pivot_rate * dt;
+    // Without output nothing holds the jaw: a tilted wrench that was turned square would sink into the work.
+    const bool turns = s.input.enabled && !is_held_back(last, s.output);
+    const double max_turn = turns ? pivot_rate * dt : 0.0;
     force::realign(layout.workspace, s.workspace, s.mover_pose,
                    s.output.joint >= 0
                        ? force::pivoted(pivot, s.output.constrained_tool, lever_arm, lever_end)
