@@ -94,6 +94,22 @@ TEST_CASE(
     CHECK(glm::length(rig.tool().position - last.position) < 1e-6);
 }
 
+TEST_CASE(
+    "An arm without torque: a tilted wrench on a nut stays there when the dead-man switch is released") {
+    Rig rig = on_nut(small_arm());
+    const double lower = 0.006 / rig.layout.workspace.scale;
+    for (int i = 0; i < 100; ++i) {
+        rig.hand().position.y -= lower / 100.0;
+        rig.tick();
+    }
+    REQUIRE(rig.state.output.joint == 0);
+    const Pose before = rig.tool();
+    rig.inputs.controls.dead_man = false;
+    rig.ticks(300);
+    CHECK(rig.state.output.joint < 0);
+    CHECK(glm::length(rig.tool().position - before.position) < 1e-3);
+}
+
 TEST_CASE("An arm: it moves the tool to the viewer's right wherever the viewer stands, without a jump") {
     Rig rig(test::with_arm());
     rig.ticks(2);
