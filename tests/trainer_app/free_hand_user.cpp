@@ -23,9 +23,11 @@ constexpr double most_hover = 0.045;         // m above the nut
 constexpr double pull_speed = 0.6;           // rad/s of the handle
 constexpr double slowest_pull = 0.08;        // of pull_speed
 constexpr double stroke = to_radians(50.0);  // rad
-constexpr double lift_speed = 0.15;          // m/s
-constexpr double spin_rate = 12.0;           // notches/s of the wheel
-constexpr double margin = 0.04;              // of the picture, in which the pointer presses anew
+constexpr double push_speed = 0.03;          // m/s
+constexpr double settled = 0.1e-3, settled_time = 0.5;  // m and s
+constexpr double lift_speed = 0.15;                     // m/s
+constexpr double spin_rate = 20.0;                      // notches/s of the wheel
+constexpr double margin = 0.04;                         // of the picture, in which the pointer presses anew
 constexpr double rises[] = {0.13, 0.25,
                             0.45};  // m above the start and the nut, where no bolt turns the wrench
 
@@ -106,7 +108,8 @@ void FreeHandUser::frame(const glm::dvec2& px, double notches) {
     const double before = now();
     driver_.drag(pointer_, whole);
     on_frame();
-    if (going()) seconds_ = std::clamp(now() - before, 0.01, 0.25);
+    // In slow pictures a person moves slowly.
+    if (going()) seconds_ = std::clamp(now() - before, 0.01, 0.1);
 }
 
 void FreeHandUser::wait(double seconds) {
@@ -312,6 +315,18 @@ bool FreeHandUser::lower(const Pose& seated) {
     return false;
 }
 
+// A jaw that holds the nut by its edge would slip off: further down with the wheel, until it stops.
+void FreeHandUser::push_down() {
+    hold(true);
+    double most = 0.0, moved = now();
+    while (going() && due() != nullptr && engaged() >= 0 && now() < moved + settled_time) {
+        const double overlap = state().engagement.seat.overlap;
+        if (overlap > most + settled) moved = now();
+        most = std::max(most, overlap);
+        frame({}, push_speed * seconds_ / notch_on_bolt);
+    }
+}
+
 void FreeHandUser::tighten() {
     if (!hand_of(lesson()).wrench) return take_wrench();
     look();
@@ -323,6 +338,7 @@ void FreeHandUser::tighten() {
         ++new_starts;
         return lift();
     }
+    push_down();
     if (going_on(joint)) pull();
     lift();
     if (going() && lesson().session->lesson().current != step) misses_ = 0;

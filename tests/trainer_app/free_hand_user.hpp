@@ -63,6 +63,7 @@ class FreeHandUser {
     [[nodiscard]] std::vector<Pose> way_to(const Pose& over) const;
     bool approach();
     bool lower(const Pose& seated);
+    void push_down();
     void tighten();
     void pull();
     void lift();

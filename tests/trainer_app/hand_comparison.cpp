@@ -38,17 +38,20 @@ HandMeasures measure_hand(const TrainerDriver& driver, const std::filesystem::pa
     for (std::size_t i = 0; i < data.joints.size(); ++i) {
         double target = 0.0;
         for (const lesson::LessonStep& step : lesson.steps)
-            if (step.joint == i) target = std::max(target, step.torque);
+            if (step.joint == i && step.kind == lesson::StepKind::tighten &&
+                !lesson::requires_yield(lesson, step))
+                target = std::max(target, step.torque);
         if (target > 0.0)
             measures.torque_error =
-                std::max(measures.torque_error, std::abs(data.joints[i].torque / target - 1.0));
+                std::max(measures.torque_error.value_or(0.0), std::abs(data.joints[i].torque / target - 1.0));
     }
     return measures;
 }
 
 std::string table_row(const std::string& name, const HandMeasures& m) {
-    return fmt::format("| {} | {:.0f} | {} | {:.0f} | {} | {:.1f} | {:.1f} |{}", name, m.seconds, m.presses,
-                       m.score, m.bumps, m.bump_seconds, 100.0 * m.torque_error,
+    return fmt::format("| {} | {:.0f} | {} | {:.0f} | {} | {:.1f} | {} |{}", name, m.seconds, m.presses,
+                       m.score, m.bumps, m.bump_seconds,
+                       m.torque_error ? fmt::format("{:.1f}", 100.0 * *m.torque_error) : "–",
                        m.finished ? "" : " not finished");
 }
 

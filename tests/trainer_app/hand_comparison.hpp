@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "tests/trainer_app/trainer_driver.hpp"
@@ -18,7 +19,9 @@ struct HandMeasures {
     double score = 0.0;
     std::size_t bumps = 0;      // analysis::Bump
     double bump_seconds = 0.0;  // in all
-    double torque_error = 0.0;  // largest deviation of a joint from its target torque, fraction of it
+    // Largest deviation of a joint from its target torque, fraction of it; none if all are tightened to
+    // yield.
+    std::optional<double> torque_error;
 };
 
 // Plays the lesson that `driver` shows to its end, or for `longest` s, with the user of that hand.
