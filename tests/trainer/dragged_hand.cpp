@@ -16,11 +16,11 @@ constexpr double drag_frame = 0.02;  // s
 DragScene seen_from_the_front() {
     DragScene scene;
     const glm::vec3 eye(0.0F, 1.0F, 1.0F);
-    scene.screen.eye.position = eye;
+    scene.projection.eye.position = eye;
     const glm::mat4 y_down = glm::scale(glm::mat4(1.0F), glm::vec3(1.0F, -1.0F, 1.0F));
-    scene.screen.eye.clip_from_world = y_down * glm::perspective(0.8F, 1.6F, 0.05F, 10.0F) *
-                                       glm::lookAt(eye, glm::vec3(0.0F), glm::vec3(0.0F, 1.0F, 0.0F));
-    scene.screen.size = {800.0, 500.0};
+    scene.projection.eye.clip_from_world = y_down * glm::perspective(0.8F, 1.6F, 0.05F, 10.0F) *
+                                           glm::lookAt(eye, glm::vec3(0.0F), glm::vec3(0.0F, 1.0F, 0.0F));
+    scene.projection.size = {800.0, 500.0};
     scene.wrench = true;
     scene.handle_length = 0.2;
     // The tool's normal is vertical.
@@ -55,7 +55,7 @@ TEST_CASE("Dragged hand: beside a bolt a drag keeps the height, and looks as in 
     CHECK(std::abs(moved.y) < 1e-6);
     CHECK(moved.z < -0.01);
     const Vec3 grip = scene.tool * Vec3(scene.handle_length, 0.0, 0.0);
-    const auto from = project(scene.screen, grip), to = project(scene.screen, grip + moved);
+    const auto from = project(scene.projection, grip), to = project(scene.projection, grip + moved);
     REQUIRE(from);
     REQUIRE(to);
     // The point comes a little nearer or farther, so the drag looks as long to a few per cent.
