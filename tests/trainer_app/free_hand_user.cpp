@@ -175,9 +175,9 @@ bool FreeHandUser::sees(const Vec3& point) const {
            at->y < 0.95 * size.y;
 }
 
-// Shows the nut and the hand: the whole machine, and from further away until both are in the picture.
-void FreeHandUser::look() {
-    const auto shown = [&] { return sees(nut()) && sees(hand().position) && sees(grip_of(hand())); };
+// Shows the goal and the hand: the whole machine, and from further away until both are in the picture.
+void FreeHandUser::look(const Vec3& goal) {
+    const auto shown = [&] { return sees(goal) && sees(hand().position) && sees(grip_of(hand())); };
     if (shown()) return;
     hold(false);
     driver_.key(platform::Key::f);
@@ -195,7 +195,7 @@ void FreeHandUser::run_down() {
         frame();
         return;
     }
-    look();
+    look(nut());
     const std::size_t joint = due()->joint, step = lesson().session->lesson().current;
     hold(true);
     if (!lead_to({nut(), hand().orientation}, 0.008, 8.0) && engaged() < 0) return;
@@ -215,7 +215,10 @@ void FreeHandUser::run_down() {
 void FreeHandUser::take_wrench() {
     hold(false);
     driver_.key(platform::Key::home);
-    hold(true, hand_of(lesson()).rest * Vec3(0.05, 0.0, 0.0));
+    frame();
+    const Vec3 beside = hand_of(lesson()).rest * Vec3(0.05, 0.0, 0.0);
+    look(beside);
+    hold(true, beside);
     for (int i = 0; i < 5; ++i) frame();
 }
 
@@ -329,7 +332,7 @@ void FreeHandUser::push_down() {
 
 void FreeHandUser::tighten() {
     if (!hand_of(lesson()).wrench) return take_wrench();
-    look();
+    look(nut());
     const std::size_t joint = due()->joint, step = lesson().session->lesson().current;
     if (engaged() >= 0 && engaged() != static_cast<int>(joint)) lift();
     hold(true);

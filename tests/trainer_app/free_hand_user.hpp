@@ -56,7 +56,7 @@ class FreeHandUser {
     // the jaw engages a nut. `turned`: turns the wrench too.
     bool lead_to(const Pose& target, double near, double longest, bool turned = true);
     [[nodiscard]] bool sees(const Vec3& point) const;
-    void look();
+    void look(const Vec3& goal);
     void run_down();
     void take_wrench();
     [[nodiscard]] motion::GripAngle choose_side() const;
