@@ -38,6 +38,7 @@ find_package(doctest QUIET)
 find_package(benchmark QUIET)
 
 find_package(glfw3 REQUIRED)
+find_package(OpenXR REQUIRED)
 
 # The engine. volk loads Vulkan at run time; its header is in Debian's libvulkan-volk-dev.
 find_program(GLSLANG glslangValidator REQUIRED)

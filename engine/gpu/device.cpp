@@ -60,6 +60,7 @@ Result<Instance> Instance::create(const InstanceOptions& options) {
                     "vulkan-validationlayers");
 
     Instance instance;
+    instance.log_ = options.log ? options.log : std::make_shared<ValidationLog>();
     std::vector<const char*> extensions(options.extensions.begin(), options.extensions.end());
     if (options.validation) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
 
@@ -84,7 +85,12 @@ Result<Instance> Instance::create(const InstanceOptions& options) {
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &validation_layer;
     }
-    BOLT_TRY(check(vkCreateInstance(&info, nullptr, &instance.instance_), "creating the Vulkan instance"));
+    if (options.creator != nullptr) {
+        BOLT_TRY_ASSIGN(instance.instance_, options.creator->create_instance(info));
+    } else {
+        BOLT_TRY(
+            check(vkCreateInstance(&info, nullptr, &instance.instance_), "creating the Vulkan instance"));
+    }
     volkLoadInstance(instance.instance_);
     if (options.validation) {
         messenger.pNext = nullptr;
@@ -297,17 +303,38 @@ Result<DeviceSurvey> survey_devices(const Instance& instance, const DeviceOption
     return survey;
 }
 
-Result<std::unique_ptr<Device>> Device::create(const Instance& instance, const DeviceOptions& options) {
-    BOLT_TRY_ASSIGN(auto survey, survey_devices(instance, options));
+namespace {
+
+// Fails if no device can be used, or not the one that the headset is connected to.
+Result<std::size_t> choose(const Instance& instance, const DeviceOptions& options, DeviceSurvey& survey) {
+    if (options.creator != nullptr) {
+        BOLT_TRY_ASSIGN(const auto required, options.creator->choose_gpu(instance.get()));
+        const auto at = std::find(survey.physical.begin(), survey.physical.end(), required);
+        if (at == survey.physical.end())
+            return fail(ErrorCode::no_device, "the headset is connected to a GPU that Vulkan does not list");
+        const auto index = static_cast<std::size_t>(at - survey.physical.begin());
+        if (const std::string reason = unusable_reason(survey.candidates[index], {}); !reason.empty())
+            return fail(ErrorCode::no_device,
+                        fmt::format("the headset's GPU, {}, {}", survey.candidates[index].name, reason));
+        return index;
+    }
     if (survey.choice.index < 0)
         return fail(ErrorCode::no_device,
                     survey.physical.empty() ? "no Vulkan device was found"
                                             : fmt::format("no Vulkan device is usable: {}",
                                                           fmt::join(survey.choice.reasons, "; ")),
                     "a Vulkan 1.3 device; mesa-vulkan-drivers renders without a GPU");
-    const auto index = static_cast<std::size_t>(survey.choice.index);
+    return static_cast<std::size_t>(survey.choice.index);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Device>> Device::create(const Instance& instance, const DeviceOptions& options) {
+    BOLT_TRY_ASSIGN(auto survey, survey_devices(instance, options));
+    BOLT_TRY_ASSIGN(const auto index, choose(instance, options, survey));
 
     std::unique_ptr<Device> device(new Device());
+    device->instance_ = instance.get();
     device->physical_ = survey.physical[index];
     device->name_ = survey.candidates[index].name;
     device->driver_ = survey.candidates[index].driver;
@@ -335,8 +362,12 @@ Result<std::unique_ptr<Device>> Device::create(const Instance& instance, const D
         info.enabledExtensionCount = 1;
         info.ppEnabledExtensionNames = &swapchain;
     }
-    BOLT_TRY(check(vkCreateDevice(device->physical_, &info, nullptr, &device->device_),
-                   fmt::format("creating a device on {}", device->name_)));
+    if (options.creator != nullptr) {
+        BOLT_TRY_ASSIGN(device->device_, options.creator->create_device(device->physical_, info));
+    } else {
+        BOLT_TRY(check(vkCreateDevice(device->physical_, &info, nullptr, &device->device_),
+                       fmt::format("creating a device on {}", device->name_)));
+    }
     volkLoadDevice(device->device_);
     vkGetDeviceQueue(device->device_, device->queue_family_, 0, &device->queue_);
     device->memory_ = std::make_unique<Memory>(device->physical_, device->device_);

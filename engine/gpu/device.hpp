@@ -20,9 +20,27 @@ struct ValidationLog {
     std::vector<std::string> messages;
 };
 
+// Creates the Vulkan instance and device in place of the application. An OpenXR runtime does so, because it
+// adds its own extensions and determines the GPU.
+class VulkanCreator {
+  public:
+    VulkanCreator() = default;
+    VulkanCreator(const VulkanCreator&) = delete;
+    VulkanCreator& operator=(const VulkanCreator&) = delete;
+    virtual ~VulkanCreator() = default;
+
+    virtual Result<VkInstance> create_instance(const VkInstanceCreateInfo& info) = 0;
+    // The GPU of the headset. The device must be created on it.
+    virtual Result<VkPhysicalDevice> choose_gpu(VkInstance instance) = 0;
+    virtual Result<VkDevice> create_device(VkPhysicalDevice gpu, const VkDeviceCreateInfo& info) = 0;
+};
+
 struct InstanceOptions {
     bool validation = false;  // core and synchronization validation; fails if the layer is not installed
     std::span<const char* const> extensions;  // required by the window system
+    VulkanCreator* creator = nullptr;         // null: the instance is created directly
+    // Receives the messages of the validation layers. Null: the instance has a log of its own.
+    std::shared_ptr<ValidationLog> log{};
 };
 
 class Instance {
@@ -37,14 +55,14 @@ class Instance {
 
     [[nodiscard]] VkInstance get() const { return instance_; }
     [[nodiscard]] const ValidationLog& log() const { return *log_; }
+    [[nodiscard]] std::shared_ptr<ValidationLog> shared_log() const { return log_; }
 
   private:
     Instance() = default;
 
     VkInstance instance_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-    // On the heap, because the messenger holds its address.
-    std::unique_ptr<ValidationLog> log_ = std::make_unique<ValidationLog>();
+    std::shared_ptr<ValidationLog> log_;  // the messenger holds its address
 };
 
 // The drawable surface of a window. engine/platform creates it, because it depends on the window system.
@@ -96,6 +114,9 @@ DeviceChoice choose_device(std::span<const DeviceCandidate> candidates, const st
 struct DeviceOptions {
     std::string wanted;                     // part of a device name; empty: choose the fastest device
     VkSurfaceKHR surface = VK_NULL_HANDLE;  // the device must be able to present to it; null: offscreen
+    // Chooses the GPU and creates the device. Null: the device is created directly. Its choice has precedence
+    // over `wanted`.
+    VulkanCreator* creator = nullptr;
 };
 
 // The devices of this machine and the choice among them; printed by `doctor`.
@@ -117,6 +138,7 @@ class Device {
     ~Device();
 
     [[nodiscard]] VkDevice get() const { return device_; }
+    [[nodiscard]] VkInstance instance() const { return instance_; }
     [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
     [[nodiscard]] VkQueue queue() const { return queue_; }
     [[nodiscard]] std::uint32_t queue_family() const { return queue_family_; }
@@ -133,6 +155,7 @@ class Device {
   private:
     Device() = default;
 
+    VkInstance instance_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;

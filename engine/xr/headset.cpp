@@ -1,0 +1,137 @@
+#include "engine/xr/headset.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace bolt::xr {
+
+namespace {
+
+constexpr double search_interval = 1.0;  // s
+constexpr double exit_timeout = 2.0;     // s in which the session passes through its last states
+
+}  // namespace
+
+void Headset::log(const std::string& line) const {
+    if (options_.log) options_.log(line);
+}
+
+bool Headset::find(double now) {
+    if (runtime_ || exit_requested_ || (last_search_ && now - *last_search_ < search_interval)) return false;
+    last_search_ = now;
+    Result<std::unique_ptr<Runtime>> found = Runtime::open();
+    if (!found) {
+        // The same answer every second is not worth a line.
+        if (!absence_ || absence_->message() != found.error().message()) log(found.error().message());
+        absence_ = found.error();
+        return false;
+    }
+    runtime_ = std::move(*found);
+    absence_.reset();
+    log(fmt::format("headset: {} with {}", runtime_->headset(), runtime_->name()));
+    return true;
+}
+
+bool Headset::keep(const Status& status) {
+    if (status) return true;
+    absence_ = status.error();
+    log(fmt::format("the headset is lost: {}", status.error().message()));
+    drop();
+    return false;
+}
+
+void Headset::drop() {
+    input_.reset();
+    session_.reset();
+    runtime_.reset();
+    events_.clear();
+}
+
+void Headset::begin(gpu::Device& device) {
+    Result<std::unique_ptr<Session>> session = Session::create(*runtime_, device, options_.session);
+    if (!session) {
+        (void)keep(fail(session.error()));
+        return;
+    }
+    session_ = std::move(*session);
+    Result<std::unique_ptr<Input>> input = Input::create(*session_, options_.names);
+    if (!input) {
+        (void)keep(fail(input.error()));
+        return;
+    }
+    input_ = std::move(*input);
+    log(fmt::format("headset: {} eye(s) of {}x{} pixels, poses relative to the {}{}",
+                    runtime_->views().size(), session_->extent().width, session_->extent().height,
+                    name(session_->base_space()), session_->uses_depth() ? ", with depth" : ""));
+}
+
+void Headset::end() {
+    if (session_ && session_->running() && session_->request_exit()) {
+        // The runtime expects frames until it has stopped the session.
+        const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(exit_timeout);
+        while (session_ && !session_->ended() && std::chrono::steady_clock::now() < until) {
+            if (!session_->poll(events_)) break;
+            const Result<std::optional<FrameTiming>> frame = session_->begin_frame(0.01);
+            if (!frame) break;
+            if (*frame && !session_->end_frame(**frame, {})) break;
+            if (!session_->running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    drop();
+}
+
+std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
+    if (!session_ || !keep(session_->poll(events_))) return std::nullopt;
+    if (session_->ended()) {
+        log("the program was ended in the headset's menu");
+        exit_requested_ = true;
+        drop();
+        return std::nullopt;
+    }
+    const Result<std::optional<FrameTiming>> begun = session_->begin_frame(timeout);
+    if (!begun) {
+        (void)keep(fail(begun.error()));
+        return std::nullopt;
+    }
+    if (!*begun) return std::nullopt;
+    HeadsetFrame frame;
+    frame.timing = **begun;
+    frame.focused = session_->focused();
+    const Result<Hands> hands = input_->read(frame.timing);
+    if (!hands) {
+        (void)keep(fail(hands.error()));
+        return std::nullopt;
+    }
+    frame.hands = *hands;
+    locate(frame);
+    if (!session_) return std::nullopt;
+    frame.events = std::exchange(events_, {});
+    return frame;
+}
+
+void Headset::locate(HeadsetFrame& frame) {
+    if (!session_) return;
+    Result<HeadView> view = session_->locate(frame.timing);
+    if (!view) {
+        (void)keep(fail(view.error()));
+        return;
+    }
+    frame.view = std::move(*view);
+}
+
+void Headset::record(VkCommandBuffer commands, std::span<const EyePicture> pictures) {
+    if (session_) (void)keep(session_->record(commands, pictures));
+}
+
+void Headset::end_frame(const HeadsetFrame& frame, bool drawn, const DepthRange& depth) {
+    if (session_) (void)keep(session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth}));
+}
+
+void Headset::vibrate(Side side, const Vibration& vibration) {
+    if (session_ && session_->focused()) (void)keep(input_->vibrate(side, vibration));
+}
+
+}  // namespace bolt::xr

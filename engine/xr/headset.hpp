@@ -1,0 +1,92 @@
+// A headset that may be absent, appear, be lost and return while the program runs. After a loss the program
+// goes on without it, with the GPU objects that it has; the headset returns with a new runtime instance, for
+// which Vulkan's instance and device must be created anew.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/xr/input.hpp"
+#include "engine/xr/session.hpp"
+
+namespace bolt::xr {
+
+struct HeadsetOptions {
+    SessionOptions session;
+    ActionNames names;
+    std::function<void(const std::string&)> log;  // receives one line for each change; may be empty
+};
+
+// A frame of the headset, from its beginning to its end.
+struct HeadsetFrame {
+    FrameTiming timing;
+    HeadView view;  // without eyes: nothing can be drawn
+    Hands hands;
+    bool focused = false;              // false: pause the lesson, render no force, hide the hands
+    std::vector<SessionEvent> events;  // since the last frame
+};
+
+class Headset {
+  public:
+    explicit Headset(HeadsetOptions options) : options_(std::move(options)) {}
+    Headset(const Headset&) = delete;
+    Headset& operator=(const Headset&) = delete;
+    ~Headset() { end(); }
+
+    // Looks for a headset if there is none, at most once a second. Returns true if one was found. Then
+    // destroy all Vulkan objects, create them with creator(), and call begin().
+    bool find(double now);
+    // Why there is no headset; none: there is one.
+    [[nodiscard]] const std::optional<Error>& absence() const { return absence_; }
+    // Creates Vulkan's instance and device for the headset; null: none was found.
+    [[nodiscard]] gpu::VulkanCreator* creator() const { return runtime_.get(); }
+
+    // Starts the session, with a device that creator() created and that must outlive it. If this fails, the
+    // headset is absent.
+    void begin(gpu::Device& device);
+    // Ends the session in order, and releases the runtime. Call it before the device is destroyed.
+    void end();
+
+    [[nodiscard]] bool connected() const { return session_ != nullptr; }
+    // The session shows pictures: begin_frame() is to be called, and it determines the frame rate.
+    [[nodiscard]] bool running() const { return session_ && session_->running(); }
+    // The user has ended the program in the headset's own menu.
+    [[nodiscard]] bool exit_requested() const { return exit_requested_; }
+
+    // Follows the runtime, and begins a frame if it is time; waits at most `timeout` s for that.
+    std::optional<HeadsetFrame> begin_frame(double timeout);
+    // Call once, after the other work on the frame and before drawing: the later, the nearer is the picture
+    // to the pose of the head when it is seen. Updates `frame.view`.
+    void locate(HeadsetFrame& frame);
+    // Copies the pictures of the eyes, which were drawn for `frame.view`, into the headset's.
+    void record(VkCommandBuffer commands, std::span<const EyePicture> pictures);
+    // Ends the frame, after its commands were submitted. `drawn`: record() was called.
+    void end_frame(const HeadsetFrame& frame, bool drawn, const DepthRange& depth);
+
+    void vibrate(Side side, const Vibration& vibration);
+
+    // Valid while connected.
+    [[nodiscard]] const Session& session() const { return *session_; }
+    [[nodiscard]] const Runtime& runtime() const { return *runtime_; }
+    [[nodiscard]] const Input& input() const { return *input_; }
+
+  private:
+    void log(const std::string& line) const;
+    // Drops the headset if the status is an error. Returns whether it succeeded.
+    bool keep(const Status& status);
+    void drop();
+
+    HeadsetOptions options_;
+    std::unique_ptr<Runtime> runtime_;
+    std::unique_ptr<Session> session_;
+    std::unique_ptr<Input> input_;
+    std::vector<SessionEvent> events_;
+    std::optional<Error> absence_;
+    std::optional<double> last_search_;
+    bool exit_requested_ = false;
+};
+
+}  // namespace bolt::xr

@@ -1,0 +1,319 @@
+#include "engine/xr/input.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+
+namespace bolt::xr {
+
+namespace {
+
+constexpr std::array<const char*, 2> hand_paths{"/user/hand/left", "/user/hand/right"};
+
+// The input of a controller for each intent, below the path of the hand; null: it has none.
+struct Profile {
+    const char* path;
+    const char* select;
+    const char* grasp;
+    const char* stick;
+    std::array<const char*, 2> menu, secondary;  // left, right
+    bool vibrates = true;
+    bool needs_hand_interaction = false;
+};
+
+constexpr Profile controller_profiles[] = {
+    // One button does both: what the hand is at decides.
+    {"/interaction_profiles/khr/simple_controller",
+     "input/select/click",
+     "input/select/click",
+     nullptr,
+     {"input/menu/click", "input/menu/click"},
+     {nullptr, nullptr}},
+    {"/interaction_profiles/oculus/touch_controller",
+     "input/trigger/value",
+     "input/squeeze/value",
+     "input/thumbstick",
+     {"input/menu/click", "input/b/click"},
+     {"input/x/click", "input/a/click"}},
+    {"/interaction_profiles/valve/index_controller",
+     "input/trigger/value",
+     "input/squeeze/value",
+     "input/thumbstick",
+     {"input/b/click", "input/b/click"},
+     {"input/a/click", "input/a/click"}},
+    {"/interaction_profiles/htc/vive_controller",
+     "input/trigger/value",
+     "input/squeeze/click",
+     "input/trackpad",
+     {"input/menu/click", "input/menu/click"},
+     {"input/trackpad/click", "input/trackpad/click"}},
+    {"/interaction_profiles/microsoft/motion_controller",
+     "input/trigger/value",
+     "input/squeeze/click",
+     "input/thumbstick",
+     {"input/menu/click", "input/menu/click"},
+     {"input/thumbstick/click", "input/thumbstick/click"}},
+    {"/interaction_profiles/ext/hand_interaction_ext",
+     "input/pinch_ext/value",
+     "input/grasp_ext/value",
+     nullptr,
+     {nullptr, nullptr},
+     {nullptr, nullptr},
+     false,
+     true},
+};
+
+constexpr XrSpaceLocationFlags pose_valid =
+    XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
+constexpr XrSpaceLocationFlags pose_tracked =
+    XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
+
+template <std::size_t size>
+void set_text(char (&target)[size], const std::string& text) {
+    std::size_t length = std::min(text.size(), size - 1);
+    // A character of UTF-8 is not cut in two.
+    while (length < text.size() && length > 0 && (static_cast<unsigned char>(text[length]) & 0xC0U) == 0x80U)
+        --length;
+    std::memcpy(target, text.data(), length);
+    target[length] = '\0';
+}
+
+Result<XrPath> path_of(XrInstance instance, const std::string& text) {
+    XrPath path = XR_NULL_PATH;
+    BOLT_TRY(check(xrStringToPath(instance, text.c_str(), &path), text));
+    return path;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Input>> Input::create(Session& session, const ActionNames& names) {
+    std::unique_ptr<Input> input(new Input());
+    input->session_ = &session;
+    BOLT_TRY(input->create_actions(names));
+    BOLT_TRY(input->suggest_bindings());
+    BOLT_TRY(input->attach());
+    return input;
+}
+
+Input::~Input() {
+    const PFN_xrDestroyHandTrackerEXT destroy = session_->runtime().functions().destroy_hand_tracker;
+    for (const XrHandTrackerEXT tracker : trackers_)
+        if (tracker != XR_NULL_HANDLE) (void)destroy(tracker);
+}
+
+Status Input::create_actions(const ActionNames& names) {
+    const XrInstance instance = session_->runtime().instance();
+    for (std::size_t side = 0; side < 2; ++side) {
+        BOLT_TRY_ASSIGN(hands_[side], path_of(instance, hand_paths[side]));
+    }
+    XrActionSetCreateInfo set{XR_TYPE_ACTION_SET_CREATE_INFO};
+    set_text(set.actionSetName, "assembly");
+    set_text(set.localizedActionSetName, names.set);
+    XrActionSet raw = XR_NULL_HANDLE;
+    BOLT_TRY(check(xrCreateActionSet(instance, &set, &raw), "creating the controllers' actions"));
+    set_ = ActionSetHandle(raw);
+    const auto make = [&](XrAction& action, const char* name, const std::string& shown, XrActionType type) {
+        XrActionCreateInfo info{XR_TYPE_ACTION_CREATE_INFO};
+        set_text(info.actionName, name);
+        set_text(info.localizedActionName, shown);
+        info.actionType = type;
+        info.countSubactionPaths = static_cast<std::uint32_t>(hands_.size());
+        info.subactionPaths = hands_.data();
+        return check(xrCreateAction(set_.get(), &info, &action), "creating the controllers' actions");
+    };
+    BOLT_TRY(make(grip_, "grip", names.grip, XR_ACTION_TYPE_POSE_INPUT));
+    BOLT_TRY(make(aim_, "aim", names.aim, XR_ACTION_TYPE_POSE_INPUT));
+    BOLT_TRY(make(select_, "select", names.select, XR_ACTION_TYPE_FLOAT_INPUT));
+    BOLT_TRY(make(grasp_, "grasp", names.grasp, XR_ACTION_TYPE_FLOAT_INPUT));
+    BOLT_TRY(make(stick_, "stick", names.stick, XR_ACTION_TYPE_VECTOR2F_INPUT));
+    BOLT_TRY(make(menu_, "menu", names.menu, XR_ACTION_TYPE_BOOLEAN_INPUT));
+    BOLT_TRY(make(secondary_, "secondary", names.secondary, XR_ACTION_TYPE_BOOLEAN_INPUT));
+    return make(vibrate_, "vibrate", names.vibrate, XR_ACTION_TYPE_VIBRATION_OUTPUT);
+}
+
+Status Input::suggest_bindings() {
+    const XrInstance instance = session_->runtime().instance();
+    for (const Profile& profile : controller_profiles) {
+        if (profile.needs_hand_interaction && !session_->runtime().extensions().hand_interaction) continue;
+        std::vector<XrActionSuggestedBinding> bindings;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const auto bind = [&](XrAction action, const char* input) -> Status {
+                if (input == nullptr) return {};
+                BOLT_TRY_ASSIGN(const auto path,
+                                path_of(instance, fmt::format("{}/{}", hand_paths[side], input)));
+                bindings.push_back({action, path});
+                return {};
+            };
+            BOLT_TRY(bind(grip_, "input/grip/pose"));
+            BOLT_TRY(bind(aim_, "input/aim/pose"));
+            BOLT_TRY(bind(select_, profile.select));
+            BOLT_TRY(bind(grasp_, profile.grasp));
+            BOLT_TRY(bind(stick_, profile.stick));
+            BOLT_TRY(bind(menu_, profile.menu[side]));
+            BOLT_TRY(bind(secondary_, profile.secondary[side]));
+            BOLT_TRY(bind(vibrate_, profile.vibrates ? "output/haptic" : nullptr));
+        }
+        BOLT_TRY_ASSIGN(const auto path, path_of(instance, profile.path));
+        XrInteractionProfileSuggestedBinding suggested{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
+        suggested.interactionProfile = path;
+        suggested.countSuggestedBindings = static_cast<std::uint32_t>(bindings.size());
+        suggested.suggestedBindings = bindings.data();
+        const XrResult accepted = xrSuggestInteractionProfileBindings(instance, &suggested);
+        if (accepted == XR_SUCCESS) profiles_.emplace_back(profile.path);
+        // A runtime rejects controllers that it does not know; the others still work.
+        if (accepted != XR_ERROR_PATH_UNSUPPORTED) BOLT_TRY(check(accepted, profile.path));
+    }
+    return {};
+}
+
+Status Input::attach() {
+    const XrActionSet raw = set_.get();
+    XrSessionActionSetsAttachInfo info{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO};
+    info.countActionSets = 1;
+    info.actionSets = &raw;
+    BOLT_TRY(check(xrAttachSessionActionSets(session_->get(), &info), "attaching the controllers' actions"));
+    const ExtensionFunctions& functions = session_->runtime().functions();
+    for (std::size_t side = 0; side < 2; ++side) {
+        const auto make_space = [&](XrAction action, SpaceHandle& space) -> Status {
+            XrActionSpaceCreateInfo create{XR_TYPE_ACTION_SPACE_CREATE_INFO};
+            create.action = action;
+            create.subactionPath = hands_[side];
+            create.poseInActionSpace = {{0, 0, 0, 1}, {0, 0, 0}};
+            XrSpace created = XR_NULL_HANDLE;
+            BOLT_TRY(
+                check(xrCreateActionSpace(session_->get(), &create, &created), "creating a hand's space"));
+            space = SpaceHandle(created);
+            return {};
+        };
+        BOLT_TRY(make_space(grip_, grip_spaces_[side]));
+        BOLT_TRY(make_space(aim_, aim_spaces_[side]));
+        if (functions.create_hand_tracker == nullptr) continue;
+        XrHandTrackerCreateInfoEXT tracker{XR_TYPE_HAND_TRACKER_CREATE_INFO_EXT};
+        tracker.hand = side == 0 ? XR_HAND_LEFT_EXT : XR_HAND_RIGHT_EXT;
+        tracker.handJointSet = XR_HAND_JOINT_SET_DEFAULT_EXT;
+        // Without it the controllers remain.
+        if (XR_FAILED(functions.create_hand_tracker(session_->get(), &tracker, &trackers_[side])))
+            trackers_[side] = XR_NULL_HANDLE;
+    }
+    return {};
+}
+
+Result<std::optional<TrackedPose>> Input::locate(XrSpace space, XrTime time) const {
+    XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
+    BOLT_TRY(check(xrLocateSpace(space, session_->space(), time, &location), "locating a hand"));
+    if ((location.locationFlags & pose_valid) != pose_valid) return std::nullopt;
+    return TrackedPose{to_pose(location.pose), (location.locationFlags & pose_tracked) == pose_tracked};
+}
+
+Result<float> Input::value(XrAction action, Side side) const {
+    XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
+    info.action = action;
+    info.subactionPath = hands_[static_cast<std::size_t>(side)];
+    XrActionStateFloat state{XR_TYPE_ACTION_STATE_FLOAT};
+    BOLT_TRY(check(xrGetActionStateFloat(session_->get(), &info, &state), "reading a controller"));
+    return state.isActive == XR_TRUE ? state.currentState : 0.0F;
+}
+
+Result<bool> Input::pressed(XrAction action, Side side) const {
+    XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
+    info.action = action;
+    info.subactionPath = hands_[static_cast<std::size_t>(side)];
+    XrActionStateBoolean state{XR_TYPE_ACTION_STATE_BOOLEAN};
+    BOLT_TRY(check(xrGetActionStateBoolean(session_->get(), &info, &state), "reading a controller"));
+    return state.isActive == XR_TRUE && state.currentState == XR_TRUE;
+}
+
+Status Input::read_joints(const FrameTiming& frame, Side side, HandInput& hand) {
+    const XrHandTrackerEXT tracker = trackers_[static_cast<std::size_t>(side)];
+    if (tracker == XR_NULL_HANDLE) return {};
+    std::array<XrHandJointLocationEXT, hand_joint_count> located{};
+    XrHandJointLocationsEXT locations{XR_TYPE_HAND_JOINT_LOCATIONS_EXT};
+    locations.jointCount = static_cast<std::uint32_t>(located.size());
+    locations.jointLocations = located.data();
+    XrHandJointsLocateInfoEXT info{XR_TYPE_HAND_JOINTS_LOCATE_INFO_EXT};
+    info.baseSpace = session_->space();
+    info.time = frame.display_time;
+    BOLT_TRY(check(session_->runtime().functions().locate_hand_joints(tracker, &info, &locations),
+                   "locating the joints of a hand"));
+    if (locations.isActive != XR_TRUE) return {};
+    HandJoints joints;
+    bool any = false;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        // Runtimes report active hands with single joints that are invalid.
+        joints[i].valid = (located[i].locationFlags & pose_valid) == pose_valid;
+        if (!joints[i].valid) continue;
+        joints[i].pose = to_pose(located[i].pose);
+        joints[i].radius = static_cast<double>(located[i].radius);
+        any = true;
+    }
+    if (any) hand.joints = joints;
+    return {};
+}
+
+Status Input::read_hand(const FrameTiming& frame, Side side, HandInput& hand) {
+    const auto index = static_cast<std::size_t>(side);
+    XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
+    info.action = grip_;
+    info.subactionPath = hands_[index];
+    XrActionStatePose state{XR_TYPE_ACTION_STATE_POSE};
+    BOLT_TRY(check(xrGetActionStatePose(session_->get(), &info, &state), "reading a controller"));
+    BOLT_TRY(read_joints(frame, side, hand));
+    hand.active = state.isActive == XR_TRUE || hand.joints.has_value();
+    if (state.isActive != XR_TRUE) return {};
+    BOLT_TRY_ASSIGN(hand.grip, locate(grip_spaces_[index].get(), frame.display_time));
+    BOLT_TRY_ASSIGN(hand.aim, locate(aim_spaces_[index].get(), frame.display_time));
+    BOLT_TRY_ASSIGN(hand.select, value(select_, side));
+    BOLT_TRY_ASSIGN(hand.grasp, value(grasp_, side));
+    BOLT_TRY_ASSIGN(hand.menu, pressed(menu_, side));
+    BOLT_TRY_ASSIGN(hand.secondary, pressed(secondary_, side));
+    info.action = stick_;
+    XrActionStateVector2f stick{XR_TYPE_ACTION_STATE_VECTOR2F};
+    BOLT_TRY(check(xrGetActionStateVector2f(session_->get(), &info, &stick), "reading a controller"));
+    if (stick.isActive == XR_TRUE) hand.stick = {stick.currentState.x, stick.currentState.y};
+    return {};
+}
+
+Result<Hands> Input::read(const FrameTiming& frame) {
+    Hands hands;
+    const XrActiveActionSet active{set_.get(), XR_NULL_PATH};
+    XrActionsSyncInfo sync{XR_TYPE_ACTIONS_SYNC_INFO};
+    sync.countActiveActionSets = 1;
+    sync.activeActionSets = &active;
+    const XrResult synced = xrSyncActions(session_->get(), &sync);
+    BOLT_TRY(check(synced, "reading the controllers"));
+    if (synced == XR_SESSION_NOT_FOCUSED) return hands;
+    for (const Side side : {Side::left, Side::right}) BOLT_TRY(read_hand(frame, side, hands[side]));
+    return hands;
+}
+
+Status Input::vibrate(Side side, const Vibration& vibration) {
+    XrHapticActionInfo info{XR_TYPE_HAPTIC_ACTION_INFO};
+    info.action = vibrate_;
+    info.subactionPath = hands_[static_cast<std::size_t>(side)];
+    if (vibration.amplitude <= 0.0F)
+        return check(xrStopHapticFeedback(session_->get(), &info), "stopping a vibration");
+    XrHapticVibration haptic{XR_TYPE_HAPTIC_VIBRATION};
+    haptic.amplitude = std::min(vibration.amplitude, 1.0F);
+    haptic.frequency = vibration.frequency > 0.0F ? vibration.frequency : XR_FREQUENCY_UNSPECIFIED;
+    haptic.duration =
+        vibration.duration > 0.0 ? static_cast<XrDuration>(1e9 * vibration.duration) : XR_MIN_HAPTIC_DURATION;
+    return check(
+        xrApplyHapticFeedback(session_->get(), &info, reinterpret_cast<const XrHapticBaseHeader*>(&haptic)),
+        "vibrating a controller");
+}
+
+Result<std::string> Input::profile(Side side) const {
+    XrInteractionProfileState state{XR_TYPE_INTERACTION_PROFILE_STATE};
+    BOLT_TRY(
+        check(xrGetCurrentInteractionProfile(session_->get(), hands_[static_cast<std::size_t>(side)], &state),
+              "querying a controller"));
+    if (state.interactionProfile == XR_NULL_PATH) return std::string();
+    std::array<char, XR_MAX_PATH_LENGTH> text{};
+    std::uint32_t length = 0;
+    BOLT_TRY(check(xrPathToString(session_->runtime().instance(), state.interactionProfile,
+                                  static_cast<std::uint32_t>(text.size()), &length, text.data()),
+                   "querying a controller"));
+    return std::string(text.data());
+}
+
+}  // namespace bolt::xr

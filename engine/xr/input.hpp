@@ -1,0 +1,107 @@
+// The trainee's hands in a headset's session: controllers as intents (OpenXR actions), tracked hands, and the
+// vibration of controllers.
+#pragma once
+
+#include <array>
+#include <glm/vec2.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/xr/session.hpp"
+
+namespace bolt::xr {
+
+enum class Side : std::uint8_t { left, right };
+
+struct TrackedPose {
+    Pose pose;             // in the session's base space
+    bool tracked = false;  // false: estimated, for example because the controller is hidden from the cameras
+};
+
+// Joint i of XR_EXT_hand_tracking, in the order of its specification.
+inline constexpr std::size_t hand_joint_count = 26;
+struct HandJoint {
+    Pose pose;            // −Z points to the fingertip, +Y out of the back of the hand
+    double radius = 0.0;  // m, from the joint to the skin
+    bool valid = false;   // false: pose and radius have no meaning
+};
+using HandJoints = std::array<HandJoint, hand_joint_count>;
+
+// One hand in one frame. Without focus, or without a controller or tracked hand, nothing of it is active.
+struct HandInput {
+    bool active = false;
+    std::optional<TrackedPose> grip;  // origin in the palm; −Z to the thumb's side of a closed fist, X out of
+                                      // the palm of the left hand and into that of the right one
+    std::optional<TrackedPose> aim;  // −Z is the direction in which the hand points
+    float select = 0.0F;             // 0 … 1: trigger, pinch
+    float grasp = 0.0F;              // 0 … 1: squeeze; of a controller with one button: that button
+    glm::vec2 stick{0.0F};           // −1 … 1, y away from the user
+    bool menu = false;
+    bool secondary = false;  // a second button of the hand: lays the wrench down
+    std::optional<HandJoints> joints;
+};
+struct Hands {
+    std::array<HandInput, 2> sides;  // by Side
+    [[nodiscard]] const HandInput& operator[](Side side) const {
+        return sides[static_cast<std::size_t>(side)];
+    }
+    [[nodiscard]] HandInput& operator[](Side side) { return sides[static_cast<std::size_t>(side)]; }
+};
+
+// A vibration of a controller. Frequency 0: the runtime chooses.
+struct Vibration {
+    float amplitude = 0.0F;  // 0 … 1; 0 stops
+    float frequency = 0.0F;  // Hz
+    double duration = 0.0;   // s; 0: the shortest that the controller can do
+};
+
+// The names of actions that the runtime shows to the user, in the user's language.
+struct ActionNames {
+    std::string set = "Assembly", grip = "Hand", aim = "Pointer", select = "Select", grasp = "Close the hand",
+                stick = "Turn the workpiece", menu = "Menu", secondary = "Lay the wrench down",
+                vibrate = "Vibration";
+};
+
+class Input {
+  public:
+    // Suggests bindings for the common controllers and attaches the actions to the session. A session can be
+    // given an input once.
+    static Result<std::unique_ptr<Input>> create(Session& session, const ActionNames& names);
+    Input(const Input&) = delete;
+    Input& operator=(const Input&) = delete;
+    ~Input();
+
+    // The hands at the time of a frame.
+    Result<Hands> read(const FrameTiming& frame);
+    Status vibrate(Side side, const Vibration& vibration);
+
+    // Controllers whose bindings the runtime accepted, as paths; for the report of `doctor`.
+    [[nodiscard]] const std::vector<std::string>& profiles() const { return profiles_; }
+    // The controller in this hand, as its path; empty: none.
+    [[nodiscard]] Result<std::string> profile(Side side) const;
+
+  private:
+    Input() = default;
+    Status create_actions(const ActionNames& names);
+    Status suggest_bindings();
+    Status attach();
+    Status read_hand(const FrameTiming& frame, Side side, HandInput& hand);
+    Status read_joints(const FrameTiming& frame, Side side, HandInput& hand);
+    Result<std::optional<TrackedPose>> locate(XrSpace space, XrTime time) const;
+    Result<float> value(XrAction action, Side side) const;
+    Result<bool> pressed(XrAction action, Side side) const;
+
+    Session* session_ = nullptr;
+    ActionSetHandle set_;
+    XrAction grip_ = XR_NULL_HANDLE, aim_ = XR_NULL_HANDLE, select_ = XR_NULL_HANDLE, grasp_ = XR_NULL_HANDLE,
+             stick_ = XR_NULL_HANDLE, menu_ = XR_NULL_HANDLE, secondary_ = XR_NULL_HANDLE,
+             vibrate_ = XR_NULL_HANDLE;  // owned by the set
+    std::array<XrPath, 2> hands_{};
+    std::array<SpaceHandle, 2> grip_spaces_, aim_spaces_;
+    std::array<XrHandTrackerEXT, 2> trackers_{};  // null without hand tracking
+    std::vector<std::string> profiles_;
+};
+
+}  // namespace bolt::xr

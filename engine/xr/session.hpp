@@ -1,0 +1,192 @@
+// A session with a headset: its states, its frames, its pictures. One call sequence per frame:
+//
+//   poll()                        always, also while the session does not run
+//   begin_frame()                 only while running(); none yet: try again, the window goes on meanwhile
+//   locate(), then draw           only if FrameTiming::should_render
+//   record()                      copies the pictures into the headset's, in the same command buffer
+//   (submit the command buffer)
+//   end_frame()
+//
+// xrWaitFrame blocks for up to a frame of the headset, so it runs on a thread of its own: neither the lesson
+// nor the window ever waits for the headset.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "engine/gpu/resources.hpp"
+#include "engine/xr/runtime.hpp"
+
+namespace bolt::xr {
+
+// Tangents would be simpler, but the runtime gives angles: rad from the viewing direction, left and down
+// negative.
+struct Fov {
+    double left = 0.0, right = 0.0, up = 0.0, down = 0.0;
+};
+
+struct EyeView {
+    Pose pose;  // of the eye, in the session's base space: x right, y up, z towards the viewer
+    Fov fov;
+};
+
+// Where the head and its eyes are when a frame is displayed.
+struct HeadView {
+    Pose head;
+    std::vector<EyeView> eyes;  // left, right; one for a mono display
+    bool tracked = false;       // false: estimated or held; the picture may be drawn, but do not rely on it
+};
+
+struct FrameTiming {
+    XrTime display_time = 0;     // ns, on the runtime's clock
+    double period = 0.0;         // s between frames of the display
+    bool should_render = false;  // false: nothing that is drawn would be seen
+};
+
+// The base space of all poses.
+enum class BaseSpace : std::uint8_t {
+    stage,   // fixed in the room, origin on the floor
+    floor,   // origin on the floor below the head, at the last recentring
+    seated,  // origin at the head, at the last recentring
+};
+constexpr const char* name(BaseSpace space) {
+    switch (space) {
+        case BaseSpace::stage:
+            return "stage";
+        case BaseSpace::floor:
+            return "floor";
+        default:
+            return "seated";
+    }
+}
+
+struct SessionOptions {
+    bool seated = false;         // prefer BaseSpace::seated, else stage, then floor
+    bool submit_depth = true;    // if the runtime uses depth to correct the picture
+    bool passthrough = false;    // show the surroundings, if the headset can
+    bool separate_eyes = false;  // a swapchain for each eye even if one with two layers can be created
+};
+
+// What poll() reports, in order.
+struct StateChanged {
+    XrSessionState state = XR_SESSION_STATE_UNKNOWN;
+};
+// The origin of the base space moves at `time`. `shift`: the pose of the new origin in the old space, if the
+// runtime knows it.
+struct Recentred {
+    XrTime time = 0;
+    std::optional<Pose> shift;
+};
+struct BindingsChanged {};  // other controllers: their names and buttons differ
+struct VisibilityMaskChanged {};
+struct EventsLost {};  // the runtime's queue was full; query everything again
+using SessionEvent =
+    std::variant<StateChanged, Recentred, BindingsChanged, VisibilityMaskChanged, EventsLost>;
+
+// The picture of one eye. Both images are in use `transfer_from`; `depth` may be null. The picture may be
+// smaller than Session::extent(); the headset then magnifies it.
+struct EyePicture {
+    const gpu::Image* picture = nullptr;
+    std::uint32_t layer = 0;
+    const gpu::Image* depth = nullptr;
+    std::uint32_t depth_layer = 0;
+    VkExtent2D extent{};
+};
+
+// Distances, m, at which the depth is 1 and 0.
+struct DepthRange {
+    float near = 0.05F, far = 100.0F;
+};
+
+// Returns the best format for pictures that hold sRGB colours, among those that the runtime offers: with the
+// same encoding, so that colours are neither darker nor paler; none: none is usable.
+std::optional<VkFormat> choose_color_format(std::span<const std::int64_t> offered);
+std::optional<VkFormat> choose_depth_format(std::span<const std::int64_t> offered);
+
+class FrameWaiter;
+
+class Session {
+  public:
+    // `runtime` and `device` must outlive the session; the device was created by `runtime`.
+    static Result<std::unique_ptr<Session>> create(Runtime& runtime, gpu::Device& device,
+                                                   const SessionOptions& options);
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+    ~Session();
+
+    // Takes the runtime's events and follows its state. Fails with Error::lost if the session or the runtime
+    // has ended; the session must then be destroyed.
+    Status poll(std::vector<SessionEvent>& events);
+
+    [[nodiscard]] XrSessionState state() const { return state_; }
+    [[nodiscard]] bool running() const { return running_; }
+    // The user wears the headset and sees the picture. If false, pause the lesson and end all forces.
+    [[nodiscard]] bool focused() const { return state_ == XR_SESSION_STATE_FOCUSED; }
+    [[nodiscard]] bool ended() const { return ended_; }  // by the runtime; do not create another one
+
+    // Begins the next frame if the runtime has released it; waits at most `timeout` s for that.
+    Result<std::optional<FrameTiming>> begin_frame(double timeout);
+    // Views and head at the time of the frame. Call it as late as possible.
+    Result<HeadView> locate(const FrameTiming& frame);
+    // Copies the pictures, one for each eye, into images of the headset.
+    Status record(VkCommandBuffer commands, std::span<const EyePicture> pictures);
+    // Ends the frame. `shown`: the views that were drawn and recorded; null: nothing was.
+    struct Drawn {
+        const HeadView* view = nullptr;
+        DepthRange depth;
+    };
+    Status end_frame(const FrameTiming& frame, const Drawn& drawn);
+
+    // Largest size of an eye's picture.
+    [[nodiscard]] VkExtent2D extent() const { return extent_; }
+    [[nodiscard]] bool uses_depth() const { return !depth_.empty(); }
+    [[nodiscard]] BaseSpace base_space() const { return base_; }
+    [[nodiscard]] XrSpace space() const { return space_.get(); }
+    [[nodiscard]] XrSession get() const { return session_.get(); }
+    [[nodiscard]] Runtime& runtime() const { return *runtime_; }
+
+    // Asks the runtime to end the session. It then passes through its remaining states.
+    Status request_exit();
+
+  private:
+    struct Swapchain {
+        SwapchainHandle handle;
+        std::vector<VkImage> images;
+        VkExtent2D extent{};
+        VkFormat format = VK_FORMAT_UNDEFINED;
+        std::optional<std::uint32_t> acquired;  // image that is acquired and not released
+        bool ready = false;                     // the runtime no longer reads that image
+    };
+
+    Session() = default;
+    Status create_session();
+    Status create_spaces();
+    Status create_swapchains();
+    Result<Swapchain> make_swapchain(VkFormat format, std::uint32_t layers, XrSwapchainUsageFlags usage);
+    Status follow(const XrEventDataSessionStateChanged& event);
+    Status acquire(Swapchain& swapchain);
+    Status release(Swapchain& swapchain);
+    template <class Visit>
+    Status each_swapchain(const Visit& visit);
+    [[nodiscard]] XrSwapchainSubImage sub_image(const Swapchain& swapchain, std::size_t eye) const;
+    void stop_waiting();
+
+    Runtime* runtime_ = nullptr;
+    gpu::Device* device_ = nullptr;
+    SessionOptions options_;
+    SessionHandle session_;
+    SpaceHandle space_, head_;
+    BaseSpace base_ = BaseSpace::stage;
+    VkExtent2D extent_{};
+    std::vector<Swapchain> color_, depth_;  // one with a layer per eye, or one per eye; depth may be empty
+    std::vector<VkExtent2D> drawn_;         // sizes of the pictures that record() copied
+    std::shared_ptr<FrameWaiter> waiter_;
+    XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
+    bool running_ = false, ended_ = false;
+};
+
+}  // namespace bolt::xr
