@@ -40,6 +40,22 @@ Eye make_eye(const glm::vec3& eye, const glm::vec3& target, const Perspective& p
     return {eye, perspective(p) * look_at(eye, target)};
 }
 
+Eye make_eye(const Pose& pose, const FieldOfView& fov, float znear, float zfar) {
+    const auto slope = [](double angle) { return static_cast<float>(std::tan(angle)); };
+    const Pose view = inverse(pose);
+    const glm::mat4 eye_from_world = glm::translate(glm::mat4(1.0F), glm::vec3(view.position)) *
+                                     glm::mat4_cast(glm::quat(view.orientation));
+    return {glm::vec3(pose.position),
+            frustum(slope(fov.left), slope(fov.right), slope(fov.down), slope(fov.up), znear, zfar) *
+                eye_from_world};
+}
+
+Eye seen_from(const Eye& eye, const Pose& pose) {
+    const glm::mat4 old_from_new = glm::translate(glm::mat4(1.0F), glm::vec3(pose.position)) *
+                                   glm::mat4_cast(glm::quat(pose.orientation));
+    return {glm::vec3(inverse(pose) * Vec3(eye.position)), eye.clip_from_world * old_from_new};
+}
+
 Eye make_wall_eye(const glm::vec3& eye, const glm::vec3& lower_left, const glm::vec3& lower_right,
                   const glm::vec3& upper_left, float znear, float zfar) {
     const glm::vec3 right = glm::normalize(lower_right - lower_left);

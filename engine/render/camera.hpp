@@ -2,6 +2,7 @@
 // precision more even (N. Reed, Depth Precision Visualized, 2015). Clip space has y down, as in Vulkan.
 #pragma once
 
+#include "engine/base/math.hpp"
 #include "engine/render/scene.hpp"
 
 namespace bolt::render {
@@ -18,6 +19,17 @@ glm::mat4 perspective(const Perspective& p);
 glm::mat4 look_at(const glm::vec3& eye, const glm::vec3& target);
 
 Eye make_eye(const glm::vec3& eye, const glm::vec3& target, const Perspective& p);
+
+// The angles, rad, from an eye's viewing direction to the edges of its picture; left and down are negative.
+struct FieldOfView {
+    double left = 0.0, right = 0.0, up = 0.0, down = 0.0;
+};
+
+// Returns the view of an eye of a headset, which looks along −Z of its pose with Y up.
+Eye make_eye(const Pose& pose, const FieldOfView& fov, float znear, float zfar);
+
+// Returns the same view with the world moved: `pose` is that of the new world in the world of the eye.
+Eye seen_from(const Eye& eye, const Pose& pose);
 
 // Returns the off-axis view from `eye` through a wall, screen or panel: the projection through a rectangle in
 // the world, given by three of its corners (R. Kooima, Generalized Perspective Projection, 2008). Pictures on

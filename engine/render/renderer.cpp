@@ -66,7 +66,8 @@ Status Renderer::prepare() {
                              "light.frag",  "scene.frag",     "over.frag",    "mark.vert",
                              "mark.frag",   "outline.frag",   "shadow.vert",  "screen.vert",
                              "shrink.frag", "occlusion.frag", "smooth.frag",  "labels.vert",
-                             "labels.frag", "overlay.vert",   "overlay.frag", "deform.comp"}) {
+                             "labels.frag", "overlay.vert",   "overlay.frag", "deform.comp",
+                             "panel.vert",  "panel.frag"}) {
         BOLT_TRY_ASSIGN(auto shader, load_shader(name, options_.shaders));
         shaders_.insert_or_assign(name, std::move(shader));
     }
@@ -87,6 +88,7 @@ Status Renderer::make_passes() {
     BOLT_TRY(assign(surfaces_, SurfacePass::create(setup)));
     BOLT_TRY(assign(light_, LightPass::create(setup)));
     BOLT_TRY(assign(labels_, LabelPass::create(setup)));
+    BOLT_TRY(assign(panels_, PanelPass::create(setup)));
     return assign(overlay_, OverlayPass::create(setup));
 }
 
@@ -177,6 +179,7 @@ Status Renderer::render(gpu::FrameContext& frame, const Scene& scene, std::span<
             BOLT_TRY(outline->draw(context, targets, list));
         }
         BOLT_TRY(labels_.draw(context, targets));
+        BOLT_TRY(panels_.draw(context, targets));
         gpu::image_barrier(frame.commands(), targets.picture.get(), gpu::ResourceUse::color_target,
                            gpu::ResourceUse::transfer_from);
     }

@@ -8,6 +8,7 @@
 //   forward    parts shaded while drawn: blended ones, and those the geometry buffer cannot store
 //   outline    lines around marked objects
 //   labels     text in the scene
+//   panels     flat pictures in the scene
 //
 // Renderer::draw_over draws an overlay on a finished picture: the user interface, or pictures of other views
 // as insets.
@@ -28,6 +29,7 @@
 #include "engine/render/passes/geometry.hpp"
 #include "engine/render/passes/lighting.hpp"
 #include "engine/render/passes/overlay.hpp"
+#include "engine/render/passes/panels.hpp"
 #include "engine/render/passes/shadows.hpp"
 
 namespace bolt::render {
@@ -96,6 +98,7 @@ class Renderer {
     SurfacePass surfaces_;
     LightPass light_;
     LabelPass labels_;
+    PanelPass panels_;
     OverlayPass overlay_;
     EnvironmentLight no_environment_;
     GpuTexture white_;

@@ -57,6 +57,15 @@ struct Label {
     float occlusion_margin = 0.0F;  // m: parts less far in front of the text do not hide it
 };
 
+// A flat picture in the scene, such as the user interface in a headset. It is drawn over the finished picture
+// and is not lit; parts in front of it hide it.
+struct Panel {
+    const gpu::Image* picture = nullptr;  // of a PanelPicture (passes/panels.hpp)
+    glm::vec3 centre{0.0F};               // m
+    glm::vec3 right{0.0F}, up{0.0F};      // m, from the centre to the middles of the right and upper edges
+    float opacity = 1.0F;
+};
+
 // An instance of a mesh.
 struct Object {
     const GpuModel* model = nullptr;
@@ -89,6 +98,7 @@ struct Scene {
     std::vector<Object> objects;
     std::vector<SceneLight> lights;
     std::vector<Label> labels;
+    std::vector<Panel> panels;
     const EnvironmentLight* environment = nullptr;
     float environment_intensity = 1.0F;
     float environment_turn = 0.0F;  // rad, rotation about Y
