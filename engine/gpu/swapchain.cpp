@@ -268,28 +268,33 @@ Result<VkExtent2D> Swapchain::prepare(VkExtent2D window) {
     return plan_.extent;
 }
 
-void Swapchain::copy(VkCommandBuffer commands, VkImage to, const Image& picture, std::uint32_t layer) const {
+void Swapchain::copy(VkCommandBuffer commands, VkImage to, const Image& picture,
+                     const PresentOptions& options) const {
     image_barrier(commands, to, ResourceUse::acquired, ResourceUse::transfer_to);
-    const VkExtent2D from_size = picture.info().extent, to_size = plan_.extent;
-    const VkImageSubresourceLayers from_layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1},
+    const VkRect2D part = options.part.value_or(VkRect2D{{0, 0}, picture.info().extent});
+    const VkExtent2D from_size = part.extent, to_size = plan_.extent;
+    const VkOffset3D from_low{part.offset.x, part.offset.y, 0};
+    const VkImageSubresourceLayers from_layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, options.layer, 1},
         to_layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     if (same(from_size, to_size) && picture.info().format == plan_.format.format) {
         VkImageCopy region{};
         region.srcSubresource = from_layer;
+        region.srcOffset = from_low;
         region.dstSubresource = to_layer;
         region.extent = {to_size.width, to_size.height, 1};
         vkCmdCopyImage(commands, picture.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
     } else {
-        const auto corner = [](VkExtent2D size) {
-            return VkOffset3D{static_cast<std::int32_t>(size.width), static_cast<std::int32_t>(size.height),
-                              1};
+        const auto corner = [](VkOffset3D low, VkExtent2D size) {
+            return VkOffset3D{low.x + static_cast<std::int32_t>(size.width),
+                              low.y + static_cast<std::int32_t>(size.height), 1};
         };
         VkImageBlit region{};
         region.srcSubresource = from_layer;
-        region.srcOffsets[1] = corner(from_size);
+        region.srcOffsets[0] = from_low;
+        region.srcOffsets[1] = corner(from_low, from_size);
         region.dstSubresource = to_layer;
-        region.dstOffsets[1] = corner(to_size);
+        region.dstOffsets[1] = corner({}, to_size);
         const VkFilter filter = same(from_size, to_size) ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
         vkCmdBlitImage(commands, picture.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, filter);
@@ -298,23 +303,23 @@ void Swapchain::copy(VkCommandBuffer commands, VkImage to, const Image& picture,
 }
 
 Result<bool> Swapchain::present(Frames& frames, FrameContext& frame, const Image& picture,
-                                std::uint32_t layer) {
+                                const PresentOptions& options) {
     if (!swapchain_ || stale_ || lost_ || empty(plan_.extent)) {
         BOLT_TRY(frames.submit(frame));
         return false;
     }
     const VkSemaphore acquire = acquire_semaphores_[next_acquire_].get();
     std::uint32_t index = 0;
-    BOLT_TRY_ASSIGN(const auto got,
-                    handle(vkAcquireNextImageKHR(device_->get(), swapchain_.get(), acquire_timeout, acquire,
-                                                 VK_NULL_HANDLE, &index),
-                           "acquiring a swapchain image"));
+    BOLT_TRY_ASSIGN(const auto got, handle(vkAcquireNextImageKHR(device_->get(), swapchain_.get(),
+                                                                 options.waits ? acquire_timeout : 0, acquire,
+                                                                 VK_NULL_HANDLE, &index),
+                                           "acquiring a swapchain image"));
     if (!got) {
         BOLT_TRY(frames.submit(frame));
         return false;
     }
     next_acquire_ = (next_acquire_ + 1) % frames_in_flight;
-    copy(frame.commands(), images_[index], picture, layer);
+    copy(frame.commands(), images_[index], picture, options);
     const VkSemaphore present = present_semaphores_[index].get();
     BOLT_TRY(frames.submit(frame, {acquire, present}));
 

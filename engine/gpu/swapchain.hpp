@@ -63,7 +63,16 @@ class Swapchain {
 
     // Copies a layer of `picture` (in use `transfer_from`, of any size) to the window, ends the frame and
     // submits it. Returns false if the picture was drawn but not presented.
-    Result<bool> present(Frames& frames, FrameContext& frame, const Image& picture, std::uint32_t layer = 0);
+    struct PresentOptions {
+        std::uint32_t layer = 0;
+        std::optional<VkRect2D> part;  // of the picture; none: all of it
+        bool waits = true;             // false: do not wait for the window; rather present nothing
+    };
+    Result<bool> present(Frames& frames, FrameContext& frame, const Image& picture,
+                         const PresentOptions& options);
+    Result<bool> present(Frames& frames, FrameContext& frame, const Image& picture, std::uint32_t layer = 0) {
+        return present(frames, frame, picture, PresentOptions{layer, {}, true});
+    }
 
     // The choices for the current window, with reasons.
     [[nodiscard]] const SwapchainPlan& plan() const { return plan_; }
@@ -75,7 +84,8 @@ class Swapchain {
 
     Status replace_surface();
     Result<bool> recreate(VkExtent2D window);
-    void copy(VkCommandBuffer commands, VkImage to, const Image& picture, std::uint32_t layer) const;
+    void copy(VkCommandBuffer commands, VkImage to, const Image& picture,
+              const PresentOptions& options) const;
     Result<bool> handle(VkResult result, std::string_view what);
 
     Device* device_ = nullptr;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -26,6 +27,7 @@ VkExtent2D size_of(const platform::Window& window) {
 struct Canvas {
     GpuContext gpu_context;
     std::unique_ptr<gpu::Swapchain> swapchain;
+    double last_frame = 0.0;  // s, when it began
 
     Canvas() = default;
     Canvas(Canvas&&) = default;
@@ -41,8 +43,11 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     BOLT_TRY_ASSIGN(auto surface, make_surface());
     render::RendererOptions renderer;
     renderer.level_error_px = level_error;
+    renderer.keep_depth = options.headset != nullptr;
+    gpu::VulkanCreator* creator = options.headset != nullptr ? options.headset->creator() : nullptr;
     Canvas canvas;
-    BOLT_TRY_ASSIGN(auto gpu_context, make_gpu_context(instance, {options.gpu, surface.get()}, renderer));
+    BOLT_TRY_ASSIGN(auto gpu_context,
+                    make_gpu_context(instance, {options.gpu, surface.get(), creator}, renderer));
     canvas.gpu_context = std::move(gpu_context);
     BOLT_TRY_ASSIGN(auto swapchain,
                     gpu::Swapchain::create(*canvas.gpu_context.device, std::move(surface), make_surface));
@@ -50,39 +55,155 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     return canvas;
 }
 
-Status draw(WindowContent& content, Canvas& canvas, platform::Window& window,
-            std::span<const platform::InputEvent> events, double elapsed) {
-    BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->prepare(size_of(window)));
-    if (size.width == 0 || size.height == 0) return content.frame_while_hidden();
+Status draw_window(WindowContent& content, Canvas& canvas, const WindowFrame& window) {
+    BOLT_TRY(content.update(window));
     BOLT_TRY_ASSIGN(const auto frame, canvas.gpu_context.frames->begin());
-    BOLT_TRY(content.frame(*frame, events, size, window.content_scale(), elapsed));
+    BOLT_TRY(content.draw(*frame, window));
     const render::ImageLayer picture = canvas.gpu_context.renderer->picture(0);
     BOLT_TRY(canvas.swapchain->present(*canvas.gpu_context.frames, *frame, *picture.image, picture.layer));
     return {};
 }
 
-Status run_until_closed(WindowContent& content, Canvas& canvas, platform::Window& window,
-                        const WindowRunOptions& options) {
+// The pictures of the eyes, for the headset. Without a kept depth it is not submitted.
+std::vector<xr::EyePicture> eye_pictures(const render::Renderer& renderer, const EyeGroup& group) {
+    std::vector<xr::EyePicture> pictures;
+    for (std::uint32_t eye = 0; eye < group.eyes.size(); ++eye) {
+        const render::ImageLayer picture = renderer.picture(eye, immersive_group),
+                                 depth = renderer.depth(eye, immersive_group);
+        pictures.push_back({picture.image, picture.layer, depth.image, depth.layer, group.size});
+    }
+    return pictures;
+}
+
+bool has_recentred(const xr::HeadsetFrame& frame) {
+    return std::any_of(frame.events.begin(), frame.events.end(), [](const xr::SessionEvent& event) {
+        return std::holds_alternative<xr::Recentred>(event);
+    });
+}
+
+// A frame of the headset; the window mirrors the first eye, and never delays the headset.
+Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset, xr::HeadsetFrame& frame,
+                    WindowFrame window) {
+    GpuContext& gpu = canvas.gpu_context;
+    const VkExtent2D size = headset.session().extent();
+    Immersion immersion;
+    immersion.head = frame.view.head;
+    immersion.tracked = frame.view.tracked;
+    immersion.attentive = frame.focused;
+    immersion.recentred = has_recentred(frame);
+    immersion.hands = frame.hands;
+    immersion.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
+        headset.vibrate(side, vibration);
+    };
+    if (!frame.view.eyes.empty()) immersion.groups = {eye_group(frame.view, size)};
+    window.immersion = &immersion;
+    BOLT_TRY(content.update(window));
+    BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
+    if (!immersion.groups.empty()) {
+        headset.locate(frame);
+        immersion.head = frame.view.head;
+        immersion.groups = {eye_group(frame.view, size)};
+    }
+    BOLT_TRY(content.draw(*recorded, window));
+    const bool drawn = !immersion.groups.empty() && !immersion.groups.front().eyes.empty();
+    if (!drawn) {
+        BOLT_TRY(gpu.frames->submit(*recorded));
+    } else {
+        headset.record(recorded->commands(), eye_pictures(*gpu.renderer, immersion.groups.front()));
+        const render::ImageLayer picture = gpu.renderer->picture(0, immersive_group);
+        BOLT_TRY(canvas.swapchain->present(
+            *gpu.frames, *recorded, *picture.image,
+            {picture.layer, filling_part(size, canvas.swapchain->plan().extent), false}));
+    }
+    headset.end_frame(frame, drawn, immersive_range);
+    return {};
+}
+
+// The headset's frame is begun when its runtime releases it, which paces the loop. If the runtime is late,
+// the window goes on.
+Status draw(WindowContent& content, Canvas& canvas, platform::Window& window,
+            std::span<const platform::InputEvent> events, const WindowRunOptions& options) {
+    static constexpr double longest_wait = 0.1;  // s
+    BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->prepare(size_of(window)));
+    std::optional<xr::HeadsetFrame> headset_frame;
+    if (options.headset != nullptr)
+        headset_frame = options.headset->begin_frame(options.headset->running() ? longest_wait : 0.0);
+    const double now = seconds(), elapsed = now - canvas.last_frame;
+    canvas.last_frame = now;
+    const WindowFrame frame{events, size, window.content_scale(), elapsed, nullptr};
+    if (headset_frame && headset_frame->timing.should_render)
+        return draw_headset(content, canvas, *options.headset, *headset_frame, frame);
+    if (headset_frame) options.headset->end_frame(*headset_frame, false, immersive_range);
+    if (size.width == 0 || size.height == 0) return content.frame_while_hidden();
+    return draw_window(content, canvas, frame);
+}
+
+enum class Ending : std::uint8_t {
+    closed,
+    headset_found,  // the GPU objects are to be created by its runtime
+};
+
+Result<Ending> run_until_closed(WindowContent& content, Canvas& canvas, platform::Window& window,
+                                const WindowRunOptions& options) {
     platform::Pace pace{platform::Clock::now(), platform::period_of(window.refresh_rate()), 0};
-    double last = seconds();
+    canvas.last_frame = seconds();
     while (!content.closed() && !(options.stop && options.stop())) {
-        const bool minimised = canvas.swapchain->plan().extent.width == 0;
+        xr::Headset* headset = options.headset;
+        if (headset != nullptr && headset->find(seconds())) return Ending::headset_found;
+        if (headset != nullptr && headset->exit_requested()) return Ending::closed;
+        const bool paced = headset != nullptr && headset->running();
+        const bool minimised = canvas.swapchain->plan().extent.width == 0 && !paced;
         const std::vector<platform::InputEvent> events =
             minimised ? window.wait_for_events(0.1) : window.poll_events();
         BOLT_TRY(window.display_status());
         for (const platform::InputEvent& event : events)
-            if (minimised && std::holds_alternative<platform::CloseEvent>(event)) return {};
-        const double now = seconds(), elapsed = now - last;
-        last = now;
-        if (Status done = draw(content, canvas, window, events, elapsed); !done) {
+            if (minimised && std::holds_alternative<platform::CloseEvent>(event)) return Ending::closed;
+        if (Status done = draw(content, canvas, window, events, options); !done) {
             // If the display server has ended, report that instead of the failed presentation.
-            Status display = window.display_status();
-            return display ? done : display;
+            const Status display = window.display_status();
+            return fail(display ? done.error() : display.error());
         }
         if (content.take_full_screen_request()) window.set_full_screen(!window.full_screen());
-        (void)platform::wait_for_deadline(pace);
+        if (!paced) (void)platform::wait_for_deadline(pace);
     }
+    return Ending::closed;
+}
+
+// Creates Vulkan's instance anew: by the headset's runtime, or, if that fails, without it.
+Status remake_instance(gpu::Instance& instance, const WindowRunOptions& options) {
+    gpu::InstanceOptions again = options.instance;
+    again.log = instance.shared_log();
+    again.creator = options.headset->creator();
+    // The functions of Vulkan are loaded for one instance at a time.
+    { const gpu::Instance ended = std::move(instance); }
+    Result<gpu::Instance> made = gpu::Instance::create(again);
+    if (!made) {
+        options.headset->end();
+        again.creator = nullptr;
+        made = gpu::Instance::create(again);
+    }
+    if (!made) return fail(made.error());
+    instance = std::move(*made);
     return {};
+}
+
+// Runs the content with one set of GPU objects.
+Result<Ending> run_on_canvas(WindowContent& content, platform::Window& window, const gpu::Instance& instance,
+                             const WindowRunOptions& options) {
+    BOLT_TRY_ASSIGN(auto canvas, make_canvas(window, instance, options));
+    if (options.headset != nullptr && options.headset->creator() != nullptr)
+        options.headset->begin(*canvas.gpu_context.device);
+    Result<Ending> ending = Ending::closed;
+    if (const Status started = content.start(canvas.gpu_context); started)
+        ending = run_until_closed(content, canvas, window, options);
+    else
+        ending = fail(started.error());
+    // A runtime that was just found has no session yet.
+    if (options.headset != nullptr && (!ending || *ending == Ending::closed)) options.headset->end();
+    content.release();
+    // Without the saved pipelines the next start is only slower.
+    (void)canvas.gpu_context.renderer->save_pipelines();
+    return ending;
 }
 
 }  // namespace
@@ -124,36 +245,28 @@ bool OrbitControl::apply(std::span<const platform::InputEvent> events, const Pic
     return moved;
 }
 
-Status run_in_window(WindowContent& content, platform::Window& window, const gpu::Instance& instance,
+Status run_in_window(WindowContent& content, platform::Window& window, gpu::Instance& instance,
                      const WindowRunOptions& options) {
     gpu::DeviceLossPolicy loss_policy;
     for (;;) {
-        Status result;
-        {
-            Result<Canvas> canvas = make_canvas(window, instance, options);
-            if (!canvas) {
-                result = fail(canvas.error());
-            } else {
-                result = content.start(canvas->gpu_context);
-                if (result) result = run_until_closed(content, *canvas, window, options);
-                content.release();
-                // Without the saved pipelines the next start is only slower.
-                (void)canvas->gpu_context.renderer->save_pipelines();
-            }
+        const Result<Ending> ending = run_on_canvas(content, window, instance, options);
+        if (ending && *ending == Ending::headset_found) {
+            BOLT_TRY(remake_instance(instance, options));
+            continue;
         }
-        if (result || !result.error().lost) {
+        if (ending || !ending.error().lost) {
             const Status ended = content.end();
-            return result ? ended : result;
+            return ending ? ended : fail(ending.error());
         }
         if (!loss_policy.should_restart(seconds())) {
             (void)content.end();
             return fail(ErrorCode::no_device,
                         fmt::format("the GPU was lost twice within {:.0f} s: {}",
-                                    gpu::DeviceLossPolicy::min_interval, result.error().what),
+                                    gpu::DeviceLossPolicy::min_interval, ending.error().what),
                         "another GPU or driver: boltwright doctor lists them, --gpu chooses");
         }
         (void)std::fprintf(stderr, "the GPU was lost (%s) and is started again\n",
-                           result.error().what.c_str());
+                           ending.error().what.c_str());
     }
 }
 

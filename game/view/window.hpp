@@ -1,13 +1,24 @@
-// Runs the content of a desktop window: calls it for every frame, and restarts it after the loss of the GPU.
+// Runs the content of a desktop window, and of a headset if there is one: calls it for every frame, and
+// restarts it after the loss of the GPU, and when a headset was found.
 #pragma once
 
 #include <functional>
 
 #include "engine/platform/window.hpp"
 #include "game/view/camera.hpp"
+#include "game/view/immersion.hpp"
 #include "game/view/pictures.hpp"
 
 namespace bolt::view {
+
+// A frame of a window.
+struct WindowFrame {
+    std::span<const platform::InputEvent> events;
+    VkExtent2D size{};                     // px, of the window
+    float scale = 1.0F;                    // px per point
+    double seconds = 0.0;                  // since the last frame
+    const Immersion* immersion = nullptr;  // null: the window is the only display
+};
 
 // The content of a window. All its GPU objects can be released and created again after a lost GPU.
 class WindowContent {
@@ -21,11 +32,12 @@ class WindowContent {
     virtual Status start(GpuContext& gpu_context) = 0;
     // Releases all GPU objects, before the GPU context is destroyed.
     virtual void release() = 0;
-    // Records a frame; the picture is the renderer's picture 0. `scale`: px per point. `seconds`: since the
-    // last frame.
-    virtual Status frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events,
-                         VkExtent2D size, float scale, double seconds) = 0;
-    // Replaces frame() while the window is minimised.
+    // Applies the input and advances by the time of the frame.
+    virtual Status update(const WindowFrame& window) = 0;
+    // Records the frame. Without an immersion its picture is the renderer's picture 0; with one, each group
+    // of eyes is drawn as a group of the renderer. The poses of the eyes may be newer than those of update().
+    virtual Status draw(gpu::FrameContext& frame, const WindowFrame& window) = 0;
+    // Replaces both while the window is minimised and no headset is used.
     virtual Status frame_while_hidden() { return {}; }
     // The window closes, or drawing has failed for good.
     virtual Status end() { return {}; }
@@ -57,13 +69,18 @@ class OrbitControl {
 
 // How run_in_window() runs the content.
 struct WindowRunOptions {
-    std::string gpu;             // part of the name of the GPU to use; empty: the best
-    std::function<bool()> stop;  // polled every frame; true closes the window
+    std::string gpu;                 // part of the name of the GPU to use; empty: the best
+    std::function<bool()> stop;      // polled every frame; true closes the window
+    xr::Headset* headset = nullptr;  // null: none is used
+    // With a headset: how `instance` was created. It is created again by the headset's runtime when that is
+    // found, and with the same log.
+    gpu::InstanceOptions instance{};
 };
 
 // Returns when the window is closed. After the loss of the GPU it creates a new GPU context and restarts the
-// content, unless the GPU was lost shortly before (gpu::DeviceLossPolicy).
-Status run_in_window(WindowContent& content, platform::Window& window, const gpu::Instance& instance,
+// content, unless the GPU was lost shortly before (gpu::DeviceLossPolicy). A headset may be found, be lost
+// and return at any time; meanwhile the content is shown in the window.
+Status run_in_window(WindowContent& content, platform::Window& window, gpu::Instance& instance,
                      const WindowRunOptions& options = {});
 
 }  // namespace bolt::view

@@ -1,0 +1,41 @@
+// The frame of a display that surrounds the user: a headset, or projection walls. Poses are in the room's
+// frame: x to the right, y up, z towards the user's first position, m. The content places its scene in it.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "engine/base/math.hpp"
+#include "engine/render/camera.hpp"
+#include "engine/xr/headset.hpp"
+
+namespace bolt::view {
+
+// Views of one size: the eyes of a headset, or those in front of one wall.
+struct EyeGroup {
+    VkExtent2D size{};
+    std::vector<render::Eye> eyes;
+};
+
+struct Immersion {
+    Pose head;
+    bool tracked = false;    // false: the head's pose is held or estimated
+    bool attentive = false;  // false: the user does not see the picture; pause, and render no force
+    bool recentred = false;  // the room's origin has moved since the last frame
+    // Group i is drawn as the renderer's group immersive_group + i. May be empty: nothing can be drawn.
+    std::vector<EyeGroup> groups;
+    xr::Hands hands;                                              // none is active on walls
+    std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
+};
+
+inline constexpr std::uint32_t immersive_group = 16;
+// m. The near plane is nearer than the hands can comfortably be looked at.
+inline constexpr xr::DepthRange immersive_range{0.03F, 50.0F};
+
+// The eyes of a headset, for pictures of this size.
+EyeGroup eye_group(const xr::HeadView& view, VkExtent2D size);
+
+// The part of a picture of this size that fills a window of `window`'s shape, in the middle.
+VkRect2D filling_part(VkExtent2D picture, VkExtent2D window);
+
+}  // namespace bolt::view
