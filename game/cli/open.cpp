@@ -56,9 +56,10 @@ Status run_open(const OpenArguments& options) {
     gpu::InstanceOptions instance_options;
     instance_options.validation = options.validate;
     instance_options.extensions = extensions;
-    BOLT_TRY_ASSIGN(const auto instance, gpu::Instance::create(instance_options));
+    BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create(instance_options));
     catch_interruption();
-    BOLT_TRY(view::run_in_window(*viewer, window, instance, {options.gpu, [] { return interrupted(); }}));
+    BOLT_TRY(view::run_in_window(*viewer, window, instance,
+                                 {options.gpu, [] { return interrupted(); }, nullptr, {}}));
     return instance.log().messages.empty() ? Status()
                                            : fail(ErrorCode::failed, instance.log().messages.front());
 }

@@ -141,8 +141,20 @@ int run_headless(const TrainArguments& options, const content::Assembly& assembl
     return interrupted() || !outcome->result.finished ? static_cast<int>(ErrorCode::failed) : 0;
 }
 
+// A headset for the lesson; null: none is used. Fails if one is required and there is none.
+Result<std::unique_ptr<xr::Headset>> open_headset(HeadsetUse use, bool quiet) {
+    if (use == HeadsetUse::none) return std::unique_ptr<xr::Headset>();
+    xr::HeadsetOptions options;
+    if (!quiet)
+        options.log = [](const std::string& line) { (void)std::fprintf(stderr, "%s\n", line.c_str()); };
+    auto headset = std::make_unique<xr::Headset>(std::move(options));
+    const bool found = headset->find(0.0);
+    if (!found && use == HeadsetUse::required) return fail(*headset->absence());
+    return headset;
+}
+
 Status run_window(const TrainArguments& options, const trainees::TrainOptions& train,
-                  const trainer::Equipment& equipment, platform::Desktop& desktop) {
+                  const trainer::Equipment& equipment, xr::Headset* headset, platform::Desktop& desktop) {
     const std::filesystem::path out(options.out);
     if (Status made = make_folder(out); !made) return made;
     trainer::AppOptions app_options;
@@ -176,18 +188,24 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     gpu::InstanceOptions instance_options;
     instance_options.validation = options.validate;
     instance_options.extensions = *extensions;
-    const Result<gpu::Instance> instance = gpu::Instance::create(instance_options);
-    if (!instance) return fail(instance.error());
+    instance_options.log = std::make_shared<gpu::ValidationLog>();
+    view::WindowRunOptions run_options{options.gpu, [] { return interrupted(); }, headset, instance_options};
+    if (headset != nullptr) instance_options.creator = headset->creator();
+    BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create(instance_options));
     trainer::App app(std::move(app_options));
     catch_interruption();
-    const view::WindowRunOptions run_options{options.gpu, [] { return interrupted(); }};
-    if (Status run = view::run_in_window(app, *window, *instance, run_options); !run) return run;
-    if (!instance->log().messages.empty()) return fail(ErrorCode::failed, instance->log().messages.front());
+    BOLT_TRY(view::run_in_window(app, *window, instance, run_options));
+    if (!instance.log().messages.empty()) return fail(ErrorCode::failed, instance.log().messages.front());
     return {};
 }
 
-int run_train(const TrainArguments& options) {
-    const Result<trainer::Equipment> equipment = equipment_of(options);
+int run_train(TrainArguments options) {
+    const Result<HeadsetUse> headset_use = cli::headset_use(options);
+    if (!headset_use) return print_error(headset_use.error());
+    if (*headset_use != HeadsetUse::none && options.headless)
+        return print_error(
+            {ErrorCode::usage, "a simulated trainee wears no headset", "--headless without --hmd"});
+    Result<trainer::Equipment> equipment = equipment_of(options);
     if (!equipment) return print_error(equipment.error());
     const bool free_hand = equipment->hand == trainer::HandMode::free;
     const bool devices =
@@ -212,19 +230,25 @@ int run_train(const TrainArguments& options) {
     if (!train) return print_error(train.error());
     loaded.assembly = lesson::apply_law(std::move(loaded.assembly), train->lesson.law);
     if (options.headless) return run_headless(options, loaded.assembly, *train);
+    const auto headset = open_headset(*headset_use, options.quiet);
+    if (!headset) return print_error(headset.error());
     Result<platform::Desktop> desktop = platform::Desktop::open();
+    if (!desktop && *headset_use == HeadsetUse::required) return print_error(desktop.error());
     if (!desktop) {
         if (!options.quiet)
             (void)std::fputs((desktop.error().what + ": a simulated trainee plays.\n").c_str(), stderr);
         return run_headless(options, loaded.assembly, *train);
     }
+    // The headset's hands move the tool unless a device does.
+    const bool found = *headset && (*headset)->creator() != nullptr;
+    if (found && !equipment->needs_station()) equipment->hand = trainer::HandMode::tracked;
     // A folder here is not the assembly of the same name in the menu.
     TrainArguments named = options;
     named.tool = *tool;
     std::error_code ignored;
     if (std::filesystem::exists(options.assembly, ignored))
         named.assembly = std::filesystem::absolute(options.assembly).lexically_normal().string();
-    const Status done = run_window(named, *train, *equipment, *desktop);
+    const Status done = run_window(named, *train, *equipment, headset->get(), *desktop);
     return done ? 0 : print_error(done.error());
 }
 
@@ -241,7 +265,7 @@ Status train_from_desktop() {
     if (!loaded.ok()) return fail(loaded.errors.front());
     BOLT_TRY_ASSIGN(const auto train, train_options(options, loaded.assembly));
     BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());
-    return run_window(options, train, equipment, desktop);
+    return run_window(options, train, equipment, nullptr, desktop);
 }
 
 void add_train(CLI::App& app, int& exit_code) {

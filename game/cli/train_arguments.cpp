@@ -86,7 +86,13 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
     train.add_option("--glove", options.glove,
                      "Port of a CyberGlove calibrated for --trainee, auto, or none; default: the station "
                      "file's, else none");
-    train.add_flag("--hmd", options.hmd, "Display in a headset");
+    train
+        .add_option(
+            "--hmd", options.hmd,
+            "Display in a headset (OpenXR). With optional, a headset is used as soon as there is one, "
+            "and until then the window")
+        ->expected(0, 1)
+        ->type_name("[optional]");
     train.add_flag("--headless", options.headless,
                    "No window: a simulated trainee performs the lesson in virtual time");
 }
@@ -143,8 +149,18 @@ void add_train_options(CLI::App& train, TrainArguments& options) {
     add_session_options(train, options);
 }
 
+Result<HeadsetUse> headset_use(TrainArguments& options) {
+    if (!options.hmd) return HeadsetUse::none;
+    const std::string value = std::exchange(options.hmd, "required").value();
+    if (value == "optional") return HeadsetUse::optional;
+    if (value.empty() || value == "required") return HeadsetUse::required;
+    if (options.assembly != TrainArguments().assembly)
+        return fail(ErrorCode::usage, fmt::format("--hmd: \"{}\"", value), "optional, or no value");
+    options.assembly = value;
+    return HeadsetUse::required;
+}
+
 Result<trainer::Equipment> equipment_of(const TrainArguments& options) {
-    if (options.hmd) return fail(ErrorCode::no_device, "this build has no headset output", "no --hmd");
     trainer::Equipment equipment;
     const bool station = !options.station_file.empty();
     const std::string first = options.devices.empty() ? "auto" : options.devices.front();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,8 @@ struct TrainArguments {
     std::string hand = "helped";
     std::string glove;  // empty: the station file's, or none
     std::string station_file, wheel_config_file;
-    bool hmd = false;
+    // What followed --hmd: "required" (or nothing), "optional", or the assembly; none: no headset is used.
+    std::optional<std::string> hmd;
     bool headless = false;
     bool start = false, full_screen = false, validate = false, silent = false;
     std::string trainee, language, settings;
@@ -40,6 +42,14 @@ struct TrainArguments {
 };
 
 void add_train_options(CLI::App& train, TrainArguments& options);
+
+enum class HeadsetUse : std::uint8_t {
+    none,
+    optional,  // used when there is one
+    required,  // without one the program does not start
+};
+// Also takes the assembly over, if it followed --hmd. Fails with ErrorCode::usage for a wrong value.
+Result<HeadsetUse> headset_use(TrainArguments& options);
 
 // The devices of the options. A missing device is an error; there is no silent fallback.
 Result<trainer::Equipment> equipment_of(const TrainArguments& options);

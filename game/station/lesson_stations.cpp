@@ -53,9 +53,8 @@ class ThreadedStation final : public LessonStation {
 
 class FrameSteppedStation final : public LessonStation {
   public:
-    FrameSteppedStation()
-        : arm_(device::simulated_arm_description(), device::simulated_arm_parameters(),
-               device::virtual_timer(time_)) {}
+    explicit FrameSteppedStation(const device::Description& arm)
+        : arm_(arm, device::simulated_arm_parameters(), device::virtual_timer(time_)) {}
 
     Status open(const station::StationOptions& options) {
         BOLT_TRY_ASSIGN(auto driver, arm_.factory()());
@@ -139,8 +138,9 @@ Result<std::unique_ptr<LessonStation>> start_threaded_station(
     return std::make_unique<ThreadedStation>(std::move(station), std::move(mover), std::move(permission));
 }
 
-Result<std::unique_ptr<LessonStation>> start_frame_stepped_station(const station::StationOptions& options) {
-    auto station = std::make_unique<FrameSteppedStation>();
+Result<std::unique_ptr<LessonStation>> start_frame_stepped_station(const station::StationOptions& options,
+                                                                   const device::Description& arm) {
+    auto station = std::make_unique<FrameSteppedStation>(arm);
     BOLT_TRY(station->open(options));
     return std::unique_ptr<LessonStation>(std::move(station));
 }

@@ -14,6 +14,8 @@ namespace {
 
 constexpr double full_spin_drag = 120.0;  // px of drag that give the fastest twist
 constexpr double wrench_reach = 22.0;     // px from the wrench within which it is picked
+// m, in the frame of the head: between the shoulders, because the forearm only has to come from the body.
+const Vec3 shoulder_at_head(0.0, -0.25, 0.05);
 
 std::vector<Vec3> nut_centres(const scene::SceneWorld& world, const servo::Setup& setup) {
     std::vector<Vec3> centres;
@@ -47,6 +49,8 @@ double handle_turn(const ActiveLesson& active, const Projection& projection, con
 
 // The rotation about the vertical from the viewer's frame to the assembly's.
 Quat viewer_heading(const ActiveLesson& active) {
+    if (active.station && active.station->tracked)
+        return {1.0, 0.0, 0.0, 0.0};  // its frame is the assembly's
     return glm::angleAxis(active.view.camera.shown.yaw, Vec3(0, 1, 0));
 }
 
@@ -82,9 +86,27 @@ void move_camera(ActiveLesson& active, const FrameInput& input, double height, d
 
 }  // namespace
 
+namespace {
+
+// The head determines the view and the shoulder, the measured hand the tool.
+void enter_room(ActiveLesson& active, const std::optional<RoomInput>& room) {
+    static const xr::HandInput no_hand;
+    active.view.head = room ? std::optional(room->room * room->head) : std::nullopt;
+    if (active.view.head) active.shoulder = *active.view.head * shoulder_at_head;
+    if (!active.station || !active.station->tracked) return;
+    StationClient& client = *active.station;
+    const bool seen = room && room->hands != nullptr;
+    track_hand(*client.tracked,
+               {seen ? (*room->hands)[client.tracked->side] : no_hand, room ? room->room : Pose{},
+                hand_of(active).wrench, client.latest.output.joint >= 0});
+}
+
+}  // namespace
+
 void handle_input(const scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     const FrameInput& input = frame.input;
+    enter_room(active, frame.room);
     const Projection projection = projection_of(active, frame.size);
     // In a slow frame the pointer may have moved since the press.
     const glm::dvec2 pointer = input.pressed_at.value_or(input.pointer);

@@ -51,6 +51,7 @@ struct LessonView {
     CloseUp close_up;
     bool clamp_map = false;                   // show the clamp force of every joint
     std::vector<render::Rectangle> occupied;  // px, areas of the interface in the previous picture
+    std::optional<Pose> head;  // of the user in a room, assembly frame; none: the camera shows the lesson
 };
 
 // Help for the trainee.
@@ -111,6 +112,13 @@ inline const world::ContactState& contact_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::ContactState>();
 }
 
+// The user's head and hands in a room, for a display that surrounds the user.
+struct RoomInput {
+    Pose room;                         // its frame in the assembly's
+    Pose head;                         // in the room
+    const xr::Hands* hands = nullptr;  // in the room
+};
+
 // Input and result of the systems of one frame.
 struct Frame {
     ActiveLesson& active;
@@ -120,7 +128,8 @@ struct Frame {
     glm::dvec2 size{1.0};  // px
     FrameInput input;
     const text::Fonts* fonts = nullptr;
-    Status status;  // first error, for example if the session cannot be recorded
+    Status status;                    // first error, for example if the session cannot be recorded
+    std::optional<RoomInput> room{};  // none: the lesson is shown in a window
 };
 
 // Call before the systems. Applies mouse and keys to the hand and the view, based on the world of the

@@ -12,9 +12,11 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double longest_frame = 0.25;   // s; a slower frame delays the lesson instead of making it jump
-constexpr float text_size = 15.0F;       // points
-constexpr double timing_duration = 1.5;  // s, of the servo in the check of the computer
+constexpr double longest_frame = 0.25;       // s; a slower frame delays the lesson instead of making it jump
+constexpr float text_size = 15.0F;           // points
+constexpr double timing_duration = 1.5;      // s, of the servo in the check of the computer
+constexpr double default_seated_eyes = 1.2;  // m above the floor, about the mean of DIN 33402-2
+constexpr glm::vec4 surroundings{0.02F, 0.025F, 0.035F, 1.0F};  // of the menu in a room
 
 std::string describe_event(const content::Assembly& assembly, const lesson::LessonEvent& event, double dt) {
     const std::string joint = event.joint >= 0
@@ -209,19 +211,27 @@ void App::perform(ScreenAction action) {
 }
 
 // Runs the systems of a frame. They also run while the result is shown, so that the picture stays alive.
-Status App::run_systems(std::span<const platform::InputEvent> events, const glm::dvec2& size,
-                        double seconds) {
+Status App::run_systems(const Picture& picture, const view::WindowFrame& window) {
     ActiveLesson& active = *active_;
     const bool in_lesson = screen_ == ShownScreen::lesson;
     if (active.station)
-        active.station->keyboard.handle_events(in_lesson ? events : std::span<const platform::InputEvent>());
-    // The menu has a text field, and the settings bind keys.
+        active.station->keyboard.handle_events(in_lesson ? picture.events
+                                                         : std::span<const platform::InputEvent>());
+    // The menu has a text field, and the settings bind keys. In a room the pointer is the panel's.
     const bool has_keys = screen_ != ShownScreen::menu && !settings_;
-    const InputFocus focus{has_keys && !gpu_->ui->wants_pointer(), has_keys};
-    const double shown = std::min(seconds, longest_frame);
-    Frame frame{active,          words_, shown,
-                seconds - shown, size,   apply_events(active.input, events, focus),
-                &*gpu_->fonts,   {}};
+    const InputFocus focus{has_keys && !room_ && !gpu_->ui->wants_pointer(), has_keys};
+    const double shown = std::min(window.seconds, longest_frame);
+    Frame frame{active,
+                words_,
+                shown,
+                window.seconds - shown,
+                glm::dvec2(picture.size.width, picture.size.height),
+                apply_events(active.input, picture.events, focus),
+                &*gpu_->fonts,
+                {},
+                {}};
+    if (room_ && window.immersion != nullptr)
+        frame.room = RoomInput{inverse(scene_in_room()), window.immersion->head, &window.immersion->hands};
     const bool waits_for_arm = active.station && active.station->waits_for_arm;
     if (frame.input.triggered(Action::pause) && in_lesson && !waits_for_arm)
         active.clock.paused = !active.clock.paused;
@@ -235,7 +245,7 @@ Status App::run_systems(std::span<const platform::InputEvent> events, const glm:
     };
     timed("pointer", [&] { handle_input(active.workplace.world, frame); });
     ecs::run(frame_systems, active.workplace.world, frame, timed);
-    if (tour_ && in_lesson) update(*tour_, frame);
+    if (tour_ && in_lesson) trainer::update(*tour_, frame);
 
     const double dt = active.session->setup().dt;
     if (hand_of(active).wrench != had_wrench)
@@ -275,10 +285,10 @@ void App::draw_screen(const ScreenContext& context) {
     }
 }
 
-Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
+Status App::draw_interface(gpu::FrameContext& frame, const render::ImageLayer& shown) {
     render::Renderer& renderer = *gpu_->context->renderer;
     ui::Ui& ui = *gpu_->ui;
-    const glm::dvec2 extent(size.width, size.height);
+    const glm::dvec2 extent(input_.size);
     ui.add_characters(input_.text);
     ui.add_characters(arm_screen_.needs.preparation.instruction);
     if (screen_ == ShownScreen::menu) add_changing_characters(ui, words_, menu_, options_.choice);
@@ -292,8 +302,13 @@ Status App::draw_interface(gpu::FrameContext& frame, VkExtent2D size) {
     if (active_ && screen_ == ShownScreen::lesson)
         BOLT_TRY(draw_close_up({renderer, frame, ui}, *active_, extent, input_.scale));
     if (active_) active_->view.occupied = occupied_areas();
+    if (room_ && room_->pointer.on_panel) {
+        const glm::vec2 at(room_->pointer.at);
+        const float radius = (room_->pointer.pressed ? 5.0F : 8.0F) * input_.scale;
+        ImGui::GetForegroundDrawList()->AddCircleFilled({at.x, at.y}, radius, IM_COL32(255, 255, 255, 210));
+    }
     const render::Overlay overlay = ui.end();
-    return renderer.draw_over(frame, overlay, renderer.picture(0));
+    return renderer.draw_over(frame, overlay, shown);
 }
 
 // Draws the lesson, or the pictures of the menu.
@@ -308,9 +323,52 @@ Status App::draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale
                           picture_request(menu_, options_.choice.assembly, size, scale));
 }
 
-Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events, VkExtent2D size,
-                  float scale, double seconds) {
-    const glm::dvec2 extent(size.width, size.height);
+// Where the scene stands in the room; the panel's place without a lesson.
+Pose App::scene_in_room() const {
+    if (!active_ || !room_->workpiece) return {};
+    return adjusted(*room_->workpiece, active_->workplace.machine, room_->turns, room_->height);
+}
+
+// Places workpiece and panel, adds what the hands do as events, and pauses a lesson that the user cannot see.
+void App::follow_room(const view::Immersion* immersion, std::vector<platform::InputEvent>& events) {
+    const bool lesson = active_ && screen_ == ShownScreen::lesson;
+    const bool seen = immersion == nullptr || immersion->attentive;
+    if (immersion == nullptr) {
+        // The trainee's hands are gone with the headset, but the lesson can be ended at the window.
+        if (room_ && lesson && active_->station && active_->station->tracked) active_->clock.paused = true;
+        room_.reset();
+        return;
+    }
+    if (!room_ || immersion->recentred) room_.emplace();
+    Room& room = *room_;
+    const bool placed = immersion->tracked || room.panel.has_value();
+    if (placed && !room.panel) room.panel = place_panel(immersion->head);
+    if (!active_) room.workpiece.reset();
+    if (placed && active_ && !room.workpiece)
+        room.workpiece = place_workpiece(
+            immersion->head, active_->workplace.machine,
+            immersion->floor_known
+                ? std::nullopt
+                : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
+    if (lesson && !seen && !active_->clock.paused) room.paused = active_->clock.paused = true;
+    if (lesson && seen && std::exchange(room.paused, false)) active_->clock.paused = false;
+    // The window's pointer would compete with the hands'.
+    const auto of_pointer = [](const platform::InputEvent& event) {
+        return std::holds_alternative<platform::CursorEvent>(event) ||
+               std::holds_alternative<platform::ButtonEvent>(event) ||
+               std::holds_alternative<platform::WheelEvent>(event);
+    };
+    std::erase_if(events, of_pointer);
+    const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
+    const std::vector<platform::InputEvent> hands = hand_events(room, immersion->hands, keys);
+    events.insert(events.end(), hands.begin(), hands.end());
+}
+
+Status App::update(const view::WindowFrame& window) {
+    std::vector<platform::InputEvent> events(window.events.begin(), window.events.end());
+    follow_room(window.immersion, events);
+    const Picture picture{events, room_ ? panel_extent : window.size, room_ ? panel_scale : window.scale};
+    const glm::dvec2 extent(picture.size.width, picture.size.height);
     if (const auto code = std::exchange(selected_language_, std::nullopt)) BOLT_TRY(select_language(*code));
     const auto aspect = static_cast<float>(extent.x / extent.y);
     if (std::exchange(start_requested_, false) && !starter_) {
@@ -327,14 +385,13 @@ Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent
     // While the arrow keys have marked a control, Enter presses it. While a name is typed, Enter ends it.
     const bool enter_starts = !gpu_->ui->navigates_by_keys() && !gpu_->ui->edits_text();
     bool close_settings = false;
-    update_ui_input(input_, settings_
-                                ? settings_->take_keys(events, words_, preferences_.keys, close_settings)
-                                : std::vector(events.begin(), events.end()));
+    update_ui_input(
+        input_, settings_ ? settings_->take_keys(events, words_, preferences_.keys, close_settings) : events);
     input_.size = glm::vec2(extent);
-    input_.scale = scale;
-    input_.seconds = seconds;
-    if (active_) BOLT_TRY(run_systems(events, extent, seconds));
-    follow_arm(events, seconds, enter_starts);
+    input_.scale = picture.scale;
+    input_.seconds = window.seconds;
+    if (active_) BOLT_TRY(run_systems(picture, window));
+    follow_arm(events, window.seconds, enter_starts);
     if (close_settings) perform(ScreenAction::close_settings);
     for (const platform::InputEvent& event : events) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event);
@@ -342,8 +399,43 @@ Status App::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent
         if (can_start && is_confirmation(event) && (enter_starts || !by_key)) press_start();
         if (screen_ == ShownScreen::menu && is_back(event)) show_page(MenuPage::choices);
     }
-    BOLT_TRY(draw_pictures(frame, size, scale));
-    BOLT_TRY(draw_interface(frame, size));
+    return {};
+}
+
+// The interface first, because the eyes see its panel.
+Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion) {
+    static const render::Scene empty_scene;
+    render::Renderer& renderer = *gpu_->context->renderer;
+    if (!gpu_->panel) {
+        BOLT_TRY_ASSIGN(auto panel, render::PanelPicture::create(*gpu_->context->device, panel_extent));
+        gpu_->panel.emplace(std::move(panel));
+    }
+    if (!active_)
+        BOLT_TRY(pictures_.draw(*gpu_->context->device, renderer, frame,
+                                picture_request(menu_, options_.choice.assembly, panel_extent, panel_scale)));
+    gpu_->panel->clear(frame);
+    BOLT_TRY(draw_interface(frame, gpu_->panel->layer()));
+    const Pose place = scene_in_room();
+    render::Scene scene = active_ ? active_->scene : empty_scene;
+    if (!active_) scene.background = surroundings;
+    if (room_->panel) scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
+    for (std::uint32_t i = 0; i < immersion.groups.size(); ++i) {
+        const view::EyeGroup& group = immersion.groups[i];
+        std::vector<render::Eye> eyes;
+        for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, place));
+        if (!eyes.empty())
+            BOLT_TRY(renderer.render(frame, scene, eyes, group.size, view::immersive_group + i));
+    }
+    return {};
+}
+
+Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
+    if (room_ && window.immersion != nullptr) {
+        BOLT_TRY(draw_room(frame, *window.immersion));
+    } else {
+        BOLT_TRY(draw_pictures(frame, window.size, window.scale));
+        BOLT_TRY(draw_interface(frame, gpu_->context->renderer->picture(0)));
+    }
     return std::exchange(end_requested_, false) ? end_lesson() : Status{};
 }
 

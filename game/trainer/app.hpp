@@ -6,6 +6,7 @@
 
 #include "engine/ui/ui.hpp"
 #include "game/trainer/arm_screen.hpp"
+#include "game/trainer/immersive.hpp"
 #include "game/trainer/lesson_starter.hpp"
 #include "game/trainer/menu.hpp"
 #include "game/trainer/settings_screen.hpp"
@@ -55,11 +56,11 @@ class App : public view::WindowContent {
     // next start().
     void release() override;
 
-    // Records a frame; the picture is the renderer's picture 0. `scale`: px per point. `seconds`: since the
-    // last frame. Fails if the GPU fails or the session cannot be recorded.
-    Status frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events, VkExtent2D size,
-                 float scale, double seconds) override;
-    // Replaces frame() while the window is minimised: pauses a station.
+    // Fails if the session cannot be recorded.
+    Status update(const view::WindowFrame& window) override;
+    // Fails if the GPU fails, or the session cannot be recorded.
+    Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
+    // Replaces both while the window is minimised: pauses a station.
     Status frame_while_hidden() override;
 
     // Ends the lesson, if one runs, as it stands. Its session and the files beside it are written.
@@ -84,6 +85,7 @@ class App : public view::WindowContent {
     [[nodiscard]] bool shows_settings() const { return settings_.has_value(); }
     [[nodiscard]] const std::optional<Error>& start_error() const { return menu_.start_error; }
     [[nodiscard]] const ArmScreen& arm_screen() const { return arm_screen_; }
+    [[nodiscard]] const std::optional<Room>& room() const { return room_; }
 
   private:
     struct GpuResources {
@@ -91,6 +93,13 @@ class App : public view::WindowContent {
         std::unique_ptr<ui::Ui> ui;
         std::unique_ptr<scene::GpuLessonModels> models;
         std::optional<text::Fonts> fonts;
+        std::optional<render::PanelPicture> panel;  // since the first immersive frame
+    };
+    // The picture of the interface: that of the window, or of the panel in a room.
+    struct Picture {
+        std::span<const platform::InputEvent> events;
+        VkExtent2D size{};
+        float scale = 1.0F;
     };
     Status begin_lesson(float aspect);
     Status enter_lesson(Result<StartedLesson> started, float aspect);
@@ -100,9 +109,12 @@ class App : public view::WindowContent {
     Status close_lesson();
     [[nodiscard]] LessonChoice lesson_choice() const;
     Status upload_lesson();
-    Status run_systems(std::span<const platform::InputEvent> events, const glm::dvec2& size, double seconds);
+    Status run_systems(const Picture& picture, const view::WindowFrame& window);
+    void follow_room(const view::Immersion* immersion, std::vector<platform::InputEvent>& events);
+    [[nodiscard]] Pose scene_in_room() const;
     Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);
-    Status draw_interface(gpu::FrameContext& frame, VkExtent2D size);
+    Status draw_interface(gpu::FrameContext& frame, const render::ImageLayer& picture);
+    Status draw_room(gpu::FrameContext& frame, const view::Immersion& immersion);
     void draw_screen(const ScreenContext& context);
     void press_start();
     void show_page(MenuPage page);
@@ -138,6 +150,8 @@ class App : public view::WindowContent {
     std::optional<Tour> tour_;              // if that lesson is the tour
     std::optional<session::LessonOutcome> outcome_;
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
+
+    std::optional<Room> room_;  // while the display surrounds the user
 
     std::unique_ptr<GpuResources> gpu_;
     AssemblyPictures pictures_;

@@ -116,7 +116,7 @@ void App::follow_arm(std::span<const platform::InputEvent> events, double second
                                                        : device::ArmNeeds{};
     const std::string before = describe(arm_screen_.needs);
     arm_screen_.in_lesson = client != nullptr;
-    update(arm_screen_, needs, settings_ ? 0.0 : seconds);  // the settings cover the question
+    trainer::update(arm_screen_, needs, settings_ ? 0.0 : seconds);  // the settings cover the question
     if (const std::string now = describe(needs); now != before && !now.empty()) log(now);
     if (!settings_) perform(action_of(arm_screen_, events, enter_answers));
 }

@@ -24,6 +24,7 @@ Status start_station_of(const LessonStart& start, StartedLesson& lesson, session
     lesson.active.station->link = std::move(station);
     const bool dragged = equipment.hand == HandMode::free || equipment.hand == HandMode::simulated_arm;
     if (dragged) lesson.active.station->dragged.emplace();
+    if (equipment.hand == HandMode::tracked) lesson.active.station->tracked.emplace();
     options.device = lesson.active.station->link->setup().limits;
     options.servo_rate = 1.0 / options.dt;
     session::set_device_limits(options, setup);
@@ -125,6 +126,8 @@ void place_trainee(ActiveLesson& active, const LessonContext& context, float asp
         StationClient& station = *active.station;
         station.rest = hand_of(active).rest;
         station.home = hand_of(active).pose;
+        if (station.tracked)
+            station.tracked->side = worker.side == hand::Side::left ? xr::Side::left : xr::Side::right;
         const hand::Skeleton& open = active.postures.open;
         const Pose fingers = scene::frame_towards(station.home, active.shoulder, 0.0);
         station.bare_wrist =

@@ -152,6 +152,9 @@ Status draw_close_up(const DrawContext& context, const ActiveLesson& active, con
 
 namespace {
 
+constexpr double room_fov = to_radians(60.0);  // vertical
+// rad, em size in a room of a label of `normal_label` px in a window: 20 dmm (mm at 1 m).
+constexpr float label_angle = 0.020F, normal_label = 16.0F;
 constexpr double min_visibility = 0.15, max_time_out_of_view = 3.0;  // fraction of nut and jaw; s
 
 // The joint that the hand works at, else the due one. An assessment does not reveal the due joint.
@@ -221,6 +224,13 @@ bool joint_out_of_view(ActiveLesson& active, const Frame& frame) {
 }  // namespace
 
 Projection projection_of(const ActiveLesson& active, const glm::dvec2& size) {
+    if (active.view.head) {
+        // A picture of what the user looks at; the eyes of the display are drawn with their own projections.
+        const double half = std::atan(std::tan(0.5 * room_fov) * size.x / size.y);
+        return {render::make_eye(*active.view.head, {-half, half, 0.5 * room_fov, -0.5 * room_fov},
+                                 view::immersive_range.near, view::immersive_range.far),
+                size};
+    }
     return {view::eye_of(active.view.camera.shown, render::bounds(active.scene),
                          static_cast<float>(size.x / size.y)),
             size};
@@ -228,13 +238,15 @@ Projection projection_of(const ActiveLesson& active, const glm::dvec2& size) {
 
 void view_system(scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
-    if (frame.input.triggered(Action::whole_view))
+    if (frame.input.triggered(Action::whole_view) && !active.view.head)
         active.view.camera.glide_to(view::frame_all(active.view.camera.goal, active.workplace.machine,
                                                     static_cast<float>(frame.size.x / frame.size.y)));
-    if (frame.input.triggered(Action::find_view) || joint_out_of_view(active, frame))
+    // In a room the user moves the head; nothing else moves the view.
+    if (!active.view.head && (frame.input.triggered(Action::find_view) || joint_out_of_view(active, frame)))
         show_due_joint(active, frame.size);
     (void)active.view.camera.advance(frame.seconds);
-    scene::fade_near_arms(world, Vec3(view::viewpoint_of(active.view.camera.shown).eye));
+    scene::fade_near_arms(world, active.view.head ? active.view.head->position
+                                                  : Vec3(view::viewpoint_of(active.view.camera.shown).eye));
 
     const bool assists = active.session->lesson().mode != lesson::Mode::assessment;
     if (frame.input.triggered(Action::close_up)) active.view.close_up.enabled = !active.view.close_up.enabled;
@@ -278,6 +290,17 @@ void add_nut_areas(const ActiveLesson& active, const Projection& projection,
     }
 }
 
+// In a room a text has an angular size, whatever the resolution of the display.
+void size_for_room(std::vector<render::Label>& labels, const Pose& head) {
+    for (render::Label& label : labels) {
+        if (label.placement != render::LabelPlacement::on_screen) continue;
+        label.placement = render::LabelPlacement::facing;
+        const auto distance = static_cast<float>(glm::distance(Vec3(label.position), head.position));
+        label.height *= label_angle / normal_label * distance;
+        label.offset_px = glm::vec2(0.0F);
+    }
+}
+
 }  // namespace
 
 void label_system(scene::SceneWorld& world, Frame& frame) {
@@ -308,6 +331,7 @@ void label_system(scene::SceneWorld& world, Frame& frame) {
         else if (i == marked || active.pointer.nut == i)
             add_name(i, i == marked);
     }
+    if (active.view.head) return size_for_room(active.scene.labels, *active.view.head);
     if (frame.fonts == nullptr) return;
     const Projection projection = projection_of(active, frame.size);
     std::vector<render::Rectangle> occupied = active.view.occupied;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <variant>
 
 #include "game/station/station_setup.hpp"
@@ -125,7 +126,15 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
     station_options.controls.pause = true;
     station_setup::VirtualMover mover;
     if (!planned->devices.mover) station_options.mover_buttons = {1, 0, 0, 0};
-    if (equipment.hand == HandMode::free) return station_setup::start_frame_stepped_station(station_options);
+    if (!planned->devices.mover && equipment.hand == HandMode::free)
+        return station_setup::start_frame_stepped_station(station_options,
+                                                          device::simulated_arm_description());
+    if (!planned->devices.mover && equipment.hand == HandMode::tracked) {
+        station_options.workspace.absolute = true;
+        station_options.workspace.scale = 1.0;
+        return station_setup::start_frame_stepped_station(station_options,
+                                                          device::tracked_hand_description());
+    }
     if (!planned->devices.mover && arm) mover = std::move(simulated_arm);
     if (!planned->devices.mover && !arm) mover = std::move(puck);
     return station_setup::start_threaded_station(std::move(station_options), std::move(mover),
@@ -219,8 +228,9 @@ Status send_commands(StationClient& client, const session::LessonSession& sessio
         client.restore_sent = back;
     }
     if (client.tool_placed && (engaged || !intent.recentre)) return {};
+    if (client.tracked && !client.tracked->present) return {};
     client.tool_placed = true;
-    return client.link->send(station::PlaceTool{client.home});
+    return client.link->send(station::PlaceTool{client.tracked ? client.tracked->fingertips : client.home});
 }
 
 }  // namespace
@@ -253,6 +263,12 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
     update_client(client, session);
     client.link->set_puck_input(client.keyboard.input());
     if (client.dragged) client.link->set_hand_motion(client.dragged->motion);
+    if (client.tracked) {
+        client.link->set_hand_motion(client.tracked->motion);
+        // An open hand is where it is shown: its orientation may differ after it has held the wrench.
+        const bool wrench = client.latest.input.grip == servo::Grip::wrench;
+        if (std::exchange(client.tracked->had_wrench, wrench) && !wrench) client.tool_placed = false;
+    }
     station::StationControls& controls = client.controls;
     const bool held = client.gloved && client.latest.input.grip == servo::Grip::wrench;
     const bool closes = client.keyboard.button_down() || client.latest.dead_man_pressed ||

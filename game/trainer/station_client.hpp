@@ -18,6 +18,7 @@
 #include "game/trainer/controls.hpp"
 #include "game/trainer/dragged_hand.hpp"
 #include "game/trainer/mouse_hand.hpp"
+#include "game/trainer/tracked_hand.hpp"
 #include "haptics/device/virtual_devices.hpp"
 
 namespace bolt::trainer {
@@ -43,6 +44,7 @@ enum class HandMode : std::uint8_t {
     free,      // the mouse moves the hand, which feels the forces of a simulated arm; runs with the frames
     keyboard,  // keys move the tool like a puck
     simulated_arm,  // as `free`, on the threads of a station like a real arm
+    tracked,        // a headset measures the hand; runs with the frames
 };
 
 // The input of a lesson: mouse and keyboard, or a station with devices.
@@ -92,6 +94,7 @@ struct StationClient {
     std::optional<Pose> bare_wrist;  // station::StationControls
     KeyboardPuck keyboard;
     std::optional<DraggedHand> dragged;  // the mouse moves a simulated arm
+    std::optional<TrackedHand> tracked;  // a headset's hand moves it
 
     station::StationTick latest;
     station::StationControls controls;

@@ -19,9 +19,10 @@ struct EyeGroup {
 
 struct Immersion {
     Pose head;
-    bool tracked = false;    // false: the head's pose is held or estimated
-    bool attentive = false;  // false: the user does not see the picture; pause, and render no force
-    bool recentred = false;  // the room's origin has moved since the last frame
+    bool tracked = false;     // false: the head's pose is held or estimated
+    bool attentive = false;   // false: the user does not see the picture; pause, and render no force
+    bool recentred = false;   // the room's origin has moved since the last frame
+    bool floor_known = true;  // y is 0 at the floor; false: at the eyes of a seated user
     // Group i is drawn as the renderer's group immersive_group + i. May be empty: nothing can be drawn.
     std::vector<EyeGroup> groups;
     xr::Hands hands;                                              // none is active on walls

@@ -91,6 +91,7 @@ Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset
     immersion.tracked = frame.view.tracked;
     immersion.attentive = frame.focused;
     immersion.recentred = has_recentred(frame);
+    immersion.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
     immersion.hands = frame.hands;
     immersion.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
         headset.vibrate(side, vibration);

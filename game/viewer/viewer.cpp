@@ -408,17 +408,17 @@ void Viewer::finish_film() {
                     : made.error().message();
 }
 
-Status Viewer::frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events, VkExtent2D size,
-                     float scale, double seconds) {
+Status Viewer::update(const view::WindowFrame& window) {
+    const VkExtent2D size = window.size;
     if (picture_ == SavedPicture::drawn) BOLT_TRY(save_picture());
     finish_film();
-    trainer::update_ui_input(input_, events);
+    trainer::update_ui_input(input_, window.events);
     input_.keys = {};  // all keys are the viewer's: the interface would press its focused button as well
     input_.size = glm::vec2(size.width, size.height);
-    input_.scale = scale;
-    input_.seconds = seconds;
-    handle_events(events, size);
-    advance(seconds);
+    input_.scale = window.scale;
+    input_.seconds = window.seconds;
+    handle_events(window.events, size);
+    advance(window.seconds);
 
     film::ReplayScene& replay = *gpu_->replay;
     const std::size_t index = recording_->index_at(time_);
@@ -430,8 +430,16 @@ Status Viewer::frame(gpu::FrameContext& frame, std::span<const platform::InputEv
     film::place(replay, moment);
     const float aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
     follow_work(static_cast<double>(aspect));
-    (void)camera_.advance(seconds);
+    (void)camera_.advance(window.seconds);
     film::present(replay, moment, Vec3(view::viewpoint_of(camera_.shown).eye));
+    return {};
+}
+
+Status Viewer::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
+    const VkExtent2D size = window.size;
+    const float scale = window.scale,
+                aspect = static_cast<float>(size.width) / static_cast<float>(size.height);
+    film::ReplayScene& replay = *gpu_->replay;
     render::Renderer& renderer = *gpu_->context->renderer;
     const render::BoundingBox box = render::bounds(replay.scene);
     const render::Eye eye = view::eye_of(camera_.shown, box, aspect);

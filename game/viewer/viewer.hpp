@@ -31,8 +31,8 @@ class Viewer : public view::WindowContent {
 
     Status start(view::GpuContext& gpu_context) override;
     void release() override;
-    Status frame(gpu::FrameContext& frame, std::span<const platform::InputEvent> events, VkExtent2D size,
-                 float scale, double seconds) override;
+    Status update(const view::WindowFrame& window) override;
+    Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
     [[nodiscard]] bool closed() const override { return closed_; }
     [[nodiscard]] bool take_full_screen_request() override {
         return std::exchange(full_screen_requested_, false);

@@ -39,9 +39,11 @@ void step(Arm& arm, const force::OutputCommand& command, double dt) {
     const int parts = static_cast<int>(std::lround(dt / 25e-6));
     const double h = dt / parts;
     for (int i = 0; i < parts; ++i) {
-        const Vec3 pull = p.stiffness * (arm.intention.position - arm.pose.position);
-        const Vec3 turn = p.angular_stiffness *
-                          rotation_vector(arm.intention.orientation * glm::conjugate(arm.pose.orientation));
+        const Vec3 pull =
+            p.stiffness * (arm.intention.position - arm.pose.position) + p.damping * arm.intention_velocity;
+        const Vec3 turn = p.angular_stiffness * rotation_vector(arm.intention.orientation *
+                                                                glm::conjugate(arm.pose.orientation)) +
+                          p.angular_damping * arm.intention_angular_velocity;
         arm.velocity = accelerated(arm.velocity, had.force + pull, p.mass, p.damping, p.friction, h);
         arm.angular_velocity = accelerated(arm.angular_velocity, had.torque + turn, p.inertia,
                                            p.angular_damping, p.angular_friction, h);
@@ -59,6 +61,9 @@ constexpr int max_late_steps = 20;       // of one read; a longer gap is left ou
 constexpr double rounding = 1e-9;        // s
 constexpr double input_timeout = 0.25;   // s without set_motion() until the buttons count as released
 constexpr double smoothing_time = 0.02;  // s in which the intention follows the mouse: about a frame
+// The same for a measured hand. A headset predicts the pose for the time at which the frame is shown, at
+// least a frame ahead, so this delay does not show.
+constexpr double target_smoothing_time = 0.01;  // s
 
 struct TimedMotion {
     HandMotion motion;
@@ -108,6 +113,7 @@ class SimulatedArmDevice final : public DeviceDriver {
         read.velocity = arm.velocity;
         read.angular_velocity = arm.angular_velocity;
         read.buttons = last_.buttons;
+        read.gripper = last_.gripper;
         read.time = now;
         return std::optional<Sample>(read);
     }
@@ -125,7 +131,10 @@ class SimulatedArmDevice final : public DeviceDriver {
         shared_->motions.update();
         const TimedMotion& latest = shared_->motions.latest();
         HandMotion motion = latest.motion;
-        if (now - latest.time > input_timeout) motion.buttons = 0;
+        if (now - latest.time > input_timeout) {
+            motion.buttons = 0;
+            motion.gripper = 1.0;
+        }
         if (motion.buttons == 0 && last_.buttons != 0) relax();
         wanted_.position += motion.moved - last_.moved;
         wanted_.orientation =
@@ -138,6 +147,7 @@ class SimulatedArmDevice final : public DeviceDriver {
 
     void advance() {
         Arm& arm = shared_->arm;
+        if (last_.target) wanted_ = *last_.target;
         wanted_.position =
             arm.pose.position + force::clamp_length(wanted_.position - arm.pose.position, last_.lead);
         const Vec3 ahead = turn_between(arm.pose.orientation, wanted_.orientation);
@@ -146,11 +156,15 @@ class SimulatedArmDevice final : public DeviceDriver {
                                                  arm.pose.orientation);
         const double yielded = std::min(1.0, last_.yielding * sample_period);
         wanted_.position += yielded * (arm.pose.position - wanted_.position);
-        const double share = sample_period / smoothing_time;
-        arm.intention.position += share * (wanted_.position - arm.intention.position);
-        arm.intention.orientation =
-            glm::normalize(rotation(share * turn_between(arm.intention.orientation, wanted_.orientation)) *
-                           arm.intention.orientation);
+        const double share = sample_period / (last_.target ? target_smoothing_time : smoothing_time);
+        const Vec3 step_along = share * (wanted_.position - arm.intention.position),
+                   step_about = share * turn_between(arm.intention.orientation, wanted_.orientation);
+        arm.intention.position += step_along;
+        arm.intention.orientation = glm::normalize(rotation(step_about) * arm.intention.orientation);
+        if (last_.target) {
+            arm.intention_velocity = step_along / sample_period;
+            arm.intention_angular_velocity = step_about / sample_period;
+        }
         step(arm, command_, sample_period);
     }
 
@@ -200,6 +214,16 @@ Description simulated_arm_description() {
     d.rate = 1.0 / sample_period;
     d.buttons = 8;
     d.remarks.emplace_back("renders no torque: torques are rendered as forces on the handle");
+    return d;
+}
+
+Description tracked_hand_description() {
+    Description d = simulated_arm_description();
+    d.name = "tracked hand";
+    d.id = "tracked-hand";
+    d.buttons = 0;
+    d.senses_gripper = true;
+    d.remarks = {"renders no force: the shown hand is held back instead"};
     return d;
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "haptics/device/device.hpp"
 
@@ -32,6 +33,9 @@ struct Arm {
     Pose intention;  // intended pose
     Vec3 velocity{0.0};
     Vec3 angular_velocity{0.0};
+    // m/s and rad/s of the intention. The hand's damper acts on the difference, so that an arm whose
+    // intention moves steadily does not lag behind it.
+    Vec3 intention_velocity{0.0}, intention_angular_velocity{0.0};
     double energy_out = 0.0;  // J delivered to the hand: force times motion, integrated every 25 µs
     std::array<force::OutputCommand, 4> sent{};
 };
@@ -52,6 +56,10 @@ struct HandMotion {
     // 1/s, rate at which the intention approaches the pose of the arm: the arm leads a relaxed hand.
     double yielding = 0.0;
     std::uint32_t buttons = 0;
+    // The pose of the hand in the device frame, if it is measured; it replaces `moved` and `turned`. The lead
+    // still limits how hard the hand pushes, but the arm returns to this pose as soon as it can.
+    std::optional<Pose> target;
+    double gripper = 1.0;  // 0 closed … 1 fully open
 };
 
 // The arm that a hand moves in the trainer. A mouse moves in steps of a frame; the intention follows it
@@ -79,5 +87,10 @@ class SimulatedArm {
 // hand is a spring of 300 N/m, no torque, and no edge of its reach.
 Description simulated_arm_description();
 ArmParameters simulated_arm_parameters();
+
+// A hand whose pose is measured and that feels no force, such as one with a headset's controller: it moves an
+// arm of the same strength, so that contact and a seated nut hold the shown hand back. Closing is its
+// gripper.
+Description tracked_hand_description();
 
 }  // namespace bolt::device

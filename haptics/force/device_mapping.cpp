@@ -41,6 +41,7 @@ Pose to_assembly(const WorkspaceMap& w, WorkspaceState& s, const Pose& device, b
         realign(w, s, device, s.commanded_tool);
     } else {
         const Quat to_user = to_viewer(w, s);
+        if (std::isfinite(w.return_time)) s.centre -= std::min(1.0, dt / w.return_time) * s.centre;
         s.commanded_tool.orientation = glm::normalize(to_user * device.orientation * s.tool_to_device);
         s.commanded_tool.position = s.centre + w.scale * (to_user * device.position) -
                                     s.commanded_tool.orientation * Vec3(s.lever_arm, 0.0, 0.0);

@@ -3,6 +3,8 @@
 // its reach, like lifting a mouse.
 #pragma once
 
+#include <limits>
+
 #include "engine/base/math.hpp"
 #include "haptics/force/output_limits.hpp"
 
@@ -23,6 +25,9 @@ struct WorkspaceMap {
     double scale = 1.0;                 // m of the tool per m of the device
     double power_ratio = 1.0;           // power at the device / power at the tool
     double fade = 0.05;                 // s in which forces fade out and in with the clutch
+    // s in which WorkspaceState::centre returns to the origin, for a hand that is where the tool shows it;
+    // infinite: it stays where realign() has put it.
+    double return_time = std::numeric_limits<double>::infinity();
 };
 
 struct WorkspaceState {

@@ -83,12 +83,16 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
 }
 
 // With the power 1/scale a force on the tool is as large on the hand.
+// A wrench that is grasped comes into the palm in this time. Chosen: as fast as a hand regrasps.
+constexpr double absolute_return_time = 0.1;  // s
+
 force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& options) {
     force::WorkspaceMap map;
     map.rotation = glm::normalize(options.workspace.rotation);
     if (!layout.mover || layout.mover->sensing != device::Sensing::pose) return map;
     const Vec3 reach = force::rotated_reach(map.rotation, layout.mover->reach);
     map.scale = options.workspace.scale.value_or(force::fitted_scale(reach, options.handle_length));
+    if (options.workspace.absolute) map.return_time = absolute_return_time;
     map.power_ratio = options.workspace.power_ratio.value_or(1.0 / map.scale);
     return map;
 }

@@ -53,9 +53,12 @@ HeadlessTrainer::~HeadlessTrainer() {
 }
 
 Status HeadlessTrainer::draw(const std::vector<platform::InputEvent>& events, double seconds) {
+    const view::WindowFrame window{events, display_.size, display_.scale, seconds,
+                                   immersion ? &*immersion : nullptr};
+    if (Status updated = app_->update(window); !updated) return updated;
     auto frame = gpu_context_.frames->begin();
     if (!frame) FAIL(frame.error().message());
-    Status drawn = app_->frame(**frame, events, display_.size, display_.scale, seconds);
+    Status drawn = app_->draw(**frame, window);
     need(gpu_context_.frames->submit(**frame));
     return drawn;
 }
@@ -117,6 +120,17 @@ render::Picture HeadlessTrainer::picture() {
     if (!texels) FAIL(texels.error().message());
     render::Picture picture{display_.size.width, display_.size.height, {}};
     for (const std::byte b : *texels) picture.rgba.push_back(static_cast<std::uint8_t>(b));
+    return picture;
+}
+
+render::Picture HeadlessTrainer::room_picture(std::uint32_t view) {
+    need(gpu_context_.frames->finish());
+    const render::ImageLayer made = gpu_context_.renderer->picture(view, view::immersive_group);
+    const VkExtent2D size = immersion->groups.front().size;
+    const auto texels = need(gpu::download_image(*gpu_context_.device, *made.image,
+                                                 gpu::ResourceUse::transfer_from, 4, 0, made.layer));
+    render::Picture picture{size.width, size.height, {}};
+    for (const std::byte b : texels) picture.rgba.push_back(static_cast<std::uint8_t>(b));
     return picture;
 }
 

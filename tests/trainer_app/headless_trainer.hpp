@@ -52,8 +52,14 @@ class HeadlessTrainer : public TrainerDriver {
     // Presses on a nut and waits until the hand holds it. Returns the position in px.
     glm::dvec2 hold(std::size_t joint);
 
+    // The display that surrounds the user in the next frames; none: the window alone.
+    std::optional<view::Immersion> immersion;
+    // A picture of a view of the last immersive frame.
+    [[nodiscard]] render::Picture room_picture(std::uint32_t view);
+
     trainer::App& app() { return *app_; }
     [[nodiscard]] const trainer::App& app() const override { return *app_; }
+    [[nodiscard]] double step() const { return display_.step; }  // s per frame
     [[nodiscard]] glm::dvec2 size() const override { return {display_.size.width, display_.size.height}; }
     [[nodiscard]] render::Picture picture();
     [[nodiscard]] const std::vector<std::string>& log() const { return log_; }

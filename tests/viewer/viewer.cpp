@@ -72,8 +72,10 @@ struct HeadlessViewer {
         start();
     }
     void frame(const std::vector<platform::InputEvent>& events = {}, double seconds = 0.0) {
+        const view::WindowFrame window{events, size, 0.35F, seconds, nullptr};
+        need(viewer->update(window));
         auto frame = need(gpu.frames->begin());
-        need(viewer->frame(*frame, events, size, 0.35F, seconds));
+        need(viewer->draw(*frame, window));
         need(gpu.frames->submit(*frame));
     }
     void key(platform::Key key) { frame({platform::KeyEvent{key, true, false, {}}}); }

@@ -1,0 +1,122 @@
+#include "game/trainer/immersive.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "game/scene/workplace.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+constexpr double head_to_machine = 0.40;  // m, horizontally, to the front of the workpiece
+constexpr double panel_below_eyes = 0.02, panel_least_height = 0.9;  // m
+// Sticks: the deflection that turns the workpiece by a step, that below which it is at rest, and m per frame.
+constexpr float stick_turns = 0.7F, stick_rests = 0.3F;
+constexpr double stick_raise = 0.004, most_raise = 0.4;
+constexpr float pressed_above = 0.6F, released_below = 0.4F;  // of the trigger
+
+// The rotation about the vertical that turns −z to where the head looks.
+Quat heading(const Pose& head) {
+    const Vec3 right = head.orientation * Vec3(1.0, 0.0, 0.0);
+    return glm::angleAxis(std::atan2(-right.z, right.x), Vec3(0.0, 1.0, 0.0));
+}
+
+Vec3 middle_of(const render::BoundingBox& machine) { return 0.5 * (Vec3(machine.low) + Vec3(machine.high)); }
+
+void add_key(std::vector<platform::InputEvent>& events, platform::Key key, bool down, bool& was_down) {
+    if (std::exchange(was_down, down) != down) events.emplace_back(platform::KeyEvent{key, down, false, {}});
+}
+
+// The stick turns the workpiece by steps, once for each deflection: smooth turning makes people sick.
+void apply_stick(Room& room, const glm::vec2& stick, bool& used) {
+    if (!used && std::abs(stick.x) > stick_turns) {
+        room.turns += stick.x > 0.0F ? 1 : -1;
+        used = true;
+    }
+    if (std::abs(stick.x) < stick_rests) used = false;
+    if (std::abs(stick.y) > stick_turns)
+        room.height =
+            std::clamp(room.height + (stick.y > 0.0F ? stick_raise : -stick_raise), -most_raise, most_raise);
+}
+
+}  // namespace
+
+Pose place_workpiece(const Pose& head, const render::BoundingBox& machine,
+                     std::optional<double> seated_eyes) {
+    const Quat turn = heading(head);
+    const Vec3 front(0.5 * static_cast<double>(machine.low.x + machine.high.x), 0.0,
+                     static_cast<double>(machine.high.z) + head_to_machine);
+    Pose place{head.position - turn * front, turn};
+    const double floor = static_cast<double>(machine.low.y) - scene::floor_below_plate;
+    place.position.y = (seated_eyes ? head.position.y - *seated_eyes : 0.0) - floor;
+    return place;
+}
+
+Pose place_panel(const Pose& head) {
+    const Quat turn = heading(head);
+    Vec3 centre = head.position + turn * Vec3(0.0, -panel_below_eyes, -panel_distance);
+    centre.y = std::max(centre.y, panel_least_height);
+    return {centre, turn};
+}
+
+Pose adjusted(const Pose& workpiece, const render::BoundingBox& machine, int turns, double height) {
+    const Vec3 middle = middle_of(machine);
+    const Pose turned{{0.0, height, 0.0}, glm::angleAxis(turns * turn_step, Vec3(0.0, 1.0, 0.0))};
+    return workpiece * Pose{middle, {1.0, 0.0, 0.0, 0.0}} * turned * Pose{-middle, {1.0, 0.0, 0.0, 0.0}};
+}
+
+std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim) {
+    const Pose in_panel = inverse(panel) * aim;
+    const Vec3 along = in_panel.orientation * Vec3(0.0, 0.0, -1.0);
+    if (in_panel.position.z <= 0.0 || along.z > -1e-3) return std::nullopt;
+    const Vec3 hit = in_panel.position - along * (in_panel.position.z / along.z);
+    const glm::dvec2 points(0.5 * panel_points.x + hit.x / point_size,
+                            0.5 * panel_points.y - hit.y / point_size);
+    if (points.x < 0.0 || points.y < 0.0 || points.x > panel_points.x || points.y > panel_points.y)
+        return std::nullopt;
+    return points * static_cast<double>(panel_scale);
+}
+
+std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys) {
+    std::vector<platform::InputEvent> events;
+    std::optional<glm::dvec2> at;
+    float select = 0.0F;
+    for (std::size_t side = 0; side < hands.sides.size(); ++side) {
+        const xr::HandInput& hand = hands.sides[side];
+        add_key(events, keys.pause, hand.active && hand.menu, room.menu_down[side]);
+        add_key(events, keys.tool, hand.active && hand.secondary, room.secondary_down[side]);
+        apply_stick(room, hand.active ? hand.stick : glm::vec2(0.0F), room.stick_used[side]);
+        if (!hand.active || !hand.aim || !room.panel) continue;
+        const auto hit = panel_point(*room.panel, hand.aim->pose);
+        // Of two hands that point at the panel, the one that presses counts, else the right one.
+        if (!hit || (at && hand.select < select)) continue;
+        at = hit;
+        select = hand.select;
+    }
+    PanelPointer& pointer = room.pointer;
+    pointer.on_panel = at.has_value();
+    if (at) {
+        pointer.at = *at;
+        events.emplace_back(platform::CursorEvent{*at});
+    }
+    const bool presses = at && select > (pointer.pressed ? released_below : pressed_above);
+    if (presses != pointer.pressed)
+        events.emplace_back(platform::ButtonEvent{platform::Button::left, presses, pointer.at});
+    pointer.pressed = presses;
+    return events;
+}
+
+render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture) {
+    const Pose at = inverse(scene_in_room) * panel;
+    const glm::dvec2 half = 0.5 * point_size * panel_points;
+    render::Panel shown;
+    shown.picture = &picture;
+    shown.centre = glm::vec3(at.position);
+    shown.right = glm::vec3(at.orientation * Vec3(half.x, 0.0, 0.0));
+    shown.up = glm::vec3(at.orientation * Vec3(0.0, half.y, 0.0));
+    return shown;
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,64 @@
+// A lesson in a headset or between projection walls: where the workpiece and the panel of the user interface
+// stand in the room, and the pointer on the panel. Nothing moves with the head. Poses are in the room's frame
+// (view::Immersion) unless a comment says otherwise.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "engine/platform/input.hpp"
+#include "engine/render/gpu_model.hpp"
+#include "engine/render/scene.hpp"
+#include "game/view/immersion.hpp"
+
+namespace bolt::trainer {
+
+// The panel shows the same interface as a window, with menus, help and figures. At 0.75 m a text of 15 points
+// has 20 dmm (mm at 1 m), the smallest that reads without effort (Google Daydream's guideline).
+inline constexpr glm::dvec2 panel_points{1040.0, 650.0};
+inline constexpr double panel_distance = 0.75, point_size = 1.0e-3;  // m
+inline constexpr float panel_scale = 1.5F;                           // px per point
+inline constexpr VkExtent2D panel_extent{1560, 975};                 // px, the product of both
+
+// Where the panel is pointed at.
+struct PanelPointer {
+    glm::dvec2 at{0.0};  // px from the upper left corner; keeps the last position
+    bool on_panel = false;
+    bool pressed = false;
+};
+
+struct Room {
+    std::optional<Pose> workpiece;  // of the assembly's frame; none: not placed yet
+    std::optional<Pose> panel;      // of its centre; x right, y up, z towards the user
+    PanelPointer pointer;
+    std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, by hand
+    double height = 0.0;  // m that the user has raised the workpiece
+    int turns = 0;        // steps by which the user has turned it
+    bool paused = false;  // the lesson is paused because the user does not see it
+};
+
+// Where the workpiece stands when the user looks straight ahead: in front, on a bench whose floor is the
+// room's, or for a seated user at `seated_eyes` m below the eyes.
+Pose place_workpiece(const Pose& head, const render::BoundingBox& machine, std::optional<double> seated_eyes);
+
+// In front of the user, upright, a little below the eyes and behind the workpiece.
+Pose place_panel(const Pose& head);
+
+// The workpiece after the user has turned and raised it: about the vertical through its middle.
+Pose adjusted(const Pose& workpiece, const render::BoundingBox& machine, int turns, double height);
+inline constexpr double turn_step = to_radians(30.0);
+
+// Where a ray along −z of `aim` meets the panel, px; none: it does not.
+std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim);
+
+// The events of the hands in this frame: pointer and button on the panel, and the keys `pause` and `tool` for
+// the buttons of the controllers. Updates the room: its pointer, and turn and height by the sticks.
+struct HandKeys {
+    platform::Key pause = platform::Key::escape, tool = platform::Key::unknown;
+};
+std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys);
+
+// The panel in the scene whose frame is `scene_in_room`.
+render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture);
+
+}  // namespace bolt::trainer

@@ -1,0 +1,67 @@
+#include "game/trainer/tracked_hand.hpp"
+
+#include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace bolt::trainer {
+
+namespace {
+
+// m that the hand leads the arm. In the air its spring of 300 N/m then pulls with less than the 12 N of the
+// arm, so that it cannot push through a wall; on a bolt a pull needs all the strength.
+constexpr double open_lead = 0.035, pull_lead = 0.06;
+
+// m from the palm to the point where thumb and index finger meet, in the frame of the grip pose of a right
+// hand: X into the palm, Y from the fingertips to the wrist, −Z to the thumb. About an adult's.
+constexpr double pinch_out = 0.03, pinch_along = 0.08, pinch_thumb = 0.03;
+
+// Distance of thumb tip and index fingertip at which tracked fingers count as open, and as closed, m.
+constexpr double open_distance = 0.07, closed_distance = 0.02;
+constexpr std::size_t palm_joint = 0, thumb_tip = 5, index_tip = 10;  // of XR_EXT_hand_tracking
+
+}  // namespace
+
+double closing(const xr::HandInput& hand) {
+    double by_fingers = 0.0;
+    if (hand.joints) {
+        const xr::HandJoint &thumb = (*hand.joints)[thumb_tip], &index = (*hand.joints)[index_tip];
+        if (thumb.valid && index.valid)
+            by_fingers = (open_distance - glm::distance(thumb.pose.position, index.pose.position)) /
+                         (open_distance - closed_distance);
+    }
+    const auto by_button = static_cast<double>(std::max(hand.grasp, hand.select));
+    return std::clamp(std::max(by_button, by_fingers), 0.0, 1.0);
+}
+
+std::optional<Pose> palm_of(const xr::HandInput& hand, xr::Side side) {
+    if (!hand.active) return std::nullopt;
+    if (hand.grip) return hand.grip->pose;
+    if (!hand.joints || !(*hand.joints)[palm_joint].valid) return std::nullopt;
+    // The palm joint's −Z points along the fingers and its Y out of the back of the hand. The grip pose has
+    // the fingers along −Y, −Z to the thumb, and X to the right when both palms face each other.
+    const Pose& palm = (*hand.joints)[palm_joint].pose;
+    const double out = side == xr::Side::right ? 1.0 : -1.0;
+    const glm::dmat3 grip_at_palm(Vec3(0.0, out, 0.0), Vec3(0.0, 0.0, 1.0), Vec3(out, 0.0, 0.0));
+    return Pose{palm.position, glm::normalize(palm.orientation * glm::quat_cast(grip_at_palm))};
+}
+
+Pose fingertips_at_palm(xr::Side side) {
+    const double out = side == xr::Side::right ? -pinch_out : pinch_out;
+    // x along the grip's X, y along its −Z, z along its Y.
+    return {{out, -pinch_along, -pinch_thumb}, glm::angleAxis(-0.5 * pi, Vec3(1.0, 0.0, 0.0))};
+}
+
+void track_hand(TrackedHand& tracked, const TrackedHandInput& input) {
+    const std::optional<Pose> palm = palm_of(input.hand, tracked.side);
+    tracked.present = palm.has_value();
+    tracked.motion.gripper = palm ? 1.0 - closing(input.hand) : 1.0;
+    if (!palm) return;
+    const Pose hand = input.room_in_assembly * *palm;
+    tracked.fingertips = hand * fingertips_at_palm(tracked.side);
+    tracked.motion.target = tracked.fingertips;
+    // The end of the wrench's handle is in the palm.
+    if (input.wrench) tracked.motion.target->position = hand.position;
+    tracked.motion.lead = input.engaged ? pull_lead : open_lead;
+}
+
+}  // namespace bolt::trainer

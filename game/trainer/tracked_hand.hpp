@@ -1,0 +1,42 @@
+// A hand whose pose a headset measures, by a controller or by its cameras. It reaches, closes on the wrench
+// or on a nut, and opens; nothing moves the tool but the hand. It feels no force, so the shown hand is held
+// back where the real one would be, and the controller vibrates.
+#pragma once
+
+#include <optional>
+
+#include "engine/base/math.hpp"
+#include "engine/xr/input.hpp"
+#include "haptics/device/simulated_arm.hpp"
+
+namespace bolt::trainer {
+
+struct TrackedHand {
+    xr::Side side = xr::Side::right;
+    device::HandMotion motion;  // sent to the arm (device::tracked_hand_description)
+    Pose fingertips;            // of the open hand, in the assembly's frame
+    bool present = false;       // the headset tracks the hand
+    bool had_wrench = false;    // in the previous frame
+};
+
+struct TrackedHandInput {
+    const xr::HandInput& hand;
+    Pose room_in_assembly;  // the room's frame in the assembly's
+    bool wrench = false;    // the hand holds the wrench
+    bool engaged = false;   // the tool holds a nut
+};
+
+// How far the hand is closed, 0 … 1: by a button of the controller, or by the fingers.
+double closing(const xr::HandInput& hand);
+
+// The pose of the palm (XR_EXT_hand_tracking's or the controller's grip), in the room; none: not tracked.
+std::optional<Pose> palm_of(const xr::HandInput& hand, xr::Side side);
+
+// The pose of the fingertips in the frame of a palm: the tool's frame of a hand without a wrench, whose z
+// axis points back along the fingers.
+Pose fingertips_at_palm(xr::Side side);
+
+// Call once a frame. Without a tracked hand it keeps its pose and opens.
+void track_hand(TrackedHand& tracked, const TrackedHandInput& input);
+
+}  // namespace bolt::trainer
