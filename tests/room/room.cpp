@@ -44,8 +44,22 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
     HeadlessTrainer driver(tracked_hand("first-nut"), {eye_size, 0.3F, 0.02});
     driver.immersion = test::standing_user(eye_size);
     driver.frame();
+    driver.draws = false;
     REQUIRE(driver.lesson().station);
     test::TraineeInRoom trainee(driver);
+    if (std::getenv("BOLT_ROOM_TRACE") != nullptr)
+        trainee.on_frame = [&, count = 0]() mutable {
+            if (++count % 25 != 0) return;
+            const auto& active = driver.lesson();
+            const auto& hand = hand_of(active);
+            const auto& tip = active.station->tracked->fingertips.position;
+            const auto& joint = active.session->state().joints[0];
+            std::printf("%6.2f step %zu engaged %d wrench %d closing %.2f tips %.3f %.3f %.3f tool %.3f %.3f %.3f nut %.2f stage %d torque %.2f dm %d grip %d\n",
+                        active.session->time(), active.session->lesson().current, active.session->state().engagement.joint,
+                        hand.wrench, hand.closing, tip.x, tip.y, tip.z, hand.pose.position.x, hand.pose.position.y,
+                        hand.pose.position.z, joint.nut.angle, static_cast<int>(joint.stage), joint.torque,
+                        active.station->latest.dead_man_pressed, static_cast<int>(active.station->latest.input.grip));
+        };
     trainee.play(120.0);
     CHECK(driver.app().screen() == ShownScreen::result);
     REQUIRE(driver.outcome());

@@ -55,7 +55,7 @@ HeadlessTrainer::~HeadlessTrainer() {
 Status HeadlessTrainer::draw(const std::vector<platform::InputEvent>& events, double seconds) {
     const view::WindowFrame window{events, display_.size, display_.scale, seconds,
                                    immersion ? &*immersion : nullptr};
-    if (Status updated = app_->update(window); !updated) return updated;
+    if (Status updated = app_->update(window); !updated || !draws) return updated;
     auto frame = gpu_context_.frames->begin();
     if (!frame) FAIL(frame.error().message());
     Status drawn = app_->draw(**frame, window);

@@ -54,6 +54,7 @@ class HeadlessTrainer : public TrainerDriver {
 
     // The display that surrounds the user in the next frames; none: the window alone.
     std::optional<view::Immersion> immersion;
+    bool draws = true;  // false: the next frames are not drawn, which is faster
     // A picture of a view of the last immersive frame.
     [[nodiscard]] render::Picture room_picture(std::uint32_t view);
 
