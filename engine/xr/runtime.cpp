@@ -70,6 +70,23 @@ Result<std::vector<std::string>> runtime_extensions() {
     return names;
 }
 
+XrInstanceCreateInfo instance_info() {
+    XrInstanceCreateInfo info{XR_TYPE_INSTANCE_CREATE_INFO};
+    std::strncpy(info.applicationInfo.applicationName, "Boltwright", XR_MAX_APPLICATION_NAME_SIZE - 1);
+    std::strncpy(info.applicationInfo.engineName, "Boltwright", XR_MAX_ENGINE_NAME_SIZE - 1);
+    // Runtimes of every version accept 1.0, and nothing here needs 1.1.
+    info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
+    return info;
+}
+
+// The loader keeps a runtime until an instance of it is destroyed, also if the user has since chosen another
+// runtime.
+void unload_runtime() {
+    const XrInstanceCreateInfo info = instance_info();
+    XrInstance instance = XR_NULL_HANDLE;
+    if (XR_SUCCEEDED(xrCreateInstance(&info, &instance))) (void)xrDestroyInstance(instance);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Runtime>> Runtime::open() {
@@ -88,8 +105,10 @@ Status Runtime::create_xr_instance() {
     const auto has = [&](const char* extension) {
         return std::find(available.begin(), available.end(), extension) != available.end();
     };
-    if (!has(vulkan_extension))
+    if (!has(vulkan_extension)) {
+        unload_runtime();
         return fail(missing_runtime("the OpenXR runtime does not support Vulkan (XR_KHR_vulkan_enable2)"));
+    }
     std::vector<const char*> enabled{vulkan_extension};
     const auto enable = [&](const char* extension) {
         if (!has(extension)) return false;
@@ -102,11 +121,7 @@ Status Runtime::create_xr_instance() {
     extensions_.local_floor = enable(local_floor_extension);
     extensions_.hand_interaction = enable(hand_interaction_extension);
 
-    XrInstanceCreateInfo info{XR_TYPE_INSTANCE_CREATE_INFO};
-    std::strncpy(info.applicationInfo.applicationName, "Boltwright", XR_MAX_APPLICATION_NAME_SIZE - 1);
-    std::strncpy(info.applicationInfo.engineName, "Boltwright", XR_MAX_ENGINE_NAME_SIZE - 1);
-    // Runtimes of every version accept 1.0, and nothing here needs 1.1.
-    info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
+    XrInstanceCreateInfo info = instance_info();
     info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
     info.enabledExtensionNames = enabled.data();
     XrInstance raw = XR_NULL_HANDLE;
