@@ -8,6 +8,7 @@
 //   FRAME hand left|right X Y Z QX QY QZ QW CLOSED     grip and aim, and trigger and squeeze, 0 … 1
 //   FRAME no-hand left|right
 //   FRAME event NAME                    an Event below: take-off, put-on, lose-focus, …
+//   FRAME off SECONDS                   takes the headset off for this time
 //   FRAME picture FILE                  saves the left and right eye of this frame side by side (PPM)
 //   0 size WIDTH HEIGHT                 of an eye's picture
 //   0 real-time                         frames last as long as those of a display

@@ -164,6 +164,10 @@ XrResult blend_modes(XrInstance, XrSystemId, XrViewConfigurationType, std::uint3
 
 XrResult poll_event(XrInstance, XrEventDataBuffer* event) {
     MOCK_ENTER("xrPollEvent");
+    if (s.put_on_at && std::chrono::steady_clock::now() > *s.put_on_at && s.state == XR_SESSION_STATE_IDLE) {
+        s.put_on_at.reset();
+        apply_event(s, Event::put_on);
+    }
     if (s.events.empty()) return XR_EVENT_UNAVAILABLE;
     *event = s.events.front();
     s.events.pop_front();

@@ -442,6 +442,10 @@ void apply_line(State& s, const ScriptLine& line) {
         hand.trigger = hand.squeeze = static_cast<float>(number(line, 9));
     } else if (what == "no-hand") {
         s.hands.at(side).active = false;
+    } else if (what == "off") {
+        apply_event(s, Event::take_off);
+        s.put_on_at =
+            std::chrono::steady_clock::now() + std::chrono::milliseconds(std::lround(1e3 * number(line, 1)));
     } else if (what == "event") {
         apply_event(s, event_named(word(line, 1)));
     }

@@ -1,6 +1,7 @@
 // The state of the mock runtime, which all its functions share.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstring>
 #include <deque>
@@ -96,6 +97,7 @@ struct State {
     std::vector<std::string> violations;
     std::map<std::string, std::pair<XrResult, int>> failures;
     std::vector<ScriptLine> script;
+    std::optional<std::chrono::steady_clock::time_point> put_on_at;  // by the script
 
     void violation(std::string what) { violations.push_back(std::move(what)); }
     // Must be held by the caller: the mutex.
