@@ -83,6 +83,27 @@ int largest_difference(Still& together, Still& alone, std::size_t views) {
     return largest;
 }
 
+// The share of pixels that differ by more than a rounding error. Ambient occlusion reads the texel that a
+// location falls into, so a rounding error at the border of two texels, which differs between the two
+// pipelines of a GPU, changes single pixels visibly.
+double differing_share(Still& together, Still& alone, std::size_t views) {
+    const std::vector<Eye> from = eyes(views);
+    const std::vector<Picture> pictures = together.studio.shoot(together.scene, from, extent);
+    std::size_t differing = 0, all = 0;
+    for (std::size_t i = 0; i < views; ++i) {
+        const Picture single = alone.studio.shoot(alone.scene, from[i], extent);
+        REQUIRE(single.rgba.size() == pictures[i].rgba.size());
+        all += single.rgba.size() / 4;
+        for (std::size_t at = 0; at < single.rgba.size(); at += 4) {
+            int most = 0;
+            for (std::size_t c = at; c < at + 4; ++c)
+                most = std::max(most, std::abs(int{single.rgba[c]} - int{pictures[i].rgba[c]}));
+            differing += most > 1 ? 1 : 0;
+        }
+    }
+    return static_cast<double>(differing) / static_cast<double>(all);
+}
+
 }  // namespace
 
 TEST_CASE("Multiview: two and four views equal single pictures in every pass") {
@@ -92,9 +113,14 @@ TEST_CASE("Multiview: two and four views equal single pictures in every pass") {
         how(alone.scene);
     };
     const auto same = [&](const char* what) {
-        CAPTURE(what);
-        CHECK(largest_difference(together, alone, 2) <= 1);
-        CHECK(largest_difference(together, alone, 4) <= 1);
+        const std::string drawn(what);
+        CAPTURE(drawn);
+        for (const std::size_t views : {std::size_t{2}, std::size_t{4}}) {
+            if (together.scene.occlusion_radius > 0.0F)
+                CHECK(differing_share(together, alone, views) <= 1e-3);
+            else
+                CHECK(largest_difference(together, alone, views) <= 1);
+        }
     };
     same("shadow, ghost and sky");
     change([](Scene& scene) { scene.background = {0.3F, 0.32F, 0.35F, 1.0F}; });
@@ -112,6 +138,7 @@ TEST_CASE("Multiview: two and four views equal single pictures in every pass") {
     CHECK(test::largest_difference(pictures[0], pictures[1]) > 20);
     together.scene.objects[0].world[3].x += 0.2F;
     CHECK(largest_difference(together, alone, 2) > 20);
+    CHECK(differing_share(together, alone, 2) > 0.02);
 }
 
 TEST_CASE(
