@@ -189,7 +189,8 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     instance_options.validation = options.validate;
     instance_options.extensions = *extensions;
     instance_options.log = std::make_shared<gpu::ValidationLog>();
-    view::WindowRunOptions run_options{options.gpu, [] { return interrupted(); }, headset, instance_options};
+    view::WindowRunOptions run_options{options.gpu, [] { return interrupted(); }, headset,
+                                       !options.full_resolution, instance_options};
     if (headset != nullptr) instance_options.creator = headset->creator();
     BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create(instance_options));
     trainer::App app(std::move(app_options));

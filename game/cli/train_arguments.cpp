@@ -93,6 +93,8 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
             "and until then the window")
         ->expected(0, 1)
         ->type_name("[optional]");
+    train.add_flag("--full-resolution", options.full_resolution,
+                   "Keep the headset's resolution although the GPU is too slow for its frame rate");
     train.add_flag("--headless", options.headless,
                    "No window: a simulated trainee performs the lesson in virtual time");
 }

@@ -9,6 +9,7 @@
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
+#include "game/view/resolution.hpp"
 
 namespace bolt::view {
 
@@ -27,7 +28,9 @@ VkExtent2D size_of(const platform::Window& window) {
 struct Canvas {
     GpuContext gpu_context;
     std::unique_ptr<gpu::Swapchain> swapchain;
-    double last_frame = 0.0;  // s, when it began
+    double last_frame = 0.0;       // s, when it began
+    ResolutionControl resolution;  // of the headset
+    int old_frames = 0;            // frames in flight that were drawn at another resolution
 
     Canvas() = default;
     Canvas(Canvas&&) = default;
@@ -81,11 +84,18 @@ bool has_recentred(const xr::HeadsetFrame& frame) {
     });
 }
 
+// s, that the GPU took for the last completed frame; 0 on GPUs without timestamps.
+double gpu_time(const GpuContext& gpu) {
+    double sum = 0.0;
+    for (const gpu::PassTiming& pass : gpu.frames->timings()) sum += 1e-3 * pass.milliseconds;
+    return sum;
+}
+
 // A frame of the headset; the window mirrors the first eye, and never delays the headset.
 Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset, xr::HeadsetFrame& frame,
-                    WindowFrame window) {
+                    WindowFrame window, bool adapts) {
     GpuContext& gpu = canvas.gpu_context;
-    const VkExtent2D size = headset.session().extent();
+    const VkExtent2D size = scaled(canvas.resolution, headset.session().extent());
     Immersion immersion;
     immersion.head = frame.view.head;
     immersion.tracked = frame.view.tracked;
@@ -117,6 +127,11 @@ Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset
             {picture.layer, filling_part(size, canvas.swapchain->plan().extent), false}));
     }
     headset.end_frame(frame, drawn, immersive_range);
+    if (canvas.old_frames > 0) {
+        --canvas.old_frames;
+    } else if (update(canvas.resolution, gpu_time(gpu), adapts ? frame.timing.period : 0.0)) {
+        canvas.old_frames = gpu::frames_in_flight + 1;
+    }
     return {};
 }
 
@@ -133,7 +148,8 @@ Status draw(WindowContent& content, Canvas& canvas, platform::Window& window,
     canvas.last_frame = now;
     const WindowFrame frame{events, size, window.content_scale(), elapsed, nullptr};
     if (headset_frame && headset_frame->timing.should_render)
-        return draw_headset(content, canvas, *options.headset, *headset_frame, frame);
+        return draw_headset(content, canvas, *options.headset, *headset_frame, frame,
+                            options.adapts_resolution);
     if (headset_frame) options.headset->end_frame(*headset_frame, false, immersive_range);
     if (size.width == 0 || size.height == 0) return content.frame_while_hidden();
     return draw_window(content, canvas, frame);

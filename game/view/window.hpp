@@ -72,6 +72,8 @@ struct WindowRunOptions {
     std::string gpu;                 // part of the name of the GPU to use; empty: the best
     std::function<bool()> stop;      // polled every frame; true closes the window
     xr::Headset* headset = nullptr;  // null: none is used
+    // With a headset: lower its resolution if the GPU cannot keep its frame rate.
+    bool adapts_resolution = true;
     // With a headset: how `instance` was created. It is created again by the headset's runtime when that is
     // found, and with the same log.
     gpu::InstanceOptions instance{};

@@ -1,0 +1,65 @@
+// The resolution that keeps a headset's frame rate.
+#include "game/view/resolution.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace bolt::view;
+
+namespace {
+
+constexpr double period = 1.0 / 90.0;
+
+// Frames of a GPU whose time grows with the number of pixels. Returns the number of changes.
+int run(ResolutionControl& control, double full_time, int frames) {
+    int changes = 0;
+    for (int i = 0; i < frames; ++i) {
+        const auto share = static_cast<double>(resolution_steps[control.step]);
+        changes += update(control, full_time * share * share, period) ? 1 : 0;
+    }
+    return changes;
+}
+
+}  // namespace
+
+TEST_CASE("Resolution: a fast GPU keeps all pixels, and one slow frame changes nothing") {
+    ResolutionControl control;
+    CHECK(run(control, 0.5 * period, 500) == 0);
+    CHECK_FALSE(update(control, 3.0 * period, period));
+    CHECK(run(control, 0.5 * period, 100) == 0);
+    CHECK(scaled(control, {2064, 2208}).width == 2064);
+}
+
+TEST_CASE("Resolution: a slow GPU gets at once as few pixels as it can draw in time, and keeps them") {
+    for (const double factor : {1.0, 1.5, 2.0, 3.0, 5.0}) {
+        CAPTURE(factor);
+        ResolutionControl control;
+        CHECK(run(control, factor * period, 3) == 1);
+        const auto share = static_cast<double>(resolution_steps[control.step]);
+        CHECK(factor * share * share <= 0.9);
+        CHECK(run(control, factor * period, 2000) <= 1);  // one step up at most, no oscillation
+        const VkExtent2D size = scaled(control, {2064, 2208});
+        CHECK(size.width % 2 == 0);
+        CHECK(size.width < 2064);
+    }
+}
+
+TEST_CASE("Resolution: it returns when the GPU has time again, but not before a second") {
+    ResolutionControl control;
+    (void)run(control, 3.0 * period, 3);
+    const int low = control.step;
+    REQUIRE(low > 0);
+    CHECK(run(control, 0.2 * period, 80) == 0);
+    CHECK(run(control, 0.2 * period, 2000) == low);
+    CHECK(control.step == 0);
+}
+
+TEST_CASE("Resolution: it is never below the last step, and unknown times change nothing") {
+    ResolutionControl control;
+    (void)run(control, 1000.0 * period, 10);
+    CHECK(resolution_steps[control.step] == doctest::Approx(0.35));
+    const int low = control.step;
+    CHECK_FALSE(update(control, 0.0, period));
+    CHECK_FALSE(update(control, 0.01, 0.0));
+    CHECK(control.step == low);
+    CHECK(scaled(control, {1, 1}).width == 1);
+}
