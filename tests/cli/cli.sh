@@ -249,7 +249,7 @@ check "no picture is written after an error" test ! -e never.png
 expect 4 'there is no display' env -u DISPLAY -u WAYLAND_DISPLAY "$bin/boltwright"
 expect 2 '' "$bin/boltwright" train --no-pictures --mode hard
 expect 2 'did you mean expert' "$bin/boltwright" train --no-pictures --headless --operator exprt --out never
-expect 4 'no headset' "$bin/boltwright" train --no-pictures --headless --hmd --out never
+expect 2 'wears no headset' "$bin/boltwright" train --no-pictures --headless --hmd --out never
 expect 4 'omega7' "$bin/boltwright" train --no-pictures --headless --device omega7 --out never
 expect 4 'ttyS99' "$bin/boltwright" train --no-pictures --headless --glove /dev/ttyS99 --out never
 expect 2 'cannot be combined' "$bin/boltwright" train --headless --device mouse --device 256f:c62e --out never

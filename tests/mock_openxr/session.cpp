@@ -63,6 +63,7 @@ void apply_event(State& s, Event event) {
         case Event::put_on:
             return s.enter(XR_SESSION_STATE_READY);
         case Event::lose_focus:
+            s.gains_focus = false;
             return s.enter(XR_SESSION_STATE_VISIBLE);
         case Event::regain_focus:
             return s.enter(XR_SESSION_STATE_FOCUSED);
@@ -173,7 +174,7 @@ XrResult begin_session(XrSession, const XrSessionBeginInfo*) {
         s.violation("xrBeginSession in another state than READY");
         return XR_ERROR_SESSION_NOT_READY;
     }
-    s.running = true;
+    s.running = s.gains_focus = true;
     return XR_SUCCESS;
 }
 
@@ -325,7 +326,7 @@ XrResult end_frame(XrSession, const XrFrameEndInfo* info) {
         s.enter(XR_SESSION_STATE_SYNCHRONIZED);
     else if (s.state == XR_SESSION_STATE_SYNCHRONIZED)
         s.enter(XR_SESSION_STATE_VISIBLE);
-    else if (s.state == XR_SESSION_STATE_VISIBLE && s.ended < 5)
+    else if (s.state == XR_SESSION_STATE_VISIBLE && s.gains_focus)
         s.enter(XR_SESSION_STATE_FOCUSED);
     return XR_SUCCESS;
 }

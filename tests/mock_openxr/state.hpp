@@ -75,6 +75,7 @@ struct State {
     Vulkan vulkan;
 
     bool session = false, running = false, exit_requested = false, attached = false;
+    bool gains_focus = true;  // by itself, after some frames
     XrSessionState state = XR_SESSION_STATE_UNKNOWN;
     std::deque<XrEventDataBuffer> events;
     bool should_render = true, blocked = false;

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# A lesson in a headset, on the mock runtime of tests/mock_openxr: headset.sh BIN SOURCES, on a screen (with_screen.sh).
+. "$(dirname "$0")/checks.sh"
+manifest=${bin%/bin}/tests/mock_openxr.json
+train=("$bin/boltwright" train --start --silent --validate --full-resolution --size 160x120)
+
+expect 4 'no OpenXR runtime: .*expected an active runtime .*XR_RUNTIME_JSON' env XR_RUNTIME_JSON=/nonexistent.json "${train[@]}" --hmd --out never
+expect 2 'a simulated trainee wears no headset' "$bin/boltwright" train --headless --hmd --out never
+expect 2 '"maybe"; expected optional, or no value' "$bin/boltwright" train cover-m8 --hmd maybe --out never
+
+export XR_RUNTIME_JSON=$manifest
+violations() { grep -c '^violation' "$1"; }
+# The user stands, looks down, closes the right hand, takes the headset off for a moment, and ends the program in the
+# headset's menu.
+cat >script <<END
+0 size 96 90
+1 head 0 1.65 0 -0.2164 0 0 0.9763
+6 hand right 0.05 1.15 -0.35 0 0 0 1 0
+12 picture before.ppm
+14 hand right 0.05 1.15 -0.35 0 0 0 1 1
+16 off 0.5
+28 picture after.ppm
+32 event exit
+END
+export MOCK_OPENXR_SCRIPT=$work/script MOCK_OPENXR_REPORT=$work/report
+expect 0 'headset: Mock headset with Mock OpenXR' timeout 200 "${train[@]}" --hmd first-nut --out lesson
+check 'the lesson was recorded' test -s lesson/session.boltwright
+check 'the runtime was used correctly' test "$(violations report)" = 0
+check 'frames were shown until the user ended the program' grep -qE 'frames 3[1-5]' report
+for picture in before after; do
+    check "both eyes see the workplace ($picture)" python3 - $picture.ppm <<'END'
+import sys
+data = open(sys.argv[1], 'rb').read()
+head, size, rest = data.split(b'\n', 1)[0], (192, 90), data.split(b'\n', 1)[1]
+assert head == b'P6 192 90 255', head
+rows = [rest[3 * 192 * y:3 * 192 * (y + 1)] for y in range(90)]
+left, right = b''.join(r[:288] for r in rows), b''.join(r[288:] for r in rows)
+assert left != right                       # parallax
+assert len(set(left)) > 60                 # a scene, not a colour
+END
+done
+
+# The session ends in the middle of a lesson: it goes on in the window, and the headset is found again.
+cat >script <<END
+0 size 64 60
+1 head 0 1.65 0 -0.2164 0 0 0.9763
+10 event lose-instance
+END
+rm -f report
+"${train[@]}" --hmd first-nut --out lost >log 2>&1 &
+player=$!
+found_twice() { test "$(grep -c '^headset: 2 eye' log)" -ge 2; }
+check 'the headset is found again' eventually found_twice
+kill -INT $player
+check 'the program ends in order' wait $player
+player=
+check 'the loss is told' grep -q 'the headset is lost: ' log
+check 'nothing was done wrong meanwhile' test "$(violations report)" = 0
+check 'the lesson was recorded until the end' test -s lost/session.boltwright
+
+# Without a headset the window is used until there is one.
+export XR_RUNTIME_JSON=$work/later.json
+cat >script <<END
+0 size 64 60
+END
+"${train[@]}" --hmd optional first-nut --out optional >log 2>&1 &
+player=$!
+check 'its absence is told' eventually grep -q 'no OpenXR runtime' log
+check 'the lesson begins in the window' eventually grep -q 'lesson begun' log
+cp "$manifest" later.json
+check 'it is used when it appears' eventually grep -q '^headset: 2 eye' log
+kill -INT $player
+check 'the program ends in order' wait $player
+player=
+check 'one line tells of the absence' test "$(grep -c 'no OpenXR runtime' log)" = 1
+finish_checks
