@@ -10,8 +10,10 @@ namespace bolt::xr {
 
 namespace {
 
-constexpr double search_interval = 1.0;  // s
-constexpr double exit_timeout = 2.0;     // s in which the session passes through its last states
+// s until the next search: short while no headset is found; longer after each session that cannot be started,
+// because each attempt makes all objects on the GPU anew.
+constexpr double short_interval = 1.0, longest_interval = 60.0;
+constexpr double exit_timeout = 2.0;  // s in which the session passes through its last states
 
 }  // namespace
 
@@ -20,7 +22,7 @@ void Headset::log(const std::string& line) const {
 }
 
 bool Headset::find(double now) {
-    if (runtime_ || exit_requested_ || (last_search_ && now - *last_search_ < search_interval)) return false;
+    if (runtime_ || exit_requested_ || (last_search_ && now - *last_search_ < search_interval_)) return false;
     last_search_ = now;
     Result<std::unique_ptr<Runtime>> found = Runtime::open();
     if (!found) {
@@ -52,6 +54,7 @@ void Headset::drop() {
 
 void Headset::begin(gpu::Device& device) {
     Result<std::unique_ptr<Session>> session = Session::create(*runtime_, device, options_.session);
+    search_interval_ = std::min(2.0 * search_interval_, longest_interval);
     if (!session) {
         (void)keep(fail(session.error()));
         return;
@@ -63,6 +66,7 @@ void Headset::begin(gpu::Device& device) {
         return;
     }
     input_ = std::move(*input);
+    search_interval_ = short_interval;
     log(fmt::format("headset: {} eye(s) of {}x{} pixels, poses relative to the {}{}",
                     runtime_->views().size(), session_->extent().width, session_->extent().height,
                     name(session_->base_space()), session_->uses_depth() ? ", with depth" : ""));

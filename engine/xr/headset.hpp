@@ -36,7 +36,8 @@ class Headset {
     Headset& operator=(const Headset&) = delete;
     ~Headset() { end(); }
 
-    // Looks for a headset if there is none, at most once a second. Returns true if one was found. Then
+    // Looks for a headset if there is none, at most once a second, and less often if its session could not be
+    // started. Returns true if one was found. Then
     // destroy all Vulkan objects, create them with creator(), and call begin().
     bool find(double now);
     // Why there is no headset; none: there is one.
@@ -86,6 +87,7 @@ class Headset {
     std::vector<SessionEvent> events_;
     std::optional<Error> absence_;
     std::optional<double> last_search_;
+    double search_interval_ = 1.0;  // s
     bool exit_requested_ = false;
 };
 

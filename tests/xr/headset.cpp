@@ -324,6 +324,8 @@ TEST_CASE("Headset: a session that cannot be created leaves the program at the d
         CHECK_FALSE(c.connect());
         REQUIRE(c.headset->absence());
         CHECK(c.headset->absence()->message().find("XR_ERROR_RUNTIME_FAILURE") != std::string::npos);
+        CHECK_FALSE(c.headset->find(c.now + 1.5));  // not every second
+        CHECK(c.headset->find(c.now + 2.5));
     }
 }
 
