@@ -122,16 +122,25 @@ Result<std::unique_ptr<Session>> Session::create(Runtime& runtime, gpu::Device& 
     return session;
 }
 
-Session::~Session() { stop_waiting(); }
+Session::~Session() {
+    // Submitted commands may still copy into the headset's images.
+    if (stop()) (void)device_->idle();
+}
 
-void Session::stop_waiting() {
-    if (!waiter_) return;
+bool Session::stop() {
+    if (!waiter_) return !abandoned_;
     const bool finished = waiter_->stop(waiter_timeout);
     waiter_.reset();
-    if (finished) return;
-    // A thread of ours is still inside the runtime: it must keep all that the thread may use.
+    if (finished) return true;
+    // A thread of ours is still inside the runtime. All that it may use stays, and nothing else is asked of
+    // that runtime, because a call may never return either.
+    abandoned_ = true;
     runtime_->abandon();
+    (void)new auto(std::move(color_));
+    (void)new auto(std::move(depth_));
+    (void)new std::array{std::move(head_), std::move(space_)};
     (void)new SessionHandle(std::move(session_));
+    return false;
 }
 
 Status Session::create_session() {

@@ -151,6 +151,10 @@ class Session {
 
     // Asks the runtime to end the session. It then passes through its remaining states.
     Status request_exit();
+    // Ends the thread that waits for frames; afterwards the session can only be destroyed. Returns false if
+    // the thread never returned from the runtime: the session's objects and the runtime are then abandoned,
+    // and its Input must be too.
+    bool stop();
 
   private:
     struct Swapchain {
@@ -173,7 +177,6 @@ class Session {
     template <class Visit>
     Status each_swapchain(const Visit& visit);
     [[nodiscard]] XrSwapchainSubImage sub_image(const Swapchain& swapchain, std::size_t eye) const;
-    void stop_waiting();
 
     Runtime* runtime_ = nullptr;
     gpu::Device* device_ = nullptr;
@@ -186,7 +189,7 @@ class Session {
     std::vector<VkExtent2D> drawn_;         // sizes of the pictures that record() copied
     std::shared_ptr<FrameWaiter> waiter_;
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
-    bool running_ = false, ended_ = false;
+    bool running_ = false, ended_ = false, abandoned_ = false;
 };
 
 }  // namespace bolt::xr
