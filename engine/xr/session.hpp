@@ -176,7 +176,8 @@ class Session {
     Status release(Swapchain& swapchain);
     template <class Visit>
     Status each_swapchain(const Visit& visit);
-    [[nodiscard]] XrSwapchainSubImage sub_image(const Swapchain& swapchain, std::size_t eye) const;
+    [[nodiscard]] XrSwapchainSubImage sub_image(const std::vector<Swapchain>& swapchains,
+                                                std::size_t eye) const;
 
     Runtime* runtime_ = nullptr;
     gpu::Device* device_ = nullptr;
@@ -187,6 +188,7 @@ class Session {
     VkExtent2D extent_{};
     std::vector<Swapchain> color_, depth_;  // one with a layer per eye, or one per eye; depth may be empty
     std::vector<VkExtent2D> drawn_;         // sizes of the pictures that record() copied
+    bool depth_drawn_ = false;              // and their depth
     std::shared_ptr<FrameWaiter> waiter_;
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
     bool running_ = false, ended_ = false, abandoned_ = false;

@@ -41,8 +41,8 @@ XrResult wait_next(State& s, std::unique_lock<std::mutex>& lock, XrFrameState& o
     };
     // A stopped session releases its waiting thread.
     const auto ready = [&](const Session& session) {
-        return !session.running || session.state == XR_SESSION_STATE_STOPPING ||
-               (!session.waited && !s.blocked);
+        const bool stopped = !session.running || session.state == XR_SESSION_STATE_STOPPING;
+        return !s.blocked && (stopped || !session.waited);
     };
     if (!wait_until(s, lock, id, ready)) return lost();
     const std::int64_t period = s.instance->config.period;

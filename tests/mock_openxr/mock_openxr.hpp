@@ -173,7 +173,9 @@ struct Control {
     // The next `count` calls of the function return `result` and do nothing else; destroying functions still
     // destroy. XR_ERROR_SESSION_LOST and XR_ERROR_INSTANCE_LOST really lose the session or the instance.
     void (*fail_next)(const std::string& function, XrResult result, int count);
-    void (*block_wait)(bool blocked);  // xrWaitFrame does not return until released
+    // The same after `skip` further calls.
+    void (*fail_after)(const std::string& function, int skip, XrResult result, int count);
+    void (*block_wait)(bool blocked);  // xrWaitFrame does not return until released or lost
     void (*set_should_render)(bool should_render);
     void (*set_capture)(bool capture);  // read the pictures of all following frames
 
@@ -185,6 +187,7 @@ struct Control {
     XrInstance (*instance)();                             // null: none
     XrSessionState (*session_state)();                    // UNKNOWN without a session
     bool (*session_running)();
+    bool (*waiting)();  // a thread is inside xrWaitFrame
     // Suggested bindings that the runtime accepted: "/interaction_profiles/... action /user/hand/...".
     std::vector<std::string> (*accepted_bindings)();
 };

@@ -86,7 +86,10 @@ const Control control{
         locked([&](State& s) { play_recentre(s, space, delay, shift); });
     },
     [](const std::string& function, XrResult result, int count) {
-        locked([&](State& s) { s.injected[function] = {result, count}; });
+        locked([&](State& s) { s.injected[function] = {result, count, 0}; });
+    },
+    [](const std::string& function, int skip, XrResult result, int count) {
+        locked([&](State& s) { s.injected[function] = {result, count, skip}; });
     },
     [](bool blocked) {
         locked([&](State& s) {
@@ -118,6 +121,10 @@ const Control control{
     [] {
         return locked(
             [](State& s) { return s.instance && s.instance->session && s.instance->session->running; });
+    },
+    [] {
+        return locked(
+            [](State& s) { return s.instance && s.instance->session && s.instance->session->waiting; });
     },
     [] {
         return locked([](State& s) {

@@ -199,7 +199,7 @@ void run_command(State& s, const Words& words) {
     } else if (command == "fail") {
         const std::string& function = arguments.text();
         const auto result = static_cast<XrResult>(static_cast<int>(arguments.number()));
-        s.injected[function] = {result, static_cast<int>(arguments.number())};
+        s.injected[function] = {result, static_cast<int>(arguments.number()), 0};
     } else if (command == "picture") {
         s.script.pictures.push_back(arguments.text());
     } else if (command == "exit") {

@@ -76,6 +76,10 @@ std::optional<XrResult> enter(State& s, std::string_view function, Level level) 
     }
     const auto found = s.injected.find(function);
     if (found == s.injected.end() || found->second.count <= 0) return std::nullopt;
+    if (found->second.skip > 0) {
+        --found->second.skip;
+        return std::nullopt;
+    }
     --found->second.count;
     const XrResult result = found->second.result;
     if (result == XR_ERROR_INSTANCE_LOST && instance != nullptr) instance->lost = true;

@@ -101,6 +101,7 @@ struct Instance {
 struct InjectedResult {
     XrResult result = XR_SUCCESS;
     int count = 0;
+    int skip = 0;  // calls before them
 };
 
 struct State {

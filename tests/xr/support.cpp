@@ -26,6 +26,13 @@ MockRuntime::MockRuntime(const mock::Config& config) : active_("XR_RUNTIME_JSON"
 MockRuntime::~MockRuntime() {
     for (const std::string& violation : mock_control().take_violations()) CHECK_MESSAGE(false, violation);
     mock_control().reset();
+    // The loader keeps a runtime, with the extensions that it had, until an instance is destroyed.
+    XrInstanceCreateInfo info{XR_TYPE_INSTANCE_CREATE_INFO};
+    info.applicationInfo.applicationName[0] = 't';
+    info.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
+    XrInstance instance = XR_NULL_HANDLE;
+    if (XR_SUCCEEDED(xrCreateInstance(&info, &instance))) (void)xrDestroyInstance(instance);
+    mock_control().reset();
 }
 
 Program::Program(xr::HeadsetOptions options) {
@@ -77,15 +84,16 @@ bool Program::connect() {
     return true;
 }
 
-gpu::Image Program::make_image(VkFormat format, VkExtent2D extent, std::uint32_t layers,
-                               const std::vector<std::uint8_t>& texels) {
+const gpu::Image& Program::make_image(VkFormat format, VkExtent2D extent, std::uint32_t layers,
+                                      const std::vector<std::uint8_t>& texels) {
     gpu::ImageInfo info;
     info.format = format;
     info.extent = extent;
     info.layers = layers;
     info.usage =
         VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    gpu::Image image = need(gpu::Image::create(*device_, info));
+    images_.push_back(need(gpu::Image::create(*device_, info)));
+    const gpu::Image& image = images_.back();
     gpu::Buffer buffer = need(gpu::Buffer::create(*device_, texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                                   gpu::MemoryUse::upload));
     std::copy(texels.begin(), texels.end(), reinterpret_cast<std::uint8_t*>(buffer.bytes().data()));
@@ -108,10 +116,10 @@ gpu::Image Program::make_image(VkFormat format, VkExtent2D extent, std::uint32_t
 void Program::make_default_pictures() {
     const VkExtent2D extent = headset_->session().extent();
     const std::size_t texels = std::size_t{extent.width} * extent.height;
-    for (std::size_t eye = 0; eye < headset_->runtime().views().size(); ++eye)
-        images_.push_back(make_image(VK_FORMAT_R8G8B8A8_SRGB, extent, 1,
-                                     std::vector<std::uint8_t>(4 * texels, eye == 0 ? 90 : 180)));
-    for (const gpu::Image& image : images_) pictures_.push_back({&image, 0, nullptr, 0, extent});
+    for (std::size_t eye = 0; eye < headset_->runtime().views().size(); ++eye) {
+        const std::vector<std::uint8_t> gray(4 * texels, eye == 0 ? 90 : 180);
+        pictures_.push_back({&make_image(VK_FORMAT_R8G8B8A8_SRGB, extent, 1, gray), 0, nullptr, 0, extent});
+    }
 }
 
 VkCommandBuffer Program::begin_commands() {

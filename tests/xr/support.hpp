@@ -1,6 +1,7 @@
 // The mock headset for a test, and a small program that uses a headset as the trainer does.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <string>
 #include <vector>
@@ -50,9 +51,10 @@ class Program {
     // What frame() submits; the default is a picture of the recommended size in one colour for each eye.
     void set_pictures(std::vector<xr::EyePicture> pictures) { pictures_ = std::move(pictures); }
     void set_depth_range(const xr::DepthRange& range) { depth_ = range; }
-    // Makes an image with these texels, a layer after the other, in use `transfer_from`.
-    gpu::Image make_image(VkFormat format, VkExtent2D extent, std::uint32_t layers,
-                          const std::vector<std::uint8_t>& texels);
+    // Makes an image with these texels, a layer after the other, in use `transfer_from`. It lives until
+    // disconnect() or the next connect().
+    const gpu::Image& make_image(VkFormat format, VkExtent2D extent, std::uint32_t layers,
+                                 const std::vector<std::uint8_t>& texels);
     // Ends the headset and destroys Vulkan's objects.
     void disconnect();
 
@@ -66,7 +68,7 @@ class Program {
     std::unique_ptr<gpu::Instance> instance_;
     std::unique_ptr<gpu::Device> device_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
-    std::vector<gpu::Image> images_;
+    std::deque<gpu::Image> images_;
     std::vector<xr::EyePicture> pictures_;
     xr::DepthRange depth_;
 };
