@@ -46,6 +46,7 @@ bool Headset::keep(const Status& status) {
 }
 
 void Headset::drop() {
+    if (session_ && !session_->stop()) (void)input_.release();
     input_.reset();
     session_.reset();
     runtime_.reset();

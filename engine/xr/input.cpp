@@ -191,9 +191,10 @@ Status Input::attach() {
         XrHandTrackerCreateInfoEXT tracker{XR_TYPE_HAND_TRACKER_CREATE_INFO_EXT};
         tracker.hand = side == 0 ? XR_HAND_LEFT_EXT : XR_HAND_RIGHT_EXT;
         tracker.handJointSet = XR_HAND_JOINT_SET_DEFAULT_EXT;
-        // Without it the controllers remain.
-        if (XR_FAILED(functions.create_hand_tracker(session_->get(), &tracker, &trackers_[side])))
-            trackers_[side] = XR_NULL_HANDLE;
+        const XrResult tracked = functions.create_hand_tracker(session_->get(), &tracker, &trackers_[side]);
+        if (XR_SUCCEEDED(tracked)) continue;
+        trackers_[side] = XR_NULL_HANDLE;  // the controllers remain
+        if (const Status status = check(tracked, "tracking a hand"); status.error().lost) return status;
     }
     return {};
 }
@@ -290,7 +291,7 @@ Status Input::vibrate(Side side, const Vibration& vibration) {
     XrHapticActionInfo info{XR_TYPE_HAPTIC_ACTION_INFO};
     info.action = vibrate_;
     info.subactionPath = hands_[static_cast<std::size_t>(side)];
-    if (vibration.amplitude <= 0.0F)
+    if (!(vibration.amplitude > 0.0F))
         return check(xrStopHapticFeedback(session_->get(), &info), "stopping a vibration");
     XrHapticVibration haptic{XR_TYPE_HAPTIC_VIBRATION};
     haptic.amplitude = std::min(vibration.amplitude, 1.0F);

@@ -122,16 +122,25 @@ Result<std::unique_ptr<Session>> Session::create(Runtime& runtime, gpu::Device& 
     return session;
 }
 
-Session::~Session() { stop_waiting(); }
+Session::~Session() {
+    // Submitted commands may still copy into the headset's images.
+    if (stop()) (void)device_->idle();
+}
 
-void Session::stop_waiting() {
-    if (!waiter_) return;
+bool Session::stop() {
+    if (!waiter_) return !abandoned_;
     const bool finished = waiter_->stop(waiter_timeout);
     waiter_.reset();
-    if (finished) return;
-    // A thread of ours is still inside the runtime: it must keep all that the thread may use.
+    if (finished) return true;
+    // A thread of ours is still inside the runtime. All that it may use stays, and nothing else is asked of
+    // that runtime, because a call may never return either.
+    abandoned_ = true;
     runtime_->abandon();
+    (void)new auto(std::move(color_));
+    (void)new auto(std::move(depth_));
+    (void)new std::array{std::move(head_), std::move(space_)};
     (void)new SessionHandle(std::move(session_));
+    return false;
 }
 
 Status Session::create_session() {
@@ -436,13 +445,16 @@ void copy_picture(VkCommandBuffer commands, const gpu::Image& from, std::uint32_
 
 Status Session::record(VkCommandBuffer commands, std::span<const EyePicture> pictures) {
     drawn_.clear();
+    depth_drawn_ = false;
     bool ready = true;
     BOLT_TRY(each_swapchain([&](Swapchain& swapchain) -> Status {
         BOLT_TRY(acquire(swapchain));
         ready = ready && swapchain.ready;
         return {};
     }));
-    if (!ready) return {};  // the runtime still reads an image; it repeats its last picture
+    if (!ready) return {};  // the runtime still reads an image; this frame shows nothing
+    depth_drawn_ = !depth_.empty() && std::all_of(pictures.begin(), pictures.end(),
+                                                  [](const EyePicture& p) { return p.depth != nullptr; });
     for (std::size_t eye = 0; eye < pictures.size(); ++eye) {
         const EyePicture& picture = pictures[eye];
         const VkExtent2D extent{std::min(picture.extent.width, extent_.width),
@@ -455,18 +467,19 @@ Status Session::record(VkCommandBuffer commands, std::span<const EyePicture> pic
                          shared ? static_cast<std::uint32_t>(eye) : 0, to.format, extent);
         };
         copy_to(color_, *picture.picture, picture.layer);
-        if (!depth_.empty() && picture.depth != nullptr) copy_to(depth_, *picture.depth, picture.depth_layer);
+        if (depth_drawn_) copy_to(depth_, *picture.depth, picture.depth_layer);
         drawn_.push_back(extent);
     }
     return {};
 }
 
-XrSwapchainSubImage Session::sub_image(const Swapchain& swapchain, std::size_t eye) const {
+XrSwapchainSubImage Session::sub_image(const std::vector<Swapchain>& swapchains, std::size_t eye) const {
+    const bool shared = swapchains.size() == 1;
     XrSwapchainSubImage image{};
-    image.swapchain = swapchain.handle.get();
+    image.swapchain = swapchains[shared ? 0 : eye].handle.get();
     image.imageRect.extent = {static_cast<std::int32_t>(drawn_[eye].width),
                               static_cast<std::int32_t>(drawn_[eye].height)};
-    image.imageArrayIndex = color_.size() == 1 ? static_cast<std::uint32_t>(eye) : 0;
+    image.imageArrayIndex = shared ? static_cast<std::uint32_t>(eye) : 0;
     return image;
 }
 
@@ -481,10 +494,10 @@ Status Session::end_frame(const FrameTiming& frame, const Drawn& drawn) {
         views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
         views[eye].pose = to_xr(view.pose);
         views[eye].fov = {f(view.fov.left), f(view.fov.right), f(view.fov.up), f(view.fov.down)};
-        views[eye].subImage = sub_image(color_[color_.size() == 1 ? 0 : eye], eye);
-        if (depth_.empty()) continue;
+        views[eye].subImage = sub_image(color_, eye);
+        if (!depth_drawn_) continue;
         depths[eye] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
-        depths[eye].subImage = sub_image(depth_[depth_.size() == 1 ? 0 : eye], eye);
+        depths[eye].subImage = sub_image(depth_, eye);
         depths[eye].minDepth = 0.0F;
         depths[eye].maxDepth = 1.0F;
         // Depth is reversed: 0 is far.

@@ -151,6 +151,10 @@ class Session {
 
     // Asks the runtime to end the session. It then passes through its remaining states.
     Status request_exit();
+    // Ends the thread that waits for frames; afterwards the session can only be destroyed. Returns false if
+    // the thread never returned from the runtime: the session's objects and the runtime are then abandoned,
+    // and its Input must be too.
+    bool stop();
 
   private:
     struct Swapchain {
@@ -172,8 +176,8 @@ class Session {
     Status release(Swapchain& swapchain);
     template <class Visit>
     Status each_swapchain(const Visit& visit);
-    [[nodiscard]] XrSwapchainSubImage sub_image(const Swapchain& swapchain, std::size_t eye) const;
-    void stop_waiting();
+    [[nodiscard]] XrSwapchainSubImage sub_image(const std::vector<Swapchain>& swapchains,
+                                                std::size_t eye) const;
 
     Runtime* runtime_ = nullptr;
     gpu::Device* device_ = nullptr;
@@ -184,9 +188,10 @@ class Session {
     VkExtent2D extent_{};
     std::vector<Swapchain> color_, depth_;  // one with a layer per eye, or one per eye; depth may be empty
     std::vector<VkExtent2D> drawn_;         // sizes of the pictures that record() copied
+    bool depth_drawn_ = false;              // and their depth
     std::shared_ptr<FrameWaiter> waiter_;
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
-    bool running_ = false, ended_ = false;
+    bool running_ = false, ended_ = false, abandoned_ = false;
 };
 
 }  // namespace bolt::xr

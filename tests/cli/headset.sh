@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A lesson in a headset, on the mock runtime of tests/mock_openxr: headset.sh BIN SOURCES, on a screen (with_screen.sh).
 . "$(dirname "$0")/checks.sh"
-manifest=${bin%/bin}/tests/mock_openxr.json
+manifest=${bin%/bin}/mock_openxr/mock_openxr.json
 train=("$bin/boltwright" train --start --silent --validate --full-resolution --size 160x120)
 
 expect 4 'no OpenXR runtime: .*expected an active runtime .*XR_RUNTIME_JSON' env XR_RUNTIME_JSON=/nonexistent.json "${train[@]}" --hmd --out never
@@ -13,20 +13,24 @@ violations() { grep -c '^violation' "$1"; }
 # The user stands, looks down, closes the right hand, takes the headset off for a moment, and ends the program in the
 # headset's menu.
 cat >script <<END
-0 size 96 90
+0 config width 96
+0 config height 90
+0 report $work/report
 1 head 0 1.65 0 -0.2164 0 0 0.9763
-6 hand right 0.05 1.15 -0.35 0 0 0 1 0
-12 picture before.ppm
-14 hand right 0.05 1.15 -0.35 0 0 0 1 1
-16 off 0.5
-28 picture after.ppm
-32 event exit
+6 hand right active 1
+6 hand right grip 0.05 1.15 -0.35 0 0 0 1
+12 picture $work/before.ppm
+14 hand right squeeze 1
+16 event stopping
+40 event ready
+60 picture $work/after.ppm
+66 exit
 END
-export MOCK_OPENXR_SCRIPT=$work/script MOCK_OPENXR_REPORT=$work/report
+export MOCK_OPENXR_SCRIPT=$work/script
 expect 0 'headset: Mock headset with Mock OpenXR' timeout 200 "${train[@]}" --hmd first-nut --out lesson
 check 'the lesson was recorded' test -s lesson/session.boltwright
 check 'the runtime was used correctly' test "$(violations report)" = 0
-check 'frames were shown until the user ended the program' grep -qE 'frames 3[1-5]' report
+check 'frames were shown until the user ended the program' grep -qE 'drawn [1-9][0-9]' report
 for picture in before after; do
     check "both eyes see the workplace ($picture)" python3 - $picture.ppm <<'END'
 import sys
@@ -42,9 +46,11 @@ done
 
 # The session ends in the middle of a lesson: it goes on in the window, and the headset is found again.
 cat >script <<END
-0 size 64 60
+0 config width 64
+0 config height 60
+0 report $work/report
 1 head 0 1.65 0 -0.2164 0 0 0.9763
-10 event lose-instance
+10 event instance_loss
 END
 rm -f report
 "${train[@]}" --hmd first-nut --out lost >log 2>&1 &
@@ -61,7 +67,8 @@ check 'the lesson was recorded until the end' test -s lost/session.boltwright
 # Without a headset the window is used until there is one.
 export XR_RUNTIME_JSON=$work/later.json
 cat >script <<END
-0 size 64 60
+0 config width 64
+0 config height 60
 END
 "${train[@]}" --hmd optional first-nut --out optional >log 2>&1 &
 player=$!

@@ -1,20 +1,43 @@
-// A mock OpenXR runtime: a library that OpenXR's loader loads like a real runtime. It shows nothing, but
-// checks every call of the client, records what is submitted, and does what a test asks for: heads, hands,
-// events and errors. A test in the same process loads the library again with dlopen() and gets the control
-// from the function mock_openxr_control. Another program is driven by a script: the environment variable
-// MOCK_OPENXR_SCRIPT names a file with lines
+// A mock OpenXR runtime with a headset of settable properties, for tests. OpenXR's loader uses it if
+// XR_RUNTIME_JSON names its manifest. It draws nothing: it checks the client, records what the client
+// submits, and plays what a user and a runtime can do.
 //
-//   FRAME head X Y Z QX QY QZ QW        the pose of the head from this frame on, in the stage
-//   FRAME hand left|right X Y Z QX QY QZ QW CLOSED     grip and aim, and trigger and squeeze, 0 … 1
-//   FRAME no-hand left|right
-//   FRAME event NAME                    an Event below: take-off, put-on, lose-focus, …
-//   FRAME off SECONDS                   takes the headset off for this time
-//   FRAME picture FILE                  saves the left and right eye of this frame side by side (PPM)
-//   0 size WIDTH HEIGHT                 of an eye's picture
-//   0 real-time                         frames last as long as those of a display
+// A test obtains the control interface by dlopen of the same library and dlsym of "mock_openxr_control", a
+// function of type `const Control*()`. All its functions lock the mock, so any thread may call them. Poses
+// are relative to the stage: metres, y up.
 //
-// and at the end of the session the violations are appended to the file that MOCK_OPENXR_REPORT names.
+// A program in another process is driven by a script: the file that MOCK_OPENXR_SCRIPT names. Time then is
+// real. A line is a frame number, a command and its arguments; an empty line or one that begins with # is
+// skipped. Frames are counted from 0 over the whole process. A frame's commands run when the client waits for
+// that frame; while no session runs, each xrGetSystem and each xrPollEvent without an event counts as a
+// frame. Commands of frame 0 run before the first instance is created.
+//
+//   0 config eyes|width|height|period|ipd|cant VALUE  properties of the headset (Config); width and height of
+//                                                     the recommended picture; period, ipd and cant in SI
+//   0 config with|without EXTENSION      the runtime offers the extension, or does not
+//   0 config format VK_FORMAT_NUMBER     the only colour format; depth stays
+//   0 config separate 1                  swapchains with several layers are refused
+//   0 config passthrough 1               the blend mode ALPHA_BLEND is offered
+//   0 config realtime 0|1                xrWaitFrame waits in real time
+//   0 report FILE          writes a summary at each xrDestroyInstance and at exit: "frames N", "drawn N",
+//                          "vibrations N", then "violation TEXT" for each violation
+//   F head POSE            POSE: x y z qx qy qz qw
+//   F head valid|tracked 0|1
+//   F hand left|right grip|aim POSE
+//   F hand SIDE trigger|squeeze VALUE
+//   F hand SIDE stick X Y
+//   F hand SIDE active|menu|secondary|valid|tracked|joints 0|1     joints: a flat hand around the grip
+//   F hand SIDE profile /interaction_profiles/...
+//   F event ready|stopping|visible|focused|session_loss|instance_loss|exit|profile|mask|events_lost
+//   F event recentre stage|floor|seated [POSE]     the origin moves to POSE in the old space
+//   F headset 0|1          disconnected or connected, as the next xrGetSystem reports it
+//   F render 0|1           whether xrWaitFrame asks for pictures
+//   F fail FUNCTION RESULT COUNT                   RESULT: a number, for example -17
+//   F picture FILE         writes the frame's pictures, side by side, as PPM, when the frame ends
+//   F exit                 the user ends the program in the headset's menu; the same as `event exit`
 #pragma once
+
+#include <openxr/openxr.h>
 
 #include <array>
 #include <cstdint>
@@ -23,101 +46,151 @@
 #include <vector>
 
 #include "engine/base/math.hpp"
-#include "engine/xr/openxr.hpp"
 
-namespace bolt::mock_openxr {
+namespace bolt::mock {
 
-struct Config {
-    bool headset = true;  // one is connected
-    int eyes = 2;
-    std::uint32_t width = 64, height = 48;  // recommended
-    double period = 1.0 / 90.0;             // s
-    bool real_time = false;                 // xrWaitFrame lasts for a period
-    bool refuses_arrays = false;            // swapchains have one layer
-    std::vector<std::int64_t> formats{VK_FORMAT_R16G16B16A16_UNORM, VK_FORMAT_R8G8B8A8_SRGB,
-                                      VK_FORMAT_D32_SFLOAT};  // in the runtime's order
-    std::vector<std::string> extensions{"XR_KHR_vulkan_enable2", "XR_KHR_composition_layer_depth",
-                                        "XR_EXT_hand_tracking", "XR_EXT_local_floor",
-                                        "XR_EXT_hand_interaction"};
-    std::vector<XrEnvironmentBlendMode> blend_modes{XR_ENVIRONMENT_BLEND_MODE_OPAQUE};
-    bool stage = true;                                                    // it knows the room
-    std::string profile = "/interaction_profiles/khr/simple_controller";  // of both controllers
-    bool needs_newer_vulkan = false;
+// Newer than the headers of Debian 12.
+inline constexpr auto local_floor_space = static_cast<XrReferenceSpaceType>(1000426000);
+
+struct ViewAngles {
+    float left = -0.8F, right = 0.7F, up = 0.75F, down = -0.85F;  // rad
 };
 
-struct Head {
-    Pose pose{{0.0, 1.65, 0.0}, {1.0, 0.0, 0.0, 0.0}};  // in the stage
+// Properties of the runtime and the headset. An instance keeps those that it was created with.
+struct Config {
+    bool connected = true;  // may change while an instance exists: xrGetSystem then reports it
+    std::uint32_t eyes = 2;
+    std::uint32_t width = 64, height = 48;  // recommended size of an eye's picture
+    std::uint32_t max_width = 256, max_height = 256;
+    std::vector<std::int64_t> formats{91, 43,
+                                      130};  // R16G16B16A16_UNORM, R8G8B8A8_SRGB, D32_SFLOAT, in order
+    std::vector<std::string> extensions{"XR_KHR_vulkan_enable2", "XR_KHR_composition_layer_depth",
+                                        "XR_KHR_visibility_mask", "XR_EXT_hand_tracking"};
+    std::vector<XrEnvironmentBlendMode> blend_modes{XR_ENVIRONMENT_BLEND_MODE_OPAQUE};
+    std::vector<XrReferenceSpaceType> spaces{XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL,
+                                             XR_REFERENCE_SPACE_TYPE_STAGE};
+    bool refuse_arrays = false;                 // xrCreateSwapchain fails for more than one layer
+    bool tracks_hands = true;                   // the system property, if XR_EXT_hand_tracking is enabled
+    std::vector<std::string> unknown_profiles;  // interaction profiles that the runtime does not know
+    std::array<ViewAngles, 2> fov{ViewAngles{}, ViewAngles{-0.7F, 0.8F, 0.75F, -0.85F}};
+    double ipd = 0.064;                   // m between the eyes
+    double cant = 0.0;                    // rad by which each eye is turned outwards
+    Pose seated_origin{{0.0, 1.2, 0.0}};  // of LOCAL, relative to the stage
+    Pose floor_origin{};                  // of LOCAL_FLOOR
+    std::int64_t period = 11'111'111;     // ns between frames
+    bool real_time = false;               // false: xrWaitFrame returns at once, and time is counted in frames
+    std::uint32_t images = 3;             // in a swapchain
+    XrVersion min_vulkan = XR_MAKE_VERSION(1, 1, 0);
+    std::vector<XrVector2f> hidden_triangles{{-1.0F, 1.0F}, {-0.6F, 1.0F}, {-1.0F, 0.6F}};  // visibility mask
+};
+
+struct Tracked {
+    Pose pose;
     bool valid = true, tracked = true;
+};
+
+inline constexpr std::size_t joint_count = 26;
+struct Joint {
+    Tracked at;
+    float radius = 0.01F;
 };
 
 struct Hand {
-    bool active = false;
-    Pose grip, aim;  // in the stage
-    bool valid = true, tracked = true;
+    bool active = true;  // a controller is in this hand
+    std::string profile = "/interaction_profiles/oculus/touch_controller";
+    Tracked grip, aim;
     float trigger = 0.0F, squeeze = 0.0F;
-    float stick_x = 0.0F, stick_y = 0.0F;
-    bool menu = false, secondary = false;
-    bool joints = false;                 // hand tracking sees the hand
-    std::array<bool, 26> joint_valid{};  // of the joints, which are at the grip
+    XrVector2f stick{0.0F, 0.0F};
+    bool menu = false;       // the buttons menu, b and y
+    bool secondary = false;  // the buttons a and x, and the presses of stick and trackpad
+    bool has_joints = false;
+    std::array<Joint, joint_count> joints{};
 };
+enum class Side : std::uint8_t { left, right };
 
+// What a user or the runtime does.
 enum class Event : std::uint8_t {
-    take_off,       // the user takes the headset off: STOPPING
-    put_on,         // and puts it on again: READY
-    lose_focus,     // the system's menu is in front: VISIBLE
-    regain_focus,   // FOCUSED
-    user_exit,      // the user ends the program in the system's menu
-    lose_session,   // LOSS_PENDING
-    lose_instance,  // the runtime ends: every call fails
-    recentre,  // the origin of the stage moves by Config… 0.1 m to the right, and the client is told the pose
-    recentre_local,  // that of the local space
-    profile_changed,
-    mask_changed,
-    events_lost,
+    put_on,           // session: READY
+    taken_off,        // to STOPPING, then IDLE
+    focus_lost,       // to VISIBLE
+    focus_gained,     // to FOCUSED
+    exit_by_user,     // to STOPPING, then EXITING
+    session_loss,     // LOSS_PENDING; the session is then lost
+    instance_loss,    // the event INSTANCE_LOSS_PENDING; the instance is then lost
+    profile_changed,  // INTERACTION_PROFILE_CHANGED
+    mask_changed,     // VISIBILITY_MASK_CHANGED
+    events_lost,      // EVENTS_LOST
 };
 
-struct EyeRecord {
-    Pose pose;
+// A picture of one eye, read back. Row 0 is at the top.
+struct Picture {
+    std::uint32_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;  // with sRGB's encoding
+    std::vector<float> depth;        // empty without a depth layer
+};
+
+struct SubmittedView {
+    XrPosef pose{};
     XrFovf fov{};
-    std::uint32_t width = 0, height = 0, layer = 0;
-    std::vector<std::uint8_t> rgba;  // if pictures are recorded; the bytes of the image, 4 a pixel
-    std::vector<float> depth;        // the same of a depth layer
-    std::optional<std::array<float, 2>> depth_range;  // distances at depth 0 and 1
+    XrRect2Di rect{};
+    std::uint32_t layer = 0;  // of the swapchain's image
+    bool has_depth = false;
+    float min_depth = 0.0F, max_depth = 0.0F, near_z = 0.0F, far_z = 0.0F;
+    Picture picture;  // if pictures are captured
 };
-struct FrameRecord {
+struct Frame {
     XrTime time = 0;
-    bool layers = false;
-    std::vector<EyeRecord> eyes;
-};
-struct VibrationRecord {
-    int side = 0;
-    float amplitude = 0.0F, frequency = 0.0F;  // amplitude 0: stopped
-    XrTime time = 0;                           // of the last frame
-};
-
-class Control {
-  public:
-    Control() = default;
-    Control(const Control&) = delete;
-    Control& operator=(const Control&) = delete;
-    virtual ~Control() = default;
-
-    // Before the client creates its instance; also clears all records, failures and violations.
-    virtual void configure(const Config& config) = 0;
-    virtual void set_head(const Head& head) = 0;
-    virtual void set_hand(int side, const Hand& hand) = 0;
-    virtual void send(Event event) = 0;
-    virtual void should_render(bool renders) = 0;
-    virtual void block_frames(bool blocks) = 0;  // xrWaitFrame does not return
-    // The next `count` calls of the function return `result`.
-    virtual void fail_next(const std::string& function, XrResult result, int count) = 0;
-    virtual void record_pictures(bool records) = 0;
-
-    virtual XrSessionState state() = 0;
-    virtual std::uint64_t frame_count() = 0;
-    virtual std::optional<FrameRecord> last_frame() = 0;
-    virtual std::vector<VibrationRecord> vibrations() = 0;
-    virtual std::vector<std::string> violations() = 0;  // since the last call
+    bool should_render = false;
+    bool has_layer = false;
+    XrEnvironmentBlendMode blend_mode = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+    XrCompositionLayerFlags flags = 0;
+    std::vector<SubmittedView> views;
+    std::vector<XrView> located;  // by the last xrLocateViews for this time
 };
 
-}  // namespace bolt::mock_openxr
+struct Vibration {
+    XrTime time = 0;  // at which it was requested
+    Side side = Side::left;
+    bool stop = false;
+    float amplitude = 0.0F, frequency = 0.0F;
+    XrDuration duration = 0;
+};
+
+struct Control {
+    // Drops all that the client left, and restores the defaults: a connected headset that is put on, virtual
+    // time. Every session ends as if lost.
+    void (*reset)();
+    // For the next instance.
+    void (*configure)(const Config& config);
+    // Changes Config::connected alone, also for an existing instance.
+    void (*connect)(bool connected);
+    void (*set_head)(const Tracked& head);
+    void (*set_hand)(Side side, const Hand& hand);
+    void (*send)(Event event);
+    // The origin of the space moves to `shift`, in the old space, `delay` ns after the last display time.
+    // Without `shift` the runtime does not know where to.
+    void (*recentre)(XrReferenceSpaceType space, XrDuration delay, const std::optional<Pose>& shift);
+    // The next `count` calls of the function return `result` and do nothing else; destroying functions still
+    // destroy. XR_ERROR_SESSION_LOST and XR_ERROR_INSTANCE_LOST really lose the session or the instance.
+    void (*fail_next)(const std::string& function, XrResult result, int count);
+    // The same after `skip` further calls.
+    void (*fail_after)(const std::string& function, int skip, XrResult result, int count);
+    void (*block_wait)(bool blocked);  // xrWaitFrame does not return until released or lost
+    void (*set_should_render)(bool should_render);
+    void (*set_capture)(bool capture);  // read the pictures of all following frames
+
+    // Rules of OpenXR that the client broke, as sentences that begin with the function. Taking clears them.
+    std::vector<std::string> (*take_violations)();
+    std::vector<Frame> (*take_frames)();
+    std::vector<Vibration> (*take_vibrations)();
+    std::uint64_t (*calls)(const std::string& function);  // calls since reset()
+    XrInstance (*instance)();                             // null: none
+    XrSessionState (*session_state)();                    // UNKNOWN without a session
+    bool (*session_running)();
+    bool (*waiting)();  // a thread is inside xrWaitFrame
+    // Suggested bindings that the runtime accepted: "/interaction_profiles/... action /user/hand/...".
+    std::vector<std::string> (*accepted_bindings)();
+};
+using ControlFunction = const Control* (*)();
+
+}  // namespace bolt::mock

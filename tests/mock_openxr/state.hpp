@@ -1,159 +1,237 @@
-// The state of the mock runtime, which all its functions share.
+// The state of the mock runtime: one instance with its objects, the headset and its user. Every function here
+// expects the lock on State::mutex.
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
-#include <cstring>
 #include <deque>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <set>
+#include <string_view>
+#include <thread>
 
-#include "tests/mock_openxr/mock_openxr.hpp"
+#include "tests/mock_openxr/script.hpp"
+#include "tests/mock_openxr/vulkan.hpp"
 
-namespace bolt::mock_openxr {
+namespace bolt::mock {
 
-// Vulkan's functions, which the mock gets through the application. volk's are the application's own.
-struct Vulkan {
-    PFN_vkGetInstanceProcAddr get_instance = nullptr;
-    VkInstance instance = VK_NULL_HANDLE;
-    VkPhysicalDevice gpu = VK_NULL_HANDLE;
-    VkDevice device = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;
-    std::uint32_t family = 0;
-    PFN_vkGetDeviceProcAddr get_device = nullptr;
+enum class Kind : std::uint8_t { instance, session, space, swapchain, action_set, action, hand_tracker };
 
-    template <class Function>
-    Function of_instance(const char* name) const {
-        return reinterpret_cast<Function>(get_instance(instance, name));
-    }
-    template <class Function>
-    Function of_device(const char* name) const {
-        return reinterpret_cast<Function>(get_device(device, name));
-    }
+// The origin of a reference space from a time on, relative to the stage.
+struct Origin {
+    XrTime from = 0;
+    Pose pose;
 };
 
-enum class SpaceKind : std::uint8_t { stage, local, local_floor, view, grip, aim };
 struct Space {
-    SpaceKind kind = SpaceKind::stage;
-    int side = 0;
+    std::uint64_t session = 0;
+    std::optional<XrReferenceSpaceType> reference;  // none: of an action
+    std::uint64_t action = 0;
+    std::size_t side = 0;
     Pose offset;
 };
+
 struct Swapchain {
-    std::uint32_t width = 0, height = 0, layers = 1;
-    VkFormat format = VK_FORMAT_UNDEFINED;
-    std::vector<VkImage> images;
-    std::vector<VkDeviceMemory> memory;
-    std::deque<std::uint32_t> acquired;  // in order
-    bool waited = false;                 // for the first of them
+    std::uint64_t session = 0;
+    XrSwapchainCreateInfo info{};
+    std::vector<SwapchainImage> images;
+    std::deque<std::uint32_t> acquired;  // not released, the oldest first
+    bool waited = false;                 // the oldest may be written
     std::uint32_t next = 0;
-    std::optional<std::uint32_t> released;
-};
-struct Action {
-    std::string name;
-    XrActionType type = XR_ACTION_TYPE_BOOLEAN_INPUT;
-    std::set<std::string> inputs;  // bound inputs of the present profile: "input/trigger/value"
+    std::optional<std::uint32_t> released;  // the last one
 };
 
-struct ScriptLine {
-    std::uint64_t frame = 0;
-    std::vector<std::string> words;
+struct ActionSet {
+    std::string name;
+    bool attached = false;
+};
+struct Action {
+    std::uint64_t set = 0;
+    std::string name;
+    XrActionType type = XR_ACTION_TYPE_BOOLEAN_INPUT;
+    std::vector<XrPath> sides;
+};
+struct Binding {
+    std::string profile, path;
+    std::uint64_t action = 0;
+};
+struct HandTracker {
+    std::uint64_t session = 0;
+    std::size_t side = 0;
+};
+
+struct Session {
+    std::uint64_t id = 0;
+    XrSessionState state = XR_SESSION_STATE_UNKNOWN;
+    bool running = false;
+    bool exiting = false;     // STOPPING leads to EXITING
+    bool begun_once = false;  // a frame since xrBeginSession
+    bool attached = false;
+    bool lost = false;
+    bool waiting = false;          // a thread is inside xrWaitFrame
+    std::optional<XrTime> waited;  // a frame that is waited for and not begun
+    std::optional<XrTime> begun;   // a frame that is begun and not ended
+    bool waited_render = false, begun_render = false;
+    XrTime last_display = 0;
+    std::array<Hand, 2> synced{}, synced_before{};
+    bool has_synced = false;
+    std::map<XrReferenceSpaceType, std::vector<Origin>> origins;
+    std::map<XrTime, std::vector<XrView>> located;
+    Vulkan vulkan;
+};
+
+struct Instance {
+    std::uint64_t id = 0;
+    Config config;
+    std::set<std::string> extensions;
+    std::vector<std::string> paths;  // XrPath is the index plus one
+    std::deque<XrEventDataBuffer> events;
+    bool lost = false;
+    bool requirements_queried = false;
+    VulkanObjects created;  // by the runtime, for the client
+    std::optional<Session> session;
+    std::map<std::uint64_t, Space> spaces;
+    std::map<std::uint64_t, Swapchain> swapchains;
+    std::map<std::uint64_t, ActionSet> sets;
+    std::map<std::uint64_t, Action> actions;
+    std::map<std::uint64_t, HandTracker> trackers;
+    std::vector<Binding> bindings;
+};
+
+struct InjectedResult {
+    XrResult result = XR_SUCCESS;
+    int count = 0;
+    int skip = 0;  // calls before them
 };
 
 struct State {
     std::mutex mutex;
     std::condition_variable changed;
     Config config;
-    Head head;
-    std::array<Hand, 2> hands;
-    Pose stage_origin, local_origin;
-
-    bool instance = false, instance_lost = false, session_lost = false;
-    std::set<std::string> enabled;
-    bool requirements_queried = false;
-    Vulkan vulkan;
-
-    bool session = false, running = false, exit_requested = false, attached = false;
-    bool gains_focus = true;  // by itself, after some frames
-    XrSessionState state = XR_SESSION_STATE_UNKNOWN;
-    std::deque<XrEventDataBuffer> events;
-    bool should_render = true, blocked = false;
-
-    // Frames: each is waited for, begun and ended.
-    std::uint64_t waited = 0, begun = 0, ended = 0;
-    XrTime now = 1'000'000'000, waited_time = 0, begun_time = 0;
-    int waiting_threads = 0;
-
-    std::set<std::unique_ptr<Space>> spaces;
-    std::set<std::unique_ptr<Swapchain>> swapchains;
-    std::set<std::unique_ptr<Action>> actions;
-    std::vector<std::string> paths{""};  // XrPath is the index
-    int action_sets = 0, hand_trackers = 0;
-    std::array<int, 2> tracker_sides{0, 1};
-
-    bool record_pictures = false;
-    FrameRecord last_frame;
-    std::vector<VibrationRecord> vibrations;
+    Tracked head{{{0.0, 1.6, 0.0}}};
+    std::array<Hand, 2> hands{};
+    bool worn = true, focus = true, should_render = true, blocked = false, capture = false;
+    std::map<std::string, InjectedResult, std::less<>> injected;
+    std::map<std::string, std::uint64_t, std::less<>> calls;
     std::vector<std::string> violations;
-    std::map<std::string, std::pair<XrResult, int>> failures;
-    std::vector<ScriptLine> script;
-    std::optional<std::chrono::steady_clock::time_point> put_on_at;  // by the script
-
-    void violation(std::string what) { violations.push_back(std::move(what)); }
-    // Must be held by the caller: the mutex.
-    void enter(XrSessionState next);
+    std::vector<Frame> frames;
+    std::vector<Vibration> vibrations;
+    std::optional<Instance> instance;
+    std::map<std::uint64_t, Kind> ended;  // objects that no longer exist
+    std::set<std::thread::id> told_lost;  // threads that know of the loss
+    std::uint64_t last_id = 0;
+    std::uint64_t generation = 0;  // of reset()
+    Script script;
 };
 
 State& state();
 
-// The result that a test has asked for, or of a lost instance; none: go on.
-std::optional<XrResult> injected(State& s, const char* function);
+template <class Handle>
+std::uint64_t id_of(Handle handle) {
+    return reinterpret_cast<std::uint64_t>(handle);
+}
+template <class Handle>
+Handle handle_of(std::uint64_t id) {
+    return reinterpret_cast<Handle>(id);
+}
 
-#define MOCK_ENTER(function)                                         \
-    State& s = state();                                              \
-    std::unique_lock lock(s.mutex);                                  \
-    if (const auto failure = injected(s, function)) return *failure; \
-    static_cast<void>(lock)
+void violate(State& s, std::string_view function, std::string_view what);
+// Records the violation and returns `result`.
+XrResult refuse(State& s, std::string_view function, XrResult result, std::string_view what);
 
-template <class T>
-T* find(std::set<std::unique_ptr<T>>& set, void* handle) {
-    for (const auto& one : set)
-        if (one.get() == handle) return one.get();
+XrTime now(const State& s);
+
+// Puts the session in this state and queues the event.
+void enter_state(State& s, XrSessionState to);
+void queue_event(State& s, const void* event, std::size_t size);
+// Leads the session to where the user is: worn, focused.
+void advance_session(State& s);
+void stop_session(State& s);
+void play(State& s, Event event);
+void play_recentre(State& s, XrReferenceSpaceType space, XrDuration delay, const std::optional<Pose>& shift);
+// Runs the script's commands for the next frame.
+void count_frame(State& s);
+void write_report(const State& s);
+// Drops the instance with all its objects.
+void drop_instance(State& s);
+// Forgets the session's children. `vulkan`: destroy the images too.
+void drop_session(State& s, bool vulkan);
+
+// The result of a call before its own work: an injected one, or that of a lost instance or session. None: the
+// call proceeds.
+enum class Level : std::uint8_t { global, instance, session };
+std::optional<XrResult> enter(State& s, std::string_view function, Level level);
+
+// Runs `body(State&, std::unique_lock<std::mutex>&)` for a call of the client.
+template <class Body>
+XrResult call(std::string_view function, Level level, const Body& body) {
+    State& s = state();
+    std::unique_lock lock(s.mutex);
+    if (const std::optional<XrResult> result = enter(s, function, level)) return *result;
+    return body(s, lock);
+}
+
+// The object of this handle; null, after recording a violation, if there is none.
+template <class Object, class Handle>
+Object* find(State& s, std::string_view function, std::map<std::uint64_t, Object>& objects, Handle handle) {
+    const auto found = objects.find(id_of(handle));
+    if (found != objects.end()) return &found->second;
+    const bool destroyed = s.ended.count(id_of(handle)) != 0;
+    violate(s, function, destroyed ? "uses an object that was destroyed" : "uses a handle of no object");
     return nullptr;
 }
-template <class T>
-bool erase(std::set<std::unique_ptr<T>>& set, void* handle) {
-    for (auto it = set.begin(); it != set.end(); ++it)
-        if (it->get() == handle) {
-            set.erase(it);
-            return true;
-        }
+
+// Removes the object; a violation if there is none.
+template <class Object, class Handle>
+bool remove(State& s, std::string_view function, std::map<std::uint64_t, Object>& objects, Handle handle,
+            Kind kind) {
+    if (objects.erase(id_of(handle)) != 0) {
+        s.ended[id_of(handle)] = kind;
+        return true;
+    }
+    const bool destroyed = s.ended.count(id_of(handle)) != 0;
+    violate(s, function, destroyed ? "destroys an object twice" : "destroys a handle of no object");
     return false;
 }
 
-Pose pose_of(const State& s, const Space& space);
-bool space_valid(const State& s, const Space& space);
-bool space_tracked(const State& s, const Space& space);
-
-using Functions = std::map<std::string, PFN_xrVoidFunction>;
-void add_session_functions(Functions& functions);
-void add_image_functions(Functions& functions);
-void add_action_functions(Functions& functions);
-
-// Reads the image that a layer shows back from the GPU.
-std::vector<std::uint8_t> read_image(const Vulkan& vulkan, const Swapchain& swapchain, std::uint32_t layer,
-                                     std::uint32_t width, std::uint32_t height);
-void destroy_images(const Vulkan& vulkan, Swapchain& swapchain);
-
-void load_script(State& s);
-void run_script(State& s);  // what is due in this frame; the mutex is held
-void save_script_pictures(State& s);
-void apply_event(State& s, Event event);  // the mutex is held
-
-template <class Function>
-PFN_xrVoidFunction as_void(Function function) {
-    return reinterpret_cast<PFN_xrVoidFunction>(function);
+// Answers a query that is called for the count and again for the values.
+template <class T, class Assign>
+XrResult list(State& s, std::string_view function, const std::vector<T>& values, std::uint32_t capacity,
+              std::uint32_t* count, const Assign& assign) {
+    *count = static_cast<std::uint32_t>(values.size());
+    if (capacity == 0) return XR_SUCCESS;
+    if (capacity < values.size())
+        return refuse(s, function, XR_ERROR_SIZE_INSUFFICIENT, "is given fewer elements than it returns");
+    for (std::size_t i = 0; i < values.size(); ++i) assign(i, values[i]);
+    return XR_SUCCESS;
 }
 
-}  // namespace bolt::mock_openxr
+// Pose of a space at a time, relative to the stage.
+Tracked locate(const State& s, const Space& space, XrTime time);
+XrPosef to_xr(const Pose& pose);
+Pose from_xr(const XrPosef& pose);
+bool is_unit(const XrQuaternionf& q);
+XrSpaceLocationFlags flags_of(const Tracked& at);
+// The same of a hand's space, at any time.
+Tracked locate_action(const State& s, const Space& space);
+// Views of the eyes relative to `base`.
+std::vector<XrView> views_at(const State& s, const Pose& base);
+
+// The functions of the client interface, by name; null: there is none, or its extension is not enabled.
+using FunctionTable = std::map<std::string_view, PFN_xrVoidFunction>;
+void add_instance_functions(FunctionTable& table);
+void add_session_functions(FunctionTable& table);
+void add_frame_functions(FunctionTable& table);
+void add_swapchain_functions(FunctionTable& table);
+void add_action_functions(FunctionTable& table);
+void add_input_functions(FunctionTable& table);
+// Interaction profiles of the specification, and their inputs and outputs as "/user/hand/...".
+bool is_known_profile(const std::string& profile);
+bool has_input(const std::string& profile, const std::string& path);
+
+template <class Function>
+void add(FunctionTable& table, std::string_view name, Function function) {
+    table[name] = reinterpret_cast<PFN_xrVoidFunction>(function);
+}
+
+}  // namespace bolt::mock

@@ -1,0 +1,34 @@
+// The script that drives the mock runtime in another process; mock_openxr.hpp describes its lines.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/mock_openxr/mock_openxr.hpp"
+
+namespace bolt::mock {
+
+struct State;
+
+struct ScriptLine {
+    int number = 0;                  // in the file
+    std::vector<std::string> words;  // after the frame number
+};
+
+struct Script {
+    std::string file;
+    std::multimap<std::uint64_t, ScriptLine> lines;  // by frame
+    std::uint64_t frame = 0;                         // of the next commands
+    std::vector<std::string> pictures;               // files to be written when the frame ends
+    std::string report;                              // file; empty: none
+};
+
+// Reads the file. A line without a frame number is a violation.
+Script load_script(State& s, const std::string& file);
+// Runs the commands of this frame. A command that is not understood is a violation.
+void run_commands(State& s, std::uint64_t frame);
+// Writes the frame's pictures to the files that were requested for it.
+void write_pictures(State& s, const Frame& frame);
+
+}  // namespace bolt::mock
