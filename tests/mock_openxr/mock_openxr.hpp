@@ -62,8 +62,8 @@ struct Config {
     std::uint32_t eyes = 2;
     std::uint32_t width = 64, height = 48;  // recommended size of an eye's picture
     std::uint32_t max_width = 256, max_height = 256;
-    std::vector<std::int64_t> formats{91, 43,
-                                      130};  // R16G16B16A16_UNORM, R8G8B8A8_SRGB, D32_SFLOAT, in order
+    // In the runtime's order: R16G16B16A16_UNORM, R8G8B8A8_SRGB, D32_SFLOAT.
+    std::vector<std::int64_t> formats{91, 43, 126};
     std::vector<std::string> extensions{"XR_KHR_vulkan_enable2", "XR_KHR_composition_layer_depth",
                                         "XR_KHR_visibility_mask", "XR_EXT_hand_tracking"};
     std::vector<XrEnvironmentBlendMode> blend_modes{XR_ENVIRONMENT_BLEND_MODE_OPAQUE};

@@ -162,7 +162,7 @@ void set_config(State& s, Arguments& arguments) {
         extensions.erase(std::remove(extensions.begin(), extensions.end(), arguments.text()),
                          extensions.end());
     } else if (what == "format") {
-        config.formats = {whole(), 130};
+        config.formats = {whole(), 126};
     } else if (what == "separate") {
         config.refuse_arrays = arguments.flag();
     } else if (what == "passthrough") {
