@@ -140,10 +140,10 @@ CentredPairs centred(std::span<const PointPair> pairs) {
     }
     result.pairs.reserve(pairs.size());
     for (const PointPair& pair : pairs) {
-        const PointPair& one =
-            result.pairs.emplace_back(pair.from - result.centroid.from, pair.to - result.centroid.to);
+        const PointPair one{pair.from - result.centroid.from, pair.to - result.centroid.to};
         result.from_square += glm::dot(one.from, one.from);
         result.to_square += glm::dot(one.to, one.to);
+        result.pairs.push_back(one);
     }
     return result;
 }
