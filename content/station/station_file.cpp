@@ -207,7 +207,8 @@ Quat orientation_of(const Mounting& mounting) {
 }
 
 Result<StationFile> parse_station(std::string_view text, const std::string& file) {
-    const FileHead head{"station file", station_format, {"$schema", "name", "arm", "wheel", "glove"}};
+    const FileHead head{
+        "station file", station_format, {"$schema", "name", "arm", "wheel", "glove", "registrations"}};
     return parse_small_file(text, file, head, [](MemberReader& members, const json& root) {
         StationFile station;
         if (root.contains("$schema")) station.schema = members.text(root, "", "$schema", max_path);
@@ -215,6 +216,7 @@ Result<StationFile> parse_station(std::string_view text, const std::string& file
         read_arm(members, root, station.arm);
         read_wheel(members, root, station.wheel);
         read_glove(members, root, station.glove_port);
+        station.registrations = read_registrations(members, root);
         return station;
     });
 }
@@ -272,6 +274,7 @@ std::string station_json(const StationFile& station) {
     if (station.arm) root["arm"] = json_of(*station.arm);
     if (station.wheel) root["wheel"] = json_of(*station.wheel);
     if (!station.glove_port.empty()) root["glove"]["port"] = station.glove_port;
+    write_registrations(root, station.registrations);
     // Bytes that are not UTF-8 are replaced, because they would make the file unreadable.
     return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

@@ -1,6 +1,6 @@
 // Reads and writes the station file: the arm, the wheel and the glove of one workplace, with
 // properties that its builder enters because the devices do not report them. A JSON file, whose members
-// content/schema/station.schema.json describes:
+// content/schema/station.schema.json describes. Registrations (registration.hpp) say where the devices are:
 //
 //   {"format": "boltwright station 1",
 //    "arm": {"device": "force-dimension:0", "mounting": {"yaw_deg": 180}, "limits": {"force_N": 8}},
@@ -13,7 +13,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "content/station/registration.hpp"
 #include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
 #include "haptics/device/device.hpp"
@@ -57,7 +59,8 @@ struct StationFile {
     std::string name;    // for people; may be empty
     std::optional<StationArm> arm;
     std::optional<StationWheel> wheel;
-    std::string glove_port;  // empty: no glove
+    std::string glove_port;                   // empty: no glove
+    std::vector<Registration> registrations;  // at most one between two frames
     bool operator==(const StationFile&) const = default;
 };
 

@@ -106,13 +106,14 @@ Result<TraineeSettings> parse_settings(std::string_view text, const std::string&
                                        const SettingsVocabulary& known) {
     const FileHead head{"settings file",
                         settings_format,
-                        {"trainee", "language", "volume", "captions", "palette", "left_handed", "force_scale",
-                         "force_arrow", "seated_height_m", "law", "keys"}};
+                        {"trainee", "language", "volume", "vibration", "captions", "palette", "left_handed",
+                         "force_scale", "force_arrow", "seated_height_m", "law", "keys"}};
     return parse_small_file(text, file, head, [&known](MemberReader& members, const json& root) {
         TraineeSettings read;
         read.trainee = members.text(root, "", "trainee", max_trainee_name_size);
         read_language(members, root, read, known);
         read.volume = members.number(root, "", "volume", 0.0, 1.0);
+        if (root.contains("vibration")) read.vibration = members.number(root, "", "vibration", 0.0, 1.0);
         read.captions = members.flag(root, "", "captions");
         read_palette(members, root, read);
         read.left_handed = members.flag(root, "", "left_handed");
@@ -131,6 +132,7 @@ std::string settings_text(const TraineeSettings& settings) {
     root["trainee"] = settings.trainee;
     root["language"] = settings.language;
     root["volume"] = settings.volume;
+    if (settings.vibration != 1.0) root["vibration"] = settings.vibration;
     root["captions"] = settings.captions;
     root["palette"] = settings.palette == PaletteKind::distinct ? distinct : usual;
     root["left_handed"] = settings.left_handed;

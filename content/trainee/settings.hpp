@@ -21,11 +21,12 @@ inline constexpr std::size_t max_trainee_name_size = 64;         // bytes; the n
 
 // The settings file:
 //
-//   {"format": "boltwright settings 1", "trainee": "Ada", "language": "de", "volume": 0.8, "captions": true,
-//    "palette": "distinct", "left_handed": false, "force_scale": 0.5, "seated_height_m": 1.2,
-//    "force_arrow": false, "law": "published", "keys": {"tool": "T", "hint": "F1"}}
+//   {"format": "boltwright settings 1", "trainee": "Ada", "language": "de", "volume": 0.8, "vibration": 0.5,
+//    "captions": true, "palette": "distinct", "left_handed": false, "force_scale": 0.5,
+//    "seated_height_m": 1.2, "force_arrow": false, "law": "published", "keys": {"tool": "T", "hint": "F1"}}
 //
-// "law" is omitted until the trainee has chosen one, and "force_arrow" while it is true.
+// "law" is omitted until the trainee has chosen one, "force_arrow" while it is true, and "vibration" while it
+// is 1.
 
 // `distinct`: colours that people with red-green colour blindness can distinguish.
 enum class PaletteKind : std::uint8_t { usual, distinct };
@@ -36,8 +37,9 @@ inline constexpr double min_seated_eye_height = 0.9,
 
 struct TraineeSettings {
     std::string trainee;
-    std::string language;  // ISO 639; empty: the desktop's
-    double volume = 1.0;   // 0 … 1
+    std::string language;    // ISO 639; empty: the desktop's
+    double volume = 1.0;     // 0 … 1
+    double vibration = 1.0;  // 0 … 1, of hand controllers (servo::VibrationOptions::gain)
     bool captions = false;
     PaletteKind palette = PaletteKind::usual;
     bool left_handed = false;

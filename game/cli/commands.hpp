@@ -30,6 +30,9 @@ void add_glove(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
 void add_station(CLI::App& app, int& exit_code);
 
+// Adds the subcommand `register` to `station`.
+void add_station_register(CLI::App& station, int& exit_code);
+
 // The trial of a station, for `doctor` and `station try`.
 struct TrialOptions {
     std::string assembly = "zq350";  // that the servo simulates

@@ -12,6 +12,7 @@
 #include "content/station/wheel_config_file.hpp"
 #include "engine/base/result.hpp"
 #include "game/cli/commands.hpp"
+#include "game/cli/open_device.hpp"
 #include "game/station/device_check.hpp"
 #include "game/station/station_setup.hpp"
 #include "haptics/device/connected_devices.hpp"
@@ -77,27 +78,11 @@ std::string port_list(const std::vector<std::filesystem::path>& found) {
     return text;
 }
 
-struct OpenDevice {
-    device::DeviceThread thread;
-    std::shared_ptr<const device::Description> description;
-};
-
 Result<device::OpenOptions> with_wheel_config(const std::string& file, device::OpenOptions options) {
     if (file.empty()) return options;
     BOLT_TRY_ASSIGN(const auto read, content::load_wheel_config(file));
     options.wheel = read;
     return options;
-}
-
-// Opens the device, and asks for the needs of an arm.
-Result<OpenDevice> open_device(const std::string& id, device::OpenOptions opening, bool yes) {
-    BOLT_TRY(station_setup::find_device(device::list_devices(true), id));
-    const device::ArmDialog dialog = terminal_dialog(yes);
-    opening.permission = dialog.permission;
-    BOLT_TRY_ASSIGN(auto thread,
-                    device::DeviceThread::start(device::factory_for(id, opening), {{}, device_priority}));
-    BOLT_TRY_ASSIGN(auto description, thread.wait_until_open(open_timeout, dialog.on_preparation));
-    return OpenDevice{std::move(thread), std::move(description)};
 }
 
 // Opens the device and reads it for options.seconds. Returns its description and its sample rate.
@@ -183,6 +168,16 @@ int run_devices(const DevicesOptions& options) {
 }
 
 }  // namespace
+
+Result<OpenDevice> open_device(const std::string& id, device::OpenOptions opening, bool yes) {
+    BOLT_TRY(station_setup::find_device(device::list_devices(true), id));
+    const device::ArmDialog dialog = terminal_dialog(yes);
+    opening.permission = dialog.permission;
+    BOLT_TRY_ASSIGN(auto thread,
+                    device::DeviceThread::start(device::factory_for(id, opening), {{}, device_priority}));
+    BOLT_TRY_ASSIGN(auto description, thread.wait_until_open(open_timeout, dialog.on_preparation));
+    return OpenDevice{std::move(thread), std::move(description)};
+}
 
 Status check_devices(const station_setup::StationRequest& request, double seconds, bool yes) {
     const content::StationFile& station = request.station;

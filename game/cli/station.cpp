@@ -125,7 +125,8 @@ void add_try(CLI::App& station, const std::shared_ptr<StationArguments>& options
 void add_station(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<StationArguments>();
     CLI::App* station = app.add_subcommand(
-        "station", "Make, check or try the file that describes the devices of a workplace");
+        "station",
+        "Make, check or try the file that describes the devices of a workplace, and measure where they are");
     station->require_subcommand(1);
     add_new(*station, options, exit_code);
     CLI::App* checked = add_command(*station, *options, "check",
@@ -133,6 +134,7 @@ void add_station(CLI::App& app, int& exit_code) {
                                     "them, 1 if it does not, 3 if the file is wrong");
     checked->callback([options, &exit_code] { exit_code = check_station(options->trial.station_file); });
     add_try(*station, options, exit_code);
+    add_station_register(*station, exit_code);
 }
 
 }  // namespace bolt::cli

@@ -17,8 +17,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (read.error().line < 1 || read.error().what.empty()) std::abort();
         return 0;
     }
-    const bool fits = read->volume >= 0.0 && read->volume <= 1.0 && read->force_scale >= 0.1 &&
-                      read->force_scale <= 1.0 &&
+    const bool fits = read->volume >= 0.0 && read->volume <= 1.0 && read->vibration >= 0.0 &&
+                      read->vibration <= 1.0 && read->force_scale >= 0.1 && read->force_scale <= 1.0 &&
                       (!read->seated_eye_height || *read->seated_eye_height <= 1.5);
     if (!fits) std::abort();
     const std::string written = bolt::content::settings_text(*read);

@@ -26,6 +26,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             (b.dead_man & b.clutch) == 0 && (b.dead_man & b.stop) == 0 && (b.stop & b.reset) == 0;
         if (!fits || !apart) std::abort();
     }
+    for (const bolt::content::Registration& one : read->registrations) {
+        const double length = glm::length(one.pose.orientation);
+        const bool fits = one.from != one.to && length > 0.999 && length < 1.001 &&
+                          bolt::finite(one.pose.position) && one.points >= 3 && one.rms >= 0.0 &&
+                          one.largest_left_out.value_or(one.rms) > one.rms - 1e-6 &&
+                          bolt::content::find_registration(read->registrations, one.to, one.from) == &one;
+        if (!fits) std::abort();
+    }
     const auto again = bolt::content::parse_station(bolt::content::station_json(*read), "fuzz.json");
     if (!again || *again != *read) std::abort();
     return 0;

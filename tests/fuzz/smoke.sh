@@ -25,6 +25,7 @@ smoke cal 100000 "$bin/../corpus/cal"
 smoke calibration 50000 -dict="$here/calibration.dict" -max_len=8192 "$bin/../corpus/calibration"
 smoke settings 50000 -dict="$here/settings.dict" -max_len=4096 "$bin/../corpus/settings"
 smoke station 50000 -dict="$here/station.dict" -max_len=4096 "$bin/../corpus/station"
+smoke points 100000 -max_len=2048 "$bin/../corpus/points"
 smoke report 200000 -max_len=512
 smoke force_device 200000 -max_len=1024 "$bin/../corpus/force_device"
 smoke haply 30000 -max_len=4096 -dict="$here/haply.dict" "$bin/../corpus/haply"

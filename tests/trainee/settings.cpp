@@ -37,6 +37,7 @@ TraineeSettings example(std::uint64_t seed) {
     if (random.chance(0.7)) s.keys["tool"] = random.chance(0.5) ? "T" : "F1";
     if (random.chance(0.7)) s.keys["hint"] = "H";
     s.force_arrow = seed % 3 != 0;
+    if (seed % 4 == 1) s.vibration = random.uniform();
     return s;
 }
 
@@ -51,6 +52,7 @@ TEST_CASE("Settings: writing and reading round-trips to the last bit") {
         CHECK(read->trainee == s.trainee);
         CHECK(read->language == s.language);
         CHECK(read->volume == s.volume);
+        CHECK(read->vibration == s.vibration);
         CHECK(read->captions == s.captions);
         CHECK(read->palette == s.palette);
         CHECK(read->left_handed == s.left_handed);
@@ -66,6 +68,7 @@ TEST_CASE("Settings: writing and reading round-trips to the last bit") {
 TEST_CASE("Settings: errors name file, line, column and what was expected") {
     TraineeSettings s = example(1);
     s.volume = 0.5;
+    s.vibration = 1.0;
     s.captions = true;
     s.seated_eye_height = 1.2;
     s.force_scale = 0.5;
@@ -108,6 +111,26 @@ TEST_CASE("Settings: errors name file, line, column and what was expected") {
     }
     CHECK(!parse_settings("[]", "x", known));
     CHECK(!parse_settings("{\"format\": 3}", "x", known));
+}
+
+TEST_CASE("Settings: vibration is 0 to 1, and full in a file without it") {
+    TraineeSettings s = example(2);
+    s.vibration = 1.0;
+    const std::string full = settings_text(s);
+    CHECK(full.find("vibration") == std::string::npos);
+    CHECK(parse_settings(full, "a.json", known)->vibration == 1.0);
+    for (const double value : {0.0, 0.25}) {
+        s.vibration = value;
+        CHECK(parse_settings(settings_text(s), "a.json", known)->vibration == value);
+    }
+    for (const char* wrong : {"1.5", "-0.1", "true", "null"}) {
+        const auto read = parse_settings(
+            replaced(settings_text(s), "\"vibration\": 0.25", std::string("\"vibration\": ") + wrong),
+            "a.json", known);
+        REQUIRE(!read);
+        CHECK(read.error().message().find("a.json:6:16: /vibration: ") == 0);
+        CHECK(read.error().expected == "a number from 0 to 1");
+    }
 }
 
 TEST_CASE("Settings: one file per trainee, and a failed write keeps the old one") {

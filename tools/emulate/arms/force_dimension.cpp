@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <deque>
+#include <fstream>
 #include <limits>
 #include <span>
 #include <thread>
@@ -89,6 +90,20 @@ void follow_switch() {
     if (arm.unplugged) arm.open = arm.enabled = arm.initialized = false;
 }
 
+// Places the hand where the file of EMULATED_ARM_HAND says: x y z (m, the arm's axes) and the mask of its
+// buttons. The arm follows at once. A file that is absent or incomplete changes nothing.
+void follow_hand() {
+    const char* name = std::getenv("EMULATED_ARM_HAND");
+    if (!has_own_clock || name == nullptr) return;
+    std::ifstream file(name);
+    Vector position{};
+    unsigned buttons = 0;
+    if (!(file >> position[0] >> position[1] >> position[2] >> buttons)) return;
+    arm.intention = arm.position = position;
+    arm.velocity = {};
+    arm.buttons = buttons;
+}
+
 // Returns true if the arm is open and connected; otherwise sets the error of the call.
 bool reaches(char id) {
     follow_clock();
@@ -156,6 +171,7 @@ void follow_clock() {
     if (elapsed < dt) return;
     before = now;
     advance(std::min(elapsed, 0.1));
+    follow_hand();
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ struct EmulatedArmHand {
 // From here on its clock is emu_advance(). Without a call of emu_reset() its clock is the computer's, and it
 // knows its position from the start if EMULATED_ARM_INITIALIZED is set. It takes EMULATED_ARM_HOMING seconds
 // to find it, and is switched off while EMULATED_ARM_SWITCH names a file that does not exist. Its buttons are
-// EMULATED_ARM_BUTTONS.
+// EMULATED_ARM_BUTTONS. A file that EMULATED_ARM_HAND names, "x y z buttons", holds it rigidly instead; write a
+// new file and rename it to move the hand.
 void emu_reset(void);
 void emu_advance(double seconds);
 void emu_hand(struct EmulatedArmHand hand);

@@ -1,0 +1,72 @@
+// Registration: the pose that aligns points measured in one frame with the same points in another, and
+// measures of its quality.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/base/math.hpp"
+#include "engine/base/result.hpp"
+
+namespace bolt {
+
+// The same point in two frames, m.
+struct PointPair {
+    Vec3 from{0.0}, to{0.0};
+};
+
+enum class AlignmentFault : std::uint8_t {
+    too_few,     // fewer than three points
+    not_finite,  // a coordinate is NaN, infinite or larger than max_coordinate
+    collinear,   // the points of a frame lie near a line, so a rotation about it is unknown
+    mirrored,    // a mirrored copy fits much better: an axis has the wrong sign, or two points are swapped
+    scaled,      // distances differ between the frames: wrong unit, or bad tracking
+};
+
+// The detail of each error of align_points(). Its code is ErrorCode::failed.
+struct AlignmentFaultDetail final : ErrorDetail {
+    explicit AlignmentFaultDetail(AlignmentFault kind) : fault(kind) {}
+    AlignmentFault fault;
+};
+
+inline constexpr double max_coordinate = 1e6;  // m
+
+struct AlignmentLimits {
+    // Largest difference of the best-fit scale from 1.
+    double max_scale_error = 0.01;
+    // Least ratio of the second largest to the largest spread (standard deviation along a principal axis).
+    double min_width = 0.1;
+};
+// Accept any scale; for points whose scale has been checked.
+inline constexpr AlignmentLimits any_scale{std::numeric_limits<double>::infinity(), 0.1};
+
+struct RigidAlignment {
+    Pose pose;                      // takes `from` to `to`; w of its unit quaternion is not negative
+    double rms = 0.0;               // m, of the residuals
+    std::vector<double> residuals;  // m, one a point: distance from pose · from to `to`
+    // The similarity that fits best has this scale. No scale is applied to the pose.
+    double scale = 1.0;
+    // Ratio of the least to the largest spread of the points, the smaller of both frames; 0: in a plane. In a
+    // plane a mirrored set cannot be detected.
+    double thickness = 0.0;
+};
+
+// The rigid pose with the least sum of squared residuals, in closed form: the quaternion is the eigenvector
+// of the largest eigenvalue of a symmetric matrix (B. K. P. Horn, J. Opt. Soc. Am. A 4 (1987) 629). The scale
+// is that of S. Umeyama (IEEE Trans. PAMI 13 (1991) 376, eq. 42). Noise of standard deviation s on each axis
+// of one set changes it by about s / (√n · spread): 2 mm on eight corners of a box of 0.25 m by 0.35 %. Noise
+// in `from` also lowers it by a factor of 1 + 3 s²/spread². Fails with an AlignmentFaultDetail.
+Result<RigidAlignment> align_points(std::span<const PointPair> pairs, const AlignmentLimits& limits = {});
+
+// For each point the distance, m, between its measured position in `to` and that which the alignment of the
+// other points predicts; none if the others cannot be aligned. The rms of the residuals is s·√3·√(1 − 2/n)
+// for noise s, and says little of the error of the pose; these distances include it.
+std::vector<std::optional<double>> left_out_residuals(std::span<const PointPair> pairs);
+
+// Returns the largest; none if one of them is none, or without any.
+std::optional<double> largest(std::span<const std::optional<double>> residuals);
+
+}  // namespace bolt

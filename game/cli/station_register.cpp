@@ -1,0 +1,225 @@
+// boltwright station register: measures where one frame of a station is in another, and stores or checks it.
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <ctime>
+#include <memory>
+
+#include "content/station/point_table.hpp"
+#include "content/station/station_file.hpp"
+#include "game/cli/commands.hpp"
+#include "game/cli/open_device.hpp"
+#include "game/station/frame_registration.hpp"
+#include "game/station/point_source.hpp"
+
+namespace bolt::cli {
+
+namespace {
+
+using station_setup::max_check_error;
+
+struct RegisterArguments {
+    std::string file, points, device, targets, from, to = "room";
+    std::vector<double> tip{0.0, 0.0, 0.0};
+    bool check = false, force = false, yes = false;
+};
+
+struct FramePair {
+    content::StationFrame from, to;
+};
+
+Result<FramePair> frames_of(const RegisterArguments& options) {
+    const std::string from = !options.from.empty()    ? options.from
+                             : options.points.empty() ? "arm"
+                                                      : "tracker";
+    const auto frame = [](const char* option, const std::string& text) -> Result<content::StationFrame> {
+        const auto parsed = content::parse_station_frame(text);
+        if (!parsed)
+            return fail(ErrorCode::usage, fmt::format("{}: {}", option, parsed.error().what),
+                        parsed.error().expected);
+        return *parsed;
+    };
+    BOLT_TRY_ASSIGN(const auto first, frame("--from", from));
+    BOLT_TRY_ASSIGN(const auto second, frame("--to", options.to));
+    if (first == second)
+        return fail(ErrorCode::usage, fmt::format("--from and --to are both \"{}\"", from), "two frames");
+    if (options.points.empty() && first != content::StationFrame::arm)
+        return fail(ErrorCode::usage, fmt::format("--from {}: an arm touches the points", from),
+                    "--from arm, or --points FILE");
+    return FramePair{first, second};
+}
+
+// True once for each line on the standard input; never after its end.
+class EnterKey {
+  public:
+    bool pressed() {
+        pollfd input{STDIN_FILENO, POLLIN, 0};
+        bool line = false;
+        while (!ended_ && ::poll(&input, 1, 0) == 1) {
+            std::array<char, 256> bytes{};
+            const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
+            ended_ = count <= 0;
+            for (ssize_t i = 0; i < count; ++i) line = line || bytes[static_cast<std::size_t>(i)] == '\n';
+        }
+        return line;
+    }
+
+  private:
+    bool ended_ = false;
+};
+
+// The id of the arm that touches the points.
+Result<std::string> arm_of(const RegisterArguments& options, const content::StationFile& station) {
+    if (!station.arm)
+        return fail(ErrorCode::bad_content, fmt::format("{}: the station has no \"arm\"", options.file),
+                    "an arm, or --points FILE");
+    if (!options.device.empty() && options.device != station.arm->device)
+        return fail(
+            ErrorCode::usage,
+            fmt::format("--device {}: the station's \"arm\" is {}", options.device, station.arm->device),
+            "that device");
+    return station.arm->device;
+}
+
+// Measures the targets with the tip of the station's arm.
+Result<std::vector<PointPair>> touch(const RegisterArguments& options, const content::StationFile& station,
+                                     std::span<const Vec3> targets) {
+    BOLT_TRY_ASSIGN(const std::string id, arm_of(options, station));
+    device::OpenOptions opening;
+    opening.effector_mass = station.arm->effector_mass;
+    BOLT_TRY_ASSIGN(OpenDevice device, open_device(id, opening, options.yes));
+    const Vec3 tip(options.tip[0], options.tip[1], options.tip[2]);
+    if (device.description->sensing != device::Sensing::pose)
+        return fail(ErrorCode::no_device, fmt::format("{} senses no position", id), "a force-feedback arm");
+    if (!device.description->senses_rotation && tip != Vec3(0.0))
+        return fail(ErrorCode::usage, fmt::format("--tip: {} senses no rotation of its handle", id),
+                    "its own point, without --tip");
+    catch_interruption();
+    EnterKey enter;
+    station_setup::ArmTip source(
+        {[&] { return device.thread.snapshot(); }, [&] { return enter.pressed(); },
+         [] { return interrupted(); }, [](std::string_view line) { fmt::print(stderr, "{}\n", line); },
+         device::steady_timer()},
+        tip);
+    return station_setup::measure_points(source, targets);
+}
+
+Result<std::vector<PointPair>> measured_pairs(const RegisterArguments& options,
+                                              const content::StationFile& station) {
+    if (!options.points.empty()) return content::load_point_pairs(options.points);
+    if (options.targets.empty())
+        return fail(ErrorCode::usage, "the points to touch are not given",
+                    "--targets FILE, or --points FILE with points that a tracker has measured");
+    BOLT_TRY_ASSIGN(const std::vector<Vec3> targets, content::load_points(options.targets));
+    if (targets.size() < 4)
+        return fail(ErrorCode::bad_content,
+                    fmt::format("{}: {} points are too few", options.targets, targets.size()),
+                    "at least 4, of which the last is the check point");
+    return touch(options, station, targets);
+}
+
+// Stores the registration in the file as it is now, which may have been edited since it was read.
+Status store(const std::string& file, const content::Registration& registration) {
+    BOLT_TRY_ASSIGN(content::StationFile station, content::load_station(file));
+    content::set_registration(station.registrations, registration);
+    return content::save_station(file, station);
+}
+
+Status register_station(const RegisterArguments& options) {
+    BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options));
+    BOLT_TRY_ASSIGN(const content::StationFile station, content::load_station(options.file));
+    BOLT_TRY_ASSIGN(const std::vector<PointPair> pairs, measured_pairs(options, station));
+    const std::string date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+    BOLT_TRY_ASSIGN(const auto measured, station_setup::register_frames(frames.from, frames.to, pairs, date));
+    std::string text = station_setup::describe(measured);
+    for (const std::string& warning : station_setup::warnings_of(measured))
+        text += fmt::format("  warning: {}\n", warning);
+    BOLT_TRY(print(text));
+    if (Status good = station_setup::check_quality(measured); !good) {
+        if (!options.force) {
+            good.error().expected += ", or --force to store it";
+            return good;
+        }
+        BOLT_TRY(print(fmt::format("  warning: {}\n", good.error().message())));
+    }
+    BOLT_TRY(store(options.file, measured.registration));
+    return print(fmt::format("{}: stored\n", options.file));
+}
+
+// Compares the stored registration with a touch of its check point, or with the points of a file. Fails if
+// one is off by more than max_check_error.
+Status check_registration(const RegisterArguments& options) {
+    BOLT_TRY_ASSIGN(const FramePair frames, frames_of(options));
+    BOLT_TRY_ASSIGN(const content::StationFile station, content::load_station(options.file));
+    auto found = station_setup::registration_from(station.registrations, frames.from, frames.to);
+    if (!found) {
+        found.error().file = options.file;
+        return fail(found.error());
+    }
+    std::vector<PointPair> pairs;
+    if (!options.points.empty()) {
+        BOLT_TRY_ASSIGN(pairs, content::load_point_pairs(options.points));
+    } else if (found->check_point) {
+        BOLT_TRY_ASSIGN(pairs, touch(options, station, std::array{found->check_point->to}));
+    }
+    if (pairs.empty())
+        return fail(ErrorCode::bad_content, "there is no point to check", "a check point, or --points FILE");
+    double most = 0.0;
+    for (const PointPair& pair : pairs) most = std::max(most, glm::length(found->pose * pair.from - pair.to));
+    const std::string text = fmt::format("{} -> {} of {}: off by {:.1f} mm", content::name(frames.from),
+                                         content::name(frames.to), found->date, most / mm);
+    if (!(most <= max_check_error))
+        return fail(ErrorCode::failed, text,
+                    fmt::format("at most {:.0f} mm; register it again", max_check_error / mm));
+    return print(text + "\n");
+}
+
+}  // namespace
+
+void add_station_register(CLI::App& station, int& exit_code) {
+    auto options = std::make_shared<RegisterArguments>();
+    CLI::App* command = station.add_subcommand(
+        "register",
+        "Measure where the arm, or a frame whose points are in a file, is in the room, and store it");
+    command->add_option("FILE", options->file, "The station file")->required();
+    CLI::Option* points = command->add_option(
+        "--points", options->points,
+        "CSV file with the title ax,ay,az,bx,by,bz: points in the first frame and in the second, m; the last "
+        "is the check point");
+    command
+        ->add_option("--device", options->device,
+                     "Id of the arm whose tip touches the points; default: that of the station file")
+        ->excludes(points);
+    command
+        ->add_option(
+            "--targets", options->targets,
+            "CSV file with the title x,y,z: the points to touch, m, in the second frame; the last is "
+            "the check point")
+        ->excludes(points);
+    command->add_option("--tip", options->tip, "Position x,y,z of the tip in the frame of the handle, m")
+        ->delimiter(',')
+        ->expected(3)
+        ->check(CLI::Range(-1.0, 1.0))
+        ->excludes(points);
+    command->add_option("--from", options->from,
+                        "The first frame: arm, wheel, tracker, wall, workpiece or room; default: arm, with "
+                        "--points tracker");
+    command->add_option("--to", options->to, "The second frame")->capture_default_str();
+    command->add_flag("--check", options->check,
+                      "Store nothing; touch the check point, or compare --points: exit code 0 if the stored "
+                      "registration is right to 5 mm, 1 if it is not");
+    command->add_flag("--force", options->force,
+                      "Store it even if an rms of 4 mm or a check point of 5 mm is exceeded");
+    command->add_flag("--yes", options->yes,
+                      "Answers the question whether an arm may move by itself, which a terminal asks");
+    command->callback([options, &exit_code] {
+        const Status done = options->check ? check_registration(*options) : register_station(*options);
+        exit_code = done ? 0 : print_error(done.error());
+    });
+}
+
+}  // namespace bolt::cli

@@ -1,0 +1,48 @@
+// Computes a registration of two frames from points, assesses it, and describes it in plain text.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "content/station/registration.hpp"
+#include "engine/base/result.hpp"
+#include "engine/base/rigid_alignment.hpp"
+
+namespace bolt::station_setup {
+
+// A registration is good enough for training up to these values, m.
+inline constexpr double max_rms = 4e-3;
+inline constexpr double max_check_error = 5e-3;
+
+// Points for the pose besides the check point: fewer give a warning.
+inline constexpr std::size_t advised_points = 6;
+
+struct MeasuredRegistration {
+    content::Registration registration;
+    std::vector<double> residuals;                // m, of each point but the check point
+    std::vector<std::optional<double>> left_out;  // m, left_out_residuals() of the same points
+    double check_error = 0.0;                     // m, of the check point
+    double scale = 1.0, thickness = 0.0;          // of RigidAlignment
+};
+
+// The last pair is the check point: it is not used for the pose. Fails with fewer than four pairs, or as
+// align_points(), whose AlignmentFaultDetail the error then has. `date`: as content::is_utc_date().
+Result<MeasuredRegistration> register_frames(content::StationFrame from, content::StationFrame to,
+                                             std::span<const PointPair> pairs, const std::string& date);
+
+// A table of the points, and the figures that assess the registration.
+std::string describe(const MeasuredRegistration& measured);
+
+// Fails if the rms or the error of the check point is too large, and names the point to touch again.
+Status check_quality(const MeasuredRegistration& measured);
+
+// What may be wrong although check_quality() passes: few points, or points in a plane.
+std::vector<std::string> warnings_of(const MeasuredRegistration& measured);
+
+// The registration with `from` as its first frame: that of the list, or its inverse. Fails if there is none.
+Result<content::Registration> registration_from(std::span<const content::Registration> registrations,
+                                                content::StationFrame from, content::StationFrame to);
+
+}  // namespace bolt::station_setup

@@ -1,0 +1,133 @@
+// Vibration of a hand controller, computed from what a tick publishes. A controller renders no force; its
+// motor only hints at one, so vibration repeats what picture and sound show. Pure: no clock, no allocation,
+// no I/O; equal inputs give equal bits. docs/vibration.md has the table of cues.
+//
+//   advance_vibration(state, options, input, dt);        // each tick
+//   if (const auto command = next_vibration(state, options)) ...   // each frame
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "engine/base/math.hpp"
+#include "haptics/joint/stage.hpp"
+#include "haptics/servo/io.hpp"
+
+namespace bolt::servo {
+
+// In ascending rank. All but `load` are events, which give one command each.
+enum class VibrationCue : std::uint8_t {
+    load,       // texture while the load grows or a loaded nut turns
+    tick,       // the unloaded nut has turned by VibrationOptions::tick_angle
+    bump,       // the wrench has struck something
+    breakaway,  // a loaded nut that stood still begins to turn
+    seat,       // the nut has reached its seat
+    yield,      // the bolt begins to yield
+    slip,       // the jaw has slipped over the corners
+    click,      // the torque wrench has clicked
+};
+inline constexpr std::size_t vibration_cue_count = 8;
+
+struct VibrationPulse {
+    double amplitude = 0.0;  // 0 … 1
+    double frequency = 0.0;  // Hz
+    double duration = 0.0;   // s
+};
+
+struct VibrationOptions {
+    double gain = 1.0;  // 0 … 1, factor of all amplitudes; 0: off
+
+    VibrationPulse tick{0.25, 170.0, 0.012};
+    VibrationPulse bump{0.8, 200.0, 0.03};        // at full_strike; slower strikes in proportion
+    VibrationPulse breakaway{0.7, 140.0, 0.025};  // at the target torque
+    VibrationPulse seat{0.7, 100.0, 0.05};
+    VibrationPulse yield{0.9, 55.0, 0.15};
+    VibrationPulse slip{0.95, 80.0, 0.08};
+    VibrationPulse click{1.0, 230.0, 0.03};
+    VibrationPulse load{0.6, 120.0, 0.03};  // at the target torque; longer than a frame, so it has no gaps
+    double yield_frequency = 60.0;          // Hz, of `load` in the yield stage
+
+    double tick_angle = to_radians(30.0);  // rad
+    double full_strike = 0.5;              // m/s
+    // Exponent of the growth of sensation with amplitude, up to 350 Hz: R. T. Verrillo et al., Subjective
+    // magnitude functions for vibrotaction, IEEE Trans. Man-Machine Systems 11 (1970). Amplitude =
+    // share^(1/0.89), so that the sensation grows in proportion to torque / target.
+    double sensation_exponent = 0.89;
+    double max_share = 1.2;  // torque / target from which the amplitude grows no more
+
+    // The load grows if torque / target grows faster than this (1/s), and the nut turns if it is faster than
+    // this (rad/s); both are smoothed over smoothing_time (s).
+    double min_growth = 0.05, min_speed = 0.02, smoothing_time = 0.05;
+    double release = 1.0;  // 1/s by which torque / target falls if the hand lets go; then there is no texture
+    double min_share = 0.1;  // torque / target below which there is no breakaway
+
+    double min_interval = 0.01;     // s between two commands
+    double max_wait = 0.1;          // s for which an event waits for stronger ones; a tick waits 0.02 s
+    double least_amplitude = 0.01;  // weaker commands are not sent
+};
+
+struct VibrationCommand {
+    double amplitude = 0.0;  // above 0, at most 1
+    double frequency = 0.0;  // Hz
+    double duration = 0.0;   // s
+    VibrationCue cue = VibrationCue::load;
+};
+
+// What happened in one tick.
+struct VibrationInput {
+    std::int16_t joint = -1;  // engaged joint; −1: none
+    joint::Stage stage = joint::Stage::navigation;
+    double torque = 0.0;        // N·m, of the wrench, either sign
+    double target = 0.0;        // N·m, target torque of the step; 0: none, so there is no load to show
+    double angle = 0.0;         // rad, of the nut
+    bool slipped = false;       // Output::slipped is a joint
+    bool clicked = false;       // Output::clicked
+    double strike_speed = 0.0;  // m/s at which the wrench struck something in this tick; 0: it did not
+};
+
+// `strike_speed`: see VibrationInput; the servo does not detect strikes.
+VibrationInput vibration_input(const Output& output, double target, double strike_speed);
+
+struct VibrationState {
+    // An event that no command has shown yet.
+    struct PendingCue {
+        double amplitude = 0.0;  // 0: none
+        double time = 0.0;       // s
+    };
+
+    double time = 0.0;  // s since the first tick
+
+    // The nut of the last tick.
+    std::int16_t joint = -1;
+    joint::Stage stage = joint::Stage::navigation;
+    double angle = 0.0, share = 0.0;  // rad, and |torque| / target
+    double growth = 0.0;              // 1/s, smoothed rate of `share`
+    double speed = 0.0;               // rad/s, smoothed
+    double notch = 0.0;               // rad, multiple of tick_angle at which the last tick was
+    double rest_angle = 0.0, rest_since = 0.0;
+    bool stuck = false;  // stands still under load
+
+    std::int16_t seated_joint = -1;  // whose seat was shown; −1: it may be shown again
+    double seat_angle = 0.0;
+    double last_yield = -1e9;  // s, last tick in the yield stage
+
+    std::array<PendingCue, vibration_cue_count> pending{};
+    VibrationPulse texture{};  // of the load in this tick; amplitude 0: none
+
+    double sent_at = -1e9;     // s, time of the last command
+    double busy_until = -1e9;  // s, end of the event that the controller renders
+    VibrationCue rendered = VibrationCue::load;
+};
+
+// Adds a tick. Ticks with values that are not finite only advance the time; a nut that jumps, by undoing a
+// step, gives no cue. `dt`: s.
+void advance_vibration(VibrationState& state, const VibrationOptions& options, const VibrationInput& input,
+                       double dt);
+
+// The command to send in this frame; it replaces the one that the controller renders. The pending event with
+// the highest rank comes first. Others wait, at most max_wait, and no weaker one interrupts an event. None:
+// send nothing.
+std::optional<VibrationCommand> next_vibration(VibrationState& state, const VibrationOptions& options);
+
+}  // namespace bolt::servo

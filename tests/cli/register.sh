@@ -1,0 +1,129 @@
+#!/usr/bin/env bash
+# Registration of a station's frames: from files, and with the tip of an emulated arm. register.sh BIN SOURCES.
+. "$(dirname "$0")/checks.sh"
+arm=force-dimension:0
+library=lib/release/lin-x86_64-gcc/libdrd.so.3
+mkdir -p "sdk/${library%/*}"
+cp "${bin%/bin}/emulated/force_dimension/libdrd.so.3" "sdk/$library"
+run=("$bin/boltwright" station register)
+
+# From a file: the frame is turned by 90 degrees about z and moved by (1, 2, 3).
+cat > old.json <<'END'
+{"format": "boltwright station 1", "name": "Lab 2", "arm": {"device": "force-dimension:0", "scale": 2.5,
+ "buttons": {"dead_man": 3, "clutch": []}}, "wheel": {"device": "1209:ffb0", "reversed": true},
+ "glove": {"port": "/dev/ttyUSB0"}}
+END
+turned() { awk -F, 'BEGIN { print "ax,ay,az,bx,by,bz" } NR > 1 { printf "%s,%s,%s,%.6f,%.6f,%.6f\n", $1, $2, $3, 1 - $2, 2 + $1, 3 + $3 }' "$1"; }
+cat > points.csv <<'END'
+x,y,z
+-0.04,-0.03,-0.04
+0.05,-0.03,-0.04
+0.05,0.04,-0.03
+-0.04,0.04,0.05
+0.05,0,0.05
+-0.03,-0.04,0.04
+0.01,0.02,0.03
+END
+turned points.csv > pairs.csv
+cp old.json s.json
+expect 0 'tracker -> room, 6 points' "${run[@]}" s.json --points pairs.csv
+check 'the date is that of today' grep -q "\"date\": \"$(date -u +%Y-%m-%dT)" s.json
+for kept in '"name": "Lab 2"' '"scale": 2.5' '"dead_man": 3' '"clutch": \[\]' '"reversed": true' ttyUSB0; do
+    check "the file keeps $kept" grep -q -- "$kept" s.json
+done
+check 'the rms is zero' grep -qE '"rms_m": [0-9.]+e-1|"rms_m": 0.0' s.json
+expect 0 'off by 0.0 mm' "${run[@]}" s.json --check --points pairs.csv
+expect 0 'check point 0.0 mm' "${run[@]}" s.json --points pairs.csv --from workpiece
+check 'another pair is added' test "$(grep -c '"from":' s.json)" = 2
+expect 0 stored "${run[@]}" s.json --points pairs.csv --from room --to tracker
+check 'the same pair is replaced' test "$(grep -c '"from":' s.json)" = 2
+
+# Refused, and stored with --force; the file stays as it is.
+awk -F, -v OFS=, 'NR == 6 { $4 += 0.015 } 1' pairs.csv > wrong.csv
+cp s.json before.json
+expect 1 'error: tracker -> room: the rms is .* mm; expected at most 4 mm; measure point 5 again, or --force' "${run[@]}" s.json --points wrong.csv
+awk -F, -v OFS=, 'NR == 8 { $5 += 0.006 } 1' pairs.csv > off.csv
+expect 1 'the check point is off by 6.0 mm; expected at most 5 mm' "${run[@]}" s.json --points off.csv
+expect 1 'distances in the second frame are 1000 times' "${run[@]}" s.json --points <(awk -F, -v OFS=, 'NR > 1 { for (i = 4; i < 7; i++) $i *= 1000 } 1' pairs.csv)
+expect 1 'mirror image' "${run[@]}" s.json --points <(awk -F, -v OFS=, 'NR > 1 { $6 = -$6 } 1' pairs.csv)
+expect 1 'lie near a line' "${run[@]}" s.json --points <(awk -F, 'NR == 1; NR > 1 { print NR ",0,0," NR ",0,0" }' pairs.csv)
+expect 1 '3 points are too few; expected at least 4' "${run[@]}" s.json --points <(head -4 pairs.csv)
+expect 3 'bad.csv:3:4: "nan" is not a coordinate; expected a number of metres' bash -c 'sed "3s/.*/1,2,nan,4,5,6/; 3s/1,2,nan/1, nan,2/" pairs.csv > bad.csv; "$@"' - "${run[@]}" s.json --points bad.csv
+expect 3 'is not the title of the columns; expected "ax,ay,az,bx,by,bz"' "${run[@]}" s.json --points points.csv
+expect 3 'nowhere.json' "${run[@]}" nowhere.json --points pairs.csv
+check 'a refused registration changes nothing' cmp -s s.json before.json
+expect 1 'off by .* mm; expected at most 5 mm; register it again' "${run[@]}" s.json --check --points wrong.csv
+expect 0 'warning: tracker -> room: the rms is' "${run[@]}" s.json --points wrong.csv --force
+check 'with --force it is stored' bash -c '! cmp -s s.json before.json'
+expect 2 'is not a frame; did you mean "tracker"' "${run[@]}" s.json --points pairs.csv --from trakcer
+expect 2 'are both "room"' "${run[@]}" s.json --points pairs.csv --from room
+expect 2 'excludes' "${run[@]}" s.json --points pairs.csv --device $arm
+expect 2 'an arm touches the points; expected --from arm' "${run[@]}" s.json --from tracker
+expect 2 'the points to touch are not given; expected --targets FILE' "${run[@]}" s.json
+expect 3 'few.csv: 3 points are too few' bash -c 'head -4 points.csv > few.csv; "$@"' - "${run[@]}" s.json --targets few.csv
+expect 3 'has no registration between "arm" and "room"' "${run[@]}" s.json --check
+expect 2 'the station.s "arm" is force-dimension:0; expected that device' "${run[@]}" s.json --targets points.csv --device haply:0
+expect 4 'there is no device force-dimension:0' "${run[@]}" s.json --targets points.csv
+expect 3 '/registrations/0/orientation_wxyz: the quaternion has the length' "${run[@]}" <(tr -d '\n' < s.json | sed -E 's/"orientation_wxyz": *\[ *[^,]*/"orientation_wxyz": [0.1/') --points pairs.csv
+
+# With the tip of an arm. Its axes are x to the user, y to the right, z up; those of the frame "arm" y, z, x.
+export FDSDK=$work/sdk EMULATED_ARM_INITIALIZED=1 EMULATED_ARM_HAND=$work/hand
+place() {  # place X Y Z BUTTONS: holds the handle at a point of the frame "arm"
+    echo "$3 $1 $2 $4" > hand.new
+    mv hand.new hand
+}
+turned points.csv | awk -F, 'BEGIN { print "x,y,z" } NR > 1 { print $4 "," $5 "," $6 }' > targets.csv
+asked() { grep -q "^Point $1 of" log; }
+touch_points() {  # touch_points FILE: touches each point of the table when it is asked for
+    local number=0 x y z
+    while IFS=, read -r x y z; do
+        number=$((number + 1))
+        place "$x" "$y" "$z" 0
+        check "point $number is asked for" eventually asked $number
+        sleep 0.1
+        place "$x" "$y" "$z" 1
+        check "point $number is measured" eventually grep -q "^Point $number: measured" log
+    done < <(tail -n +2 "$1")
+}
+place 0 0 0 0
+cp old.json s.json
+: > log
+"${run[@]}" s.json --targets targets.csv --device $arm < /dev/null > out.txt 2> log &
+player=$!
+touch_points points.csv
+check 'the arm is registered' wait $player
+player=
+check 'its points fit' grep -q 'arm -> room, 6 points' out.txt
+check 'the rms is below the resolution of the encoders' grep -qE 'rms 0\.0 mm' out.txt
+check 'the check point is stored' grep -q '"check_point"' s.json
+
+# One touch checks it: with Enter on the standard input, at the right place and 10 mm beside it.
+checked() {  # checked X Y Z: exit code of a check that touches this point
+    place "$1" "$2" "$3" 0
+    : > log
+    (eventually asked 1; sleep 0.2; echo; sleep 3) | "${run[@]}" s.json --check > out.txt 2> log
+}
+check 'a touch of the check point is right' checked 0.01 0.02 0.03
+check 'its error is stated' grep -q 'arm -> room of 20.*: off by 0.0 mm' out.txt
+checked 0.02 0.02 0.03
+check 'exit code 1 for a touch beside it' test $? = 1
+check 'with the distance' grep -q 'off by 10.0 mm; expected at most 5 mm; register it again' log
+
+# A hand that moves is asked again, and an interruption ends it.
+: > log
+place 0 0 0 0
+"${run[@]}" s.json --targets targets.csv < /dev/null > out.txt 2> log &
+player=$!
+check 'a point is asked for' eventually asked 1
+sleep 0.2
+place 0 0 0 1
+sleep 0.1
+place 0.01 0 0 1
+moved() { grep -q 'the hand moved by .* Once more' log; }
+check 'a hand that moves is asked again' eventually moved
+kill -INT $player
+wait $player
+check 'its exit code is 1' test $? = 1
+player=
+check 'and is stated' grep -q 'the registration was interrupted' log
+finish_checks
