@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace bolt::xr {
 
@@ -51,6 +52,7 @@ void Headset::drop() {
     session_.reset();
     runtime_.reset();
     events_.clear();
+    failed_.reset();
 }
 
 void Headset::begin(gpu::Device& device) {
@@ -89,6 +91,7 @@ void Headset::end() {
 }
 
 std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
+    if (failed_) (void)keep(fail(*std::exchange(failed_, std::nullopt)));
     if (!session_ || !keep(session_->poll(events_))) return std::nullopt;
     if (session_->ended()) {
         log("the program was ended in the headset's menu");
@@ -118,7 +121,7 @@ std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
 }
 
 void Headset::locate(HeadsetFrame& frame) {
-    if (!session_) return;
+    if (!session_ || failed_) return;
     Result<HeadView> view = session_->locate(frame.timing);
     if (!view) {
         (void)keep(fail(view.error()));
@@ -128,15 +131,18 @@ void Headset::locate(HeadsetFrame& frame) {
 }
 
 void Headset::record(VkCommandBuffer commands, std::span<const EyePicture> pictures) {
-    if (session_) (void)keep(session_->record(commands, pictures));
+    if (session_ && !failed_) (void)keep(session_->record(commands, pictures));
 }
 
 void Headset::end_frame(const HeadsetFrame& frame, bool drawn, const DepthRange& depth) {
+    if (failed_) (void)keep(fail(*std::exchange(failed_, std::nullopt)));
     if (session_) (void)keep(session_->end_frame(frame.timing, {drawn ? &frame.view : nullptr, depth}));
 }
 
 void Headset::vibrate(Side side, const Vibration& vibration) {
-    if (session_ && session_->focused()) (void)keep(input_->vibrate(side, vibration));
+    if (!session_ || failed_ || !session_->focused()) return;
+    // The session is dropped later: commands that were recorded and not submitted may use its images.
+    if (const Status status = input_->vibrate(side, vibration); !status) failed_ = status.error();
 }
 
 }  // namespace bolt::xr

@@ -86,6 +86,7 @@ class Headset {
     std::unique_ptr<Input> input_;
     std::vector<SessionEvent> events_;
     std::optional<Error> absence_;
+    std::optional<Error> failed_;  // a call beside the frame; the frame that is drawn may use the session
     std::optional<double> last_search_;
     double search_interval_ = 1.0;  // s
     bool exit_requested_ = false;

@@ -45,10 +45,10 @@ XrResult XRAPI_CALL destroy_set(XrActionSet handle) {
     constexpr const char* name = "xrDestroyActionSet";
     State& s = state();
     const std::unique_lock lock(s.mutex);
-    ++s.calls[name];
+    const XrResult success = enter_destroying(s, name);
     if (!s.instance) return refuse(s, name, XR_ERROR_HANDLE_INVALID, "is called without an instance");
     end_actions_of(s, id_of(handle));
-    return remove(s, name, s.instance->sets, handle, Kind::action_set) ? XR_SUCCESS : XR_ERROR_HANDLE_INVALID;
+    return remove(s, name, s.instance->sets, handle, Kind::action_set) ? success : XR_ERROR_HANDLE_INVALID;
 }
 
 XrResult XRAPI_CALL create_action(XrActionSet handle, const XrActionCreateInfo* info, XrAction* action) {
@@ -80,9 +80,9 @@ XrResult XRAPI_CALL destroy_action(XrAction handle) {
     constexpr const char* name = "xrDestroyAction";
     State& s = state();
     const std::unique_lock lock(s.mutex);
-    ++s.calls[name];
+    const XrResult success = enter_destroying(s, name);
     if (!s.instance) return refuse(s, name, XR_ERROR_HANDLE_INVALID, "is called without an instance");
-    return remove(s, name, s.instance->actions, handle, Kind::action) ? XR_SUCCESS : XR_ERROR_HANDLE_INVALID;
+    return remove(s, name, s.instance->actions, handle, Kind::action) ? success : XR_ERROR_HANDLE_INVALID;
 }
 
 const std::string* text_of(const State& s, XrPath path) {

@@ -56,6 +56,8 @@ XrResult wait_next(State& s, std::unique_lock<std::mutex>& lock, XrFrameState& o
     count_frame(s);
     session.last_display += period;
     session.waited = session.last_display;
+    for (std::string& file : s.script.requested) s.script.pictures.emplace(*session.waited, std::move(file));
+    s.script.requested.clear();
     const bool visible =
         session.state == XR_SESSION_STATE_VISIBLE || session.state == XR_SESSION_STATE_FOCUSED;
     session.waited_render = visible && s.should_render;
@@ -142,6 +144,11 @@ void capture(State& s, const Swapchain& swapchain, const SubmittedView& view, Pi
     }
 }
 
+bool wants_pictures(const State& s) {
+    const std::multimap<XrTime, std::string>& files = s.script.pictures;
+    return s.capture || (!files.empty() && files.begin()->first <= *s.instance->session->begun);
+}
+
 const XrCompositionLayerDepthInfoKHR* depth_info(const XrCompositionLayerProjectionView& view) {
     const auto* next = static_cast<const XrBaseInStructure*>(view.next);
     while (next != nullptr && next->type != XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR) next = next->next;
@@ -168,7 +175,7 @@ XrResult check_depth(State& s, const XrCompositionLayerDepthInfoKHR& depth, Subm
     SubmittedView source;
     source.rect = depth.subImage.imageRect;
     source.layer = depth.subImage.imageArrayIndex;
-    if (s.capture || !s.script.pictures.empty()) capture(s, *swapchain, source, view.picture);
+    if (wants_pictures(s)) capture(s, *swapchain, source, view.picture);
     return XR_SUCCESS;
 }
 
@@ -187,7 +194,7 @@ XrResult check_view(State& s, const XrCompositionLayerProjectionView& view, Fram
     submitted.fov = fov;
     submitted.rect = view.subImage.imageRect;
     submitted.layer = view.subImage.imageArrayIndex;
-    if (s.capture || !s.script.pictures.empty()) capture(s, *swapchain, submitted, submitted.picture);
+    if (wants_pictures(s)) capture(s, *swapchain, submitted, submitted.picture);
     if (const auto* depth = depth_info(view))
         if (const XrResult checked = check_depth(s, *depth, submitted); XR_FAILED(checked)) return checked;
     frame.views.push_back(std::move(submitted));

@@ -234,9 +234,9 @@ XrResult XRAPI_CALL destroy_tracker(XrHandTrackerEXT handle) {
     constexpr const char* name = "xrDestroyHandTrackerEXT";
     State& s = state();
     const std::unique_lock lock(s.mutex);
-    ++s.calls[name];
+    const XrResult success = enter_destroying(s, name);
     if (!s.instance) return refuse(s, name, XR_ERROR_HANDLE_INVALID, "is called without an instance");
-    return remove(s, name, s.instance->trackers, handle, Kind::hand_tracker) ? XR_SUCCESS
+    return remove(s, name, s.instance->trackers, handle, Kind::hand_tracker) ? success
                                                                              : XR_ERROR_HANDLE_INVALID;
 }
 

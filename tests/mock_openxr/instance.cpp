@@ -62,7 +62,7 @@ XrResult XRAPI_CALL destroy(XrInstance handle) {
     constexpr const char* name = "xrDestroyInstance";
     State& s = state();
     const std::unique_lock lock(s.mutex);
-    ++s.calls[name];
+    const XrResult success = enter_destroying(s, name);
     if (!s.instance || id_of(handle) != s.instance->id)
         return refuse(s, name, XR_ERROR_HANDLE_INVALID,
                       s.ended.count(id_of(handle)) != 0 ? "destroys an object twice"
@@ -78,7 +78,7 @@ XrResult XRAPI_CALL destroy(XrInstance handle) {
     leaked(instance.trackers.size(), "hand tracker(s)");
     drop_instance(s);
     write_report(s);
-    return XR_SUCCESS;
+    return success;
 }
 
 XrResult XRAPI_CALL get_properties(XrInstance, XrInstanceProperties* properties) {

@@ -201,7 +201,7 @@ void run_command(State& s, const Words& words) {
         const auto result = static_cast<XrResult>(static_cast<int>(arguments.number()));
         s.injected[function] = {result, static_cast<int>(arguments.number()), 0};
     } else if (command == "picture") {
-        s.script.pictures.push_back(arguments.text());
+        s.script.requested.push_back(arguments.text());
     } else if (command == "exit") {
         play(s, Event::exit_by_user);
     } else {
@@ -269,7 +269,10 @@ void run_commands(State& s, std::uint64_t frame) {
 }
 
 void write_pictures(State& s, const Frame& frame) {
-    for (const std::string& name : std::exchange(s.script.pictures, {})) write_picture(s, frame, name);
+    std::multimap<XrTime, std::string>& pictures = s.script.pictures;
+    const auto end = pictures.upper_bound(frame.time);
+    for (auto picture = pictures.begin(); picture != end; ++picture) write_picture(s, frame, picture->second);
+    pictures.erase(pictures.begin(), end);
 }
 
 }  // namespace bolt::mock

@@ -20,15 +20,16 @@ struct Script {
     std::string file;
     std::multimap<std::uint64_t, ScriptLine> lines;  // by frame
     std::uint64_t frame = 0;                         // of the next commands
-    std::vector<std::string> pictures;               // files to be written when the frame ends
-    std::string report;                              // file; empty: none
+    std::vector<std::string> requested;           // files of pictures, for the next frame that is waited for
+    std::multimap<XrTime, std::string> pictures;  // the same by the frame's display time
+    std::string report;                           // file; empty: none
 };
 
 // Reads the file. A line without a frame number is a violation.
 Script load_script(State& s, const std::string& file);
 // Runs the commands of this frame. A command that is not understood is a violation.
 void run_commands(State& s, std::uint64_t frame);
-// Writes the frame's pictures to the files that were requested for it.
+// Writes the frame's pictures to the files that were requested for it or for an earlier frame without any.
 void write_pictures(State& s, const Frame& frame);
 
 }  // namespace bolt::mock

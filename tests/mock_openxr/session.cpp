@@ -52,7 +52,7 @@ XrResult XRAPI_CALL destroy_session(XrSession handle) {
     constexpr const char* name = "xrDestroySession";
     State& s = state();
     const std::unique_lock lock(s.mutex);
-    ++s.calls[name];
+    const XrResult success = enter_destroying(s, name);
     if (!s.instance || !s.instance->session || s.instance->session->id != id_of(handle))
         return refuse(s, name, XR_ERROR_HANDLE_INVALID,
                       s.ended.count(id_of(handle)) != 0 ? "destroys an object twice"
@@ -60,7 +60,7 @@ XrResult XRAPI_CALL destroy_session(XrSession handle) {
     if (s.instance->session->waiting) violate(s, name, "is called while a thread is inside xrWaitFrame");
     drop_session(s, true);
     for (auto& [id, set] : s.instance->sets) set.attached = false;
-    return XR_SUCCESS;
+    return success;
 }
 
 XrResult XRAPI_CALL begin_session(XrSession, const XrSessionBeginInfo* info) {
@@ -180,9 +180,9 @@ XrResult XRAPI_CALL destroy_space(XrSpace handle) {
     constexpr const char* name = "xrDestroySpace";
     State& s = state();
     const std::unique_lock lock(s.mutex);
-    ++s.calls[name];
+    const XrResult success = enter_destroying(s, name);
     if (!s.instance) return refuse(s, name, XR_ERROR_HANDLE_INVALID, "is called without an instance");
-    return remove(s, name, s.instance->spaces, handle, Kind::space) ? XR_SUCCESS : XR_ERROR_HANDLE_INVALID;
+    return remove(s, name, s.instance->spaces, handle, Kind::space) ? success : XR_ERROR_HANDLE_INVALID;
 }
 
 XrResult XRAPI_CALL locate_space(XrSpace handle, XrSpace base_handle, XrTime time,

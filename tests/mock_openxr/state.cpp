@@ -59,6 +59,26 @@ XrTime now(const State& s) {
     return XrTime{t.tv_sec} * 1'000'000'000 + t.tv_nsec;
 }
 
+namespace {
+
+std::optional<XrResult> take_injected(State& s, std::string_view function) {
+    const auto found = s.injected.find(function);
+    if (found == s.injected.end() || found->second.count <= 0) return std::nullopt;
+    if (found->second.skip > 0) {
+        --found->second.skip;
+        return std::nullopt;
+    }
+    --found->second.count;
+    return found->second.result;
+}
+
+}  // namespace
+
+XrResult enter_destroying(State& s, std::string_view function) {
+    ++s.calls[std::string(function)];
+    return take_injected(s, function).value_or(XR_SUCCESS);
+}
+
 std::optional<XrResult> enter(State& s, std::string_view function, Level level) {
     ++s.calls[std::string(function)];
     if (level != Level::global && !s.instance)
@@ -74,14 +94,9 @@ std::optional<XrResult> enter(State& s, std::string_view function, Level level) 
             violate(s, function, "is called after the loss; expected only destroying");
         return instance_lost ? XR_ERROR_INSTANCE_LOST : XR_ERROR_SESSION_LOST;
     }
-    const auto found = s.injected.find(function);
-    if (found == s.injected.end() || found->second.count <= 0) return std::nullopt;
-    if (found->second.skip > 0) {
-        --found->second.skip;
-        return std::nullopt;
-    }
-    --found->second.count;
-    const XrResult result = found->second.result;
+    const std::optional<XrResult> injected = take_injected(s, function);
+    if (!injected) return std::nullopt;
+    const XrResult result = *injected;
     if (result == XR_ERROR_INSTANCE_LOST && instance != nullptr) instance->lost = true;
     if (result == XR_ERROR_SESSION_LOST && instance != nullptr && instance->session)
         instance->session->lost = true;

@@ -162,6 +162,9 @@ void drop_session(State& s, bool vulkan);
 enum class Level : std::uint8_t { global, instance, session };
 std::optional<XrResult> enter(State& s, std::string_view function, Level level);
 
+// The same for a function that destroys, also after a loss: what it returns if it succeeds.
+XrResult enter_destroying(State& s, std::string_view function);
+
 // Runs `body(State&, std::unique_lock<std::mutex>&)` for a call of the client.
 template <class Body>
 XrResult call(std::string_view function, Level level, const Body& body) {

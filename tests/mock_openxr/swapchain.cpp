@@ -53,14 +53,14 @@ XrResult XRAPI_CALL destroy_swapchain(XrSwapchain handle) {
     constexpr const char* name = "xrDestroySwapchain";
     State& s = state();
     const std::unique_lock lock(s.mutex);
-    ++s.calls[name];
+    const XrResult success = enter_destroying(s, name);
     if (!s.instance) return refuse(s, name, XR_ERROR_HANDLE_INVALID, "is called without an instance");
     const auto found = s.instance->swapchains.find(id_of(handle));
     // The validation layers report an image that is still in use.
     if (found != s.instance->swapchains.end())
         for (const SwapchainImage& image : found->second.images)
             destroy_image(s.instance->session->vulkan, image);
-    return remove(s, name, s.instance->swapchains, handle, Kind::swapchain) ? XR_SUCCESS
+    return remove(s, name, s.instance->swapchains, handle, Kind::swapchain) ? success
                                                                             : XR_ERROR_HANDLE_INVALID;
 }
 

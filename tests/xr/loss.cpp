@@ -80,6 +80,24 @@ TEST_CASE("Headset: a loss in any call of a frame makes it absent, and it is fou
         }
 }
 
+TEST_CASE("Headset: a loss between drawing and submitting keeps the images until the GPU has finished") {
+    for (const XrResult loss : losses) {
+        const test::MockRuntime mock;
+        test::Program program;
+        REQUIRE(program.connect());
+        (void)program.focus();
+        (void)program.frame();
+        program.while_drawing = [&] {
+            mock->fail_next("xrApplyHapticFeedback", loss, 1);
+            program.headset().vibrate(xr::Side::left, {0.5F, 0.0F, 0.1});
+            program.headset().vibrate(xr::Side::left, {0.5F, 0.0F, 0.1});
+        };
+        CHECK(program.frame().has_value());
+        program.while_drawing = {};
+        check_lost_and_found(mock, program);
+    }
+}
+
 TEST_CASE("Headset: a loss while the session begins makes it absent, and it is found again") {
     for (const char* function : begin_functions)
         for (const XrResult loss : losses) {

@@ -125,6 +125,22 @@ TEST_CASE("Mock: xrWaitFrame blocks until the last frame has begun, for one thre
     CHECK(violations[0] == "xrWaitFrame: is called by two threads at once");
 }
 
+TEST_CASE("Mock: a session that is destroyed while a thread waits for its frame is found") {
+    const test::MockRuntime mock;
+    test::DirectClient client;
+    client.run_session();
+    mock->block_wait(true);
+    XrResult waited = XR_SUCCESS;
+    std::thread other([&] { waited = client.wait_frame(); });
+    CHECK(test::eventually([&] { return mock->waiting(); }));
+    mock->fail_next("xrDestroySession", XR_ERROR_RUNTIME_FAILURE, 1);
+    test::expect_violation(mock, client.call<PFN_xrDestroySession>("xrDestroySession", client.session),
+                           XR_ERROR_RUNTIME_FAILURE,
+                           "xrDestroySession: is called while a thread is inside xrWaitFrame");
+    other.join();
+    CHECK(waited == XR_ERROR_SESSION_LOST);
+}
+
 TEST_CASE("Mock: the order of acquire, wait and release is checked") {
     const test::MockRuntime mock;
     test::DirectClient client;

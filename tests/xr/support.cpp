@@ -143,6 +143,7 @@ std::optional<xr::HeadsetFrame> Program::frame() {
     if (frame->timing.should_render && !frame->view.eyes.empty()) {
         VkCommandBuffer commands = begin_commands();
         headset_->record(commands, pictures_);
+        if (while_drawing) while_drawing();
         REQUIRE(vkEndCommandBuffer(commands) == VK_SUCCESS);
         VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
         submit.commandBufferCount = 1;

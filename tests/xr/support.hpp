@@ -2,6 +2,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ class Program {
     // What frame() submits; the default is a picture of the recommended size in one colour for each eye.
     void set_pictures(std::vector<xr::EyePicture> pictures) { pictures_ = std::move(pictures); }
     void set_depth_range(const xr::DepthRange& range) { depth_ = range; }
+    // Is called in each frame between the recording of the pictures and their submission.
+    std::function<void()> while_drawing;
     // Makes an image with these texels, a layer after the other, in use `transfer_from`. It lives until
     // disconnect() or the next connect().
     const gpu::Image& make_image(VkFormat format, VkExtent2D extent, std::uint32_t layers,
