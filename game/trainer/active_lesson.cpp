@@ -169,17 +169,20 @@ void log_events(ActiveLesson& active, std::span<const lesson::LessonEvent> event
 }
 
 // After each tick: updates plot, effort, log and sound from the components.
-void after_tick(const scene::SceneWorld& world, ActiveLesson& active) {
+void after_tick(const scene::SceneWorld& world, ActiveLesson& active, const servo::Output& output) {
     const session::LessonSession& session = *active.session;
     if (world.only<world::WorkingHand>().wrench) observe(active.plot, session.lesson(), world);
     scene::update_effort(active.effort, session.setup(), world);
     log_events(active, session.events());
     const sound::LessonCues cues = sound::lesson_cues(session.events());
     if (active.sound.live) active.sound.live->add_tick(world, cues);
-    if (active.sound.captions)
-        observe(*active.sound.captions,
-                sound::detect_events(active.sound.detector, session.setup(), world, cues),
-                session.setup().dt);
+    const sound::SoundCues heard = sound::detect_events(active.sound.detector, session.setup(), world, cues);
+    if (active.sound.captions) observe(*active.sound.captions, heard, session.setup().dt);
+    const lesson::LessonStep* due = session.lesson().due();
+    const double target = due != nullptr ? due->torque : 0.0;
+    servo::advance_vibration(active.vibration.state, active.vibration.options,
+                             servo::vibration_input(output, target, static_cast<double>(heard.strike_speed)),
+                             session.setup().dt);
 }
 
 bool continues(const ActiveLesson& active) { return continues(active.undo, *active.session); }
@@ -220,7 +223,7 @@ void step_ticks(scene::SceneWorld& world, Frame& frame) {
             frame.status = fail(output.error());
             break;
         }
-        after_tick(world, active);
+        after_tick(world, active, *output);
     }
     const WorkingHand hand = write_hand(world, hand_of(active.mouse));
     if (hand.action == HandAction::reaching)
@@ -237,7 +240,7 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
         const bool free = contact_of(active).joint < 0;
         frame.status = active.session->repeat(world, tick.input, tick.output);
         if (tick.output.joint >= 0 && free) client.nut_angle_at_grip = tick.output.nut_angle;
-        if (frame.status) after_tick(world, active);
+        if (frame.status) after_tick(world, active, tick.output);
     }
     if (client.link->lost_ticks() > 0 && continues(active) && frame.status)
         frame.status =
@@ -257,6 +260,15 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
     write_glove(world, client);
 }
 
+void vibrate_controller(ActiveLesson& active, const Frame& frame) {
+    if (!frame.room || !frame.room->vibrate || !active.station || !active.station->tracked) return;
+    const auto command = servo::next_vibration(active.vibration.state, active.vibration.options);
+    if (!command) return;
+    frame.room->vibrate(
+        active.station->tracked->side,
+        {static_cast<float>(command->amplitude), static_cast<float>(command->frequency), command->duration});
+}
+
 }  // namespace
 
 void tick_system(scene::SceneWorld& world, Frame& frame) {
@@ -266,6 +278,7 @@ void tick_system(scene::SceneWorld& world, Frame& frame) {
     else
         step_ticks(world, frame);
     active.clock.finished = active.clock.finished || !continues(active);
+    vibrate_controller(active, frame);
 }
 
 void placement_system(scene::SceneWorld& world, Frame& frame) {

@@ -2,6 +2,7 @@
 // frame.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -25,6 +26,7 @@
 #include "game/view/camera.hpp"
 #include "game/view/labels.hpp"
 #include "game/world/world.hpp"
+#include "haptics/servo/vibration.hpp"
 
 namespace bolt::trainer {
 
@@ -75,6 +77,12 @@ struct LessonSound {
     std::optional<Captions> captions;  // none: disabled
 };
 
+// Vibration of the controller in the working hand (docs/vibration.md).
+struct LessonVibration {
+    servo::VibrationOptions options;
+    servo::VibrationState state;
+};
+
 struct ActiveLesson {
     std::unique_ptr<session::LessonSession> session;
     std::optional<StationClient> station;  // none: the mouse moves the hand
@@ -95,6 +103,7 @@ struct ActiveLesson {
     Coaching coaching;
     ForceDisplay force;
     LessonSound sound;
+    LessonVibration vibration;
     StepUndo undo;
     TorquePlot plot;
     std::vector<lesson::Verdict> verdicts;    // of the joints, after the end of the lesson
@@ -114,9 +123,10 @@ inline const world::ContactState& contact_of(const ActiveLesson& active) {
 
 // The user's head and hands in a room, for a display that surrounds the user.
 struct RoomInput {
-    Pose room;                         // its frame in the assembly's
-    Pose head;                         // in the room
-    const xr::Hands* hands = nullptr;  // in the room
+    Pose room;                                                    // its frame in the assembly's
+    Pose head;                                                    // in the room
+    const xr::Hands* hands = nullptr;                             // in the room
+    std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
 };
 
 // Input and result of the systems of one frame.

@@ -133,6 +133,7 @@ void App::apply_preferences() {
     active.input.keys = preferences_.keys;
     active.sound.volume = settings.volume;
     active.force.enabled = settings.force_arrow;
+    active.vibration.options.gain = settings.vibration;
     active.palette = view::palette_of(settings.palette);
     if (settings.captions != active.sound.captions.has_value())
         active.sound.captions = settings.captions ? std::optional(Captions{}) : std::nullopt;
@@ -231,7 +232,8 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
                 {},
                 {}};
     if (room_ && window.immersion != nullptr)
-        frame.room = RoomInput{inverse(scene_in_room()), window.immersion->head, &window.immersion->hands};
+        frame.room = RoomInput{inverse(scene_in_room()), window.immersion->head, &window.immersion->hands,
+                               window.immersion->vibrate};
     const bool waits_for_arm = active.station && active.station->waits_for_arm;
     if (frame.input.triggered(Action::pause) && in_lesson && !waits_for_arm)
         active.clock.paused = !active.clock.paused;

@@ -1,6 +1,10 @@
 // Lessons in a room: head and hands of a headset, without the headset.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <utility>
+#include <vector>
+
 #include "tests/room/trainee_in_room.hpp"
 #include "tests/trainer/one_joint.hpp"
 
@@ -88,26 +92,35 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
     driver.frame();
     driver.draws = false;
     REQUIRE(driver.lesson().station);
+    std::vector<std::pair<double, xr::Vibration>> felt;  // time of the lesson, s
+    driver.immersion->vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
+        CHECK(side == xr::Side::right);
+        felt.emplace_back(driver.lesson().session->time(), vibration);
+    };
+    double tightening = 0.0;  // s, when the jaw first holds the nut
     test::TraineeInRoom trainee(driver);
-    if (std::getenv("BOLT_ROOM_TRACE") != nullptr)
-        trainee.on_frame = [&, count = 0]() mutable {
-            if (++count % 25 != 0) return;
-            const auto& active = driver.lesson();
-            const auto& hand = hand_of(active);
-            const auto& tip = active.station->tracked->fingertips.position;
-            const auto& joint = active.session->state().joints[0];
-            std::printf(
-                "%6.2f step %zu engaged %d wrench %d closing %.2f tips %.3f %.3f %.3f tool %.3f %.3f %.3f "
-                "nut %.2f stage %d torque %.2f dm %d grip %d\n",
-                active.session->time(), active.session->lesson().current,
-                active.session->state().engagement.joint, hand.wrench, hand.closing, tip.x, tip.y, tip.z,
-                hand.pose.position.x, hand.pose.position.y, hand.pose.position.z, joint.nut.angle,
-                static_cast<int>(joint.stage), joint.torque, active.station->latest.dead_man_pressed,
-                static_cast<int>(active.station->latest.input.grip));
-        };
+    trainee.on_frame = [&] {
+        if (tightening == 0.0 && hand_of(driver.lesson()).wrench &&
+            driver.lesson().session->state().engagement.joint >= 0)
+            tightening = driver.lesson().session->time();
+    };
     trainee.play(120.0);
     CHECK(driver.app().screen() == ShownScreen::result);
     REQUIRE(driver.outcome());
     CHECK(driver.outcome()->result.joints.front().overall == lesson::Verdict::ok);
+    // The nut clicks by under the fingers, and the load grows under the wrench.
+    const auto strongest = [&](double from, double to) {
+        float most = 0.0F;
+        for (const auto& [time, vibration] : felt)
+            if (time >= from && time < to) most = std::max(most, vibration.amplitude);
+        return most;
+    };
+    REQUIRE(tightening > 5.0);
+    CHECK(std::count_if(felt.begin(), felt.end(), [&](const auto& one) { return one.first < tightening; }) >
+          20);
+    CHECK(strongest(0.0, 5.0) > 0.0F);
+    CHECK(strongest(tightening, 1e9) > strongest(0.0, 5.0));
+    for (const auto& [time, vibration] : felt)
+        CHECK((vibration.amplitude > 0.0F && vibration.amplitude <= 1.0F));
     MESSAGE("score " << driver.outcome()->result.score << ", approaches " << trainee.approaches);
 }
