@@ -336,8 +336,9 @@ void App::follow_room(const view::Immersion* immersion, std::vector<platform::In
     const bool lesson = active_ && screen_ == ShownScreen::lesson;
     const bool seen = immersion == nullptr || immersion->attentive;
     if (immersion == nullptr) {
-        // The trainee's hands are gone with the headset, but the lesson can be ended at the window.
-        if (room_ && lesson && active_->station && active_->station->tracked) active_->clock.paused = true;
+        // The trainee suddenly sees nothing: no device may push, and a tracked hand is gone. The lesson can
+        // be continued or ended at the window.
+        if (room_ && lesson && active_->station) active_->clock.paused = true;
         room_.reset();
         return;
     }

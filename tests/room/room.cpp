@@ -124,3 +124,28 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
         CHECK((vibration.amplitude > 0.0F && vibration.amplitude <= 1.0F));
     MESSAGE("score " << driver.outcome()->result.score << ", approaches " << trainee.approaches);
 }
+
+TEST_CASE("Room: a lesson pauses while its user does not see it, and when the headset is lost") {
+    HeadlessTrainer driver(tracked_hand("first-nut"), {eye_size, 0.3F, 0.02});
+    driver.draws = false;
+    driver.immersion = test::standing_user(eye_size);
+    test::TraineeInRoom trainee(driver);
+    driver.frame();
+    trainee.hold_still(0.2, 0.0);
+    REQUIRE_FALSE(driver.lesson().clock.paused);
+    driver.immersion->attentive = false;
+    trainee.hold_still(0.1, 0.0);
+    CHECK(driver.lesson().clock.paused);
+    const double then = driver.lesson().session->time();
+    trainee.hold_still(0.3, 0.0);
+    CHECK(driver.lesson().session->time() - then < 0.05);
+    driver.immersion->attentive = true;
+    trainee.hold_still(0.1, 0.0);
+    CHECK_FALSE(driver.lesson().clock.paused);
+    driver.immersion.reset();
+    driver.frame();
+    CHECK(driver.lesson().clock.paused);
+    CHECK_FALSE(driver.app().room());
+    driver.frame();
+    CHECK(glm::length(driver.lesson().station->latest.output.force) == 0.0);
+}
