@@ -91,7 +91,7 @@ TEST_CASE("Hands: pinch and grasp are bound if the runtime has them") {
                    std::string(hand_profile) + " select /user/hand/left/input/pinch_ext/value"));
     mock->set_hand(mock::Side::right, held(hand_profile));
     (void)program.focus();
-    const xr::HandInput& hand = hands_of(program)[xr::Side::right];
+    const xr::HandInput hand = hands_of(program)[xr::Side::right];
     CHECK(hand.select == 0.75F);
     CHECK(hand.grasp == 0.25F);
 }
