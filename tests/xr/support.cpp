@@ -57,7 +57,7 @@ void Program::disconnect() {
 }
 
 bool Program::connect() {
-    now_ += 2.0;
+    now_ += 100.0;  // after a session that did not start, it searches less often
     if (!headset_->find(now_)) return false;
     if (device_ != nullptr) {
         need(device_->idle());
