@@ -76,7 +76,7 @@ constexpr double recheck_turn = to_radians(0.2);  // nut angle by which a re-che
 constexpr double turning_speed = 0.01;            // rad/s
 constexpr double wrong_way = to_radians(5.0);     // nut angle; more than play and the wrench's elasticity
 constexpr std::uint64_t assessment_end_ticks = 3000;
-constexpr std::uint64_t regrip_ticks = 1000;  // gap within which a finger re-grip continues the visit
+constexpr std::uint64_t regrip_ticks = 1000;  // gap within which a grip by fingers continues the hold
 constexpr double working_torque = 0.5;        // N·m; less is only a touch
 
 using world::joint_at;
@@ -157,7 +157,7 @@ void report_out_of_turn(Lesson& lesson, std::size_t joint, const world::ReadHapt
 }
 
 void engage(Lesson& lesson, int joint, servo::Grip grip, const world::ReadHaptics& world) {
-    // Spinning a nut needs repeated grips; they are one visit.
+    // Fingers spin a nut with many short grips, so `worked` stays set in a grip that soon follows the last.
     const bool again = grip == servo::Grip::fingers && lesson.grip == grip &&
                        lesson.last_held_joint == joint && tick_of(world) - lesson.released_at < regrip_ticks;
     lesson.held_joint = joint;
@@ -199,9 +199,10 @@ void begin_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& wor
     report_out_of_turn(lesson, joint, world);
 }
 
-// Updates the turning torque in any step, without the share of breakaway: a nut that is turned in small
-// increments breaks away each time. `breakaway` (r in mechanistic.hpp) applies to the friction part only, so
-// this subtracts slightly too much. A nut that leaves its seat resets the torque.
+// Updates the torque that turned the nut, in a step of any kind. Divides by the breakaway factor (r in
+// mechanistic.hpp), because a nut that is turned in small increments breaks away each time. The factor
+// applies to friction only and the whole torque is divided by it, so the result is slightly too low. A nut
+// that leaves its seat resets the torque.
 void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint& joint, double work) {
     JointTrack& track = lesson.joints[index];
     if (lesson.task != Task::tighten) return;
@@ -210,8 +211,9 @@ void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint&
         track.turned_torque = track.result.torque = track.result.angle = 0.0;
     }
     const double ratio = lesson.assembly->joints[index].design.friction.static_ratio;
-    const double breakaway = 1.0 + (ratio - 1.0) * joint.breakaway;
-    if (joint.speed > turning_speed) track.turned_torque = std::max(track.turned_torque, work / breakaway);
+    const double breakaway_factor = 1.0 + (ratio - 1.0) * joint.breakaway;
+    if (joint.speed > turning_speed)
+        track.turned_torque = std::max(track.turned_torque, work / breakaway_factor);
 }
 
 // Reports excess torque, once until the nut leaves its seat. Breakaway torque does not turn the nut and does
@@ -226,7 +228,7 @@ void report_excess_torque(Lesson& lesson, std::size_t joint, std::uint64_t tick)
                 fmt::format("{} was turned with more than {:.1f} N·m", track.result.id, highest));
 }
 
-// Reports a nut that is turned the wrong way, once a visit. After excess torque it reports nothing, because
+// Reports a nut that is turned the wrong way, once a hold. After excess torque it reports nothing, because
 // turning back is then the correction.
 void report_wrong_way(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     JointTrack& track = lesson.joints[joint];

@@ -57,7 +57,9 @@ bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, dou
 // In assessment, work on the next joint ends the due step, fulfilled or not. In other modes the step
 // stays due.
 
-// The record of one joint between ticks. A visit lasts while the hand holds the nut.
+// The record of one joint between ticks. A hold lasts from the tick in which the hand engages the nut until
+// it releases it; an analysis::Visit may have several. For `worked` alone, finger grips that follow each
+// other within a second count as one hold.
 struct JointTrack {
     JointResult result;
     bool snug = false;           // the snug torque has been reached
@@ -67,11 +69,11 @@ struct JointTrack {
     double begin_angle = 0.0;    // rad, nut angle when the step began
     bool yielded = false;        // the yield stage was reached
     bool clicked = false;        // the torque wrench clicked in the due step
-    bool worked = false;         // the hand has loaded or turned the nut in this visit
-    double furthest = 0.0;       // rad, extreme nut angle of this visit: highest if tightening, else lowest
+    bool worked = false;         // the hand has loaded or turned the nut in this hold
+    double furthest = 0.0;       // rad, extreme nut angle of this hold: highest if tightening, else lowest
     bool seated = false;         // the nut was on its seat at `furthest`
-    bool turned_back = false;    // turning the wrong way was reported in this visit
-    int wrong_way_count = 0;     // visits in which it was turned the wrong way
+    bool turned_back = false;    // turning the wrong way was reported in this hold
+    int wrong_way_count = 0;     // holds in which it was turned the wrong way
     bool over_torqued = false;   // excess torque was reported since the nut was last off its seat
     int over_torque_count = 0;   // this and slip_count: totals, which undoing a step does not reduce
     int slip_count = 0;

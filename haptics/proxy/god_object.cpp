@@ -115,8 +115,9 @@ class Stepper {
     ContactQuery query(const Pose& pose, double free = 0.0) {
         const double band = std::clamp(free, p_.stride, p_.reach);
         const ContactQuery found = query_contacts(finder_, pose, band + p_.skin + query_margin);
-        // The first query, at the pose where the last tick ended, is not charged: a caller with a cache
-        // answers it without work, and without a cache it must not cost motion.
+        // The first query, at the pose where the last tick ended, is not charged if its band is one stride: a
+        // finder with a cache returns its contacts without work, and without a cache it must not cost motion.
+        // A wider band is charged, because it replaces later queries.
         if (++step_.queries > 1 || band > p_.stride) charged_work_ += found.work;
         step_.work += found.work;
         return found;

@@ -52,10 +52,10 @@ struct GodObjectParameters {
     double stride = 0.4e-3;
     double reach = 5e-3;     // m, widest band of a query
     double recovery = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
-    // Budget per tick: the number of queries, and their work (ContactQueryResult::work). The first query, at
-    // the pose of the last tick, is not charged, and `work` limits only queries after the tick's first
-    // motion. Once the budget is spent, the tool moves only as far as earlier queries proved free, and
-    // continues in the next tick.
+    // Budget per tick: the number of queries, and their work (ContactQueryResult::work). The work of the
+    // first query, at the pose of the last tick, is charged only if its band is wider than a stride, and
+    // `work` limits only queries after the tick's first motion. Once the budget is spent, the tool moves only
+    // as far as earlier queries proved free, and continues in the next tick.
     int queries = 5;
     std::uint32_t work = 800;
 };

@@ -1,5 +1,5 @@
-// Plays a lesson with the device that `boltwright train --device auto` finds, in the time of the computer:
-// the trainer, its threads and the driver are those of the program, the vendor's library is the emulated one,
+// Plays a lesson with the device that `boltwright train --device auto` finds, in real time: the
+// trainer, its threads and the driver are those of the program, the vendor's library is the emulated one,
 // and a simulated trainee holds the arm. It corrects what it sees in each picture, as a person does.
 //
 //   BOLTWRIGHT_PLAY="VENDOR ASSEMBLY" test_arm_at_desk    VENDOR: force-dimension, open-haptics or haply
@@ -201,13 +201,13 @@ std::unique_ptr<HeldArm> connect(const std::string& vendor, const fs::path& fold
         fs::create_directories(folder / "lib/release/lin-x86_64-gcc");
         fs::create_symlink(BOLT_EMULATED_FORCE_DIMENSION, folder / "lib/release/lin-x86_64-gcc/libdrd.so.3");
         setenv("FDSDK", folder.c_str(), 1);
-        return force_dimension_arm(false, ArmClock::computer);
+        return force_dimension_arm(false, ArmClock::real_time);
     }
     if (vendor == "open-haptics") {
         fs::create_directories(folder / "lib");
         fs::create_symlink(BOLT_EMULATED_OPEN_HAPTICS, folder / "lib/libHD.so.3.4");
         setenv("OH_SDK_BASE", folder.c_str(), 1);
-        return open_haptics_arm(ArmClock::computer);
+        return open_haptics_arm(ArmClock::real_time);
     }
     REQUIRE_MESSAGE(vendor == "haply", "expected force-dimension, open-haptics or haply");
     emulate::EmulatedHaplyOptions options;

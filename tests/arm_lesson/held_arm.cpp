@@ -156,7 +156,7 @@ std::unique_ptr<HeldArm> force_dimension_arm(bool active, ArmClock clock) {
         c->force(out);
         return force::OutputCommand{ours(out), ours(out + 3)};
     };
-    if (clock == ArmClock::computer) return arm;
+    if (clock == ArmClock::real_time) return arm;
     const auto api = device::load_force_dimension({BOLT_EMULATED_FORCE_DIMENSION});
     REQUIRE(api);
     arm->timer = advancing_timer(held->now, c->advance);
@@ -196,7 +196,7 @@ std::unique_ptr<HeldArm> open_haptics_arm(ArmClock clock) {
         c->force(out);
         return force::OutputCommand{{out[0], out[1], out[2]}, {out[3], out[4], out[5]}};
     };
-    if (clock == ArmClock::computer) return arm;
+    if (clock == ArmClock::real_time) return arm;
     const auto api = device::load_open_haptics({BOLT_EMULATED_OPEN_HAPTICS});
     REQUIRE(api);
     arm->timer = advancing_timer(held->now, c->advance);

@@ -30,14 +30,14 @@ struct HeldArm {
     std::vector<ArmFault> faults;
 };
 
-// In the time of the computer the arm is that of the program that loads the library; `open`, `timer` and
+// In real time the arm is that of the program that loads the library; `open`, `timer` and
 // `faults` are then empty.
-enum class ArmClock : std::uint8_t { virtual_time, computer };
+enum class ArmClock : std::uint8_t { virtual_time, real_time };
 
 // `active`: with motors in its wrist.
 std::unique_ptr<HeldArm> force_dimension_arm(bool active, ArmClock clock = ArmClock::virtual_time);
 std::unique_ptr<HeldArm> open_haptics_arm(ArmClock clock = ArmClock::virtual_time);
-// By the messages of Haply's service, without its sockets and threads: these run in the computer's time
+// By the messages of Haply's service, without its sockets and threads: these run in real time
 // (tests/device/haply.cpp).
 std::unique_ptr<HeldArm> haply_arm();
 // That of `train --device simulated-arm`, in virtual time.

@@ -1,5 +1,5 @@
-// An emulated Haply service on this computer, with one Inverse3 and a grip (haply_model.hpp), in the time of
-// the computer.
+// An emulated Haply service on this computer, with one Inverse3 and a grip (haply_model.hpp), in real
+// time.
 #pragma once
 
 #include <memory>
