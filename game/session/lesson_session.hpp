@@ -70,9 +70,10 @@ void set_device_limits(const LessonOptions& options, SessionSetup& start);
 // A lesson that follows the ticks of the session's own servo, or of a station's.
 struct LessonTracker {
     lesson::Lesson lesson;
-    // Number of steps begun. The servo saves one checkpoint for each (servo::State::checkpoint_count). A
-    // station's servo saves it some ticks late. Until then the newest checkpoint belongs to the previous
-    // step: restoring it begins the previous step again, and each older one a step further back.
+    // The number of steps begun, less those that undo took back. The servo saves one checkpoint at the begin
+    // of each step, so this equals servo::State::checkpoint_count once the last one is saved. A station's
+    // servo saves it some ticks late. Until then the newest checkpoint is that of the previous step, and
+    // restoring it begins the previous step again.
     std::uint32_t steps_begun = 0;
 };
 
@@ -121,8 +122,9 @@ class LessonSession {
     // Repeats a tick that a station's servo has computed from the same initial state, and compares the
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::Input& input, const servo::Output& output);
-    // The number of checkpoints that the servo should have saved since the start: this session's own servo in
-    // step(), the station's servo if its ticks are repeated.
+    // The number of times that the servo must have saved a checkpoint by now: the times that it did, plus one
+    // for each step whose checkpoint is not saved yet. Undo does not reduce it. A caller of repeat() sends
+    // the station one station::SaveCheckpoint each time that this number rises by one; step() does it itself.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - current_.state.checkpoint_count;
     }
@@ -163,7 +165,7 @@ class LessonSession {
 
     SessionSetup current_;  // its state advances with each tick
     LessonTracker tracker_;
-    std::uint32_t checkpoints_saved_ = 0;  // since the start
+    std::uint32_t checkpoints_saved_ = 0;  // times since the start; undo does not reduce it
     std::optional<std::size_t> requested_undo_;
     std::vector<lesson::LessonEvent> events_;
     std::optional<SessionWriter> writer_;

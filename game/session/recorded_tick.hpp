@@ -61,8 +61,9 @@ bool is_valid(const TickRecord& record);
 // little-endian) and one zstd frame with a checksum. The frame stores the ticks by column. A value is stored
 // as the difference of its bits from the previous value's (the first one from zero), zigzag-encoded, so that
 // small steps up or down have high zero bits. Each column is split into byte planes, lowest bytes first.
-// Version 1 ends with the clamp force, version 2 with the fault, version 3 with the undo; the columns that
-// are missing get their defaults.
+// Each version adds columns at the end: version 1 ends with the clamp force, 2 with the fault, 3 with the
+// checkpoint action, 4 with the set torque. Version 4 is written. In an older chunk the missing columns have
+// their defaults.
 
 // The greatest number of ticks in a chunk: one second at the shortest tick, 10 µs. A larger count is damage.
 inline constexpr std::size_t max_chunk_ticks = 100'000;

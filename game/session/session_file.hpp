@@ -81,8 +81,8 @@ std::string servo_text(double rate);
 //   `trainee` is set                  person if `trainee_profile` is "person", otherwise simulated
 //   `view_help` is set                simulated: only sessions of simulated trainees record it
 //   `trainee_profile` is "person"     person
-//   `tool` is not empty               person: since format 4, which records the tool, sessions of simulated
-//                                     trainees record the view help too
+//   `tool` is not empty               person: the format is 4 or newer, in which every session of a simulated
+//                                     trainee has `view_help`
 //   none of these                     unrecorded
 TraineeKind trainee_kind(const Header& header);
 

@@ -1,12 +1,16 @@
 // The mechanistic law: one continuous state per joint for tightening and loosening, re-use, yield, stripping
 // and breaking. Sources stand beside each part; what is ours is marked so. All SI.
 //
-//   closure     x = P θ/2π − gap − plastic − stripped − embedding − closure taken up by the neighbours
-//   clamp force F from x: seat_spring.hpp, δ from VDI 2230 (design.hpp)
-//   torque      T = F P/2π ± r F (μ_G r_t/cos β + μ_K r_b) ± thread drag: design.hpp (Motosh)
-//   yield       F q ≤ Y(plastic), q von Mises of tension and thread torque: design.hpp, PlasticCurve
-//   r           breakaway: 1 + (static ratio − 1) breakaway; breakaway heals at rest and wears off with
-//   sliding
+//   x   closure, m: how far the elastic parts are pressed together; negative while there is a gap.
+//       x = P θ/2π − gap − plastic − stripped − embedding − closure by the neighbours
+//       θ is the nut's angle, P the pitch; the other terms are members of MechanisticState and
+//       MechanisticParameters
+//   F   clamp force, a function of x (seat_spring.hpp) with the compliance δ of VDI 2230 (design.hpp)
+//   T   torque: T = F P/2π ± r F (μ_G r_t/cos β + μ_K r_b) ± thread drag (design.hpp, Motosh)
+//   r   breakaway factor on friction: r = 1 + (static ratio − 1) b. The breakaway state b, 0 … 1, rises to 1
+//       at rest and falls to 0 while the nut slides
+//   Y   yield: F q ≤ Y(plastic). q is the von Mises stress of tension and thread torque over the tensile
+//       stress (design.hpp), Y the load capacity (PlasticCurve)
 #pragma once
 
 #include <cstdint>

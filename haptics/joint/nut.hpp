@@ -68,10 +68,12 @@ struct NutStep {
 // velocity step (Moreau's time stepping) resolves it in closed form: stand, turn on or turn off, whichever is
 // consistent.
 //
-// `inertia`: kg·m² about the bolt while the spring is wound, see coupling_inertia(); inside the play the
-// nut's own small inertia acts. A slope of the resistance below −(0.9 inertia/dt² + stiffness), in N·m/rad,
-// which occurs while a joint is loosened, would make the step unstable. The step then uses that value as the
-// slope, and the nut turns less than it should.
+// `inertia` (kg·m² about the bolt) acts while the spring of the drive is wound; see coupling_inertia().
+// Inside the play the nut's own inertia acts, which is much smaller.
+//
+// The step is stable if the slope of the resistance is at least −(0.9 inertia/dt² + stiffness), N·m/rad.
+// While a joint is loosened the slope may be lower. The step then uses this bound instead of the slope, and
+// the nut turns less than it should.
 NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const DriveHandle& handle,
                  double dt);
 

@@ -15,13 +15,17 @@ struct PublishedParameters {
     double nut_mass_g = 33.3;
     // rad; the paper calls α the helix angle but gives it the value of the profile angle.
     double alpha = pi / 6, beta = pi / 6;
+    // Friction coefficients: of the free thread (stage 1), of the bearing face, of the loaded thread.
     double mu = 0.3, mu1 = 0.4, mu2 = 0.3;
-    double pitch_mm = 2.0;  // ρ = P
-    double d2_mm = 14.7, D1_mm = 24.0, D2_mm = 14.7, r_t_mm = 14.7, r_b_mm = 24.0;
-    double E1_GPa = 117.0, E2_GPa = 117.0;  // printed "Pa"
-    double nu1 = 0.25, nu2 = 0.25;
-    double kappa = 2.0;
-    double spring_rates_1e6[7] = {1.47, 1.46, 1.51, 1.53, 1.40, 1.38, 1.42};  // N/mm, in 10⁶
+    double pitch_mm = 2.0;                  // ρ = P
+    double d2_mm = 14.7;                    // pitch diameter of the thread
+    double D1_mm = 24.0, D2_mm = 14.7;      // outer and inner diameter of the bearing face
+    double r_t_mm = 14.7, r_b_mm = 24.0;    // lever arms of thread and bearing friction, as printed
+    double E1_GPa = 117.0, E2_GPa = 117.0;  // Young's moduli of the two faces; printed "Pa"
+    double nu1 = 0.25, nu2 = 0.25;          // their Poisson's ratios
+    double kappa = 2.0;                     // κ of the contact force in stage 2
+    // 10⁶ N/mm, of the seven springs in series that the paper makes of bolt, nut and members.
+    double spring_rates_1e6[7] = {1.47, 1.46, 1.51, 1.53, 1.40, 1.38, 1.42};
     double T_max_Nm = 72.126;
     double kappa1 = 0.0015;         // N·m per square degree
     double theta_max_deg = 7218.0;  // 40.1 π rad

@@ -24,17 +24,21 @@ using ContactFinder =
 
 inline constexpr std::size_t max_contacts = 32;  // room that the finder gets
 
-// Limits how fast the rendered force may change, per millisecond. The force changes for two reasons: the hand
-// moves, and the god-object itself moves (it slips, or falls off an edge). `of_rendered` and `of_maximum`
-// limit the second change; the first, computed as if the tool stood still, is permitted in addition.
-// `maximum` limits both together. People notice a step of 7 %. While the tool is pushed out of an obstacle
-// that moved into it, only `maximum` applies. The same shares limit the rendered torque.
+// Limits on the change of the rendered force in a millisecond. The change has two parts:
+//
+//   by the hand   the change that the hand's motion causes if the constrained tool stands still
+//   by the tool   the rest: the constrained tool itself moves, because it slips or falls off an edge
+//
+// The part by the tool is limited to the greater of `of_rendered` and `of_maximum`. Both parts together are
+// limited to `maximum`. People notice a step of 7 %. While the tool is pushed out of an obstacle that moved
+// into it, only `maximum` applies. The same limits hold for the torque, with the rendered and the greatest
+// torque.
 struct ForceRateLimits {
     double of_rendered = 0.05;  // share of the rendered force
-    double of_maximum = 0.005;  // share of the greatest force; applies where the rendered force is small
-    double maximum = 0.08;      // share of the greatest force, the hand's own motion included
-    // Share of the limit that is permitted in any direction. The rest is permitted only along the change of
-    // the last tick: a change that alternates from tick to tick would be felt as trembling.
+    double of_maximum = 0.005;  // share of the greatest force; the greater of the two if little is rendered
+    double maximum = 0.08;      // share of the greatest force
+    // Share of the limit by the tool that is permitted in any direction. The rest is permitted only along the
+    // tool's part of the last tick: a change that alternates from tick to tick would be felt as trembling.
     double any_direction_share = 0.3;
 };
 

@@ -25,8 +25,12 @@ ToolPose at_pose(const Pose& pose);
 struct Engagement {
     int joint = -1;  // −1: no nut is held
     Grip grip = Grip::none;
-    double azimuth = 0.0;  // rad, last angle of the tool about the bolt, tightening positive, not unwrapped
-    double hand_angle = 0.0;  // rad, the same unwrapped and counted as the nut's angle
+    // rad, angle of the tool about the bolt at the last tick, in −π … π; a rotation that tightens increases
+    // it.
+    double azimuth = 0.0;
+    // rad, the nut's angle at which the tool would apply no torque: the nut's angle at engagement, plus the
+    // misalignment of the jaw, plus the tool's rotation about the bolt since then (more than a turn counts).
+    double hand_angle = 0.0;
     // m, tool minus nut centre at engagement; decays with a time constant of 0.05 s.
     Vec3 offset_at_engagement{0.0};
 

@@ -79,9 +79,8 @@ struct StationControls {
     // Where the wrench lies while no hand holds it, in the assembly's frame; none: it moves with the open
     // hand.
     std::optional<Pose> wrench_rest_pose{};
-    // Pose of the wrist relative to the fingertips of the same hand, used while a gloved hand holds no
-    // wrench. If set, the pose that the device commands is that of the fingertips. If none, it is that of the
-    // tool that the hand would hold.
+    // The pose of the wrist in the frame of the fingertips, of a gloved hand that holds no wrench. If set,
+    // the mover moves the fingertips of such a hand. If none, it moves the hand as if it held the wrench.
     std::optional<Pose> bare_wrist{};
     // Joint whose nut attracts the tool; −1: none. Applies only to a device that senses velocity and renders
     // no force: the station then moves the tool to the nut.
