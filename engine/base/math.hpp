@@ -47,6 +47,11 @@ inline Pose inverse(const Pose& pose) {
     return {conjugate * -pose.position, conjugate};
 }
 
+// The angles, rad, from an eye's viewing direction to the edges of its picture; left and down are negative.
+struct FieldOfView {
+    double left = 0.0, right = 0.0, up = 0.0, down = 0.0;
+};
+
 // The exponential map of a rotation vector (axis times angle, rad), and its inverse with the angle in [0, π].
 inline Quat rotation(const Vec3& vector) {
     const double angle = glm::length(vector);

@@ -20,11 +20,6 @@ glm::mat4 look_at(const glm::vec3& eye, const glm::vec3& target);
 
 Eye make_eye(const glm::vec3& eye, const glm::vec3& target, const Perspective& p);
 
-// The angles, rad, from an eye's viewing direction to the edges of its picture; left and down are negative.
-struct FieldOfView {
-    double left = 0.0, right = 0.0, up = 0.0, down = 0.0;
-};
-
 // Returns the view of an eye of a headset, which looks along −Z of its pose with Y up.
 Eye make_eye(const Pose& pose, const FieldOfView& fov, float znear, float zfar);
 

@@ -116,8 +116,20 @@ std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
     frame.hands = *hands;
     locate(frame);
     if (!session_) return std::nullopt;
-    frame.events = std::exchange(events_, {});
+    frame.events = take_events(frame.timing.display_time);
     return frame;
+}
+
+// The events that have happened by the time of a frame; the runtime announces a new origin before it moves
+// it.
+std::vector<SessionEvent> Headset::take_events(XrTime time) {
+    std::vector<SessionEvent> happened, later;
+    for (SessionEvent& event : events_) {
+        const auto* recentred = std::get_if<Recentred>(&event);
+        (recentred != nullptr && recentred->time > time ? later : happened).push_back(event);
+    }
+    events_ = std::move(later);
+    return happened;
 }
 
 void Headset::locate(HeadsetFrame& frame) {

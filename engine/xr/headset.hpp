@@ -25,8 +25,9 @@ struct HeadsetFrame {
     FrameTiming timing;
     HeadView view;  // without eyes: nothing can be drawn
     Hands hands;
-    bool focused = false;              // false: pause the lesson, render no force, hide the hands
-    std::vector<SessionEvent> events;  // since the last frame
+    bool focused = false;  // false: pause the lesson, render no force, hide the hands
+    // Since the last frame. Recentred comes with the first frame whose poses are in the new space.
+    std::vector<SessionEvent> events;
 };
 
 class Headset {
@@ -37,8 +38,8 @@ class Headset {
     ~Headset() { end(); }
 
     // Looks for a headset if there is none, at most once a second, and less often if its session could not be
-    // started. Returns true if one was found. Then
-    // destroy all Vulkan objects, create them with creator(), and call begin().
+    // started. Returns true if one was found. Then destroy all Vulkan objects, create them with creator(),
+    // and call begin().
     bool find(double now);
     // Why there is no headset; none: there is one.
     [[nodiscard]] const std::optional<Error>& absence() const { return absence_; }
@@ -79,6 +80,7 @@ class Headset {
     // Drops the headset if the status is an error. Returns whether it succeeded.
     bool keep(const Status& status);
     void drop();
+    std::vector<SessionEvent> take_events(XrTime time);
 
     HeadsetOptions options_;
     std::unique_ptr<Runtime> runtime_;

@@ -23,15 +23,9 @@
 
 namespace bolt::xr {
 
-// Tangents would be simpler, but the runtime gives angles: rad from the viewing direction, left and down
-// negative.
-struct Fov {
-    double left = 0.0, right = 0.0, up = 0.0, down = 0.0;
-};
-
 struct EyeView {
     Pose pose;  // of the eye, in the session's base space: x right, y up, z towards the viewer
-    Fov fov;
+    FieldOfView fov;
 };
 
 // Where the head and its eyes are when a frame is displayed.
@@ -71,7 +65,7 @@ struct SessionOptions {
     bool separate_eyes = false;  // a swapchain for each eye even if one with two layers can be created
 };
 
-// What poll() reports, in order.
+// The events of the session, in the order in which poll() reports them.
 struct StateChanged {
     XrSessionState state = XR_SESSION_STATE_UNKNOWN;
 };

@@ -1,11 +1,14 @@
 // The subcommands of boltwright, and what they share.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/base/result.hpp"
+#include "haptics/device/connected_devices.hpp"
+#include "haptics/device/device_thread.hpp"
 #include "haptics/device/preparation.hpp"
 
 namespace CLI {
@@ -73,6 +76,16 @@ void catch_interruption();
 
 // True if the program was requested to end.
 [[nodiscard]] bool interrupted();
+
+// A device that a command has opened.
+struct OpenDevice {
+    device::DeviceThread thread;
+    std::shared_ptr<const device::Description> description;
+};
+
+// Opens a device, and asks on the terminal for what an arm needs. `yes`: the answer to the question whether
+// the arm may move by itself.
+Result<OpenDevice> open_device(const std::string& id, device::OpenOptions opening, bool yes);
 
 // Opens each device of the request, examines it, and prints a report; asks before an arm pushes the hand.
 // `yes`: the answer to all questions. Fails if a device cannot be used.

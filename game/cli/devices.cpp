@@ -12,7 +12,6 @@
 #include "content/station/wheel_config_file.hpp"
 #include "engine/base/result.hpp"
 #include "game/cli/commands.hpp"
-#include "game/cli/open_device.hpp"
 #include "game/station/device_check.hpp"
 #include "game/station/station_setup.hpp"
 #include "haptics/device/connected_devices.hpp"

@@ -12,7 +12,6 @@
 #include "content/station/point_table.hpp"
 #include "content/station/station_file.hpp"
 #include "game/cli/commands.hpp"
-#include "game/cli/open_device.hpp"
 #include "game/station/frame_registration.hpp"
 #include "game/station/point_source.hpp"
 

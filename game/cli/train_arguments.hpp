@@ -26,7 +26,7 @@ struct TrainArguments {
     std::string hand = "helped";
     std::string glove;  // empty: the station file's, or none
     std::string station_file, wheel_config_file;
-    // What followed --hmd: "required" (or nothing), "optional", or the assembly; none: no headset is used.
+    // The word after --hmd: "required" (or nothing), "optional", or the assembly; none: no headset is used.
     std::optional<std::string> hmd;
     bool full_resolution = false;  // of the headset, also if the GPU is too slow for it
     bool headless = false;

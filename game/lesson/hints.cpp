@@ -238,6 +238,16 @@ ControlNames glove_controls(const words::Words& words, ControlNames moved_by) {
     return moved_by;
 }
 
+ControlNames tracked_controls(const words::Words& words) {
+    ControlNames names = glove_controls(words, {});
+    for (const HintMotion motion : {HintMotion::approach, HintMotion::reach, HintMotion::set_on,
+                                    HintMotion::lift, HintMotion::set_back})
+        at(names, motion) = words::format_text(words, "control.hand.move", {});
+    for (const HintMotion motion : {HintMotion::spin, HintMotion::pull_on, HintMotion::pull_off})
+        at(names, motion) = words::format_text(words, "control.hand.turn", {});
+    return names;
+}
+
 namespace {
 
 constexpr double announcement_duration = 3.0;  // s

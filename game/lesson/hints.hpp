@@ -78,6 +78,8 @@ ControlNames keyboard_controls(const words::Words& words, const std::string& but
 // Glove or gripper: takes the controls of the device that moves the hand, and replaces those that the fingers
 // perform.
 ControlNames glove_controls(const words::Words& words, ControlNames moved_by);
+// A hand that a headset tracks.
+ControlNames tracked_controls(const words::Words& words);
 
 // Hints become more explicit the longer the work makes no progress, and do not flicker.
 //

@@ -38,7 +38,7 @@ std::string describe(const MeasuredRegistration& measured);
 // Fails if the rms or the error of the check point is too large, and names the point to touch again.
 Status check_quality(const MeasuredRegistration& measured);
 
-// What may be wrong although check_quality() passes: few points, or points in a plane.
+// Doubts that remain although check_quality() passes: few points, or points in a plane.
 std::vector<std::string> warnings_of(const MeasuredRegistration& measured);
 
 // The registration with `from` as its first frame: that of the list, or its inverse. Fails if there is none.

@@ -39,7 +39,7 @@ struct TouchOptions {
 // The mean of positions. Fails if the hand moved between them, or if there are too few.
 Result<Vec3> average_touch(std::span<const Vec3> positions, const TouchOptions& options = {});
 
-// What a touch needs of the program around it, so that tests run in virtual time.
+// The functions of the program that a touch uses; tests replace them and run in virtual time.
 struct TouchIo {
     std::function<device::DeviceSnapshot()> snapshot;  // the device's latest sample
     std::function<bool()> confirmed;                   // Enter was pressed since the last call

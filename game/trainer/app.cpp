@@ -220,7 +220,7 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
                                                          : std::span<const platform::InputEvent>());
     // The menu has a text field, and the settings bind keys. In a room the pointer is the panel's.
     const bool has_keys = screen_ != ShownScreen::menu && !settings_;
-    const InputFocus focus{has_keys && !room_ && !gpu_->ui->wants_pointer(), has_keys};
+    const InputFocus focus{has_keys && !in_room() && !gpu_->ui->wants_pointer(), has_keys};
     const double shown = std::min(window.seconds, longest_frame);
     Frame frame{active,
                 words_,
@@ -231,7 +231,7 @@ Status App::run_systems(const Picture& picture, const view::WindowFrame& window)
                 &*gpu_->fonts,
                 {},
                 {}};
-    if (room_ && window.immersion != nullptr)
+    if (in_room())
         frame.room = RoomInput{inverse(scene_in_room()), window.immersion->head, &window.immersion->hands,
                                window.immersion->vibrate};
     const bool waits_for_arm = active.station && active.station->waits_for_arm;
@@ -304,7 +304,7 @@ Status App::draw_interface(gpu::FrameContext& frame, const render::ImageLayer& s
     if (active_ && screen_ == ShownScreen::lesson)
         BOLT_TRY(draw_close_up({renderer, frame, ui}, *active_, extent, input_.scale));
     if (active_) active_->view.occupied = occupied_areas();
-    if (room_ && room_->pointer.on_panel) {
+    if (in_room() && room_->pointer.on_panel) {
         const glm::vec2 at(room_->pointer.at);
         const float radius = (room_->pointer.pressed ? 5.0F : 8.0F) * input_.scale;
         ImGui::GetForegroundDrawList()->AddCircleFilled({at.x, at.y}, radius, IM_COL32(255, 255, 255, 210));
@@ -325,25 +325,36 @@ Status App::draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale
                           picture_request(menu_, options_.choice.assembly, size, scale));
 }
 
-// Where the scene stands in the room; the panel's place without a lesson.
+// The pose of the assembly's frame in the room; that of the room without a lesson.
 Pose App::scene_in_room() const {
     if (!active_ || !room_->workpiece) return {};
     return adjusted(*room_->workpiece, active_->workplace.machine, room_->turns, room_->height);
 }
 
-// Places workpiece and panel, adds what the hands do as events, and pauses a lesson that the user cannot see.
-void App::follow_room(const view::Immersion* immersion, std::vector<platform::InputEvent>& events) {
-    const bool lesson = active_ && screen_ == ShownScreen::lesson;
-    const bool seen = immersion == nullptr || immersion->attentive;
-    if (immersion == nullptr) {
-        // The trainee suddenly sees nothing: no device may push, and a tracked hand is gone. The lesson can
-        // be continued or ended at the window.
-        if (room_ && lesson && active_->station) active_->clock.paused = true;
-        room_.reset();
-        return;
-    }
-    if (!room_ || immersion->recentred) room_.emplace();
+// Pauses a lesson that its user suddenly does not see: no device may push, and a tracked hand is gone. It
+// continues when the user sees it again; at the window it can be continued or ended before.
+void App::pause_unseen(bool seen) {
+    if (!room_) return;
+    const bool was_seen = std::exchange(room_->seen, seen);
+    if (!active_ || screen_ != ShownScreen::lesson || !active_->station) return;
+    bool& paused = active_->clock.paused;
+    if (was_seen && !seen && !paused) room_->paused = paused = true;
+    if (!seen) return;
+    if (std::exchange(room_->paused, false)) paused = false;
+}
+
+// Places workpiece and panel, and adds the input of the hands as events.
+void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
+    const view::Immersion* immersion = window.immersion;
+    pause_unseen(immersion != nullptr && immersion->attentive);
+    if (room_) room_->shown = immersion != nullptr;
+    if (immersion == nullptr) return;
+    if (!room_) room_.emplace();
     Room& room = *room_;
+    room.shown = true;
+    room.seen = immersion->attentive;
+    if (immersion->tracks_hands) offer_tracked_hand(menu_.devices);
+    if (immersion->recentred) room.panel = room.workpiece = std::nullopt;
     const bool placed = immersion->tracked || room.panel.has_value();
     if (placed && !room.panel) room.panel = place_panel(immersion->head);
     if (!active_) room.workpiece.reset();
@@ -353,8 +364,6 @@ void App::follow_room(const view::Immersion* immersion, std::vector<platform::In
             immersion->floor_known
                 ? std::nullopt
                 : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
-    if (lesson && !seen && !active_->clock.paused) room.paused = active_->clock.paused = true;
-    if (lesson && seen && std::exchange(room.paused, false)) active_->clock.paused = false;
     // The window's pointer would compete with the hands'.
     const auto of_pointer = [](const platform::InputEvent& event) {
         return std::holds_alternative<platform::CursorEvent>(event) ||
@@ -363,14 +372,15 @@ void App::follow_room(const view::Immersion* immersion, std::vector<platform::In
     };
     std::erase_if(events, of_pointer);
     const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
-    const std::vector<platform::InputEvent> hands = hand_events(room, immersion->hands, keys);
+    const std::vector<platform::InputEvent> hands = hand_events(room, immersion->hands, keys, window.seconds);
     events.insert(events.end(), hands.begin(), hands.end());
 }
 
 Status App::update(const view::WindowFrame& window) {
     std::vector<platform::InputEvent> events(window.events.begin(), window.events.end());
-    follow_room(window.immersion, events);
-    const Picture picture{events, room_ ? panel_extent : window.size, room_ ? panel_scale : window.scale};
+    follow_room(window, events);
+    const Picture picture{events, in_room() ? panel_extent : window.size,
+                          in_room() ? panel_scale : window.scale};
     const glm::dvec2 extent(picture.size.width, picture.size.height);
     if (const auto code = std::exchange(selected_language_, std::nullopt)) BOLT_TRY(select_language(*code));
     const auto aspect = static_cast<float>(extent.x / extent.y);
@@ -433,7 +443,7 @@ Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion
 }
 
 Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
-    if (room_ && window.immersion != nullptr) {
+    if (in_room()) {
         BOLT_TRY(draw_room(frame, *window.immersion));
     } else {
         BOLT_TRY(draw_pictures(frame, window.size, window.scale));

@@ -110,7 +110,9 @@ class App : public view::WindowContent {
     [[nodiscard]] LessonChoice lesson_choice() const;
     Status upload_lesson();
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
-    void follow_room(const view::Immersion* immersion, std::vector<platform::InputEvent>& events);
+    [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
+    void pause_unseen(bool seen);
+    void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);
     [[nodiscard]] Pose scene_in_room() const;
     Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);
     Status draw_interface(gpu::FrameContext& frame, const render::ImageLayer& picture);
@@ -151,7 +153,7 @@ class App : public view::WindowContent {
     std::optional<session::LessonOutcome> outcome_;
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
 
-    std::optional<Room> room_;  // while the display surrounds the user
+    std::optional<Room> room_;  // since a display has surrounded the user
 
     std::unique_ptr<GpuResources> gpu_;
     AssemblyPictures pictures_;

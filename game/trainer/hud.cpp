@@ -263,10 +263,12 @@ void draw_step(const ActiveLesson& active, const words::Words& w, const glm::dve
                        {{"joint", id}, {"what", what}, {"torque", words::torque_number(due->torque)}})
                  : words::format_text(w, "hud.due", {{"joint", id}, {"what", what}}),
              white});
-        for (const auto& [key, action] : {std::pair{words::TextKey("hud.ask"), Action::hint},
-                                          std::pair{words::TextKey("hud.find_view"), Action::find_view}})
-            lines.push_back(
-                {words::format_text(w, key, {{"control", key_name(active.input.keys, action)}}), grey});
+        // In a room nobody sees a keyboard.
+        if (!active.view.head)
+            for (const auto& [key, action] : {std::pair{words::TextKey("hud.ask"), Action::hint},
+                                              std::pair{words::TextKey("hud.find_view"), Action::find_view}})
+                lines.push_back(
+                    {words::format_text(w, key, {{"control", key_name(active.input.keys, action)}}), grey});
     }
     text_panel("##step", {12.0F * scale, 12.0F * scale}, {0.0F, 0.0F}, lines, static_cast<float>(size.x));
 }

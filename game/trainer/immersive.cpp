@@ -12,9 +12,9 @@ namespace {
 
 constexpr double head_to_machine = 0.40;  // m, horizontally, to the front of the workpiece
 constexpr double panel_below_eyes = 0.02, panel_least_height = 0.9;  // m
-// Sticks: the deflection that turns the workpiece by a step, that below which it is at rest, and m per frame.
+// Sticks: the deflection that turns the workpiece by a step, that below which it is at rest, and m/s.
 constexpr float stick_turns = 0.7F, stick_rests = 0.3F;
-constexpr double stick_raise = 0.004, most_raise = 0.4;
+constexpr double stick_raise = 0.2, most_raise = 0.4;
 constexpr float pressed_above = 0.6F, released_below = 0.4F;  // of the trigger
 
 // The rotation about the vertical that turns −z to where the head looks.
@@ -30,7 +30,7 @@ void add_key(std::vector<platform::InputEvent>& events, platform::Key key, bool 
 }
 
 // The stick turns the workpiece by steps, once for each deflection: smooth turning makes people sick.
-void apply_stick(Room& room, const glm::vec2& stick, bool& used) {
+void apply_stick(Room& room, const glm::vec2& stick, bool& used, double seconds) {
     if (!used && std::abs(stick.x) > stick_turns) {
         room.turns += stick.x > 0.0F ? 1 : -1;
         used = true;
@@ -38,7 +38,8 @@ void apply_stick(Room& room, const glm::vec2& stick, bool& used) {
     if (std::abs(stick.x) < stick_rests) used = false;
     if (std::abs(stick.y) > stick_turns)
         room.height =
-            std::clamp(room.height + (stick.y > 0.0F ? stick_raise : -stick_raise), -most_raise, most_raise);
+            std::clamp(room.height + std::copysign(stick_raise * seconds, static_cast<double>(stick.y)),
+                       -most_raise, most_raise);
 }
 
 }  // namespace
@@ -79,7 +80,8 @@ std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim) {
     return points * static_cast<double>(panel_scale);
 }
 
-std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys) {
+std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys,
+                                              double seconds) {
     std::vector<platform::InputEvent> events;
     std::optional<glm::dvec2> at;
     float select = 0.0F;
@@ -87,10 +89,10 @@ std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands
         const xr::HandInput& hand = hands.sides[side];
         add_key(events, keys.pause, hand.active && hand.menu, room.menu_down[side]);
         add_key(events, keys.tool, hand.active && hand.secondary, room.secondary_down[side]);
-        apply_stick(room, hand.active ? hand.stick : glm::vec2(0.0F), room.stick_used[side]);
+        apply_stick(room, hand.active ? hand.stick : glm::vec2(0.0F), room.stick_used[side], seconds);
         if (!hand.active || !hand.aim || !room.panel) continue;
         const auto hit = panel_point(*room.panel, hand.aim->pose);
-        // Of two hands that point at the panel, the one that presses counts, else the right one.
+        // If both hands point at the panel, the one that presses counts, else the right one.
         if (!hit || (at && hand.select < select)) continue;
         at = hit;
         select = hand.select;

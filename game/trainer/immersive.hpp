@@ -15,10 +15,10 @@ namespace bolt::trainer {
 
 // The panel shows the same interface as a window, with menus, help and figures. At 0.75 m a text of 15 points
 // has 20 dmm (mm at 1 m), the smallest that reads without effort (Google Daydream's guideline).
-inline constexpr glm::dvec2 panel_points{1040.0, 650.0};
+inline constexpr glm::dvec2 panel_points{1160.0, 760.0};
 inline constexpr double panel_distance = 0.75, point_size = 1.0e-3;  // m
 inline constexpr float panel_scale = 1.5F;                           // px per point
-inline constexpr VkExtent2D panel_extent{1560, 975};                 // px, the product of both
+inline constexpr VkExtent2D panel_extent{1740, 1140};                 // px, the product of both
 
 // Where the panel is pointed at.
 struct PanelPointer {
@@ -27,6 +27,7 @@ struct PanelPointer {
     bool pressed = false;
 };
 
+// Kept while the display is away for a moment, so that everything stands where it stood.
 struct Room {
     std::optional<Pose> workpiece;  // of the assembly's frame; none: not placed yet
     std::optional<Pose> panel;      // of its centre; x right, y up, z towards the user
@@ -34,6 +35,8 @@ struct Room {
     std::array<bool, 2> menu_down{}, secondary_down{}, stick_used{};  // in the last frame, by hand
     double height = 0.0;  // m that the user has raised the workpiece
     int turns = 0;        // steps by which the user has turned it
+    bool shown = false;   // the display surrounds the user in this frame
+    bool seen = false;    // the user saw the lesson in the last frame
     bool paused = false;  // the lesson is paused because the user does not see it
 };
 
@@ -56,7 +59,9 @@ std::optional<glm::dvec2> panel_point(const Pose& panel, const Pose& aim);
 struct HandKeys {
     platform::Key pause = platform::Key::escape, tool = platform::Key::unknown;
 };
-std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys);
+// `seconds`: of the frame.
+std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys,
+                                              double seconds);
 
 // The panel in the scene whose frame is `scene_in_room`.
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture);

@@ -132,13 +132,18 @@ void draw_variants_and_tools(const ScreenContext& context, float width, const As
     }
 }
 
+// The name of a hand that no device moves.
+words::TextKey hand_key(HandMode hand) {
+    if (hand == HandMode::free) return "menu.free_hand";
+    return hand == HandMode::tracked ? words::TextKey("menu.tracked_hand") : "menu.mouse";
+}
+
 void draw_devices(const ScreenContext& context, float width, std::span<const DeviceOption> devices,
                   Equipment& equipment) {
     ChoiceRow row(context, context.words["menu.device"], width);
     for (const DeviceOption& option : devices) {
-        const words::TextKey mouse =
-            option.equipment.hand == HandMode::free ? words::TextKey("menu.free_hand") : "menu.mouse";
-        const std::string name = option.name.empty() ? context.words[mouse] : option.name;
+        const std::string name =
+            option.name.empty() ? context.words[hand_key(option.equipment.hand)] : option.name;
         Equipment next = option.equipment;
         next.station = equipment.station;
         next.wheel_config_file = equipment.wheel_config_file;

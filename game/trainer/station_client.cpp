@@ -87,7 +87,18 @@ std::vector<DeviceOption> device_options(const Equipment& chosen) {
     if (all.wheel) add({std::nullopt, all.wheel});
     if (all.mover && all.wheel) add(all);
     if (const auto selection = station_setup::select_devices(connected, chosen.devices)) add(*selection);
+    if (chosen.hand == HandMode::tracked) offer_tracked_hand(options);
     return options;
+}
+
+void offer_tracked_hand(std::vector<DeviceOption>& options) {
+    const bool offered = std::any_of(options.begin(), options.end(), [](const DeviceOption& option) {
+        return option.equipment.hand == HandMode::tracked;
+    });
+    if (offered) return;
+    Equipment tracked;
+    tracked.hand = HandMode::tracked;
+    options.push_back({{}, tracked});
 }
 
 Equipment default_equipment() {
@@ -303,6 +314,7 @@ lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys
     const std::string tool = key_name(keys, Action::tool);
     if (client == nullptr) return lesson::mouse_controls(words, tool);
     if (client->dragged) return lesson::drag_controls(words, tool);
+    if (client->tracked) return lesson::tracked_controls(words);
     const station::Layout& layout = client->link->layout();
     const std::uint32_t held = layout.mover_buttons.dead_man;
     const bool keyboard = equipment.devices.empty();

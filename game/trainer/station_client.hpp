@@ -70,6 +70,8 @@ struct DeviceOption {
 // Mouse and keyboard with a helped and with a free hand, the combinations of the devices that are connected
 // now, and the devices of `chosen`, such as those of a station file.
 std::vector<DeviceOption> device_options(const Equipment& chosen);
+// Adds the hands of a headset to the menu, if they are not in it.
+void offer_tracked_hand(std::vector<DeviceOption>& options);
 // The default: the connected device that moves the tool, together with a wheel if there is one; else the
 // mouse.
 Equipment default_equipment();

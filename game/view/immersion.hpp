@@ -25,7 +25,8 @@ struct Immersion {
     bool floor_known = true;  // y is 0 at the floor; false: at the eyes of a seated user
     // Group i is drawn as the renderer's group immersive_group + i. May be empty: nothing can be drawn.
     std::vector<EyeGroup> groups;
-    xr::Hands hands;                                              // none is active on walls
+    xr::Hands hands;
+    bool tracks_hands = false;  // the display has hands that can move the tool; false on walls
     std::function<void(xr::Side, const xr::Vibration&)> vibrate;  // may be empty
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <utility>
 
 #include "engine/gpu/device.hpp"
 #include "engine/gpu/swapchain.hpp"
@@ -31,6 +32,8 @@ struct Canvas {
     double last_frame = 0.0;       // s, when it began
     ResolutionControl resolution;  // of the headset
     int old_frames = 0;            // frames in flight that were drawn at another resolution
+    double late_since = 0.0;       // s, since when the headset's runtime has released no frame; 0: it did
+    std::vector<platform::InputEvent> events;  // for the next frame
 
     Canvas() = default;
     Canvas(Canvas&&) = default;
@@ -103,6 +106,7 @@ Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset
     immersion.recentred = has_recentred(frame);
     immersion.floor_known = headset.session().base_space() != xr::BaseSpace::seated;
     immersion.hands = frame.hands;
+    immersion.tracks_hands = true;
     immersion.vibrate = [&](xr::Side side, const xr::Vibration& vibration) {
         headset.vibrate(side, vibration);
     };
@@ -135,17 +139,23 @@ Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset
     return {};
 }
 
-// The headset's frame is begun when its runtime releases it, which paces the loop. If the runtime is late,
-// the window goes on.
+// The headset's frame is begun when its runtime releases it, which paces the loop. If the runtime is late for
+// longer than a hitch, the window goes on without it.
 Status draw(WindowContent& content, Canvas& canvas, platform::Window& window,
-            std::span<const platform::InputEvent> events, const WindowRunOptions& options) {
-    static constexpr double longest_wait = 0.1;  // s
+            const WindowRunOptions& options) {
+    static constexpr double longest_wait = 0.1, longest_hitch = 0.5;  // s
     BOLT_TRY_ASSIGN(const auto size, canvas.swapchain->prepare(size_of(window)));
     std::optional<xr::HeadsetFrame> headset_frame;
     if (options.headset != nullptr)
         headset_frame = options.headset->begin_frame(options.headset->running() ? longest_wait : 0.0);
-    const double now = seconds(), elapsed = now - canvas.last_frame;
+    const double now = seconds();
+    const bool late = options.headset != nullptr && options.headset->running() && !headset_frame;
+    if (late && canvas.late_since == 0.0) canvas.late_since = now;
+    if (!late) canvas.late_since = 0.0;
+    if (late && now - canvas.late_since < longest_hitch) return {};
+    const double elapsed = now - canvas.last_frame;
     canvas.last_frame = now;
+    const std::vector<platform::InputEvent> events = std::exchange(canvas.events, {});
     const WindowFrame frame{events, size, window.content_scale(), elapsed, nullptr};
     if (headset_frame && headset_frame->timing.should_render)
         return draw_headset(content, canvas, *options.headset, *headset_frame, frame,
@@ -170,12 +180,13 @@ Result<Ending> run_until_closed(WindowContent& content, Canvas& canvas, platform
         if (headset != nullptr && headset->exit_requested()) return Ending::closed;
         const bool paced = headset != nullptr && headset->running();
         const bool minimised = canvas.swapchain->plan().extent.width == 0 && !paced;
-        const std::vector<platform::InputEvent> events =
+        const std::vector<platform::InputEvent> polled =
             minimised ? window.wait_for_events(0.1) : window.poll_events();
+        canvas.events.insert(canvas.events.end(), polled.begin(), polled.end());
         BOLT_TRY(window.display_status());
-        for (const platform::InputEvent& event : events)
+        for (const platform::InputEvent& event : polled)
             if (minimised && std::holds_alternative<platform::CloseEvent>(event)) return Ending::closed;
-        if (Status done = draw(content, canvas, window, events, options); !done) {
+        if (Status done = draw(content, canvas, window, options); !done) {
             // If the display server has ended, report that instead of the failed presentation.
             const Status display = window.display_status();
             return fail(display ? done.error() : display.error());

@@ -74,7 +74,7 @@ struct VibrationCommand {
     VibrationCue cue = VibrationCue::load;
 };
 
-// What happened in one tick.
+// The events and values of one tick.
 struct VibrationInput {
     std::int16_t joint = -1;  // engaged joint; −1: none
     joint::Stage stage = joint::Stage::navigation;

@@ -108,7 +108,7 @@ struct Hand {
 };
 enum class Side : std::uint8_t { left, right };
 
-// What a user or the runtime does.
+// An action of the user or the runtime.
 enum class Event : std::uint8_t {
     put_on,           // session: READY
     taken_off,        // to STOPPING, then IDLE

@@ -145,7 +145,77 @@ TEST_CASE("Room: a lesson pauses while its user does not see it, and when the he
     driver.immersion.reset();
     driver.frame();
     CHECK(driver.lesson().clock.paused);
-    CHECK_FALSE(driver.app().room());
+    CHECK_FALSE(driver.app().room()->shown);
     driver.frame();
     CHECK(glm::length(driver.lesson().station->latest.output.force) == 0.0);
+    // It returns where it was, and the lesson goes on.
+    const Pose workpiece = driver.app().room()->workpiece.value();
+    driver.immersion = test::standing_user(eye_size);
+    driver.immersion->head.position += Vec3(0.3, 0.0, 0.2);
+    driver.frame();
+    CHECK_FALSE(driver.lesson().clock.paused);
+    CHECK(driver.app().room()->workpiece->position == workpiece.position);
+    // After the user has recentred, everything stands in front again.
+    driver.immersion->recentred = true;
+    driver.frame();
+    CHECK(driver.app().room()->workpiece->position != workpiece.position);
+    // At the window the user may go on without the headset.
+    driver.immersion.reset();
+    driver.frame();
+    CHECK(driver.lesson().clock.paused);
+    driver.key(platform::Key::escape);
+    CHECK_FALSE(driver.lesson().clock.paused);
+    driver.frame();
+    CHECK_FALSE(driver.lesson().clock.paused);
+}
+
+TEST_CASE("Room: the stick turns the workpiece by a step, once, and raises it as fast in every frame rate") {
+    Room room;
+    xr::Hands hands;
+    xr::HandInput& left = hands[xr::Side::left];
+    left.active = true;
+    left.stick = {0.9F, 0.0F};
+    for (int i = 0; i < 5; ++i) (void)hand_events(room, hands, {}, 0.01);
+    CHECK(room.turns == 1);
+    left.stick = {0.0F, 0.0F};
+    (void)hand_events(room, hands, {}, 0.01);
+    left.stick = {-0.9F, 0.0F};
+    (void)hand_events(room, hands, {}, 0.01);
+    CHECK(room.turns == 0);
+    for (const int frames : {20, 90}) {
+        room.height = 0.0;
+        left.stick = {0.0F, 1.0F};
+        for (int i = 0; i < frames; ++i) (void)hand_events(room, hands, {}, 1.0 / frames);
+        CHECK(room.height == doctest::Approx(0.2));
+    }
+    // About the vertical through the middle of the machine.
+    render::BoundingBox machine;
+    machine.low = {-0.1F, 0.0F, -0.2F};
+    machine.high = {0.3F, 0.4F, 0.2F};
+    const Vec3 middle(0.1, 0.2, 0.0);
+    const Pose turned = adjusted({}, machine, 3, 0.05);
+    CHECK(glm::distance(turned * middle, middle + Vec3(0.0, 0.05, 0.0)) < 1e-6);
+    CHECK(glm::distance(turned * (middle + Vec3(1.0, 0.0, 0.0)), middle + Vec3(0.0, 0.05, -1.0)) < 1e-6);
+}
+
+TEST_CASE("Room: the hints name the hands, and the menu offers them") {
+    HeadlessTrainer driver(tracked_hand("first-nut"), {eye_size, 0.3F, 0.02});
+    driver.draws = false;
+    driver.frame();
+    const words::LoadedWords words = words::load_words(words::words_folder(), "en");
+    REQUIRE(words.ok());
+    const lesson::ControlNames names =
+        control_names(words.words, KeyMap{}, Equipment{}, &*driver.lesson().station);
+    for (std::size_t i = 1; i < names.size(); ++i) {
+        CAPTURE(names[i]);
+        CHECK_FALSE(names[i].empty());
+        CHECK(names[i].find("key") == std::string::npos);
+        CHECK(names[i].find("press") == std::string::npos);
+    }
+    std::vector<DeviceOption> options = device_options({});
+    const std::size_t before = options.size();
+    offer_tracked_hand(options);
+    offer_tracked_hand(options);
+    CHECK(options.size() == before + 1);
+    CHECK(options.back().equipment.hand == HandMode::tracked);
 }

@@ -57,6 +57,28 @@ TEST_CASE("Headset: a search is made at most once a second") {
     CHECK_FALSE(headset.find(20.0));  // it is there already
 }
 
+TEST_CASE("Headset: after each session that does not start, the next search waits longer, at most a minute") {
+    const test::MockRuntime mock;
+    test::Program program;
+    REQUIRE(program.connect());
+    gpu::Device& device = program.device();
+    xr::Headset headset({});
+    program.headset().end();
+    double now = 0.0;
+    std::vector<double> waits;
+    for (int i = 0; i < 9; ++i) {
+        double wait = 0.5;
+        while (!headset.find(now + wait)) wait += 0.5;
+        now += wait;
+        waits.push_back(wait);
+        mock->fail_next("xrCreateSession", XR_ERROR_RUNTIME_FAILURE, 1);
+        headset.begin(device);
+        REQUIRE_FALSE(headset.connected());
+    }
+    const std::vector<double> expected{0.5, 2.0, 4.0, 8.0, 16.0, 32.0, 60.0, 60.0, 60.0};
+    CHECK(waits == expected);
+}
+
 TEST_CASE("Headset: a runtime without Vulkan is not used") {
     mock::Config config;
     config.extensions = {"XR_KHR_composition_layer_depth"};

@@ -49,7 +49,8 @@ class Program {
     std::optional<xr::HeadsetFrame> frame();
     // Draws frames until the session is focused. Returns the last frame.
     xr::HeadsetFrame focus();
-    // What frame() submits; the default is a picture of the recommended size in one colour for each eye.
+    // The pictures that frame() submits; the default is a picture of the recommended size in one colour for
+    // each eye.
     void set_pictures(std::vector<xr::EyePicture> pictures) { pictures_ = std::move(pictures); }
     void set_depth_range(const xr::DepthRange& range) { depth_ = range; }
     // Is called in each frame between the recording of the pictures and their submission.

@@ -149,24 +149,25 @@ TEST_CASE("Recentring: only that of the base space is reported, with its shift i
     constexpr XrDuration delay = 40'000'000;
     const Pose shift{{0.2, 0.0, -0.1}, rotation({0.0, 0.4, 0.0})};
     mock->recentre(XR_REFERENCE_SPACE_TYPE_STAGE, delay, shift);
-    const xr::HeadsetFrame frame = frame_of(program);
+    // The event comes with the first frame whose poses follow the new origin, not when it is announced.
+    const Vec3 before{0.0, 1.6, 0.0};
+    xr::HeadsetFrame frame = frame_of(program);
+    int old_frames = 0;
+    for (; frame.events.empty() && old_frames < 20; ++old_frames) {
+        check_at(frame.view.head, before);
+        frame = frame_of(program);
+    }
+    CHECK(old_frames > 0);
     REQUIRE(frame.events.size() == 1);
     const auto* recentred = std::get_if<xr::Recentred>(&frame.events[0]);
     REQUIRE(recentred != nullptr);
     CHECK(recentred->time > now);
+    CHECK(frame.timing.display_time >= recentred->time);
     REQUIRE(recentred->shift.has_value());
     check_at(*recentred->shift, shift.position);
     CHECK(glm::length(turn_between(recentred->shift->orientation, shift.orientation)) < 1e-6);
-
-    // Poses follow from that time on, and the shift leads from the old ones to the new.
-    for (int i = 0; i < 10; ++i) {
-        const xr::HeadsetFrame next = frame_of(program);
-        const Vec3 before{0.0, 1.6, 0.0};
-        const bool moved = next.timing.display_time >= recentred->time;
-        check_at(next.view.head, moved ? inverse(*recentred->shift) * before : before);
-        if (i == 0) CHECK_FALSE(moved);
-        if (i == 9) CHECK(moved);
-    }
+    check_at(frame.view.head, inverse(*recentred->shift) * before);
+    CHECK(frame_of(program).events.empty());
 
     mock->recentre(XR_REFERENCE_SPACE_TYPE_STAGE, 0, std::nullopt);
     const xr::HeadsetFrame unknown = frame_of(program);

@@ -1,0 +1,214 @@
+// The frames of a session: when they begin, where the eyes are, and the pictures that are shown.
+#include <algorithm>
+#include <array>
+
+#include "engine/xr/frame_waiter.hpp"
+#include "engine/xr/session.hpp"
+
+namespace bolt::xr {
+
+namespace {
+
+// ns; the runtime normally has the image free at once.
+constexpr XrDuration image_timeout = 100'000'000;
+
+}  // namespace
+
+Result<std::optional<FrameTiming>> Session::begin_frame(double timeout) {
+    if (!running_) return std::nullopt;
+    const std::optional<FrameWaiter::Answer> answer = waiter_->take(timeout);
+    if (!answer) return std::nullopt;
+    BOLT_TRY(check(answer->result, "waiting for the headset's frame"));
+    const XrFrameBeginInfo info{XR_TYPE_FRAME_BEGIN_INFO, nullptr};
+    BOLT_TRY(check(xrBeginFrame(session_.get(), &info), "beginning the headset's frame"));
+    waiter_->request();  // for the next frame, while this one is drawn
+    FrameTiming timing;
+    timing.display_time = answer->state.predictedDisplayTime;
+    timing.period = 1e-9 * static_cast<double>(answer->state.predictedDisplayPeriod);
+    timing.should_render = answer->state.shouldRender == XR_TRUE;
+    return timing;
+}
+
+Result<HeadView> Session::locate(const FrameTiming& frame) {
+    XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO};
+    info.viewConfigurationType = runtime_->view_configuration();
+    info.displayTime = frame.display_time;
+    info.space = space_.get();
+    XrViewState state{XR_TYPE_VIEW_STATE};
+    std::array<XrView, 2> views{XrView{XR_TYPE_VIEW}, XrView{XR_TYPE_VIEW}};
+    const auto eyes = static_cast<std::uint32_t>(runtime_->views().size());
+    std::uint32_t count = 0;
+    BOLT_TRY(
+        check(xrLocateViews(session_.get(), &info, &state, eyes, &count, views.data()), "locating the eyes"));
+    XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
+    BOLT_TRY(
+        check(xrLocateSpace(head_.get(), space_.get(), frame.display_time, &location), "locating the head"));
+    constexpr XrSpaceLocationFlags valid =
+        XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
+    constexpr XrViewStateFlags views_valid =
+        XR_VIEW_STATE_ORIENTATION_VALID_BIT | XR_VIEW_STATE_POSITION_VALID_BIT;
+    HeadView result;
+    if ((location.locationFlags & valid) != valid || (state.viewStateFlags & views_valid) != views_valid)
+        return result;  // no eyes: nothing can be drawn
+    constexpr XrSpaceLocationFlags tracked =
+        XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
+    result.tracked = (location.locationFlags & tracked) == tracked;
+    result.head = to_pose(location.pose);
+    for (std::uint32_t eye = 0; eye < count; ++eye) {
+        const XrFovf& fov = views[eye].fov;
+        result.eyes.push_back({to_pose(views[eye].pose),
+                               {static_cast<double>(fov.angleLeft), static_cast<double>(fov.angleRight),
+                                static_cast<double>(fov.angleUp), static_cast<double>(fov.angleDown)}});
+    }
+    return result;
+}
+
+template <class Visit>
+Status Session::each_swapchain(const Visit& visit) {
+    for (std::vector<Swapchain>* swapchains : {&color_, &depth_})
+        for (Swapchain& swapchain : *swapchains) BOLT_TRY(visit(swapchain));
+    return {};
+}
+
+Status Session::acquire(Swapchain& swapchain) {
+    if (!swapchain.acquired) {
+        const XrSwapchainImageAcquireInfo info{XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO, nullptr};
+        std::uint32_t index = 0;
+        BOLT_TRY(check(xrAcquireSwapchainImage(swapchain.handle.get(), &info, &index),
+                       "acquiring an image of the headset"));
+        swapchain.acquired = index;
+        swapchain.ready = false;
+    }
+    if (swapchain.ready) return {};
+    XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};
+    wait.timeout = image_timeout;
+    const XrResult waited = xrWaitSwapchainImage(swapchain.handle.get(), &wait);
+    BOLT_TRY(check(waited, "waiting for an image of the headset"));
+    swapchain.ready = waited != XR_TIMEOUT_EXPIRED;
+    return {};
+}
+
+Status Session::release(Swapchain& swapchain) {
+    if (!swapchain.acquired || !swapchain.ready) return {};
+    const XrSwapchainImageReleaseInfo info{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO, nullptr};
+    BOLT_TRY(
+        check(xrReleaseSwapchainImage(swapchain.handle.get(), &info), "releasing an image of the headset"));
+    swapchain.acquired.reset();
+    return {};
+}
+
+namespace {
+
+// Copies a layer; converts the format if it must.
+void copy_picture(VkCommandBuffer commands, const gpu::Image& from, std::uint32_t from_layer, VkImage to,
+                  std::uint32_t to_layer, VkFormat to_format, VkExtent2D extent) {
+    const bool is_depth = to_format == VK_FORMAT_D32_SFLOAT;
+    const auto use = is_depth ? gpu::ResourceUse::depth_target : gpu::ResourceUse::color_target;
+    gpu::ImageRange range;
+    range.aspect = is_depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    range.first_layer = to_layer;
+    range.layers = 1;
+    gpu::image_barrier_discarding(commands, to, use, gpu::ResourceUse::transfer_to, range);
+    const VkImageSubresourceLayers source{range.aspect, 0, from_layer, 1},
+        target{range.aspect, 0, to_layer, 1};
+    if (from.info().format == to_format) {
+        VkImageCopy region{};
+        region.srcSubresource = source;
+        region.dstSubresource = target;
+        region.extent = {extent.width, extent.height, 1};
+        vkCmdCopyImage(commands, from.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    } else {
+        VkImageBlit region{};
+        region.srcSubresource = source;
+        region.dstSubresource = target;
+        region.srcOffsets[1] = region.dstOffsets[1] = {static_cast<std::int32_t>(extent.width),
+                                                       static_cast<std::int32_t>(extent.height), 1};
+        vkCmdBlitImage(commands, from.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
+    }
+    gpu::image_barrier(commands, to, gpu::ResourceUse::transfer_to, use, range);
+}
+
+}  // namespace
+
+Status Session::record(VkCommandBuffer commands, std::span<const EyePicture> pictures) {
+    drawn_.clear();
+    depth_drawn_ = false;
+    bool ready = true;
+    BOLT_TRY(each_swapchain([&](Swapchain& swapchain) -> Status {
+        BOLT_TRY(acquire(swapchain));
+        ready = ready && swapchain.ready;
+        return {};
+    }));
+    if (!ready) return {};  // the runtime still reads an image; this frame shows nothing
+    depth_drawn_ = !depth_.empty() && std::all_of(pictures.begin(), pictures.end(),
+                                                  [](const EyePicture& p) { return p.depth != nullptr; });
+    for (std::size_t eye = 0; eye < pictures.size(); ++eye) {
+        const EyePicture& picture = pictures[eye];
+        const VkExtent2D extent{std::min(picture.extent.width, extent_.width),
+                                std::min(picture.extent.height, extent_.height)};
+        const auto copy_to = [&](const std::vector<Swapchain>& swapchains, const gpu::Image& from,
+                                 std::uint32_t layer) {
+            const bool shared = swapchains.size() == 1;
+            const Swapchain& to = swapchains[shared ? 0 : eye];
+            copy_picture(commands, from, layer, to.images[*to.acquired],
+                         shared ? static_cast<std::uint32_t>(eye) : 0, to.format, extent);
+        };
+        copy_to(color_, *picture.picture, picture.layer);
+        if (depth_drawn_) copy_to(depth_, *picture.depth, picture.depth_layer);
+        drawn_.push_back(extent);
+    }
+    return {};
+}
+
+XrSwapchainSubImage Session::sub_image(const std::vector<Swapchain>& swapchains, std::size_t eye) const {
+    const bool shared = swapchains.size() == 1;
+    XrSwapchainSubImage image{};
+    image.swapchain = swapchains[shared ? 0 : eye].handle.get();
+    image.imageRect.extent = {static_cast<std::int32_t>(drawn_[eye].width),
+                              static_cast<std::int32_t>(drawn_[eye].height)};
+    image.imageArrayIndex = shared ? static_cast<std::uint32_t>(eye) : 0;
+    return image;
+}
+
+Status Session::end_frame(const FrameTiming& frame, const Drawn& drawn) {
+    BOLT_TRY(each_swapchain([&](Swapchain& swapchain) { return release(swapchain); }));
+    std::array<XrCompositionLayerProjectionView, 2> views{};
+    std::array<XrCompositionLayerDepthInfoKHR, 2> depths{};
+    const std::size_t eyes = drawn.view == nullptr ? 0 : std::min(drawn_.size(), drawn.view->eyes.size());
+    for (std::size_t eye = 0; eye < eyes; ++eye) {
+        const EyeView& view = drawn.view->eyes[eye];
+        const auto f = [](double x) { return static_cast<float>(x); };
+        views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
+        views[eye].pose = to_xr(view.pose);
+        views[eye].fov = {f(view.fov.left), f(view.fov.right), f(view.fov.up), f(view.fov.down)};
+        views[eye].subImage = sub_image(color_, eye);
+        if (!depth_drawn_) continue;
+        depths[eye] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
+        depths[eye].subImage = sub_image(depth_, eye);
+        depths[eye].minDepth = 0.0F;
+        depths[eye].maxDepth = 1.0F;
+        // Depth is reversed: 0 is far.
+        depths[eye].nearZ = drawn.depth.far;
+        depths[eye].farZ = drawn.depth.near;
+        views[eye].next = &depths[eye];
+    }
+    const bool blends = options_.passthrough && runtime_->passthrough().has_value();
+    XrCompositionLayerProjection projection{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
+    projection.layerFlags = blends ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT : 0;
+    projection.space = space_.get();
+    projection.viewCount = static_cast<std::uint32_t>(eyes);
+    projection.views = views.data();
+    const XrCompositionLayerBaseHeader* layers[] = {
+        reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection)};
+    XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
+    info.displayTime = frame.display_time;
+    info.environmentBlendMode = blends ? *runtime_->passthrough() : runtime_->opaque();
+    info.layerCount = eyes > 0 && eyes == runtime_->views().size() ? 1 : 0;
+    info.layers = layers;
+    drawn_.clear();
+    return check(xrEndFrame(session_.get(), &info), "ending the headset's frame");
+}
+
+}  // namespace bolt::xr
