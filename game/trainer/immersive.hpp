@@ -18,7 +18,7 @@ namespace bolt::trainer {
 inline constexpr glm::dvec2 panel_points{1160.0, 760.0};
 inline constexpr double panel_distance = 0.75, point_size = 1.0e-3;  // m
 inline constexpr float panel_scale = 1.5F;                           // px per point
-inline constexpr VkExtent2D panel_extent{1740, 1140};                 // px, the product of both
+inline constexpr VkExtent2D panel_extent{1740, 1140};                // px, the product of both
 
 // Where the panel is pointed at.
 struct PanelPointer {
