@@ -91,12 +91,12 @@ struct ModelFiles {
     std::string contact;    // collision geometry
 };
 
-// Flange that couples the joints: a plate on an elastic foundation. The model is our own (see
+// The flange through which the joints interact: a plate on an elastic foundation. The model is our own (see
 // haptics/joint/group.hpp).
 struct FlangeDesign {
-    bool coupled = false;
-    double thickness = 0.0;  // m
-    double E = 0.0;          // Pa
+    bool joints_interact = false;  // tightening one changes the clamp force of its neighbours
+    double thickness = 0.0;        // m
+    double E = 0.0;                // Pa
     double poisson = 0.25;
     double interface_stiffness = 0.0;  // Pa/m, of the parting faces
 };

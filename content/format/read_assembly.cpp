@@ -107,7 +107,7 @@ std::vector<Tool> read_tools(JsonReader& reader, const std::vector<AssemblyJoint
 FlangeDesign read_flange(JsonReader& reader) {
     const LayeredObject file(reader, {reader.member(reader.root(), "flange")});
     FlangeDesign flange;
-    flange.coupled = !file.objects().empty();
+    flange.joints_interact = !file.objects().empty();
     flange.thickness = file.number("thickness_mm").value_or(0.0) * mm;
     flange.E = file.number("E_GPa").value_or(0.0) * 1e9;
     flange.poisson = file.number("poisson").value_or(flange.poisson);

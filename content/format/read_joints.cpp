@@ -89,19 +89,19 @@ constexpr double default_tolerance = 0.10;  // of the target torque
 constexpr double default_snug = 0.25;       // of the target torque
 constexpr double started_turns = 1.5;       // turns of a hand-started nut on the thread
 
-std::vector<joint::Member> read_members(const LayeredObject& layers, const Materials& materials) {
+std::vector<joint::Member> read_members(const LayeredObject& layers, const YoungsModuli& moduli) {
     JsonReader& reader = layers.reader();
     std::vector<joint::Member> members;
     std::vector<std::string> names;
-    for (const auto& [name, E] : materials.E) names.push_back(name);
+    for (const auto& [name, E] : moduli.E) names.push_back(name);
     for (const JsonNode& node : reader.items(layers.find("members"))) {
         joint::Member member;
         member.thickness = reader.number(reader.member(node, "thickness_mm")).value_or(0.0) * mm;
         const JsonNode material = reader.member(node, "material");
         const auto name = reader.text(material);
-        if (name && materials.E.contains(*name)) {
-            member.E = materials.E.at(*name);
-        } else if (name && materials.complete) {
+        if (name && moduli.E.contains(*name)) {
+            member.E = moduli.E.at(*name);
+        } else if (name && moduli.complete) {
             reader.report(
                 material.pointer, fmt::format("{} is not a material of this file", in_quotes(*name)),
                 nearest_name(*name, names).empty() ? suggest(*name, names) + ", or add it to \"materials\""
@@ -127,7 +127,7 @@ joint::FrictionDesign read_friction(const LayeredObject& layers) {
     return friction;
 }
 
-joint::JointDesign read_design(const LayeredObject& layers, const Materials& materials) {
+joint::JointDesign read_design(const LayeredObject& layers, const YoungsModuli& moduli) {
     JsonReader& reader = layers.reader();
     joint::JointDesign design{};
     if (const auto size = layers.text("size")) {
@@ -147,7 +147,7 @@ joint::JointDesign read_design(const LayeredObject& layers, const Materials& mat
     design.bolt_thread_length = layers.number("bolt_thread_length_mm").value_or(0.0) * mm;
     design.washer_under_head = layers.boolean("washer_under_head").value_or(false);
     design.washer_under_nut = layers.boolean("washer_under_nut").value_or(false);
-    design.members = read_members(layers, materials);
+    design.members = read_members(layers, moduli);
     design.member_diameter = layers.number("member_diameter_mm").value_or(0.0) * mm;
     design.friction = read_friction(layers);
     design.roughness_Rz = layers.number("roughness_Rz_um").value_or(design.roughness_Rz / um) * um;
@@ -212,21 +212,21 @@ double read_snug_torque(const LayeredObject& spec, const ToleranceWindow& torque
     return spec.number("snug_torque_Nm").value_or(default_snug * torque.target);
 }
 
-Materials read_materials(JsonReader& reader) {
-    Materials materials;
-    materials.E = {{"aluminium", 70e9},     {"bronze", 105e9},          {"cast_iron", 110e9},
-                   {"ductile_iron", 170e9}, {"stainless_steel", 200e9}, {"steel", 205e9}};
+YoungsModuli read_youngs_moduli(JsonReader& reader) {
+    YoungsModuli moduli;
+    moduli.E = {{"aluminium", 70e9},     {"bronze", 105e9},          {"cast_iron", 110e9},
+                {"ductile_iron", 170e9}, {"stainless_steel", 200e9}, {"steel", 205e9}};
     const JsonNode own = reader.member(reader.root(), "materials");
-    materials.complete = reader.is_valid(own.pointer);
+    moduli.complete = reader.is_valid(own.pointer);
     for (const JsonNode& node : reader.items(own))
         if (const auto E = reader.number(reader.member(node, "E_GPa")))
-            materials.E[last_token(node.pointer)] = *E * 1e9;
-    return materials;
+            moduli.E[last_token(node.pointer)] = *E * 1e9;
+    return moduli;
 }
 
-JointType read_joint_type(const LayeredObject& layers, const Materials& materials,
+JointType read_joint_type(const LayeredObject& layers, const YoungsModuli& moduli,
                           double smallest_pass_fraction) {
-    const JointType type{read_design(layers, materials), read_spec(layers.member_layers("spec"))};
+    const JointType type{read_design(layers, moduli), read_spec(layers.member_layers("spec"))};
     check_joint_type(layers, type, smallest_pass_fraction);
     return type;
 }
@@ -250,7 +250,7 @@ struct JointTypes {
     JsonNode all;          // "joint_types"
     JsonNode every_patch;  // of the variant
     JsonNode patches;      // of the variant, by type
-    Materials materials;
+    YoungsModuli moduli;
     double smallest_pass_fraction;  // smallest fraction of the target torque of all passes
     std::map<std::string, JointType> read;
 
@@ -285,7 +285,7 @@ AssemblyJoint read_joint(JointTypes& types, const JsonNode& node) {
         if (override) {
             std::vector<JsonNode> objects = types.layers(joint.type).objects();
             objects.insert(objects.begin(), override);
-            type = read_joint_type(LayeredObject(reader, std::move(objects)), types.materials,
+            type = read_joint_type(LayeredObject(reader, std::move(objects)), types.moduli,
                                    types.smallest_pass_fraction);
         }
         joint.design = std::move(type.design);
@@ -352,14 +352,14 @@ std::vector<AssemblyJoint> read_joints(JsonReader& reader, const std::string& va
                      reader.member(root, "joint_types"),
                      reader.member(patch, "every_joint_type"),
                      reader.member(patch, "joint_types"),
-                     read_materials(reader),
+                     read_youngs_moduli(reader),
                      smallest_pass_fraction(reader),
                      {}};
     const std::vector<std::string> type_names = names_of(reader, types.all);
     const bool has_types = static_cast<bool>(types.all);
     for (const std::string& name : type_names)
-        types.read.emplace(
-            name, read_joint_type(types.layers(name), types.materials, types.smallest_pass_fraction));
+        types.read.emplace(name,
+                           read_joint_type(types.layers(name), types.moduli, types.smallest_pass_fraction));
     for (const JsonNode& node : reader.items(types.patches))
         if (has_types && !types.read.contains(last_token(node.pointer)))
             report_unknown(reader, node.pointer, JsonPart::key, "joint type of this file",

@@ -18,12 +18,12 @@ namespace bolt::content {
 Result<joint::ThreadSize> read_thread(std::string_view text);
 
 // Young's moduli by material name, Pa: the built-in materials and the file's own.
-struct Materials {
+struct YoungsModuli {
     std::map<std::string, double> E;
     bool complete = true;  // false: the file's own materials could not be read
 };
 
-Materials read_materials(JsonReader& reader);
+YoungsModuli read_youngs_moduli(JsonReader& reader);
 
 struct JointType {
     joint::JointDesign design;
@@ -33,7 +33,7 @@ struct JointType {
 // Reads a joint type with its patches applied, and reports its errors, including inconsistent values. After
 // an error the result serves only for further checks. `smallest_pass_fraction`: smallest fraction of the
 // target torque that a pass tightens to.
-JointType read_joint_type(const LayeredObject& layers, const Materials& materials,
+JointType read_joint_type(const LayeredObject& layers, const YoungsModuli& moduli,
                           double smallest_pass_fraction);
 
 // Checks the consistency of a joint type: lengths, torques, windows. Checks that need an invalid or missing

@@ -118,7 +118,7 @@ void ask_for_stiffness(const device::Description& d, bool yes, station_setup::De
         fmt::format(
             "{} pushes the hand with {:.1f} N at most, for about {:.0f} s. Hold its handle in the middle of "
             "its reach{}. May it push?",
-            d.name, force, station::stiffness_stages * station::stiffness_stage_time,
+            d.name, force, station::stiffness_levels * station::stiffness_level_time,
             d.buttons > 0 && options.dead_man != 0
                 ? fmt::format(", and its button {}", std::countr_zero(options.dead_man) + 1)
                 : ""),

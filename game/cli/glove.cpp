@@ -98,7 +98,7 @@ Result<std::string> save(const GloveArguments& options, content::GloveCalibratio
 Result<hand::CalibrationResult> record_postures(GloveReader& reader) {
     hand::CalibrationSession session;
     std::optional<hand::Posture> prompted;
-    hand::CalibrationTrouble reported = hand::CalibrationTrouble::none;
+    hand::CalibrationProblem reported = hand::CalibrationProblem::none;
     while (session.phase != hand::CalibrationPhase::done && session.phase != hand::CalibrationPhase::failed) {
         if (prompted != session.requested) {
             prompted = session.requested;
@@ -106,9 +106,9 @@ Result<hand::CalibrationResult> record_postures(GloveReader& reader) {
                                                  hand::posture_count, hand::prompt(*prompted));
             BOLT_TRY(print(text));
         }
-        if (reported != session.trouble) {
-            reported = session.trouble;
-            if (reported != hand::CalibrationTrouble::none)
+        if (reported != session.problem) {
+            reported = session.problem;
+            if (reported != hand::CalibrationProblem::none)
                 BOLT_TRY(print(fmt::format("     {}\n", hand::message_for(reported))));
         }
         std::this_thread::sleep_for(poll_period);

@@ -12,7 +12,6 @@
 #include "engine/base/result.hpp"
 #include "game/analysis/comparison.hpp"
 #include "game/cli/commands.hpp"
-#include "game/report/comparison.hpp"
 #include "game/report/report.hpp"
 #include "game/session/export.hpp"
 #include "game/session/session_file.hpp"

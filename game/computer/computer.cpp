@@ -35,7 +35,7 @@ servo::Input working_input(const servo::Setup& setup, const servo::State& state)
     servo::Input input;
     input.commanded_tool = servo::to_commanded_tool({at, q});
     input.grip = servo::Grip::wrench;
-    input.enabled = true;
+    input.dead_man = true;
     input.guide = 0;
     return input;
 }
@@ -116,10 +116,10 @@ void add_timing(const ComputerFacts& facts, std::vector<Finding>& all) {
 }
 
 Finding disk_finding(const ComputerFacts& facts) {
-    if (!facts.folder_trouble.empty())
+    if (!facts.folder_error.empty())
         return {Severity::bad,
                 "finding.folder",
-                {{"folder", facts.sessions.string()}, {"why", facts.folder_trouble}},
+                {{"folder", facts.sessions.string()}, {"why", facts.folder_error}},
                 words::TextKey("finding.folder.do")};
     const words::TextArgument free{"free", words::Number{facts.free_space / 1e9, 1}};
     if (facts.free_space < least_free_space)
@@ -183,9 +183,9 @@ ComputerFacts gather_facts(const FactsRequest& request) {
     std::error_code problem;
     facts.free_space = static_cast<double>(fs::space(folder, problem).available);
     if (problem)
-        facts.folder_trouble = problem.message();
+        facts.folder_error = problem.message();
     else if (access(folder.c_str(), W_OK | X_OK) != 0)
-        facts.folder_trouble = std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): read at once
+        facts.folder_error = std::strerror(errno);  // NOLINT(concurrency-mt-unsafe): read at once
     facts.films = run_program({"ffmpeg", "-version"}, Capture::output_and_errors).has_value();
     if (request.seconds > 0.0) {
         auto timings = time_servo(request.assembly, {1000.0}, request.seconds);

@@ -43,7 +43,7 @@ struct ComputerFacts {
     std::vector<device::ListedDevice> devices;
     std::optional<Result<ServoTiming>> timing;  // none: not measured
     std::filesystem::path sessions;             // folder of the sessions; may not exist yet
-    std::string folder_trouble;                 // why sessions cannot be written there; empty if they can
+    std::string folder_error;                   // why sessions cannot be written there; empty if they can
     double free_space = 0.0;                    // bytes, where the sessions are kept
     bool films = false;                         // FFmpeg is installed
 };

@@ -30,7 +30,7 @@ struct GpuResources {
 }  // namespace
 
 std::optional<std::size_t> active_joint(const scene::SceneWorld& world, const lesson::Lesson& lesson) {
-    if (const std::int16_t held = world.only<world::ContactState>().joint; held >= 0)
+    if (const std::int16_t held = world.only<world::ToolState>().joint; held >= 0)
         return static_cast<std::size_t>(held);
     const lesson::LessonStep* due = lesson.due();
     return due != nullptr ? std::optional(due->joint) : std::nullopt;
@@ -65,7 +65,7 @@ void place(ReplayScene& replay, const ReplayMoment& moment) {
                              std::abs(scene::relative_torque(moment.setup, world)), 0.0, moment.seconds,
                              moment.contact != nullptr ? &moment.contact->world : nullptr});
     replay.scene.cut_away.strength = 0.0F;
-    if (const std::int16_t held = world.only<world::ContactState>().joint; held >= 0)
+    if (const std::int16_t held = world.only<world::ToolState>().joint; held >= 0)
         scene::fade_occluders(world, replay.scene, moment.setup, static_cast<std::size_t>(held));
 }
 

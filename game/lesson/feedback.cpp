@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace bolt::lesson {
 
@@ -23,6 +24,15 @@ constexpr MistakeRow mistake_rows[] = {
     {MistakeKind::stripped, "mistake.stripped", "mistake.stripped.do"},
     {MistakeKind::broken, "mistake.broken", "mistake.broken.do"},
 };
+
+// One row for each kind but `none`, in the order of the kinds.
+constexpr bool has_all_mistakes() {
+    if (std::size(mistake_rows) + 1 != mistake_kinds) return false;
+    for (std::size_t i = 0; i < std::size(mistake_rows); ++i)
+        if (static_cast<std::size_t>(mistake_rows[i].kind) != i + 1) return false;
+    return true;
+}
+static_assert(has_all_mistakes());
 
 void show(MistakeState& mistakes, Mistake mistake) {
     mistakes.shown = std::move(mistake);

@@ -183,7 +183,7 @@ void release(Lesson& lesson, const world::ReadHaptics& world) {
     if (due != nullptr && due->joint == joint && step_fulfilled(lesson, world)) end_step(lesson, world);
 }
 
-// Called at the first work of a visit: checks that this joint is due.
+// Called at the first work of a hold: checks that this joint is due.
 void begin_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& world) {
     lesson.joints[joint].worked = true;
     const LessonStep* due = lesson.due();
@@ -270,7 +270,7 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
     }
     if (track.snug && torque > 0.0) track.result.angle = nut.angle - track.snug_angle;
     if (nut.stage == joint::Stage::yield) track.yielded = true;
-    if (world.only<world::ContactState>().clicked) {
+    if (world.only<world::ToolState>().clicked) {
         track.clicked = true;
         add_event(lesson, tick_of(world), EventKind::click, static_cast<int>(joint), torque,
                   "the torque wrench clicks");
@@ -314,7 +314,7 @@ bool requires_yield(const Lesson& lesson, const LessonStep& step) {
            spec_of(lesson, step.joint).strategy == content::Strategy::yield;
 }
 
-double wrench_setting(const Lesson& lesson) {
+double wrench_set_torque(const Lesson& lesson) {
     const LessonStep* step = lesson.due();
     if (step == nullptr || lesson.assembly->wrench.click_swing <= 0.0) return 0.0;
     return step->kind == StepKind::tighten || step->kind == StepKind::recheck ? step->torque : 0.0;
@@ -357,7 +357,7 @@ Lesson begin(const content::Assembly& assembly, Mode mode, Task task) {
 }
 
 void observe(Lesson& lesson, const world::ReadHaptics& world) {
-    const world::ContactState& contact = world.only<world::ContactState>();
+    const world::ToolState& contact = world.only<world::ToolState>();
     if (tick_of(world) == 1) begin_step(lesson, world);
     const bool other_grip = lesson.held_joint >= 0 && contact.grip != lesson.grip;
     if (lesson.held_joint >= 0 && (contact.joint != lesson.held_joint || other_grip)) release(lesson, world);

@@ -110,7 +110,7 @@ content::ToleranceWindow torque_window(const Lesson& lesson, const LessonStep& s
 bool requires_yield(const Lesson& lesson, const LessonStep& step);
 
 // Set torque of the torque wrench for the due step, N·m; 0 for other tools and for steps without a torque.
-double wrench_setting(const Lesson& lesson);
+double wrench_set_torque(const Lesson& lesson);
 
 // True if releasing the nut now completes the due step.
 bool step_fulfilled(const Lesson& lesson, const world::ReadJoints& world);

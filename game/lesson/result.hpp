@@ -2,6 +2,7 @@
 // game/report.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -33,7 +34,8 @@ struct JointResult {
     std::string id;
     double torque = 0.0;  // N·m, highest of the tightening step and of later pulls that tightened further
     double angle = 0.0;   // rad from snug
-    // N, when the result was last updated; at the end of the lesson it includes embedding and coupling
+    // N, when the result was last updated; at the end of the lesson it includes embedding and the interaction
+    // of the joints
     double clamp = 0.0;
     double clamp_at_release = 0;  // N, when the wrench last left the nut
     Verdict torque_verdict = Verdict::none;
@@ -41,8 +43,8 @@ struct JointResult {
     Verdict overall = Verdict::none;  // OK only if each judged quantity is OK and the joint is sound
     joint::JointCondition condition = joint::JointCondition::sound;
     int strokes = 0;
-    int done_already = 0;  // visits after its step was done
-    int out_of_turn = 0;   // visits before its step was due
+    int done_already = 0;  // times that the hand worked on it after its step was done
+    int out_of_turn = 0;   // times that the hand worked on it before its step was due
 };
 
 // The reason for a deduction. A session file stores its text only.
@@ -89,6 +91,8 @@ enum class MistakeKind : std::uint8_t {
     stripped,
     broken
 };
+inline constexpr std::size_t mistake_kinds =
+    static_cast<std::size_t>(MistakeKind::broken) + 1;  // the last kind
 
 // The comment gives the meaning of LessonEvent::value.
 enum class EventKind : std::uint8_t {

@@ -65,7 +65,7 @@ Situation tightening(const WorkState& s, const LessonStep& due, const world::Joi
     if (turns_off || joint.torque < -wrong_torque - wrong_share * due.torque) return Situation::other_way_on;
     if (out_of_room(s)) return Situation::set_back;
     if (checks) return Situation::check;
-    if (wrench_setting(s.lesson) > 0.0) return Situation::pull_to_click;
+    if (wrench_set_torque(s.lesson) > 0.0) return Situation::pull_to_click;
     const bool eases = joint.torque > last_part * window.low;
     if (to_yield) return eases ? Situation::ease_to_yield : Situation::pull_to_yield;
     return eases ? Situation::ease : Situation::pull;

@@ -20,7 +20,7 @@ enum class Situation : std::uint8_t {
     find_by_fingers,
     set_on,
     set_on_again,    // earlier pulls were not enough
-    set_on_rounded,  // onto corners that a slipping jaw has worn
+    set_on_rounded,  // onto corners that a slipping jaw has rounded off
     grip_nut,
     run_down,
     run_down_by_wrench,

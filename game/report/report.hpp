@@ -1,11 +1,14 @@
-// The report as an HTML page (report.html): one session, or a comparison of several attempts.
+// The report as an HTML page (report.html): one session, or several attempts side by side; and the page of
+// `boltwright compare`: a session beside a measured joint.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "engine/base/result.hpp"
+#include "game/analysis/comparison.hpp"
 #include "game/analysis/session_data.hpp"
 #include "game/session/session_file.hpp"
 
@@ -35,5 +38,18 @@ Result<std::string> make_report(std::span<const session::SessionReader* const> s
 
 // The same for data that is already read.
 std::string make_report(std::span<const analysis::SessionData> sessions);
+
+// A session beside a measured joint (comparison.cpp).
+
+std::string console_text(const analysis::Comparison& comparison);
+
+// A complete HTML document without external resources.
+std::string comparison_page(const analysis::Comparison& comparison);
+
+// Limits of the comparison: peaks that differ by a large factor, stages without samples.
+std::vector<std::string> remarks(const analysis::Comparison& comparison);
+
+// How the curves were aligned and how the errors are defined.
+std::string method_text(const analysis::Comparison& comparison);
 
 }  // namespace bolt::report

@@ -194,7 +194,7 @@ Vec3 label_position(const servo::Setup& setup, const ecs::Access<const world::Jo
 std::optional<render::Label> work_label(const words::Words& words, const lesson::Lesson& lesson,
                                         const servo::Setup& setup, const WorkAccess& world,
                                         const view::Palette& palette) {
-    const std::int16_t engaged = world.only<world::ContactState>().joint;
+    const std::int16_t engaged = world.only<world::ToolState>().joint;
     if (engaged < 0) return std::nullopt;
     const auto joint = static_cast<std::size_t>(engaged);
     const world::Joint& now = world::joint_at(world, joint);

@@ -49,7 +49,7 @@ inline constexpr double force_arrow_length = 0.012;  // m/N
 inline constexpr double least_arrow_force = 0.4;     // N
 
 // The components that work_label() reads.
-using WorkAccess = ecs::Access<const world::Joint, const world::ContactState, const world::WorkingHand>;
+using WorkAccess = ecs::Access<const world::Joint, const world::ToolState, const world::WorkingHand>;
 
 inline constexpr glm::vec4 label_color{0.95F, 0.96F, 0.97F, 1.0F};
 

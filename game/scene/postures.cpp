@@ -19,7 +19,7 @@ void filter(double& value, double to, double dt, double time) {
 }  // namespace
 
 double relative_torque(const servo::Setup& setup, const EffortAccess& world) {
-    const std::int16_t engaged = world.only<world::ContactState>().joint;
+    const std::int16_t engaged = world.only<world::ToolState>().joint;
     if (engaged < 0) return 0.0;
     const world::Joint& joint = world::joint_at(world, static_cast<std::size_t>(engaged));
     const double most = world.only<world::WorkingHand>().wrench

@@ -20,7 +20,7 @@ struct Effort {
 
 // The torque on the nut relative to the greatest of the hand, −1 … 1, tightening positive; 0 if no nut is
 // engaged. The greatest is the torque of the wrench's spring at 2.5°, or the one at which fingers slip.
-using EffortAccess = ecs::Access<const world::Joint, const world::ContactState, const world::WorkingHand>;
+using EffortAccess = ecs::Access<const world::Joint, const world::ToolState, const world::WorkingHand>;
 double relative_torque(const servo::Setup& setup, const EffortAccess& world);
 
 // Call it once a tick.

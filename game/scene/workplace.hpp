@@ -88,9 +88,9 @@ inline constexpr double shoulders_below_eyes = 0.2;  // m, sitting; about the va
 inline Pose wrench_rest_pose(const render::BoundingBox& machine, double head_thickness,
                              hand::Side side = hand::Side::right) {
     const Vec3 low(machine.low), high(machine.high);
-    const Quat round = glm::angleAxis(side == hand::Side::left ? pi : 0.0, Vec3(0, 1, 0));
+    const Quat half_turn = glm::angleAxis(side == hand::Side::left ? pi : 0.0, Vec3(0, 1, 0));
     return {{0.5 * (low.x + high.x), low.y + 0.5 * head_thickness + 0.002, high.z + 0.06},
-            round * glm::angleAxis(-0.5 * pi, Vec3(1, 0, 0))};
+            half_turn * glm::angleAxis(-0.5 * pi, Vec3(1, 0, 0))};
 }
 
 // Height of the worker's eyes in the assembly's frame, m; none if standing.

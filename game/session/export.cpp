@@ -123,7 +123,7 @@ void append_row(std::string& text, double time, const TickRecord& tick, Names& n
     const auto out = std::back_inserter(text);
     const auto& [p, q] = tick.commanded_tool;
     fmt::format_to(out, "{:.6f},{},{},{},{},{},{},{},{},{},", time, p[0], p[1], p[2], q[0], q[1], q[2], q[3],
-                   name(static_cast<servo::Grip>(tick.grip)), tick.flags & flag_enabled);
+                   name(static_cast<servo::Grip>(tick.grip)), tick.flags & flag_dead_man);
     text.append(names.joints[tick.guide]).append(",").append(names.joints[tick.joint]);
     fmt::format_to(out, ",{},{},{},{},{},{},{},{},{},{},{},",
                    joint::name(static_cast<joint::Stage>(tick.stage)), tick.wrench_torque,

@@ -20,13 +20,14 @@ servo::Setup make_setup(const content::Assembly& assembly, joint::Law law, const
     }
     const content::FlangeDesign& f = assembly.flange;
     joint::FlangePlate plate;
-    if (f.coupled) plate = joint::FlangePlate::make(f.thickness, f.E, f.poisson, f.interface_stiffness);
+    if (f.joints_interact)
+        plate = joint::FlangePlate::make(f.thickness, f.E, f.poisson, f.interface_stiffness);
 
     servo::SetupDescription description;
     description.joints = designs;
     description.law = law;
     description.published = assembly.published;
-    description.flange = f.coupled ? &plate : nullptr;
+    description.flange = f.joints_interact ? &plate : nullptr;
     description.jaw = assembly.wrench.jaw;
     description.head_thickness = assembly.wrench.head_thickness;
     description.jaw_depth = assembly.wrench.jaw_depth;
@@ -66,7 +67,7 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
         joint.nut.speed = 0.0;
     }
     for (double rest = 0.0; rest < 10.0; rest += setup.dt)
-        joint::step_group(setup.group, state.joints, -1, joint::DriveHandle{}, setup.dt);
+        joint::step_group(setup.group, state.joints, -1, joint::NutDrive{}, setup.dt);
     return {};
 }
 
@@ -200,14 +201,14 @@ Result<servo::Output> LessonSession::step(const world::WriteHaptics& world, cons
                                           std::vector<lesson::LessonEvent> extra_events) {
     servo::Input input = given;
     const auto undo = std::exchange(requested_undo_, std::nullopt);
-    input.undo = target_checkpoints() != checkpoints_saved_ ? servo::save_checkpoint
-                 : undo                                     ? undo_input(*undo)
-                                                            : std::uint8_t{0};
-    input.setting = static_cast<float>(lesson::wrench_setting(lesson()));
+    input.checkpoint_action = target_checkpoints() != checkpoints_saved_ ? servo::save_checkpoint
+                              : undo                                     ? restore_action(*undo)
+                                                                         : std::uint8_t{0};
+    input.set_torque = static_cast<float>(lesson::wrench_set_torque(lesson()));
     return tick(world, input, std::move(extra_events));
 }
 
-std::uint8_t LessonSession::undo_input(std::size_t steps) const {
+std::uint8_t LessonSession::restore_action(std::size_t steps) const {
     const lesson::Lesson& l = lesson();
     const std::size_t checkpoints = steps + (finished() ? 0 : 1);  // as in lesson_system()
     const bool allowed =
@@ -229,7 +230,7 @@ Status LessonSession::repeat(const world::WriteHaptics& world, const servo::Inpu
 Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, const servo::Input& input,
                                           std::vector<lesson::LessonEvent>&& extra_events) {
     const servo::Output output = servo::tick(current_.setup, current_.state, input);
-    checkpoints_saved_ += input.undo == servo::save_checkpoint ? 1U : 0U;
+    checkpoints_saved_ += input.checkpoint_action == servo::save_checkpoint ? 1U : 0U;
     TickContext context{{current_.state, input, output}, tracker_};
     ecs::run(tick_systems, world, context);
     events_.clear();

@@ -128,12 +128,13 @@ class LessonSession {
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - current_.state.checkpoint_count;
     }
-    // The servo::Input::undo that undoes `steps` steps; 0: not allowed.
-    [[nodiscard]] std::uint8_t undo_input(std::size_t steps) const;
+    // The servo::Input::checkpoint_action that restores the start of the step `steps` steps before the due
+    // one; 0: not allowed.
+    [[nodiscard]] std::uint8_t restore_action(std::size_t steps) const;
 
     // Makes the next step() return the nuts and the lesson to the start of the due step (0) or of the step
     // `steps` steps earlier; possible after the last step too. Ignored in an assessment, beyond the oldest
-    // checkpoint, and while a nut is held or the tool is beside one (servo::Input::undo).
+    // checkpoint, and while a nut is held or the tool is beside one (servo::Input::checkpoint_action).
     void request_undo(std::size_t steps) { requested_undo_ = steps; }
 
     // Events of the last tick.

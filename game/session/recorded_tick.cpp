@@ -40,8 +40,8 @@ TickRecord make_record(const servo::Input& input, const servo::Output& output) {
     record.commanded_tool = input.commanded_tool;
     record.grip = static_cast<std::uint8_t>(input.grip);
     record.flags = static_cast<std::uint8_t>(
-        (input.enabled ? flag_enabled : 0) | (input.fresh ? 0 : flag_silent) | (input.stop ? flag_stop : 0) |
-        (input.reset ? flag_reset : 0) | std::min<int>(input.missed, 15) << 4);
+        (input.dead_man ? flag_dead_man : 0) | (input.fresh ? 0 : flag_silent) |
+        (input.stop ? flag_stop : 0) | (input.reset ? flag_reset : 0) | std::min<int>(input.missed, 15) << 4);
     record.guide = input.guide;
     for (int i = 0; i < 3; ++i) {
         record.force[i] = static_cast<float>(output.force[i]);
@@ -55,8 +55,8 @@ TickRecord make_record(const servo::Input& input, const servo::Output& output) {
     record.contacts = output.contacts;
     record.touched = output.touched;
     record.fault = static_cast<std::uint8_t>(output.fault);
-    record.undo = input.undo;
-    record.setting = input.setting;
+    record.checkpoint_action = input.checkpoint_action;
+    record.set_torque = input.set_torque;
     return record;
 }
 
@@ -64,14 +64,14 @@ servo::Input input_of(const TickRecord& record) {
     servo::Input input;
     input.commanded_tool = record.commanded_tool;
     input.grip = static_cast<servo::Grip>(record.grip);
-    input.enabled = (record.flags & flag_enabled) != 0;
+    input.dead_man = (record.flags & flag_dead_man) != 0;
     input.fresh = (record.flags & flag_silent) == 0;
     input.stop = (record.flags & flag_stop) != 0;
     input.reset = (record.flags & flag_reset) != 0;
     input.missed = static_cast<std::uint8_t>(record.flags >> 4);
     input.guide = record.guide;
-    input.undo = record.undo;
-    input.setting = record.setting;
+    input.checkpoint_action = record.checkpoint_action;
+    input.set_torque = record.set_torque;
     return input;
 }
 
@@ -87,7 +87,8 @@ bool is_valid(const TickRecord& record) {
     constexpr auto last_grip = static_cast<std::uint8_t>(servo::Grip::wrench);
     return record.grip <= last_grip && record.stage < joint::stage_count && record.guide >= -1 &&
            record.joint >= -1 && file_number(record.touched) && record.fault < force::fault_kinds &&
-           (record.undo <= servo::max_checkpoints || record.undo == servo::save_checkpoint);
+           (record.checkpoint_action <= servo::max_checkpoints ||
+            record.checkpoint_action == servo::save_checkpoint);
 }
 
 namespace {
@@ -134,9 +135,9 @@ void for_each_column(std::byte chunk_version, Visit visit) {
     visit([](auto& tick) -> auto& { return tick.touched; });
     visit([](auto& tick) -> auto& { return tick.fault; });
     if (chunk_version < std::byte{3}) return;
-    visit([](auto& tick) -> auto& { return tick.undo; });
+    visit([](auto& tick) -> auto& { return tick.checkpoint_action; });
     if (chunk_version < std::byte{4}) return;
-    visit([](auto& tick) -> auto& { return tick.setting; });
+    visit([](auto& tick) -> auto& { return tick.set_torque; });
 }
 
 std::size_t tick_bytes(std::byte chunk_version) {

@@ -130,7 +130,7 @@ Result<RecordedHand> replay_device(const SessionReader& session) {
         for (std::size_t i = 0; i < ticks.size(); ++i) {
             const TickRecord& tick = ticks[i];
             if ((tick.flags & flag_silent) != 0) continue;
-            const std::uint32_t buttons = ((tick.flags & flag_enabled) != 0 ? button_held : 0) |
+            const std::uint32_t buttons = ((tick.flags & flag_dead_man) != 0 ? button_held : 0) |
                                           ((tick.flags & flag_stop) != 0 ? button_stop : 0) |
                                           ((tick.flags & flag_reset) != 0 ? button_reset : 0);
             samples->push_back({tick.commanded_tool, buttons, first + i});

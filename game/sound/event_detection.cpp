@@ -50,7 +50,7 @@ double load_of(const servo::Setup& setup, const world::Joint& joint) {
 }
 
 const world::Joint* engaged_joint(const Audible& world) {
-    const std::int16_t joint = world.only<world::ContactState>().joint;
+    const std::int16_t joint = world.only<world::ToolState>().joint;
     return joint < 0 ? nullptr : &world::joint_at(world, static_cast<std::size_t>(joint));
 }
 
@@ -85,7 +85,7 @@ void add_to_history(EventDetector& detector, const servo::Setup& setup,
     detector.history_size = std::min(detector.history_size + 1, detector.history.size());
 }
 
-void detect_strike(EventDetector& detector, const servo::Setup& setup, const world::ContactState& contact,
+void detect_strike(EventDetector& detector, const servo::Setup& setup, const world::ToolState& contact,
                    SoundCues& cues) {
     const std::size_t n = window_ticks(setup);
     detector.since_strike += setup.dt;
@@ -108,8 +108,8 @@ void detect_strike(EventDetector& detector, const servo::Setup& setup, const wor
     detector.since_strike = 0.0;
 }
 
-void detect_slide(const EventDetector& detector, const servo::Setup& setup,
-                  const world::ContactState& contact, const Vec3& force, SoundCues& cues) {
+void detect_slide(const EventDetector& detector, const servo::Setup& setup, const world::ToolState& contact,
+                  const Vec3& force, SoundCues& cues) {
     // The jaw does not slide on the nut that it turns.
     const bool turned_nut =
         contact.joint >= 0 &&
@@ -134,7 +134,7 @@ StruckSurface surface_of(const EventDetector& detector, collision::ObstacleId to
 
 void detect_contact(EventDetector& detector, const servo::Setup& setup, const Audible& world,
                     SoundCues& cues) {
-    const world::ContactState& contact = world.only<world::ContactState>();
+    const world::ToolState& contact = world.only<world::ToolState>();
     add_to_history(detector, setup, ends_of(setup, world.only<world::ConstrainedTool>().pose));
     if (!contact.obstacle.is_none()) {
         detector.ticks_since_contact = 0;
@@ -148,7 +148,7 @@ void detect_contact(EventDetector& detector, const servo::Setup& setup, const Au
 }
 
 void detect_nut(EventDetector& detector, const servo::Setup& setup, const Audible& world, SoundCues& cues) {
-    const world::ContactState& contact = world.only<world::ContactState>();
+    const world::ToolState& contact = world.only<world::ToolState>();
     const world::Joint* engaged = engaged_joint(world);
     const double load = engaged != nullptr ? load_of(setup, *engaged) : 0.0;
     if (engaged != nullptr && contact.joint == detector.joint) {
@@ -173,7 +173,7 @@ SoundCues detect_events(EventDetector& detector, const servo::Setup& setup, cons
     SoundCues cues;
     detect_contact(detector, setup, world, cues);
     detect_nut(detector, setup, world, cues);
-    cues.click = world.only<world::ContactState>().clicked;
+    cues.click = world.only<world::ToolState>().clicked;
     cues.done = lesson.done;
     cues.mistake = lesson.mistake;
     return cues;

@@ -53,7 +53,7 @@ struct EventDetector {
 };
 
 // The components that the cues are derived from.
-using Audible = ecs::Access<const world::Joint, const world::ConstrainedTool, const world::ContactState,
+using Audible = ecs::Access<const world::Joint, const world::ConstrainedTool, const world::ToolState,
                             const world::DeviceForce>;
 
 // Returns the cues of the tick whose output haptic_system has just written to `world`.

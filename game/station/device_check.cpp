@@ -38,8 +38,8 @@ struct CheckedDevice {
             servo::add(age, static_cast<std::int64_t>(1e9 * (timer.now() - snapshot.sample.time)));
         number = snapshot.number;
         if (!trial) return;
-        input.enabled = snapshot.usable && (dead_man == 0 || (snapshot.sample.buttons & dead_man) != 0);
-        held = input.enabled;
+        input.dead_man = snapshot.usable && (dead_man == 0 || (snapshot.sample.buttons & dead_man) != 0);
+        held = input.dead_man;
         thread.command(station::step(*trial, input, tick_time), true);
         ended = trial->end != station::TrialEnd::none;
     }
@@ -76,13 +76,13 @@ std::string end_of(const station::StiffnessTrial& trial) {
             return "all that it announces";
         case station::TrialEnd::oscillation:
             return fmt::format("at {:.2g} N/mm the handle keeps oscillating",
-                               1e-3 * stiffness_of(trial, trial.stage));
+                               1e-3 * stiffness_of(trial, trial.level));
         case station::TrialEnd::energy:
             return fmt::format("at {:.2g} N/mm a spring at rest gives energy to the hand",
-                               1e-3 * stiffness_of(trial, trial.stage));
+                               1e-3 * stiffness_of(trial, trial.level));
         case station::TrialEnd::fault:
             return fmt::format("at {:.2g} N/mm the force was blocked: {}",
-                               1e-3 * stiffness_of(trial, trial.stage), force::name(trial.fault));
+                               1e-3 * stiffness_of(trial, trial.level), force::name(trial.fault));
         case station::TrialEnd::none:
             break;
     }

@@ -126,10 +126,11 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
     station.set_controls(controls);
     const double frames =
         station.glove_report() == nullptr ? 0.0 : static_cast<double>(station.glove_report()->frames);
-    std::uint64_t enabled = 0;
+    std::uint64_t dead_man_ticks = 0;
     bool held = false;
     const auto poll = [&] {
-        for (station::StationTick tick; station.next_tick(tick);) enabled += tick.input.enabled ? 1 : 0;
+        for (station::StationTick tick; station.next_tick(tick);)
+            dead_man_ticks += tick.input.dead_man ? 1 : 0;
         const double time = timer.now() - begun;
         update_episodes(trial.episodes, station.fault_messages(), time, on_message);
         if (station.hand() == nullptr || station.hand()->held == held) return;
@@ -157,7 +158,7 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
     trial.timing = station.servo().timing();
     trial.privileges = station.servo().privileges();
     trial.rate = 1.0 / station.setup().dt;
-    trial.enabled = static_cast<double>(enabled) * station.setup().dt;
+    trial.dead_man_time = static_cast<double>(dead_man_ticks) * station.setup().dt;
     return trial;
 }
 
@@ -193,8 +194,8 @@ std::string trial_report(const StationTrial& trial) {
     if (trial.wheel) text += report(*trial.wheel, describe(DeviceRole::wheel), trial.seconds);
     const auto has_force = [](const auto& tried) { return tried && renders(tried->description); };
     if (has_force(trial.mover) || has_force(trial.wheel))
-        text += trial.enabled > 0.0
-                    ? fmt::format("  the button was held for {:.1f} s\n", trial.enabled)
+        text += trial.dead_man_time > 0.0
+                    ? fmt::format("  the button was held for {:.1f} s\n", trial.dead_man_time)
                     : "  the button was never held, so the servo's load was lower than in use\n";
     if (trial.glove) text += report(*trial.glove, trial.seconds);
     text += fmt::format("Servo at {:.0f} ticks a second:\n", trial.rate) + describe(trial.privileges);

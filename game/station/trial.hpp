@@ -43,7 +43,7 @@ struct StationTrial {
     double rate = 1000.0;  // 1/s, of the servo
     std::optional<DeviceTrial> mover, wheel;
     std::optional<GloveTrial> glove;
-    double enabled = 0.0;  // s with the dead-man switch held
+    double dead_man_time = 0.0;  // s with the dead-man switch held
     servo::Timing timing;
     servo::ThreadPrivileges privileges;
     std::vector<Episode> episodes;

@@ -35,7 +35,7 @@ Intent make_intent(const TraineeProfile& profile, Random& random, const servo::S
         intent.joint = (due.joint + 1 + random.bits() % (joints - 1)) % joints;
     }
     // With a torque wrench a trainee that means to stop at the target waits for the click.
-    intent.until_click = !intent.wrong_joint && lesson::wrench_setting(lesson) > 0.0;
+    intent.until_click = !intent.wrong_joint && lesson::wrench_set_torque(lesson) > 0.0;
     double stop = 1.0 + profile.torque_bias + profile.torque_noise * random.normal();
     if (!retry && random.chance(profile.stops_early)) {
         stop *= 0.75;

@@ -206,7 +206,7 @@ servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State
         if (holds_nut) t.hand = motion::yield_to_wrench(t.hand, wrench);
     }
     servo::Input input;
-    input.enabled = true;
+    input.dead_man = true;
     input.guide = intention.guide;
     input.grip = intention.grip;
     input.commanded_tool = servo::to_commanded_tool(t.hand);

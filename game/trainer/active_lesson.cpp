@@ -237,7 +237,7 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
     const bool had_wrench = hand_of(active).wrench;
     client.link->step(frame.seconds);
     for (station::StationTick tick; continues(active) && frame.status && client.link->next_tick(tick);) {
-        const bool free = contact_of(active).joint < 0;
+        const bool free = tool_state_of(active).joint < 0;
         frame.status = active.session->repeat(world, tick.input, tick.output);
         if (tick.output.joint >= 0 && free) client.nut_angle_at_grip = tick.output.nut_angle;
         if (frame.status) after_tick(world, active, tick.output);

@@ -117,8 +117,8 @@ inline const world::WorkingHand& hand_of(const ActiveLesson& active) {
 inline const world::ConstrainedTool& tool_of(const ActiveLesson& active) {
     return active.workplace.world.only<world::ConstrainedTool>();
 }
-inline const world::ContactState& contact_of(const ActiveLesson& active) {
-    return active.workplace.world.only<world::ContactState>();
+inline const world::ToolState& tool_state_of(const ActiveLesson& active) {
+    return active.workplace.world.only<world::ToolState>();
 }
 
 // The user's head and hands in a room, for a display that surrounds the user.

@@ -51,7 +51,7 @@ App::App(AppOptions options) : options_(std::move(options)) {
     preferences_.file = options_.settings_file;
     preferences_.known = settings_vocabulary(words::languages(words::words_folder()));
     load_preferences(preferences_, options_.choice.trainee);
-    if (preferences_.trouble != Preferences::Trouble::none) log(preferences_.trouble_message);
+    if (preferences_.file_error != Preferences::FileError::none) log(preferences_.file_error_message);
     if (options_.choice.language.empty()) options_.choice.language = preferences_.settings.language;
 }
 
@@ -114,14 +114,14 @@ void App::select_trainee() {
     if (options_.choice.trainee == preferences_.trainee) return;
     save_preferences();
     load_preferences(preferences_, options_.choice.trainee);
-    if (preferences_.trouble != Preferences::Trouble::none) log(preferences_.trouble_message);
+    if (preferences_.file_error != Preferences::FileError::none) log(preferences_.file_error_message);
     const std::string& language = preferences_.settings.language;
     if (!language.empty() && language != words_.language) selected_language_ = language;
     apply_preferences();
 }
 
 void App::save_preferences() {
-    if (!trainer::save_preferences(preferences_)) log(preferences_.trouble_message);
+    if (!trainer::save_preferences(preferences_)) log(preferences_.file_error_message);
 }
 
 void App::apply_preferences() {

@@ -32,22 +32,25 @@ enum class Action : std::uint8_t {
     recentre,  // at a station: moves the tool to its initial pose
     close_up,  // shows and hides the close-up
 };
-inline constexpr std::size_t action_count = 12;
+inline constexpr std::size_t action_count = static_cast<std::size_t>(Action::close_up) + 1;  // the last one
 
 // As in settings files, whose names for clamp_map and mute are older.
 constexpr std::string_view name(Action action) {
-    constexpr std::array<std::string_view, action_count> names{
-        "tool",        "find_view", "whole_view", "hint",         "flange_map", "pause",
-        "full_screen", "quiet",     "undo",       "restart_step", "recentre",   "close_up"};
+    constexpr std::array names = std::to_array<std::string_view>(
+        {"tool", "find_view", "whole_view", "hint", "flange_map", "pause", "full_screen", "quiet", "undo",
+         "restart_step", "recentre", "close_up"});
+    static_assert(names.size() == action_count);
     return names.at(static_cast<std::size_t>(action));
 }
 
+inline constexpr std::array default_keys = std::to_array<platform::Key>(
+    {platform::Key::t, platform::Key::v, platform::Key::f, platform::Key::h, platform::Key::c,
+     platform::Key::escape, platform::Key::f11, platform::Key::m, platform::Key::backspace, platform::Key::r,
+     platform::Key::home, platform::Key::i});
+static_assert(default_keys.size() == action_count);
+
 struct KeyMap {
-    // The defaults.
-    std::array<platform::Key, action_count> keys{
-        platform::Key::t,         platform::Key::v,      platform::Key::f,    platform::Key::h,
-        platform::Key::c,         platform::Key::escape, platform::Key::f11,  platform::Key::m,
-        platform::Key::backspace, platform::Key::r,      platform::Key::home, platform::Key::i};
+    std::array<platform::Key, action_count> keys = default_keys;
     [[nodiscard]] platform::Key of(Action action) const { return keys.at(static_cast<std::size_t>(action)); }
 };
 

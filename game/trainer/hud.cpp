@@ -97,8 +97,8 @@ std::optional<content::ToleranceWindow> target_window(const lesson::Lesson& less
 }  // namespace
 
 void observe(TorquePlot& plot, const lesson::Lesson& lesson,
-             const ecs::Access<const world::Joint, const world::ContactState>& world) {
-    const std::int16_t engaged = world.only<world::ContactState>().joint;
+             const ecs::Access<const world::Joint, const world::ToolState>& world) {
+    const std::int16_t engaged = world.only<world::ToolState>().joint;
     if (engaged < 0) return;
     if (engaged != plot.joint) plot.points.clear();
     plot.joint = engaged;
@@ -225,7 +225,7 @@ void draw_plot(const ActiveLesson& active, const words::Words& w, const glm::dve
 
 // The force of the hand on the handle, which a haptic device would render.
 void draw_effort(const ActiveLesson& active, const words::Words& w, const glm::dvec2& size, float scale) {
-    const std::int16_t engaged = contact_of(active).joint;
+    const std::int16_t engaged = tool_state_of(active).joint;
     if (engaged < 0 || !hand_of(active).wrench) return;
     const servo::Setup& setup = active.session->setup();
     const world::Joint& joint = world::joint_at(active.workplace.world, static_cast<std::size_t>(engaged));
@@ -309,9 +309,9 @@ void draw_device_messages(const ActiveLesson& active, const words::Words& w, con
     if (!active.station || active.station->needs.any()) return;
     std::vector<HudLine> lines;
     if (const auto warning = arm_warning(active.station->condition)) lines.push_back({w[*warning], warm});
-    for (const std::string& trouble : active.station->troubles) lines.push_back({trouble, warm});
-    text_panel("##troubles", {12.0F * scale, static_cast<float>(size.y) - 12.0F * scale}, {0.0F, 1.0F}, lines,
-               0.5F * static_cast<float>(size.x));
+    for (const std::string& message : active.station->fault_messages) lines.push_back({message, warm});
+    text_panel("##fault_messages", {12.0F * scale, static_cast<float>(size.y) - 12.0F * scale}, {0.0F, 1.0F},
+               lines, 0.5F * static_cast<float>(size.x));
 }
 
 // Captions at the bottom centre, as in films.

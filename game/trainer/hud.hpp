@@ -61,7 +61,7 @@ struct TorquePlot {
 
 // Call after each tick with the wrench in the hand, when the lesson has observed it.
 void observe(TorquePlot& plot, const lesson::Lesson& lesson,
-             const ecs::Access<const world::Joint, const world::ContactState>& world);
+             const ecs::Access<const world::Joint, const world::ToolState>& world);
 
 // Areas in px that the interface covers; labels in the scene avoid them. Call between ui::Ui::begin and end,
 // after the last panel.

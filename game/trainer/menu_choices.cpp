@@ -198,7 +198,7 @@ ScreenAction draw_choices(const ScreenContext& context, float width, const Choic
     if (ImGui::IsItemDeactivatedAfterEdit()) action = ScreenAction::select_trainee;
     ImGui::Spacing();
     if (entry != nullptr) draw_missing(context, width, options, choice);
-    if (preferences.trouble != Preferences::Trouble::none) draw_settings_file(context, preferences);
+    if (preferences.file_error != Preferences::FileError::none) draw_settings_file(context, preferences);
     return action;
 }
 

@@ -340,7 +340,7 @@ servo::Input step_hand(MouseHand& hand, const servo::Setup& setup, const servo::
             break;
     }
     servo::Input input;
-    input.enabled = true;
+    input.dead_man = true;
     input.grip = grip;
     input.commanded_tool = servo::to_commanded_tool(hand.pose);
     return input;

@@ -30,8 +30,8 @@ fs::path settings_file(const Preferences& p) {
 void load_preferences(Preferences& p, const std::string& trainee) {
     const bool had_trainee = !p.trainee.empty();
     p.trainee = trainee;
-    p.trouble = Preferences::Trouble::none;
-    p.trouble_message.clear();
+    p.file_error = Preferences::FileError::none;
+    p.file_error_message.clear();
     const fs::path path = settings_file(p);
     const content::TraineeSettings defaults = default_settings(trainee);
     p.file_text = content::settings_text(defaults);
@@ -45,8 +45,8 @@ void load_preferences(Preferences& p, const std::string& trainee) {
     use(p, read ? *read : defaults);
     p.file_text = content::settings_text(p.settings);
     if (read) return;
-    p.trouble = Preferences::Trouble::read_failed;
-    p.trouble_message = read.error().message();
+    p.file_error = Preferences::FileError::read_failed;
+    p.file_error_message = read.error().message();
 }
 
 bool save_preferences(Preferences& p) {
@@ -55,8 +55,8 @@ bool save_preferences(Preferences& p) {
     const std::string text = content::settings_text(p.settings);
     if (path.empty() || text == p.file_text) return true;
     const Status written = content::save_settings(path, p.settings, p.known);
-    p.trouble = written ? Preferences::Trouble::none : Preferences::Trouble::write_failed;
-    p.trouble_message = written ? std::string() : written.error().message();
+    p.file_error = written ? Preferences::FileError::none : Preferences::FileError::write_failed;
+    p.file_error_message = written ? std::string() : written.error().message();
     if (written) p.file_text = text;
     return written.has_value();
 }

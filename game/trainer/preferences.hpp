@@ -18,18 +18,18 @@ struct Preferences {
     KeyMap keys;            // parsed from settings.keys
     std::string trainee;    // empty: no name was entered
     std::string file_text;  // the file's content; without a file, that of the default settings
-    enum class Trouble : std::uint8_t { none, read_failed, write_failed } trouble = Trouble::none;
-    std::string trouble_message;  // with file, line and column
+    enum class FileError : std::uint8_t { none, read_failed, write_failed } file_error = FileError::none;
+    std::string file_error_message;  // with file, line and column
 };
 
 // The file of the current settings; empty if they are not saved.
 std::filesystem::path settings_file(const Preferences& preferences);
 
 // Loads the settings of a trainee. Without a file the trainee starts with the default settings, or keeps
-// those that were changed before the first name was entered. Sets `trouble` if the file cannot be read.
+// those that were changed before the first name was entered. Sets `file_error` if the file cannot be read.
 void load_preferences(Preferences& preferences, const std::string& trainee);
 
-// Saves the settings if they differ from the file. Returns false and sets `trouble` if that fails. Default
+// Saves the settings if they differ from the file. Returns false and sets `file_error` if that fails. Default
 // settings without a file are not written.
 bool save_preferences(Preferences& preferences);
 

@@ -85,16 +85,16 @@ void draw_languages(const ScreenContext& context, content::TraineeSettings& sett
 }
 
 void draw_settings_file(const ScreenContext& context, const Preferences& preferences) {
-    switch (preferences.trouble) {
-        case Preferences::Trouble::read_failed:
-            return draw_wrapped(
-                words::format_text(context.words, "settings.unread", {{"why", preferences.trouble_message}}),
-                warning_text);
-        case Preferences::Trouble::write_failed:
-            return draw_wrapped(words::format_text(context.words, "settings.unwritten",
-                                                   {{"why", preferences.trouble_message}}),
+    switch (preferences.file_error) {
+        case Preferences::FileError::read_failed:
+            return draw_wrapped(words::format_text(context.words, "settings.unread",
+                                                   {{"why", preferences.file_error_message}}),
                                 warning_text);
-        case Preferences::Trouble::none:
+        case Preferences::FileError::write_failed:
+            return draw_wrapped(words::format_text(context.words, "settings.unwritten",
+                                                   {{"why", preferences.file_error_message}}),
+                                warning_text);
+        case Preferences::FileError::none:
             break;
     }
     if (settings_file(preferences).empty())
@@ -109,7 +109,7 @@ ScreenAction draw_pause(const ScreenContext& context, const Preferences& prefere
     begin_panel(context, "##pause", 300.0F * context.scale, 0.94F);
     draw_text(context.words["menu.paused"]);
     ImGui::Separator();
-    if (preferences.trouble != Preferences::Trouble::none) draw_settings_file(context, preferences);
+    if (preferences.file_error != Preferences::FileError::none) draw_settings_file(context, preferences);
     if (draw_button(context, "menu.go_on")) action = ScreenAction::resume;
     if (mode != lesson::Mode::assessment) {
         if (draw_button(context, "menu.undo")) action = ScreenAction::undo_step;

@@ -203,7 +203,7 @@ servo::Grip grip_of(const StationClient& client, bool closes, const StationInten
 
 void update_client(StationClient& client, const session::LessonSession& session) {
     client.latest = client.link->latest_tick();
-    client.troubles = client.link->fault_messages();
+    client.fault_messages = client.link->fault_messages();
     client.needs = client.link->needs();
     client.condition = client.link->condition();
     const station::DisplayedHand* hand = client.link->hand();
@@ -230,7 +230,8 @@ Status send_commands(StationClient& client, const session::LessonSession& sessio
     for (; client.checkpoints_sent < session.target_checkpoints(); ++client.checkpoints_sent)
         BOLT_TRY(client.link->send(station::SaveCheckpoint{}));
     const bool engaged = client.latest.output.joint >= 0;
-    const std::uint8_t back = intent.undo && !engaged ? session.undo_input(*intent.undo) : std::uint8_t{0};
+    const std::uint8_t back =
+        intent.undo && !engaged ? session.restore_action(*intent.undo) : std::uint8_t{0};
     if (back != client.restore_sent) {
         if (client.restore_sent == 0)
             BOLT_TRY(client.link->send(station::RestoreCheckpoint{back}));
@@ -303,7 +304,7 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
               : nearest_nut(session, client.latest.output.constrained_tool.position, attraction_range);
     controls.approach_joint =
         attracting_nut && closes ? static_cast<std::int16_t>(*attracting_nut) : std::int16_t{-1};
-    controls.click_setting = static_cast<float>(lesson::wrench_setting(session.lesson()));
+    controls.set_torque = static_cast<float>(lesson::wrench_set_torque(session.lesson()));
     client.link->set_controls(controls);
     client.hand_closed = closes;
     return send_commands(client, session, intent);

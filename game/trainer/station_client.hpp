@@ -107,12 +107,12 @@ struct StationClient {
     std::optional<std::size_t> near_nut;  // nut within reach of the tool
     bool near_wrench = false;             // the resting wrench is within reach of the hand
     bool nut_is_nearer = false;           // than the wrench, of both within reach: the hand closes on the nut
-    std::vector<std::string> troubles;
-    device::Condition condition;  // of the device that moves the tool
-    device::ArmNeeds needs;       // of the device that moves the tool, after it was lost
-    bool waits_for_arm = false;   // the lesson is paused until the arm has what it needs
-    bool paused_before = false;   // the user had paused the lesson before the arm did
-    hand::Skeleton fingers;       // of a gloved hand, in the frame of the wrench, in the hand or at rest
+    std::vector<std::string> fault_messages;  // of devices and glove
+    device::Condition condition;              // of the device that moves the tool
+    device::ArmNeeds needs;                   // of the device that moves the tool, after it was lost
+    bool waits_for_arm = false;               // the lesson is paused until the arm has what it needs
+    bool paused_before = false;               // the user had paused the lesson before the arm did
+    hand::Skeleton fingers;  // of a gloved hand, in the frame of the wrench, in the hand or at rest
     bool gloved = false;
     bool has_gripper = false;        // of the device that moves the tool
     bool glove_lost = false;         // the glove sends no valid samples

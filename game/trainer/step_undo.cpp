@@ -45,7 +45,7 @@ std::optional<std::size_t> steps_to_undo(const StepUndo& undo, const lesson::Les
 bool continues(const StepUndo& undo, const session::LessonSession& session) {
     if (!session.finished()) return true;
     const auto steps = steps_to_undo(undo, session.lesson());
-    return undo.by_mistake && steps && session.undo_input(*steps) != 0;
+    return undo.by_mistake && steps && session.restore_action(*steps) != 0;
 }
 
 }  // namespace bolt::trainer

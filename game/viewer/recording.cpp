@@ -104,7 +104,7 @@ Result<std::unique_ptr<Recording>> replay_session(const session::SessionReader& 
 RecordedState state_of(const world::ReadHaptics& world) {
     RecordedState state{world.only<world::ServoClock>(),
                         world.only<world::ConstrainedTool>(),
-                        world.only<world::ContactState>(),
+                        world.only<world::ToolState>(),
                         world.only<world::GuidingForce>(),
                         world.only<world::DeviceForce>(),
                         world.only<world::WorkingHand>(),
@@ -119,7 +119,7 @@ RecordedState state_of(const world::ReadHaptics& world) {
 void write_state(const world::WriteHaptics& world, const RecordedState& state) {
     world.only<world::ServoClock>() = state.clock;
     world.only<world::ConstrainedTool>() = state.tool;
-    world.only<world::ContactState>() = state.contact;
+    world.only<world::ToolState>() = state.contact;
     world.only<world::GuidingForce>() = state.guiding;
     world.only<world::DeviceForce>() = state.force;
     world::WorkingHand& hand = world.only<world::WorkingHand>();

@@ -25,7 +25,7 @@ struct TimelineMark {
 struct RecordedState {
     world::ServoClock clock;
     world::ConstrainedTool tool;
-    world::ContactState contact;
+    world::ToolState contact;
     world::GuidingForce guiding;
     world::DeviceForce force;
     world::WorkingHand hand;

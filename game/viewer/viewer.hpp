@@ -2,6 +2,7 @@
 // of the lesson, the torque curve of the joint at work and the clamp forces of all joints.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <future>
 #include <optional>
@@ -12,6 +13,9 @@
 #include "game/viewer/recording.hpp"
 
 namespace bolt::viewer {
+
+// Speeds of playing that the viewer offers, relative to real time.
+inline constexpr std::array<double, 6> offered_speeds{0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
 
 struct ViewerOptions {
     std::filesystem::path session;  // pictures and films are saved beside it
@@ -62,6 +66,7 @@ class Viewer : public view::WindowContent {
     void advance(double seconds);
     void follow_work(double aspect);
     [[nodiscard]] const world::Joint* joint_at_work() const;
+    // viewer_panels.cpp:
     void draw_bar(const glm::vec2& size, float scale);
     void draw_time_line(float scale);
     void draw_panel(const glm::vec2& size, float scale);

@@ -35,7 +35,7 @@ struct Joint {
     double torque = 0.0;     // of wrench or fingers on the nut, tightening positive
     double clamp = 0.0;      // bolt force
     double breakaway = 0.0;  // 0 … 1, as joint::JointState::breakaway
-    double rounded = 0.0;    // m, wear of each corner of the nut by slipping jaws
+    double rounded = 0.0;    // m of each flat that slipping jaws have rounded off
 };
 
 // The tool at the pose that the obstacles permit: the wrench in the hand, or the fingertips of an empty hand.
@@ -43,8 +43,8 @@ struct ConstrainedTool {
     Pose pose;
 };
 
-// The contacts of the tool. −1: none.
-struct ContactState {
+// What the tool holds and touches. −1: none.
+struct ToolState {
     std::int16_t joint = -1;               // engaged joint
     servo::Grip grip = servo::Grip::none;  // what holds the engaged joint
     std::int16_t slipped = -1;             // joint on which the jaw slipped over the corners in this tick
@@ -55,7 +55,7 @@ struct ContactState {
 
 // The force that guides the tool to a nut, before the limits of the output stage.
 struct GuidingForce {
-    std::int16_t joint = -1;  // goal; −1: none
+    std::int16_t joint = -1;  // that it leads to; −1: none
     Vec3 force{0.0};
     Vec3 torque{0.0};
 };
@@ -100,15 +100,15 @@ struct GloveHand {
 
 // A world with these components and `More`.
 template <class... More>
-using WorldWith = ecs::Registry<ServoClock, Joint, ConstrainedTool, ContactState, GuidingForce, DeviceForce,
+using WorldWith = ecs::Registry<ServoClock, Joint, ConstrainedTool, ToolState, GuidingForce, DeviceForce,
                                 WorkingHand, GloveHand, More...>;
 using World = WorldWith<>;
 
 using ReadJoints = ecs::Access<const Joint>;
-using ReadHaptics = ecs::Access<const ServoClock, const Joint, const ConstrainedTool, const ContactState,
+using ReadHaptics = ecs::Access<const ServoClock, const Joint, const ConstrainedTool, const ToolState,
                                 const GuidingForce, const DeviceForce, const WorkingHand>;
 using WriteHaptics =
-    ecs::Access<ServoClock, Joint, ConstrainedTool, ContactState, GuidingForce, DeviceForce, WorkingHand>;
+    ecs::Access<ServoClock, Joint, ConstrainedTool, ToolState, GuidingForce, DeviceForce, WorkingHand>;
 
 // The servo after a tick.
 struct Snapshot {
@@ -133,7 +133,7 @@ void add_haptics(Registry& world, const servo::State& state, const Pose& rest = 
     const ecs::Entity tool = world.create();
     world.template add<ServoClock>(tool);
     world.template add<ConstrainedTool>(tool);
-    world.template add<ContactState>(tool);
+    world.template add<ToolState>(tool);
     world.template add<GuidingForce>(tool);
     world.template add<DeviceForce>(tool);
     world.template add<WorkingHand>(world.create()).rest = rest;

@@ -65,9 +65,9 @@ class Reducer {
     }
 
     // Selects the contacts to keep at this merge distance. Returns false if they do not fit `room`;
-    // `clearance` is then reduced to the distance of the first that did not fit.
-    bool select(double merge, std::size_t room, double& clearance) {
-        ++round_;
+    // `complete_within` is then reduced to the distance of the first that did not fit.
+    bool select(double merge, std::size_t room, double& complete_within) {
+        ++iteration_;
         kept_ = {all_.kept, 0};
         std::size_t next = 0;
         std::size_t next_deferred = 0;
@@ -85,13 +85,13 @@ class Reducer {
             RankedContact& one = all_.order[next++];
             if (is_merged(one, merge)) continue;
             if (kept_.count == room) {
-                clearance = std::min(clearance, one.distance);
+                complete_within = std::min(complete_within, one.distance);
                 return false;
             }
             const Contact& contact = all_.near[one.index];
             kept_.contacts[kept_.count++] = {contact.on_tool, contact.normal, contact.distance,
                                              contact.obstacle, one.index};
-            all_.kept_in[one.index] = round_;
+            all_.kept_in[one.index] = iteration_;
         }
     }
 
@@ -112,7 +112,7 @@ class Reducer {
 
     // If the contact that this one merged with at a smaller merge distance is kept again, it merges again.
     [[nodiscard]] bool is_merged_again(const RankedContact& one) const {
-        return one.merged_with != unmerged && all_.kept_in[one.merged_with] == round_;
+        return one.merged_with != unmerged && all_.kept_in[one.merged_with] == iteration_;
     }
 
     // True also if the contact has been resolved already.
@@ -136,7 +136,7 @@ class Reducer {
         Contact contact;
         if (!resolve_(deferred, contact)) return;
         if (all_.count == all_.near.size()) {
-            all_.clearance = std::min(all_.clearance, contact.distance);
+            all_.complete_within = std::min(all_.complete_within, contact.distance);
             return;
         }
         all_.near[all_.count] = contact;
@@ -154,7 +154,7 @@ class Reducer {
     ReductionInput& all_;
     ResolveDeferred resolve_;
     KeptContacts kept_;
-    std::uint8_t round_ = 0;
+    std::uint8_t iteration_ = 0;
 };
 
 }  // namespace
@@ -171,10 +171,10 @@ bool nearer(const Contact& a, const Contact& b) {
 ContactQueryResult reduce_contacts(ReductionInput all, ResolveDeferred resolve, std::span<Contact> out) {
     Reducer reducer(all, resolve);
     for (double merge = first_merge_distance;; merge *= 2.0) {
-        double clearance = all.clearance;
-        const bool fits = reducer.select(merge, out.size(), clearance);
+        double complete_within = all.complete_within;
+        const bool fits = reducer.select(merge, out.size(), complete_within);
         if (!fits && 2.0 * merge <= last_merge_distance) continue;
-        return {reducer.write(out), std::min(clearance, all.clearance), !fits};
+        return {reducer.write(out), std::min(complete_within, all.complete_within), !fits};
     }
 }
 

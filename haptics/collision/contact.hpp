@@ -69,10 +69,10 @@ struct Contact {
 inline constexpr std::uint32_t of_obstacle = 0x80000000U;  // in `Contact::feature`
 
 struct ContactQueryResult {
-    std::size_t count = 0;   // contacts written
-    double clearance = 0.0;  // m; every nearer contact was written, or merged with one that was
-    bool truncated = false;  // the output was too small; the nearest contacts were kept
-    std::uint32_t work = 0;  // cost of the query in comparisons of a sample with a surface, approximate
+    std::size_t count = 0;         // contacts written
+    double complete_within = 0.0;  // m; every nearer contact was written, or merged with one that was
+    bool truncated = false;        // the output was too small; the nearest contacts were kept
+    std::uint32_t work = 0;        // cost of the query in comparisons of a sample with a surface, approximate
 };
 
 // Two contacts with the same obstacle are merged if their points on the tool are within the merge distance
@@ -156,17 +156,17 @@ struct KeptContact {
     std::uint32_t index = 0;  // of the contact
 };
 
-// reduce_contacts() selects contacts in rounds, each with a larger merge distance than the last.
+// reduce_contacts() selects contacts in iterations, each with a larger merge distance than the last.
 struct ReductionInput {
     std::span<Contact> near;  // `count` contacts, then free room for resolved ones
     std::size_t count = 0;
     // These three are as large as `near`.
     std::span<RankedContact> order;
     std::span<KeptContact> kept;
-    std::span<std::uint8_t> kept_in;  // for each contact: the last round that kept it, from 1; 0: none
+    std::span<std::uint8_t> kept_in;  // for each contact: the last iteration that kept it, from 1; 0: none
     std::span<DeferredContact> deferred;
     std::span<RankedContact> deferred_order;  // as large as `deferred`
-    double clearance = 0.0;                   // m; no contact nearer than this is missing from the input
+    double complete_within = 0.0;             // m; no contact nearer than this is missing from the input
 };
 
 // Writes the kept contacts, nearest first. The result is the same as if all deferred contacts had been

@@ -120,32 +120,32 @@ Result<Convex> hexagon(const HexagonPrism& p) {
     return make_convex(planes);
 }
 
-JawSeat seat_of(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
+JawFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
     const Vec3 to_throat = wrench.orientation * direction(jaw.head_angle);
     const Vec3 across = wrench.orientation * direction(jaw.head_angle + 0.5 * pi);
     const Vec3 normal = wrench.orientation * Vec3(0, 0, 1);
     const double azimuth = std::atan2(to_throat.y, to_throat.x), off = wrap(azimuth, sixth);
     const Vec3 along = direction(azimuth - off), out = direction(azimuth - off + 0.5 * pi);
 
-    JawSeat seat;
-    seat.misalignment = -off;  // tightening turns about −Z
-    seat.tilt = std::asin(std::clamp(across.z, -1.0, 1.0));
+    JawFit fit;
+    fit.misalignment = -off;  // tightening turns about −Z
+    fit.tilt = std::asin(std::clamp(across.z, -1.0, 1.0));
     const Vec3 middle(0.0, 0.0, wrench.position.z);
-    seat.aside = glm::dot(middle - wrench.position, across);
+    fit.aside = glm::dot(middle - wrench.position, across);
     const double corner_drop = prism.corner_drop(), side = prism.half_side();
-    seat.overlap = prism.height;
+    fit.overlap = prism.height;
     for (const double a : {-side, side})
         for (const double b : {-0.5, 0.5}) {
             const Vec3 corner = a * along + b * prism.across_flats * out + Vec3(0, 0, corner_drop);
-            seat.overlap =
-                std::min(seat.overlap, length_within(glm::dot(corner - wrench.position, normal), normal.z,
-                                                     prism.height - 2.0 * corner_drop, jaw.half_flat()));
+            fit.overlap =
+                std::min(fit.overlap, length_within(glm::dot(corner - wrench.position, normal), normal.z,
+                                                    prism.height - 2.0 * corner_drop, jaw.half_flat()));
         }
     // m along the flats from the axis to the jaw's middle.
     const double ahead = glm::dot(wrench.position, along);
-    seat.toward_mouth = std::min(side, jaw.tip - jaw.lead_in - ahead);
-    seat.toward_throat = std::min(side, jaw.depth + ahead);
-    return seat;
+    fit.toward_mouth = std::min(side, jaw.tip - jaw.lead_in - ahead);
+    fit.toward_throat = std::min(side, jaw.depth + ahead);
+    return fit;
 }
 
 std::size_t jaw_contacts(const JawParts& jaw, const Convex& hexagon, const Pose& wrench, const Pose& nut,

@@ -1,5 +1,5 @@
 // The jaw of an open-end wrench and the hexagon of a nut, both as exact convex solids, so that a clearance of
-// a tenth of a millimetre is represented exactly; the seat of the jaw on the hexagon, and their contacts.
+// a tenth of a millimetre is represented exactly; the fit of the jaw on the hexagon, and their contacts.
 //
 // Frame of the wrench: origin in the middle of the jaw at mid thickness, which is on the bolt's axis when the
 // jaw sits square; Z normal to the wrench. The throat points along X rotated by the head angle about Z, the
@@ -57,7 +57,7 @@ bool covered_by_jaw(const JawParts& parts, const Vec3& point);
 Result<Convex> hexagon(const HexagonPrism& prism);
 
 // The position of a jaw on a hexagon.
-struct JawSeat {
+struct JawFit {
     double misalignment = 0.0;  // rad, −30° … 30°, of the jaw to the hexagon, tightening positive
     double overlap = 0.0;       // m, height over which jaw and nut overlap at every corner that can bear
     // m along the flats from the axis to the two ends of the contact.
@@ -72,7 +72,7 @@ struct JawSeat {
 };
 
 // `wrench`: pose of the wrench in the nut's frame.
-JawSeat seat_of(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench);
+JawFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench);
 
 inline constexpr std::size_t max_jaw_contacts = 18;
 

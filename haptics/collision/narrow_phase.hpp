@@ -69,9 +69,9 @@ void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const Too
 
 // Writes the contacts up to `band` (m) between the tool at `pose` and the bodies of the world that are on.
 // Penetration has no limit except for edges against edges (edges.hpp). Distances are those of the meshes,
-// computed in double; the equation of `Contact` holds to 1e-9 m. `clearance` is the band if all contacts were
-// written or merged (contact.hpp), otherwise the distance up to which they are complete. `work` depends on
-// the cache. Does not allocate.
+// computed in double; the equation of `Contact` holds to 1e-9 m. `complete_within` is the band if all
+// contacts were written or merged (contact.hpp), otherwise the distance up to which they are complete. `work`
+// depends on the cache. Does not allocate.
 ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
                                  double band, NarrowPhaseState& state, std::span<Contact> out);
 

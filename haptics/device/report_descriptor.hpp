@@ -1,5 +1,6 @@
 // Parses a HID report descriptor, which states the meaning of the bits of each report, and decodes reports
-// with it. Devices of one class differ in their reports, so drivers read the descriptor from the device.
+// with it (report_fields.cpp). Devices of one class differ in their reports, so drivers read the descriptor
+// from the device.
 //
 // Source: USB-IF, Device Class Definition for Human Interface Devices 1.11, section 6.2.2; usages: HID Usage
 // Tables.

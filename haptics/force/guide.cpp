@@ -195,17 +195,17 @@ double step_towards(double now, double target, double max_step) {
     return now + std::clamp(target - now, -max_step, max_step);
 }
 
-// Adopts the goal and plans a path. Called only while the force is zero, so that it stays continuous.
-void begin(GuideState& s, const Vec3& tool, const GuideGoal& goal, IsSegmentFree free, double dt) {
+// Adopts the target and plans a path. Called only while the force is zero, so that it stays continuous.
+void begin(GuideState& s, const Vec3& tool, const GuideTarget& target, IsSegmentFree free, double dt) {
     s.time_to_replan = std::max(0.0, s.time_to_replan - dt);
-    if (goal.id < 0) {
+    if (target.id < 0) {
         s = {};
         return;
     }
-    if (goal.id == s.goal.id && s.time_to_replan > 0.0) return;
+    if (target.id == s.target.id && s.time_to_replan > 0.0) return;
     s = {};
-    s.goal = goal;
-    s.path = plan_path(tool, goal.target, free);
+    s.target = target;
+    s.path = plan_path(tool, target, free);
     s.time_to_replan = replan_interval;
     // The planner has checked that the first segment is free.
     if (s.path.count > 1) s.along = glm::length(s.path.points[1] - s.path.points[0]);
@@ -214,7 +214,7 @@ void begin(GuideState& s, const Vec3& tool, const GuideGoal& goal, IsSegmentFree
 // Advances the pull point up to `limit` while it is in line of sight of the tool, and retracts it
 // otherwise. Returns false if it is not in line of sight even then.
 bool advance_pull_point(GuideState& s, const Vec3& tool, double limit, IsSegmentFree free, double dt) {
-    const GuideTarget& target = s.goal.target;
+    const GuideTarget& target = s.target;
     const double step = pull_point_speed * dt;
     s.along = std::min(s.along, std::max(limit, s.along - 4.0 * step));
     const double ahead = std::max(s.along, std::min(s.along + step, limit));
@@ -229,33 +229,32 @@ bool advance_pull_point(GuideState& s, const Vec3& tool, double limit, IsSegment
 
 // J stored in the springs at the target. Along the path the force is not a potential.
 double stored_in(const GuidingParameters& g, const GuideState& s, const GuidedTool& tool) {
-    const double aligning = aligning_potential(g.max_torque, s.goal.hexagon, tool.jaw, tool.normal);
-    const double distance = glm::length(s.goal.target.point - tool.position);
-    return (s.at_end ? s.strength * guiding_potential(g, distance) : 0.0) + s.alignment * aligning;
+    const double aligning = aligning_potential(g.max_torque, s.target.hexagon, tool.jaw, tool.normal);
+    const double distance = glm::length(s.target.point - tool.position);
+    return (s.at_end ? s.force_share * guiding_potential(g, distance) : 0.0) + s.torque_share * aligning;
 }
 
 }  // namespace
 
-ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& tool, const GuideGoal& goal,
-                   IsSegmentFree free, double dt) {
-    if (s.strength == 0.0 && s.alignment == 0.0 && (goal.id != s.goal.id || s.path.count == 0))
-        begin(s, tool.position, goal, free, dt);
+ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& tool,
+                   const GuideTarget& target, IsSegmentFree free, double dt) {
+    if (s.force_share == 0.0 && s.torque_share == 0.0 && (target.id != s.target.id || s.path.count == 0))
+        begin(s, tool.position, target, free, dt);
     if (s.path.count == 0) return {};
     // J stored with the spring of the last tick and the tool of this one.
     const double stored_before = stored_in(g, s, tool);
     // J that the force of the last tick did along the path.
     const double led = s.at_end ? 0.0 : glm::dot(s.force, tool.position - s.tool);
 
-    const bool goal_unchanged = goal.id >= 0 && goal.id == s.goal.id;
-    if (goal_unchanged) {  // the nut descends as it turns
-        s.goal = goal;
-        move_end(s.path, goal.target);
+    const bool target_unchanged = target.id >= 0 && target.id == s.target.id;
+    if (target_unchanged) {  // the nut descends as it turns
+        s.target = target;
+        move_end(s.path, target);
         if (s.at_end) s.along = s.max_along = length(s.path);
     }
     const double whole = length(s.path);
     // A path of one segment ends at the target itself.
-    const double limit =
-        s.path.count > 2 ? whole - lowest_permitted_height(s.goal.target, tool.position) : whole;
+    const double limit = s.path.count > 2 ? whole - lowest_permitted_height(s.target, tool.position) : whole;
     s.along = std::min(s.along, whole);
     const bool seen = advance_pull_point(s, tool.position, limit, free, dt);
     const double remaining = whole - s.along;
@@ -270,21 +269,23 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
     s.blocked_time = s.along < limit && distance < 2.0 * softening_radius ? s.blocked_time + dt : 0.0;
     const bool path_usable = seen && s.max_along - s.along < driven_back && s.blocked_time < replan_interval;
 
-    const double strength = goal_unchanged && path_usable ? std::clamp(g.strength, 0.0, 1.0) : 0.0;
-    s.strength = step_towards(s.strength, strength, g.fade_rate * dt);
-    s.alignment = step_towards(s.alignment, left < g.alignment_distance ? strength : 0.0, g.fade_rate * dt);
+    const double share = target_unchanged && path_usable ? std::clamp(g.share, 0.0, 1.0) : 0.0;
+    s.force_share = step_towards(s.force_share, share, g.fade_rate * dt);
+    s.torque_share =
+        step_towards(s.torque_share, left < g.alignment_distance ? share : 0.0, g.fade_rate * dt);
 
     // Softens the pull near a point of the path; at the target the law is exact.
     const double min_distance = std::clamp(remaining, 1e-12, softening_radius);
-    s.force = to_pull_point * (s.strength * guiding_pull(g, left) / std::max(distance, min_distance));
+    s.force = to_pull_point * (s.force_share * guiding_pull(g, left) / std::max(distance, min_distance));
     s.tool = tool.position;
     ForceRequest out;
     out.command.force = s.force;
-    out.command.torque = s.alignment * aligning_torque(g.max_torque, s.goal.hexagon, tool.jaw, tool.normal);
+    out.command.torque =
+        s.torque_share * aligning_torque(g.max_torque, s.target.hexagon, tool.jaw, tool.normal);
     out.stored_energy = stored_in(g, s, tool);
     out.injected_energy = out.stored_energy - stored_before + led;
     // Another path is planned after `time_to_replan`.
-    if (s.strength == 0.0 && s.alignment == 0.0 && !path_usable) s.path = {};
+    if (s.force_share == 0.0 && s.torque_share == 0.0 && !path_usable) s.path = {};
     return out;
 }
 

@@ -21,7 +21,7 @@ struct GuidingParameters {
     double max_force = 3.0;            // N
     double max_torque = 0.2;           // N·m, of the aligning torque
     double alignment_distance = 0.08;  // m to the target within which the torque acts
-    double strength = 1.0;             // 0 … 1, share of the force that the lesson's mode allows
+    double share = 1.0;                // 0 … 1, of the force, that the lesson's mode allows
     double fade_rate = 4.0;            // 1/s, at which the force fades in and out
 };
 
@@ -55,10 +55,12 @@ double aligning_potential(double max_torque, const Hexagon& hexagon, const Vec3&
 using IsSegmentFree = FunctionRef<bool(const Vec3& from, const Vec3& to)>;
 
 struct GuideTarget {
-    Vec3 point{0.0};                // m, goal of the tool
+    int id = -1;                    // identifies the target; negative: none
+    Vec3 point{0.0};                // m, at which the tool is to arrive
     Vec3 axis{0.0, 1.0, 0.0};       // unit, towards the accessible side
     double approach_height = 0.08;  // m above the point at which the last segment begins
     double bounding_radius = 0.03;  // m, of the ball that the target's nut and bolt fill; not an obstacle
+    Hexagon hexagon;
 };
 
 struct GuidePath {
@@ -87,7 +89,7 @@ Vec3 point_at(const GuidePath& path, double along);  // `along` in m from the st
 bool free_to(const Vec3& from, const Vec3& to, const GuideTarget& target, IsSegmentFree free);
 
 // The guiding force: plans a path to a nut, pulls the tool towards the farthest point of the path in its line
-// of sight and aligns the jaw at the end. The force fades in and out, and goal or path change only while it
+// of sight and aligns the jaw at the end. The force fades in and out, and target or path change only while it
 // is zero, so it is continuous.
 
 struct GuidedTool {
@@ -96,19 +98,13 @@ struct GuidedTool {
     Vec3 normal{0.0, 0.0, 1.0};  // unit
 };
 
-struct GuideGoal {
-    int id = -1;  // identifies the goal; negative: none
-    GuideTarget target;
-    Hexagon hexagon;
-};
-
 struct GuideState {
-    GuideGoal goal;  // goal of the present force; replaced once that has faded out
+    GuideTarget target;  // of the present force; replaced once that has faded out
     GuidePath path;
     double along = 0.0;           // m along the path to the pull point, towards which the force points
     double max_along = 0.0;       // m, largest value of `along` on this path
-    double strength = 0.0;        // 0 … 1, of the force
-    double alignment = 0.0;       // 0 … 1, of the torque
+    double force_share = 0.0;     // 0 … 1, of the force, now
+    double torque_share = 0.0;    // 0 … 1, of the aligning torque, now
     double time_to_replan = 0.0;  // s until the next attempt to plan a path
     double blocked_time = 0.0;  // s that the tool has been at the pull point without sight of the path beyond
 
@@ -117,10 +113,10 @@ struct GuideState {
     bool at_end = false;  // the pull point is the target
 };
 
-// One tick of dt. With a negative `goal.id` the force fades out; pass that while a nut is engaged. Returns
+// One tick of dt. With a negative `target.id` the force fades out; pass that while a nut is engaged. Returns
 // the request to the output stage: along the path all work counts as injected energy, so the passivity
 // observer ignores it; at the target the force is a potential, which the observer watches like any spring.
 ForceRequest guide(const GuidingParameters& guiding, GuideState& state, const GuidedTool& tool,
-                   const GuideGoal& goal, IsSegmentFree free, double dt);
+                   const GuideTarget& target, IsSegmentFree free, double dt);
 
 }  // namespace bolt::force

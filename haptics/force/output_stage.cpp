@@ -101,7 +101,7 @@ bool update_watchdog(const OutputLimits& limits, WatchdogState& s, const PortInp
     const Fault now = check_sample(limits, s, input, request_is_finite, dt);
     // ISO 13850: the stop overrides everything, lasts until a deliberate reset, and the reset starts nothing
     // by itself.
-    if (input.stop || (before == Fault::stopped && !(input.reset && !input.enabled))) {
+    if (input.stop || (before == Fault::stopped && !(input.reset && !input.dead_man))) {
         s.fault = Fault::stopped;
         s.ticks_without_fault = 0;
     } else if (now != Fault::none) {
@@ -147,14 +147,14 @@ void add_applied_work(const OutputLimits& limits, PassivityState& s, const Motio
 }
 
 OutputCommand control_passivity(const OutputLimits& limits, PassivityState& s, const Motion& motion,
-                                const ForceRequest& request, double strength, double before, double dt) {
+                                const ForceRequest& request, double ramp, double ramp_before, double dt) {
     // A spring clamped to a share r of its force takes the same work at first but returns only that force: 2
     // r − r² of its energy can be recovered.
     const double r = renderable_share(limits, request.command);
     const double full = request.stored_energy * r * (2.0 - r);
-    const double stored = strength * full;
+    const double stored = ramp * full;
     // Energy that enters with the ramp is not work of the hand and counts as injected.
-    const double injected = strength * request.injected_energy + (strength - before) * full;
+    const double injected = ramp * request.injected_energy + (ramp - ramp_before) * full;
     s.balance = std::min(s.balance + injected - (stored - s.stored_energy), max_credit);
     if (s.balance > 0.0) s.balance *= std::max(0.0, 1.0 - dt / credit_decay_time);
     s.stored_energy = stored;
@@ -192,16 +192,16 @@ OutputCommand limit_output(const OutputLimits& limits, LimiterState& state, cons
     const bool sound = healthy && finite(requested.force) && finite(requested.torque);
     if (!sound) ++state.invalid_requests;
     if (!enabled || !sound) {
-        // Reaches zero from the largest output in whole steps within `release`; overrides the slew limits.
+        // Reaches zero from the largest output in whole steps within `release`; overrides the slew rates.
         const double steps = std::max(1.0, std::floor(release / dt + 1e-9));
         const double share = (1.0 + 1e-9) / steps;
-        state.strength = 0.0;
+        state.ramp = 0.0;
         state.force = step_towards(state.force, Vec3(0.0), limits.force * share);
         state.torque = step_towards(state.torque, Vec3(0.0), limits.torque * share);
     } else {
-        state.strength = std::min(1.0, state.strength + dt / limits.ramp_up);
-        const Vec3 force = clamp_length(requested.force, limits.force) * state.strength;
-        const Vec3 torque = clamp_length(requested.torque, limits.torque) * state.strength;
+        state.ramp = std::min(1.0, state.ramp + dt / limits.ramp_up);
+        const Vec3 force = clamp_length(requested.force, limits.force) * state.ramp;
+        const Vec3 torque = clamp_length(requested.torque, limits.torque) * state.ramp;
         state.force = step_towards(state.force, force, limits.force_rate * dt);
         state.torque = step_towards(state.torque, torque, limits.torque_rate * dt);
     }
@@ -219,16 +219,16 @@ OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortI
     const bool finite_command = finite(request.command.force) && finite(request.command.torque);
     const bool sound =
         finite_command && std::isfinite(request.stored_energy) && std::isfinite(request.injected_energy);
-    const bool permitted = update_watchdog(limits, stage.watchdog, input, sound, dt) && input.enabled;
+    const bool permitted = update_watchdog(limits, stage.watchdog, input, sound, dt) && input.dead_man;
     const Motion& motion = stage.watchdog.motion;
     PassivityState& passivity = stage.passivity;
     add_applied_work(limits, passivity, motion, 1.0 + input.missed);
 
     OutputCommand command;
     if (permitted) {
-        const double before = stage.limiter.strength;
-        const double strength = std::min(1.0, before + dt / limits.ramp_up);
-        command = control_passivity(limits, passivity, motion, request, strength, before, dt);
+        const double ramp_before = stage.limiter.ramp;
+        const double ramp = std::min(1.0, ramp_before + dt / limits.ramp_up);
+        command = control_passivity(limits, passivity, motion, request, ramp, ramp_before, dt);
     } else {
         passivity.balance = passivity.stored_energy = passivity.damping = 0.0;
         // A request with a value that is not finite counts as one fault. limit_output() counts a command that

@@ -32,7 +32,7 @@ struct PortInput {
     bool valid = true;         // the sample is a pose
     bool fresh = true;         // a sample arrived since the last tick
     std::uint32_t missed = 0;  // deadlines without a tick since the last tick
-    bool enabled = false;      // dead-man switch held
+    bool dead_man = false;     // the dead-man switch is held
     bool stop = false;         // emergency stop pressed
     bool reset = false;        // releases the stop if neither dead-man switch nor stop is pressed
 };
@@ -112,9 +112,9 @@ inline constexpr double damping_rise_rate = 60.0, damping_fall_rate = 40.0;
 void add_applied_work(const OutputLimits& limits, PassivityState& state, const Motion& motion, double ticks);
 
 // The controller: returns the command, clamped and with as much damping as the deficit needs and the device
-// permits. `strength` is the ramp's share now, `before` that of the last tick.
+// permits. `ramp` is that of this tick (LimiterState), `ramp_before` that of the last one.
 OutputCommand control_passivity(const OutputLimits& limits, PassivityState& state, const Motion& motion,
-                                const ForceRequest& request, double strength, double before, double dt);
+                                const ForceRequest& request, double ramp, double ramp_before, double dt);
 
 // Call after each tick with the command that was sent.
 void record_sent(PassivityState& state, const OutputCommand& sent);
@@ -122,9 +122,9 @@ void record_sent(PassivityState& state, const OutputCommand& sent);
 // The limiter, the last step. Its output is finite, within the device's limits, and within the slew rates.
 
 struct LimiterState {
-    Vec3 force{0.0};                     // N, last output
-    Vec3 torque{0.0};                    // N·m
-    double strength = 0.0;               // 0 … 1, ramp after enabling
+    Vec3 force{0.0};    // N, last output
+    Vec3 torque{0.0};   // N·m
+    double ramp = 0.0;  // 0 … 1, share of the request that is rendered; grows after enabling
     std::uint64_t invalid_requests = 0;  // steps with a request that was not finite
 };
 

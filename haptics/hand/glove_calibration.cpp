@@ -286,7 +286,7 @@ void finish(CalibrationSession& session) {
 // Continues with the next posture, or finishes after the last.
 void next(CalibrationSession& session, double now) {
     const auto number = static_cast<std::size_t>(session.requested) + 1;
-    session.trouble = CalibrationTrouble::none;
+    session.problem = CalibrationProblem::none;
     session.held_for = 0.0;
     if (number == posture_count) return finish(session);
     session.phase = CalibrationPhase::moving;
@@ -310,13 +310,13 @@ const char* prompt(Posture posture) {
     return "";
 }
 
-const char* message_for(CalibrationTrouble trouble) {
-    switch (trouble) {
-        case CalibrationTrouble::none:
+const char* message_for(CalibrationProblem problem) {
+    switch (problem) {
+        case CalibrationProblem::none:
             return "";
-        case CalibrationTrouble::silent:
+        case CalibrationProblem::silent:
             return "The glove sends no data; is it switched on and plugged in?";
-        case CalibrationTrouble::restless:
+        case CalibrationProblem::restless:
             return "Take the posture and hold the hand still for two seconds.";
     }
     return "";
@@ -330,10 +330,10 @@ void update(CalibrationSession& session, const GloveFrame* frame, double now) {
     }
     if (now - session.last_frame > session.options.silence) {
         restart_posture(session, now);
-        session.trouble = CalibrationTrouble::silent;
+        session.problem = CalibrationProblem::silent;
     }
     if (frame == nullptr) return;
-    if (session.trouble == CalibrationTrouble::silent) session.trouble = CalibrationTrouble::none;
+    if (session.problem == CalibrationProblem::silent) session.problem = CalibrationProblem::none;
     session.last_frame = now;
     if (max_difference(frame->raw, session.rest) > session.options.still) {
         restart_posture(session, now);
@@ -341,7 +341,7 @@ void update(CalibrationSession& session, const GloveFrame* frame, double now) {
     }
     if (session.phase == CalibrationPhase::moving) {
         if (now - session.requested_since > session.options.patience)
-            session.trouble = CalibrationTrouble::restless;
+            session.problem = CalibrationProblem::restless;
         const bool left =
             session.taken.empty() ||
             max_difference(session.rest, session.taken.back().samples.front()) >= session.options.moved;

@@ -80,7 +80,7 @@ enum class CalibrationPhase : std::uint8_t {
     failed,   // `failure` is set; start again
 };
 
-enum class CalibrationTrouble : std::uint8_t { none, silent, restless };
+enum class CalibrationProblem : std::uint8_t { none, silent, restless };
 
 struct CalibrationSessionOptions {
     double settle = 0.3;     // s of rest before sampling starts
@@ -88,7 +88,7 @@ struct CalibrationSessionOptions {
     double still = 8.0;      // counts that a sensor may deviate while the hand is still
     double moved = 12.0;     // counts by which at least one sensor must differ from the last posture
     double silence = 0.25;   // s without a frame until sampling restarts
-    double patience = 20.0;  // s in one posture until the trouble is shown
+    double patience = 20.0;  // s in one posture until the problem is shown
 };
 
 // Guides a trainee through the four calibration postures. Each is sampled while the hand is still; the result
@@ -98,7 +98,7 @@ struct CalibrationSession {
     CalibrationPhase phase = CalibrationPhase::moving;
     Posture requested = Posture::flat;
     double held_for = 0.0;  // s of `hold` sampled so far, for a progress bar
-    CalibrationTrouble trouble = CalibrationTrouble::none;
+    CalibrationProblem problem = CalibrationProblem::none;
     std::optional<CalibrationResult> result;
     std::optional<Error> failure;
 
@@ -110,7 +110,7 @@ struct CalibrationSession {
 
 // The instruction for a posture.
 const char* prompt(Posture posture);
-const char* message_for(CalibrationTrouble trouble);  // empty for none
+const char* message_for(CalibrationProblem problem);  // empty for none
 
 // `frame`: received since the last call, or null. `now`: s on a monotonic clock. Call at least every 0.1 s.
 void update(CalibrationSession& session, const GloveFrame* frame, double now);

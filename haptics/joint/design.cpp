@@ -15,14 +15,15 @@ TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double m
     return levers;
 }
 
-double sliding_slope(const ScrewThread& thread, double mu_thread, double share) {
+double sliding_slope(const ScrewThread& thread, double mu_thread, double friction_share) {
     const double lead = thread.pitch / (pi * thread.d2);
-    const double friction = share * mu_thread / std::cos(thread_half_angle);
+    const double friction = friction_share * mu_thread / std::cos(thread_half_angle);
     return (lead + friction) / (1.0 - lead * friction);
 }
 
-double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa, double share) {
-    const double shear = kappa * (thread.d2 / thread.d0()) * sliding_slope(thread, mu_thread, share);
+double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa,
+                               double friction_share) {
+    const double shear = kappa * (thread.d2 / thread.d0()) * sliding_slope(thread, mu_thread, friction_share);
     return std::sqrt(1.0 + 3.0 * square(shear));
 }
 

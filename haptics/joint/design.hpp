@@ -74,14 +74,16 @@ TorqueLevers torque_levers(const ScrewThread& thread, double mu_thread, double m
 // D_Km = (d_w + d_h)/2, VDI 2230: mean diameter of the bearing under the turned nut or head.
 inline double bearing_mean_diameter(double d_w, double d_h) { return 0.5 * (d_w + d_h); }
 
-// tan(φ + ρ'), the slope on which the nut slides: φ lead angle, tan ρ' = share · μ_G/cos β. share in [−1, 1]:
-// +1 tightening, −1 loosening. VDI 2230's closed forms use its first order, P/(π d2) + 1.155 μ_G. The exact
-// tangent reproduces the published table A1 to its rounding, the closed form within 0.9 %.
-double sliding_slope(const ScrewThread& thread, double mu_thread, double share = 1.0);
+// tan(φ + ρ'), the slope on which the nut slides: φ lead angle, tan ρ' = friction_share · μ_G/cos β.
+// friction_share in [−1, 1]: +1 tightening, −1 loosening. VDI 2230's closed forms use its first order, P/(π
+// d2) + 1.155 μ_G. The exact tangent reproduces the published table A1 to its rounding, the closed form
+// within 0.9 %.
+double sliding_slope(const ScrewThread& thread, double mu_thread, double friction_share = 1.0);
 
 // Ratio of equivalent (von Mises) to tensile stress while the thread torque acts: √(1 + 3 [κ (d2/d0) tan(φ +
 // ρ')]²).
-double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa, double share = 1.0);
+double equivalent_stress_ratio(const ScrewThread& thread, double mu_thread, double kappa,
+                               double friction_share = 1.0);
 
 struct AssemblyPreload {
     double force = 0.0;   // F_M, N

@@ -33,10 +33,10 @@ double kelvin_kei(double x) {
     return sum * step;
 }
 
-CouplingMatrix couple(const FlangePlate& plate, std::span<const Vec3> seats) {
+InteractionMatrix interaction_matrix(const FlangePlate& plate, std::span<const Vec3> seats) {
     const double reach = 10.0 * plate.length();
-    CouplingMatrix m;
-    m.own = plate.deflection_per_force(0.0);
+    InteractionMatrix m;
+    m.own_compliance = plate.deflection_per_force(0.0);
     m.row_begin.push_back(0);
     // Sorted by x, so that the cost for many joints is n log n instead of n².
     std::vector<std::uint32_t> by_x(seats.size());
@@ -58,7 +58,7 @@ CouplingMatrix couple(const FlangePlate& plate, std::span<const Vec3> seats) {
 
 namespace {
 
-double neighbour_closure(const CouplingMatrix& c, std::span<const JointState> joints, std::size_t i) {
+double neighbour_closure(const InteractionMatrix& c, std::span<const JointState> joints, std::size_t i) {
     double closure = 0.0;
     for (std::uint32_t k = c.row_begin[i]; k < c.row_begin[i + 1]; ++k)
         closure += c.value[k] * joints[c.column[k]].mechanistic.clamp;
@@ -74,20 +74,21 @@ void copy_outputs(JointState& joint) {
 }
 
 void update_clamps(const GroupParameters& group, std::span<JointState> joints, int moved, double angle,
-                   double share, double dt) {
+                   double friction_share, double dt) {
     for (std::size_t i = 0; i < joints.size(); ++i) {
         MechanisticState& s = joints[i].mechanistic;
-        if (!group.coupling.row_begin.empty()) s.neighbours = neighbour_closure(group.coupling, joints, i);
+        if (!group.interaction.row_begin.empty())
+            s.neighbour_closure = neighbour_closure(group.interaction, joints, i);
         const bool turned = static_cast<int>(i) == moved;
-        advance(group.joints[i], s, turned ? angle : s.angle, turned ? share : s.share, dt);
+        advance(group.joints[i], s, turned ? angle : s.angle, turned ? friction_share : s.friction_share, dt);
         copy_outputs(joints[i]);
     }
 }
 
-void update_published(const GroupParameters& group, JointState& joint, double angle, double share) {
+void update_published(const GroupParameters& group, JointState& joint, double angle, double friction_share) {
     const double degrees = to_degrees(angle);
     published_advance(group.published, joint.published, degrees);
-    const Direction direction = share < 0.0 ? Direction::loosen : Direction::tighten;
+    const Direction direction = friction_share < 0.0 ? Direction::loosen : Direction::tighten;
     const PublishedReading reading = published_read(group.published, joint.published, degrees, direction);
     joint.clamp = reading.clamp;
     joint.stage = reading.stage;
@@ -100,10 +101,10 @@ GroupParameters make_group(std::span<const JointDesign> designs, const FlangePla
     GroupParameters group;
     std::vector<Vec3> seats;
     for (const JointDesign& design : designs) seats.push_back(design.seat);
-    if (flange != nullptr && designs.size() > 1) group.coupling = couple(*flange, seats);
+    if (flange != nullptr && designs.size() > 1) group.interaction = interaction_matrix(*flange, seats);
     for (std::size_t i = 0; i < designs.size(); ++i) {
         Random random(seed, i);
-        group.joints.push_back(derive(designs[i], random, group.coupling.own));
+        group.joints.push_back(derive(designs[i], random, group.interaction.own_compliance));
     }
     return group;
 }
@@ -143,47 +144,47 @@ Resistance resistance(const GroupParameters& group, std::size_t joint, const Joi
 }
 
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
-                     const DriveHandle& handle, double dt) {
+                     const NutDrive& drive, double dt) {
     ClickStep click;
     int moved = -1;
-    double angle = 0.0, share = 0.0;
+    double angle = 0.0, friction_share = 0.0;
     for (std::size_t i = 0; i < joints.size(); ++i) {
         joints[i].torque = 0.0;
-        if (static_cast<int>(i) != driven || !handle.engaged)
+        if (static_cast<int>(i) != driven || !drive.engaged)
             joints[i].nut.speed = 0.0;  // friction stops a free nut at once
     }
     if (driven >= 0 && static_cast<std::size_t>(driven) < joints.size()) {
         const auto i = static_cast<std::size_t>(driven);
-        const double inertia = coupling_inertia(std::max(handle.stiffness, 1.0), dt);
-        NutStep step = step_nut(resistance(group, i, joints[i]), inertia, joints[i].nut, handle, dt);
+        const double inertia = drive_inertia(std::max(drive.stiffness, 1.0), dt);
+        NutStep step = step_nut(resistance(group, i, joints[i]), inertia, joints[i].nut, drive, dt);
         click = step.click;
-        if (step.nut.angle < 0.0) {  // end of the thread: the nut stops and the handle winds up
+        if (step.nut.angle < 0.0) {  // end of the thread: the nut stops and the drive winds up
             step.nut = {};
-            step.torque = wound_torque(handle, 0.0);
+            step.torque = wound_torque(drive, 0.0);
         }
         joints[i].nut = step.nut;
         joints[i].torque = step.torque;
         moved = driven;
         angle = step.nut.angle;
-        share = step.share;
+        friction_share = step.friction_share;
     }
     if (group.law == Law::mechanistic)
-        update_clamps(group, joints, moved, angle, share, dt);
+        update_clamps(group, joints, moved, angle, friction_share, dt);
     else if (moved >= 0)
-        update_published(group, joints[static_cast<std::size_t>(moved)], angle, share);
+        update_published(group, joints[static_cast<std::size_t>(moved)], angle, friction_share);
     return click;
 }
 
 void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::size_t joint, double angle,
-              double share, double dt) {
+              double friction_share, double dt) {
     JointState& j = joints[joint];
     j.nut = {angle, (angle - j.nut.angle) / dt};
     if (group.law == Law::mechanistic)
-        update_clamps(group, joints, static_cast<int>(joint), angle, share, dt);
+        update_clamps(group, joints, static_cast<int>(joint), angle, friction_share, dt);
     else
-        update_published(group, j, angle, share);
+        update_published(group, j, angle, friction_share);
     const Resistance r = resistance(group, joint, j);
-    j.torque = share >= 0.0 ? r.tighten : r.loosen;
+    j.torque = friction_share >= 0.0 ? r.tighten : r.loosen;
 }
 
 namespace {
@@ -202,7 +203,7 @@ void tighten_to(const GroupParameters& group, std::vector<JointState>& joints, d
                 const CurveOptions& o) {
     for (std::size_t i = 0; i < max_samples && joints[0].torque < torque && !has_failed(joints[0]); ++i)
         turn_nut(group, joints, 0, joints[0].nut.angle + o.speed * o.dt, 1.0, o.dt);
-    for (int i = 0; i < 10'000; ++i) step_group(group, joints, -1, DriveHandle{}, 0.001);
+    for (int i = 0; i < 10'000; ++i) step_group(group, joints, -1, NutDrive{}, 0.001);
 }
 
 }  // namespace

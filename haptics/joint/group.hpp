@@ -1,5 +1,5 @@
-// A group of joints under one law: its state and step, the coupling of its joints through the flange, and
-// torque-angle curves. The flange is a plate on an elastic foundation.
+// A group of joints under one law: its state and step, the elastic interaction of its joints through the
+// flange, and torque-angle curves. The flange is a plate on an elastic foundation.
 //
 // Tightening one bolt presses the flange down around it, so neighbouring bolts lose preload; further away the
 // plate bends upward and bolts gain preload. No reliable coefficients for a gear casing are published, so
@@ -10,7 +10,7 @@
 //   w(r) = −F ℓ²/(2π D) kei(r/ℓ),   ℓ = (D/k)^¼        (Hertz 1884; Timoshenko & Woinowsky-Krieger, §57)
 //
 // kei is the Kelvin function of order 0; kei(0) = −π/4. The operator is positive, so the matrix of w between
-// any points is symmetric and positive semidefinite: the coupling stores energy and never generates any.
+// any points is symmetric and positive semidefinite: the interaction stores energy and never generates any.
 #pragma once
 
 #include <cstdint>
@@ -36,22 +36,23 @@ struct FlangePlate {
 // kei(x) = Im K0(x e^{iπ/4}), x ≥ 0; absolute error below 1e-12.
 double kelvin_kei(double x);
 
-// Symmetric compliance between joints, sparse by rows (CSR) without the diagonal: w beyond 10 ℓ is below 10⁻³
-// of w(0) and is omitted. The diagonal, a joint's own deflection, is the same for all.
-struct CouplingMatrix {
-    double own = 0.0;                      // m/N
+// The elastic interaction: symmetric compliance between joints, sparse by rows (CSR) without the diagonal: w
+// beyond 10 ℓ is below 10⁻³ of w(0) and is omitted. The diagonal, a joint's own deflection, is the same for
+// all.
+struct InteractionMatrix {
+    double own_compliance = 0.0;           // m/N, the diagonal
     std::vector<std::uint32_t> row_begin;  // size joints + 1
     std::vector<std::uint32_t> column;
     std::vector<double> value;  // m/N
 };
 
-CouplingMatrix couple(const FlangePlate& plate, std::span<const Vec3> seats);
+InteractionMatrix interaction_matrix(const FlangePlate& plate, std::span<const Vec3> seats);
 
 struct GroupParameters {
     Law law = Law::mechanistic;
     std::vector<MechanisticParameters> joints;  // mechanistic
-    PublishedParameters published;              // published: the same for all joints, which are not coupled
-    CouplingMatrix coupling;                    // mechanistic; empty: not coupled
+    PublishedParameters published;              // published: the same for all joints, without interaction
+    InteractionMatrix interaction;              // mechanistic; empty: none
 };
 
 struct JointState {
@@ -66,8 +67,8 @@ struct JointState {
     PublishedState published;
 };
 
-// Derives the joints (seeded scatter, one random stream per joint) and couples them through the flange, if
-// any.
+// Derives the joints (seeded scatter, one random stream per joint) and their interaction through the flange,
+// if any.
 GroupParameters make_group(std::span<const JointDesign> designs, const FlangePlate* flange,
                            std::uint64_t seed);
 GroupParameters make_published_group(const PublishedParameters& parameters);
@@ -76,17 +77,17 @@ std::vector<JointState> initial_state(const GroupParameters& group, std::size_t 
 
 Resistance resistance(const GroupParameters& group, std::size_t joint, const JointState& state);
 
-// One step of dt: moves the nut `driven` (−1: none) with the handle, then updates every joint's clamp force.
+// One step of dt: moves the nut `driven` (−1: none) with the drive, then updates every joint's clamp force.
 // The group's forces minimise a strictly convex energy. Each step performs one sweep of exact minimisation,
 // joint by joint, from the last solution, so it never diverges, and the remaining error is reduced by the
-// next steps. Returns the step of the handle's click mechanism.
+// next steps. Returns the step of the drive's click mechanism.
 ClickStep step_group(const GroupParameters& group, std::span<JointState> joints, int driven,
-                     const DriveHandle& handle, double dt);
+                     const NutDrive& drive, double dt);
 
-// Turns one nut to an angle kinematically, as a machine does. `share`: as in
+// Turns one nut to an angle kinematically, as a machine does. `friction_share`: as in
 // MechanisticState, +1 while the nut slides tightening, −1 loosening.
 void turn_nut(const GroupParameters& group, std::span<JointState> joints, std::size_t joint, double angle,
-              double share, double dt);
+              double friction_share, double dt);
 
 struct CurveSample {
     double angle = 0.0;  // rad from the start of the run

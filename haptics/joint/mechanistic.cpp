@@ -209,7 +209,7 @@ Stage stage_of(const MechanisticParameters& p, const MechanisticState& s, double
 
 }  // namespace
 
-MechanisticParameters derive(const JointDesign& design, Random& random, double own) {
+MechanisticParameters derive(const JointDesign& design, Random& random, double own_compliance) {
     const FastenerSize& size = design.thread.size;
     MechanisticParameters p;
     p.thread = design.thread.thread;
@@ -225,7 +225,7 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
 
     const double h_rms = design.roughness_Rz / 5.5;  // usual for turned and milled faces
     const double seat_area = 0.25 * pi * (square(size.nut_bearing) - square(size.hole));
-    p.seat = {.compliance = joint_compliance(design) + own,
+    p.seat = {.compliance = joint_compliance(design) + own_compliance,
               .scale = 0.5 * h_rms + design.misfit,
               .touch_force = 0.2e6 * seat_area};  // 0.2 MPa, at which fingers feel the seat; ours
 
@@ -281,10 +281,11 @@ Resistance resistance(const MechanisticParameters& p, const MechanisticState& s)
 }
 
 double free_closure(const MechanisticParameters& p, const MechanisticState& s, double angle) {
-    return p.levers.lead * angle - p.gap - s.plastic - s.stripped - s.embedding - s.neighbours;
+    return p.levers.lead * angle - p.gap - s.plastic - s.stripped - s.embedding - s.neighbour_closure;
 }
 
-void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double share, double dt) {
+void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double friction_share,
+             double dt) {
     const double turned = std::abs(angle - s.angle);
     // Exponentials are computed only where they have an effect: most joints rest unloaded in most ticks.
     if (turned > 0.0)
@@ -293,7 +294,7 @@ void advance(const MechanisticParameters& p, MechanisticState& s, double angle, 
         s.breakaway += (1.0 - s.breakaway) * -std::expm1(-dt / p.healing_time);
     const double clamp_before = s.clamp;
     s.angle = angle;
-    s.share = share;
+    s.friction_share = friction_share;
 
     const double final_embedding = p.embedding * std::min(1.0, s.clamp / p.reference_load);
     if (final_embedding > s.embedding)
@@ -308,7 +309,7 @@ void advance(const MechanisticParameters& p, MechanisticState& s, double angle, 
     s.clamp = load.force;
     s.stiffness = load.stiffness;
     Capacity capacity;
-    capacity.ratio = equivalent_stress_ratio(p.thread, p.mu_thread, p.kappa, share);
+    capacity.ratio = equivalent_stress_ratio(p.thread, p.mu_thread, p.kappa, friction_share);
     capacity.bolt = p.bolt.at(s.plastic);
     capacity.strip = p.strip_load * std::max(0.0, 1.0 - s.stripped / p.strip_length);
     if (s.clamp > capacity.force()) {

@@ -2,7 +2,7 @@
 // and breaking. Sources stand beside each part; what is ours is marked so. All SI.
 //
 //   x   closure, m: how far the elastic parts are pressed together; negative while there is a gap.
-//       x = P θ/2π − gap − plastic − stripped − embedding − closure by the neighbours
+//       x = P θ/2π − gap − plastic − stripped − embedding − neighbour closure
 //       θ is the nut's angle, P the pitch; the other terms are members of MechanisticState and
 //       MechanisticParameters
 //   F   clamp force, a function of x (seat_spring.hpp) with the compliance δ of VDI 2230 (design.hpp)
@@ -80,9 +80,9 @@ struct MechanisticParameters {
     double ripple_phase[3] = {0.0, 0.0, 0.0};  // of the running drag over the angle
 };
 
-// `random` determines this bolt's friction and the ripple of its drag; equal seeds give equal bolts. `own`:
-// compliance of the flange under this joint alone, m/N; 0 for a single joint.
-MechanisticParameters derive(const JointDesign& design, Random& random, double own = 0.0);
+// `random` determines this bolt's friction and the ripple of its drag; equal seeds give equal bolts.
+// `own_compliance`: compliance of the flange under this joint alone, m/N; 0 for a single joint.
+MechanisticParameters derive(const JointDesign& design, Random& random, double own_compliance = 0.0);
 
 struct MechanisticState {
     double angle = 0.0;      // rad, nut from hand-started
@@ -91,10 +91,10 @@ struct MechanisticState {
     double embedding = 0.0;  // m, flattened roughness, never falls
     double uses = 0.0;       // tightenings of the faces to the reference load so far
     double breakaway = 1.0;  // 0…1, breakaway state
-    double share = 0.0;  // −1…1, friction torque ÷ its maximum; +1: slides tightening, −1: loosening
-    double clamp = 0.0;  // N
-    double stiffness = 0.0;   // dF/dx of the elastic joint, N/m
-    double neighbours = 0.0;  // m, closure taken up by the other joints of the group
+    double friction_share = 0.0;  // −1…1, friction torque ÷ its maximum; +1: slides tightening, −1: loosening
+    double clamp = 0.0;           // N
+    double stiffness = 0.0;          // dF/dx of the elastic joint, N/m
+    double neighbour_closure = 0.0;  // m by which the other joints of the group press the flange down here
     Stage stage = Stage::navigation;
     JointCondition condition = JointCondition::sound;
 };
@@ -110,10 +110,11 @@ struct Resistance {
 
 Resistance resistance(const MechanisticParameters& p, const MechanisticState& s);
 
-// Advances the joint by `dt` (s) after the nut has turned to `angle` (rad) with the friction share `share`.
+// Advances the joint by `dt` (s) after the nut has turned to `angle` (rad) with `friction_share`.
 // Call it with an unchanged angle too, because embedding and yield continue at rest. No allocation; cannot
 // fail.
-void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double share, double dt);
+void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double friction_share,
+             double dt);
 
 // Free closure of the seat spring at this state and angle, m (negative: gap).
 double free_closure(const MechanisticParameters& p, const MechanisticState& s, double angle);

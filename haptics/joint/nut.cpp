@@ -11,28 +11,27 @@ namespace {
 constexpr double nut_inertia = 1e-5;
 
 // Torque on the nut as a function of the speed ω after the step: at_rest − dt · stiffness · ω.
-struct Drive {
+struct SpringTorque {
     double at_rest = 0.0;
     double stiffness = 0.0;
 };
 
-double next_speed(const Resistance& r, double inertia, NutMotion nut, const Drive& drive, double dt) {
-    const double push = inertia * nut.speed / dt + drive.at_rest;
-    const double mass = inertia / dt + dt * drive.stiffness;
+double next_speed(const Resistance& r, double inertia, NutMotion nut, const SpringTorque& spring, double dt) {
+    const double push = inertia * nut.speed / dt + spring.at_rest;
+    const double mass = inertia / dt + dt * spring.stiffness;
     const double floor = 0.1 * inertia / dt;  // bounds the effect of a resistance that falls faster
     if (push > r.tighten) return (push - r.tighten) / std::max(mass + dt * r.tighten_slope, floor);
     if (push < r.loosen) return (push - r.loosen) / std::max(mass + dt * r.loosen_slope, floor);
     return 0.0;
 }
 
-double share_of(const Resistance& r, double torque, double speed) {
+double friction_share_of(const Resistance& r, double torque, double speed) {
     if (speed != 0.0) return speed > 0.0 ? 1.0 : -1.0;
     const double friction = torque >= r.lead ? r.tighten - r.lead : r.lead - r.loosen;
     return friction > 0.0 ? std::clamp((torque - r.lead) / friction, -1.0, 1.0) : 0.0;
 }
 
-NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const DriveHandle& handle,
-                   double dt) {
+NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const NutDrive& drive, double dt) {
     // A nut that would run down by its own weight is held by the fingers that started it: it rests at zero
     // torque.
     Resistance r = given;
@@ -40,76 +39,75 @@ NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const
     r.loosen = std::min(r.loosen, 0.0);
 
     NutStep step;
-    const double gap = handle.engaged ? handle.angle - nut.angle : 0.0;
-    double wound = gap - std::clamp(gap, -handle.half_play, handle.half_play);
-    Drive drive{handle.stiffness * wound, wound == 0.0 ? 0.0 : handle.stiffness};
+    const double gap = drive.engaged ? drive.angle - nut.angle : 0.0;
+    double wound = gap - std::clamp(gap, -drive.half_play, drive.half_play);
+    SpringTorque spring{drive.stiffness * wound, wound == 0.0 ? 0.0 : drive.stiffness};
     const double mass = wound == 0.0 ? std::min(inertia, nut_inertia) : inertia;
-    double speed = next_speed(r, mass, nut, drive, dt);
-    if (wound == 0.0 && handle.engaged && std::abs(gap - dt * speed) > handle.half_play) {
+    double speed = next_speed(r, mass, nut, spring, dt);
+    if (wound == 0.0 && drive.engaged && std::abs(gap - dt * speed) > drive.half_play) {
         // The nut would leave the play within the step, so the edge that it meets acts in this step already.
         // Otherwise the nut would return from each edge faster than it arrived.
-        const double edge = std::copysign(handle.half_play, gap - dt * speed);
+        const double edge = std::copysign(drive.half_play, gap - dt * speed);
         wound = gap - edge;
-        drive = {handle.stiffness * wound, handle.stiffness};
-        speed = next_speed(r, mass, nut, drive, dt);
+        spring = {drive.stiffness * wound, drive.stiffness};
+        speed = next_speed(r, mass, nut, spring, dt);
         wound = std::copysign(1.0, edge);  // the side that pushes, for the test below
     }
-    step.torque = drive.at_rest - dt * drive.stiffness * speed;
+    step.torque = spring.at_rest - dt * spring.stiffness * speed;
 
-    const double limit = handle.torque_limit;
+    const double limit = drive.torque_limit;
     if (limit > 0.0 && std::abs(step.torque) > limit) {
-        drive = {std::copysign(limit, wound), 0.0};
-        speed = next_speed(r, mass, nut, drive, dt);
-        step.torque = drive.at_rest;
+        spring = {std::copysign(limit, wound), 0.0};
+        speed = next_speed(r, mass, nut, spring, dt);
+        step.torque = spring.at_rest;
         step.slipped = true;
     } else if (step.torque * wound < 0.0) {  // a jaw pushes; it does not pull
-        drive = {};
-        speed = next_speed(r, mass, nut, drive, dt);
+        spring = {};
+        speed = next_speed(r, mass, nut, spring, dt);
         step.torque = 0.0;
         // A nut that would cross the whole play within the step stops at the other edge.
         const double after = gap - dt * speed;
-        if (std::abs(after) > handle.half_play && after * gap < 0.0)
-            speed = (gap - std::copysign(handle.half_play, after)) / dt;
+        if (std::abs(after) > drive.half_play && after * gap < 0.0)
+            speed = (gap - std::copysign(drive.half_play, after)) / dt;
     }
     step.nut = {nut.angle + dt * speed, speed};
-    step.share = share_of(r, step.torque, speed);
+    step.friction_share = friction_share_of(r, step.torque, speed);
     return step;
 }
 
 // A mechanism that swings against the torque `holds` is equivalent, over one implicit step, to a softer
 // spring that is wound further. This follows from c (swung' − swung)/dt = T' − holds inserted into T' = K
 // (hand − nut' − swung' ∓ play).
-DriveHandle swinging_handle(const DriveHandle& handle, double holds, double dt) {
-    const double share = dt / handle.click.settling_time;
-    DriveHandle soft = handle;
-    soft.angle += share * holds / handle.stiffness - handle.swung;
-    soft.stiffness = handle.stiffness / (1.0 + share);
+NutDrive swinging_drive(const NutDrive& drive, double holds, double dt) {
+    const double share = dt / drive.click.settling_time;
+    NutDrive soft = drive;
+    soft.angle += share * holds / drive.stiffness - drive.swung;
+    soft.stiffness = drive.stiffness / (1.0 + share);
     return soft;
 }
 
 // Selects the consistent one of three cases: standing, swinging on, swinging back. It is unique, because a
 // mechanism that has swung resists in proportion to its speed, and one that has not swung holds up to its
-// setting.
-NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const DriveHandle& handle,
-                      double dt) {
-    const Click& click = handle.click;
-    const double on = click.swing_torque_share * click.setting,
-                 back = click.rearm_torque_share * click.setting;
+// set torque.
+NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const NutDrive& drive, double dt) {
+    const Click& click = drive.click;
+    const double on = click.swing_torque_share * click.set_torque,
+                 back = click.rearm_torque_share * click.set_torque;
     const auto standing_at = [&](double swung) {
-        DriveHandle stiff = handle;
+        NutDrive stiff = drive;
         stiff.angle -= swung;
         NutStep step = step_rigid(r, inertia, nut, stiff, dt);
         step.click.swung = swung;
         return step;
     };
-    const NutStep stood = standing_at(handle.swung);
-    const bool armed = handle.swung <= 0.0;
-    const bool goes_on = handle.swung < click.swing && stood.torque > (armed ? click.setting : on);
+    const NutStep stood = standing_at(drive.swung);
+    const bool armed = drive.swung <= 0.0;
+    const bool goes_on = drive.swung < click.swing && stood.torque > (armed ? click.set_torque : on);
     const bool goes_back = !armed && stood.torque < back;
     if (!goes_on && !goes_back) return stood;
     const double holds = goes_on ? on : back;
-    NutStep step = step_rigid(r, inertia, nut, swinging_handle(handle, holds, dt), dt);
-    const double swung = handle.swung + (step.torque - holds) * dt / (handle.stiffness * click.settling_time);
+    NutStep step = step_rigid(r, inertia, nut, swinging_drive(drive, holds, dt), dt);
+    const double swung = drive.swung + (step.torque - holds) * dt / (drive.stiffness * click.settling_time);
     if (swung >= click.swing)
         step = standing_at(click.swing);
     else if (swung <= 0.0)
@@ -122,17 +120,16 @@ NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const 
 
 }  // namespace
 
-double wound_torque(const DriveHandle& handle, double nut_angle) {
-    if (!handle.engaged) return 0.0;
-    const double gap = handle.angle - handle.swung - nut_angle;
-    const double torque = handle.stiffness * (gap - std::clamp(gap, -handle.half_play, handle.half_play));
-    return handle.torque_limit > 0.0 ? std::clamp(torque, -handle.torque_limit, handle.torque_limit) : torque;
+double wound_torque(const NutDrive& drive, double nut_angle) {
+    if (!drive.engaged) return 0.0;
+    const double gap = drive.angle - drive.swung - nut_angle;
+    const double torque = drive.stiffness * (gap - std::clamp(gap, -drive.half_play, drive.half_play));
+    return drive.torque_limit > 0.0 ? std::clamp(torque, -drive.torque_limit, drive.torque_limit) : torque;
 }
 
-NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const DriveHandle& handle,
-                 double dt) {
-    if (handle.engaged && handle.click.trips()) return step_clicking(given, inertia, nut, handle, dt);
-    return step_rigid(given, inertia, nut, handle, dt);
+NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const NutDrive& drive, double dt) {
+    if (drive.engaged && drive.click.trips()) return step_clicking(given, inertia, nut, drive, dt);
+    return step_rigid(given, inertia, nut, drive, dt);
 }
 
 namespace {
@@ -168,14 +165,14 @@ double corner_pressure(double hardness) {
 double corner_torque(double pressure, const CornerGrip& g) {
     const double slope = std::tan(std::abs(g.tilt));
     const double height = slope * g.height > g.clearance ? g.clearance / slope : g.height;
-    const double spread = 0.5 * (g.toward_throat + g.toward_mouth) - g.lost;
+    const double spread = 0.5 * (g.toward_throat + g.toward_mouth) - g.rounded;
     return pressure * std::max(0.0, height) * square(std::max(0.0, spread));
 }
 
-double rounded_half_play(double opening, double across_flats, double lost) {
-    // cos ψ s/2 + sin ψ x = w/2 with x = s/√12 - lost.
+double rounded_half_play(double opening, double across_flats, double rounded) {
+    // cos ψ s/2 + sin ψ x = w/2 with x = s/√12 - rounded.
     const double half = 0.5 * across_flats;
-    const double x = std::max(0.0, half / std::sqrt(3.0) - lost), reach = std::hypot(half, x);
+    const double x = std::max(0.0, half / std::sqrt(3.0) - rounded), reach = std::hypot(half, x);
     const double corner_angle = std::atan2(x, half), c = 0.5 * opening / reach;
     return c >= 1.0 ? pi / 6.0 : std::max(0.0, corner_angle - std::acos(c));
 }

@@ -10,27 +10,27 @@
 namespace bolt::joint {
 
 // The mechanism of a click-type torque wrench (ISO 6789-1: type II, class A), in series between the hand and
-// the wrench's spring. It is rigid up to its setting. There it trips, and the handle swings on at a lower
+// the wrench's spring. It is rigid up to its set torque. There it trips, and the handle swings on at a lower
 // torque until it bottoms and is rigid again, so a further pull applies more torque. When released it swings
 // back and rearms. Only tightening trips it.
 //
-//   not swung      T ≤ setting
-//   swinging on    T = swing_torque_share · setting + c · speed
-//   swinging back  T = rearm_torque_share · setting + c · speed
-//   bottomed       T ≥ rearm_torque_share · setting
+//   not swung      T ≤ set torque
+//   swinging on    T = swing_torque_share · set torque + c · speed
+//   swinging back  T = rearm_torque_share · set torque + c · speed
+//   bottomed       T ≥ rearm_torque_share · set torque
 //
 // c = stiffness · settling_time: at rest the torque falls with that time constant instead of jumping. At
 // torques between those of swinging on and swinging back the mechanism does not move, so swinging back and
 // forth dissipates energy and never generates any. The shares and times are ours, because the standard
-// specifies the setting only.
+// specifies the set torque only.
 struct Click {
-    double setting = 0.0;             // N·m at which it trips; 0: never
+    double set_torque = 0.0;          // N·m at which it trips; 0: never
     double swing = 0.0;               // rad that the handle swings before it bottoms; 0: no mechanism
-    double swing_torque_share = 0.5;  // fraction of the setting; greater than rearm_torque_share
-    double rearm_torque_share = 0.2;  // fraction of the setting; positive
+    double swing_torque_share = 0.5;  // fraction of the set torque; greater than rearm_torque_share
+    double rearm_torque_share = 0.2;  // fraction of the set torque; positive
     double settling_time = 0.01;      // s
 
-    [[nodiscard]] bool trips() const { return setting > 0.0 && swing > 0.0; }
+    [[nodiscard]] bool trips() const { return set_torque > 0.0 && swing > 0.0; }
 };
 
 // State of the mechanism after a step.
@@ -45,7 +45,7 @@ struct NutMotion {
 };
 
 // The drive of the nut: a spring with play between the angles of hand and nut, or nothing.
-struct DriveHandle {
+struct NutDrive {
     bool engaged = false;
     double angle = 0.0;         // rad, the nut's angle at the grip plus the hand's rotation since
     double half_play = 0.0;     // rad, backlash to either side
@@ -57,9 +57,9 @@ struct DriveHandle {
 
 struct NutStep {
     NutMotion nut;
-    double torque = 0.0;   // N·m on the nut, tightening positive
-    double share = 0.0;    // friction share after the step, −1…1
-    bool slipped = false;  // the grip's torque limit was reached
+    double torque = 0.0;          // N·m on the nut, tightening positive
+    double friction_share = 0.0;  // after the step, as in MechanisticState
+    bool slipped = false;         // the grip's torque limit was reached
     ClickStep click;
 };
 
@@ -68,20 +68,19 @@ struct NutStep {
 // velocity step (Moreau's time stepping) resolves it in closed form: stand, turn on or turn off, whichever is
 // consistent.
 //
-// `inertia` (kg·m² about the bolt) acts while the spring of the drive is wound; see coupling_inertia().
+// `inertia` (kg·m² about the bolt) acts while the spring of the drive is wound; see drive_inertia().
 // Inside the play the nut's own inertia acts, which is much smaller.
 //
 // The step is stable if the slope of the resistance is at least −(0.9 inertia/dt² + stiffness), N·m/rad.
 // While a joint is loosened the slope may be lower. The step then uses this bound instead of the slope, and
 // the nut turns less than it should.
-NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const DriveHandle& handle,
-                 double dt);
+NutStep step_nut(const Resistance& given, double inertia, NutMotion nut, const NutDrive& drive, double dt);
 
-// N·m that the handle applies to a nut at rest at this angle.
-double wound_torque(const DriveHandle& handle, double nut_angle);
+// N·m that the drive applies to a nut at rest at this angle.
+double wound_torque(const NutDrive& drive, double nut_angle);
 
-// The smallest inertia, kg·m², for which a step of `dt` (s) resolves the coupling spring: K dt².
-inline double coupling_inertia(double stiffness, double dt) { return stiffness * dt * dt; }
+// The smallest inertia, kg·m², for which a step of `dt` (s) resolves the spring of the drive: K dt².
+inline double drive_inertia(double stiffness, double dt) { return stiffness * dt * dt; }
 
 // The torque that the corners of a nut bear before an open jaw slips over them.
 //
@@ -112,14 +111,14 @@ struct CornerGrip {
     double toward_throat = 0.0, toward_mouth = 0.0;  // x1, x2: m from the axis to the ends of the strips
     double tilt = 0.0;                               // rad, about the flats' length
     double clearance = 0.0;                          // m, half of (opening − across flats)
-    double lost = 0.0;                               // m of each flat that is rounded off at a corner
+    double rounded = 0.0;                            // m of each flat that is rounded off at a corner
 };
 
 // N·m at which the jaw slips.
 double corner_torque(double pressure, const CornerGrip& grip);
 
-// Play to either side, rad, of a jaw on a nut with `lost` m of each flat's ends rounded off; 30° if the jaw
-// turns freely.
-double rounded_half_play(double opening, double across_flats, double lost);
+// Play to either side, rad, of a jaw on a nut with `rounded` m of each flat's ends rounded off; 30° if the
+// jaw turns freely.
+double rounded_half_play(double opening, double across_flats, double rounded);
 
 }  // namespace bolt::joint

@@ -43,7 +43,7 @@ struct Row {
     Vec3 arm{0.0};  // in units of the metric's length
     Vec3 normal{0.0};
     double slack = 0.0;
-    double friction = 0.0;
+    double friction_coefficient = 0.0;
     double slip_slack = 0.0;     // m, slack that compensates the lift of a slipping contact
     double slack_deficit = 0.0;  // m by which `slip_slack` was too small in the last round
     Vec3 force{0.0};             // the multiplier
@@ -68,13 +68,13 @@ Vec3 point_motion(const Row& row, const Vec6& y) {
 // Projects a force to the friction cone |tangential| ≤ friction × normal.
 Vec3 project_to_cone(const Row& row, const Vec3& trial_force) {
     const double a = glm::dot(trial_force, row.normal);
-    if (row.friction <= 0.0) return std::max(a, 0.0) * row.normal;
+    if (row.friction_coefficient <= 0.0) return std::max(a, 0.0) * row.normal;
     const Vec3 tangential = trial_force - a * row.normal;
     const double b = glm::length(tangential);
-    if (b <= row.friction * a) return trial_force;
-    if (row.friction * b <= -a) return Vec3(0.0);
-    const double s = (a + row.friction * b) / (1.0 + square(row.friction));
-    return s * row.normal + (row.friction * s / b) * tangential;
+    if (b <= row.friction_coefficient * a) return trial_force;
+    if (row.friction_coefficient * b <= -a) return Vec3(0.0);
+    const double s = (a + row.friction_coefficient * b) / (1.0 + square(row.friction_coefficient));
+    return s * row.normal + (row.friction_coefficient * s / b) * tangential;
 }
 
 // Adds the derivative of a contact's projected force to the Hessian.
@@ -82,7 +82,7 @@ void add_stiffness(double penalty, const Row& row, double hessian[6][6]) {
     const double a = glm::dot(row.trial_force, row.normal);
     const Vec3 tangential = row.trial_force - a * row.normal;
     const double b = glm::length(tangential);
-    const double mu = row.friction;
+    const double mu = row.friction_coefficient;
     double along = 0.0, across = 0.0;  // factors of the projector's two terms
     Vec3 first = row.normal, t(0.0);
     bool inside_cone = false;
@@ -249,9 +249,9 @@ double max_difference(const Vec6& a, const Vec6& b) {
 
 // The slack that compensates the lift of a contact which slips in this motion.
 double slack_for_slip(const Row& row, const Vec6& motion) {
-    if (row.friction <= 0.0) return 0.0;
+    if (row.friction_coefficient <= 0.0) return 0.0;
     const Vec3 u = point_motion(row, motion);
-    return row.friction * glm::length(u - glm::dot(u, row.normal) * row.normal);
+    return row.friction_coefficient * glm::length(u - glm::dot(u, row.normal) * row.normal);
 }
 
 // Sets the multipliers to the projected forces. Returns the greatest change, in m of violation.
@@ -342,7 +342,7 @@ ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
         row.arm = c.arm / length;
         row.normal = c.normal;
         row.slack = c.slack;
-        row.friction = c.friction;
+        row.friction_coefficient = c.friction_coefficient;
     }
     p.wanted = to_vec6(wanted, length);
 

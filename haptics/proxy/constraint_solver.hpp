@@ -60,10 +60,10 @@ inline constexpr std::size_t max_constraints = 48;
 
 // The point at `arm` may move towards the obstacle by at most `slack`; below 0 it must move away.
 struct Constraint {
-    Vec3 arm{0.0};          // m, from the body's origin
-    Vec3 normal{0.0};       // unit, away from the obstacle
-    double slack = 0.0;     // m
-    double friction = 0.0;  // coefficient, ≥ 0
+    Vec3 arm{0.0};                      // m, from the body's origin
+    Vec3 normal{0.0};                   // unit, away from the obstacle
+    double slack = 0.0;                 // m
+    double friction_coefficient = 0.0;  // ≥ 0
 };
 
 // Weights of a deviation from the wanted motion. They equal the stiffness of the coupling, so that the

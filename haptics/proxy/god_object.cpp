@@ -52,7 +52,7 @@ ContactQuery query_contacts(ContactFinder finder, const Pose& pose, double band)
     ContactQuery query;
     const collision::ContactQueryResult found = finder(pose, band, query.contacts);
     query.count = std::min(found.count, query.contacts.size());
-    query.limit = query.nearest = found.clearance;
+    query.limit = query.nearest = found.complete_within;
     query.work = found.work;
     for (std::size_t i = 0; i < query.count; ++i)
         query.nearest = std::min(query.nearest, query.contacts[i].distance);
@@ -148,7 +148,7 @@ class Stepper {
             const collision::Contact& c = current_query_.contacts[i];
             const Vec3& normal = c.smooth == Vec3(0.0) ? c.normal : c.smooth;
             rows.add({c.on_tool - pose_.position, normal, std::max(c.distance - p_.skin, -recovery_left_),
-                      p_.friction});
+                      p_.friction_coefficient});
         }
         return rows;
     }
@@ -188,7 +188,7 @@ class Stepper {
             rows.add({arm, c.normal,
                       std::max(c.distance - p_.skin - displacement_along_normal(c, arm),
                                std::min(0.0, current_query_.nearest - p_.skin)),
-                      p_.friction});
+                      p_.friction_coefficient});
         }
     }
 

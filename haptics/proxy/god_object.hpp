@@ -1,11 +1,11 @@
-// The god-object: the pose of the tool under contact constraints. It follows the commanded pose as far as
-// obstacles permit and does not penetrate them. The hand feels the coupling between the two poses
-// (haptics/proxy/coupling.hpp); contacts have no springs of their own, so a contact that appears or
-// disappears causes no step in the force.
+// The god-object algorithm, which moves the constrained tool: the pose of the tool under contact constraints.
+// It follows the commanded tool as far as obstacles permit and does not penetrate them. The hand feels the
+// coupling between the two poses (haptics/proxy/coupling.hpp); contacts have no springs of their own, so a
+// contact that appears or disappears causes no step in the force.
 //
 // Ruspini, Kolarov and Khatib, SIGGRAPH 1997 (the proxy); Ortega, Redon and Coquillart, IEEE TVCG 13(3), 2007
 // (six degrees of freedom, least constraint). The metric of the constraint is the coupling's stiffness: the
-// god-object rests where spring and contacts balance, and the spring's force is the contacts' force.
+// constrained tool rests where spring and contacts balance, and the spring's force is the contacts' force.
 #pragma once
 
 #include <limits>
@@ -47,7 +47,7 @@ struct GodObjectParameters {
     ForceRateLimits rate_limits;
     double radius = 0.3;                // m; bounds the distance of the tool's points from its origin
     std::optional<collision::Box> box;  // bounds the tool as well, in its own frame
-    double friction = 0.15;             // coefficient
+    double friction_coefficient = 0.15;
     // m, kept between tool and obstacles. Features between the finder's samples are detected up to 0.19 mm
     // late as measured (bolt-contact-validation, on the ZQ350), so the penetration stays below 0.1 mm.
     double skin = 110e-6;

@@ -125,7 +125,7 @@ namespace {
 
 constexpr double tolerance = 1e-3;  // rad; the god-object's tolerance of micrometres at half a flat's length
 constexpr double near = 0.1;        // m from jaw to nut beyond which a nut is skipped
-constexpr double least_limit = 1e-9;  // N·m; DriveHandle::torque_limit 0 means unlimited
+constexpr double least_limit = 1e-9;  // N·m; NutDrive::torque_limit 0 means unlimited
 
 // Modelling assumptions: a jaw slips off a corner once it has turned by its whole backlash beyond the
 // corner's torque, but not faster than an elastic wrench swings back.
@@ -133,15 +133,15 @@ constexpr double climbed_off = 2.0;      // half plays
 constexpr double swing_back = 0.02;      // s
 constexpr double least_height = 0.2e-3;  // m, lower bound of the rounded height
 
-double corner_torque(const Setup& setup, const NutGeometry& nut, double lost, const Engagement& e) {
+double corner_torque(const Setup& setup, const NutGeometry& nut, double rounded, const Engagement& e) {
     const double clearance = 0.5 * (setup.wrench.jaw.opening - nut.across_flats);
-    const collision::JawSeat& s = e.seat;
+    const collision::JawFit& s = e.fit;
     return joint::corner_torque(nut.corner_pressure,
-                                {s.overlap, s.toward_throat, s.toward_mouth, s.tilt, clearance, lost});
+                                {s.overlap, s.toward_throat, s.toward_mouth, s.tilt, clearance, rounded});
 }
 
-double play_of(const Setup& setup, const NutGeometry& nut, double lost) {
-    return joint::rounded_half_play(setup.wrench.jaw.opening, nut.across_flats, lost);
+double play_of(const Setup& setup, const NutGeometry& nut, double rounded) {
+    return joint::rounded_half_play(setup.wrench.jaw.opening, nut.across_flats, rounded);
 }
 
 // Direction of the throat about the bolt, rad, tightening positive.
@@ -162,11 +162,11 @@ collision::HexagonPrism prism_of(const NutGeometry& nut) {
 }
 
 void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState> joints,
-                           std::span<const double> lost, const ToolPose& tool, Engagement& e) {
+                           std::span<const double> rounded, const ToolPose& tool, Engagement& e) {
     const collision::Jaw& jaw = setup.wrench.jaw;
-    const auto seat_on = [&](std::size_t i) {
+    const auto fit_on = [&](std::size_t i) {
         const NutGeometry& nut = setup.nuts[i];
-        return collision::seat_of(jaw, prism_of(nut), on_nut(nut, joints[i].nut.angle, tool));
+        return collision::jaw_fit(jaw, prism_of(nut), on_nut(nut, joints[i].nut.angle, tool));
     };
     if (!tool.valid) {
         e = {};
@@ -176,8 +176,8 @@ void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState
         const auto i = static_cast<std::size_t>(e.joint);
         const double azimuth = azimuth_of(setup, setup.nuts[i], tool);
         const double turned = wrap(azimuth - e.azimuth, 2.0 * pi);
-        e.seat = seat_on(i);
-        if (e.grip == Grip::wrench && e.seat.surrounds(jaw.opening) && std::abs(turned) < leap) {
+        e.fit = fit_on(i);
+        if (e.grip == Grip::wrench && e.fit.surrounds(jaw.opening) && std::abs(turned) < leap) {
             e.hand_angle += turned;
             e.azimuth = azimuth;
             return;
@@ -189,46 +189,47 @@ void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState
         const NutGeometry& nut = setup.nuts[i];
         const double nut_angle = joints[i].nut.angle;
         if (glm::length(tool.position - nut_centre(nut, nut_angle)) > near) continue;
-        const collision::JawSeat seat = seat_on(i);
+        const collision::JawFit fit = fit_on(i);
         // The bevel is the hysteresis: a hand that trembles at the edge does not engage and release in turn.
-        if (!seat.surrounds(jaw.opening) || seat.overlap < jaw.bevel) continue;
-        if (std::abs(seat.misalignment) > play_of(setup, nut, lost[i]) + tolerance) continue;
+        if (!fit.surrounds(jaw.opening) || fit.overlap < jaw.bevel) continue;
+        if (std::abs(fit.misalignment) > play_of(setup, nut, rounded[i]) + tolerance) continue;
         e.joint = static_cast<int>(i);
         e.grip = Grip::wrench;
         e.azimuth = azimuth_of(setup, nut, tool);
-        e.hand_angle = nut_angle + seat.misalignment;
-        e.seat = seat;
+        e.hand_angle = nut_angle + fit.misalignment;
+        e.fit = fit;
         return;
     }
 }
 
-joint::DriveHandle jaw_handle(const Setup& setup, const NutGeometry& nut, double lost, const Engagement& e) {
-    joint::DriveHandle handle;
-    handle.engaged = true;
-    handle.angle = e.hand_angle;
-    handle.half_play = play_of(setup, nut, lost);
-    handle.stiffness = setup.wrench.stiffness;
-    handle.torque_limit = std::max(least_limit, e.strength * corner_torque(setup, nut, lost, e));
-    return handle;
+joint::NutDrive jaw_drive(const Setup& setup, const NutGeometry& nut, double rounded, const Engagement& e) {
+    joint::NutDrive drive;
+    drive.engaged = true;
+    drive.angle = e.hand_angle;
+    drive.half_play = play_of(setup, nut, rounded);
+    drive.stiffness = setup.wrench.stiffness;
+    drive.torque_limit = std::max(least_limit, e.corner_torque_share * corner_torque(setup, nut, rounded, e));
+    return drive;
 }
 
-bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint, double& lost,
-                   Engagement& e) {
-    const double whole = corner_torque(setup, nut, lost, e), play = play_of(setup, nut, lost);
-    const double limit = std::max(least_limit, e.strength * whole);
+bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint,
+                   double& rounded, Engagement& e) {
+    const double whole = corner_torque(setup, nut, rounded, e), play = play_of(setup, nut, rounded);
+    const double limit = std::max(least_limit, e.corner_torque_share * whole);
     if (std::abs(joint.torque) < 0.999 * limit) return false;
     const double wound = e.hand_angle - e.swung - joint.nut.angle;
     const double beyond = std::abs(wound) - play - whole / setup.wrench.stiffness;
     const double turned = std::max(0.0, beyond - e.yielded);
     e.yielded = std::max(e.yielded, beyond);
-    // The work removes corner material: at two corners, a triangle with two sides of `lost` that enclose
+    // The work removes corner material: at two corners, a triangle with two sides of `rounded` that enclose
     // 120°.
-    const double area = std::sqrt(3.0) / 4.0, height = std::max(e.seat.overlap, least_height);
-    lost = std::sqrt(square(lost) + limit * turned / (2.0 * area * height * nut.corner_pressure));
-    lost = std::min(lost, prism_of(nut).half_side());
+    const double area = std::sqrt(3.0) / 4.0, height = std::max(e.fit.overlap, least_height);
+    rounded = std::sqrt(square(rounded) + limit * turned / (2.0 * area * height * nut.corner_pressure));
+    rounded = std::min(rounded, prism_of(nut).half_side());
     const double bearing = 1.0 - e.yielded / (climbed_off * std::max(play, tolerance));
-    e.strength = std::clamp(bearing, e.strength - setup.dt / swing_back, e.strength);
-    if (e.strength > 0.0) return false;
+    e.corner_torque_share =
+        std::clamp(bearing, e.corner_torque_share - setup.dt / swing_back, e.corner_torque_share);
+    if (e.corner_torque_share > 0.0) return false;
     e = {};
     return true;
 }

@@ -35,13 +35,13 @@ struct Engagement {
     Vec3 offset_at_engagement{0.0};
 
     // Click-type torque wrench; armed anew at each engagement.
-    double setting = 0.0;  // N·m on the scale
-    double swung = 0.0;    // rad that the handle has swung since the click
+    double set_torque = 0.0;  // N·m on the scale
+    double swung = 0.0;       // rad that the handle has swung since the click
 
     // Wrench with contact simulation.
-    collision::JawSeat seat;
-    double strength = 1.0;  // 0 … 1, remaining fraction of the corner torque while the jaw slips
-    double yielded = 0.0;   // rad turned beyond the corner torque
+    collision::JawFit fit;
+    double corner_torque_share = 1.0;  // 0 … 1, of the corner torque that remains while the jaw slips
+    double yielded = 0.0;              // rad turned beyond the corner torque
 };
 
 // Centre of the nut in the assembly's frame, m, at `nut_angle` rad.
@@ -72,19 +72,19 @@ Pose on_nut(const NutGeometry& nut, double nut_angle, const ToolPose& tool);
 collision::HexagonPrism prism_of(const NutGeometry& nut);
 
 // One tick. Engages a nut if the jaw surrounds its hexagon by more than the jaw's bevel and is aligned within
-// the play; releases it if the jaw no longer surrounds it. `lost`, by joint: m of each flat that is rounded
-// off.
+// the play; releases it if the jaw no longer surrounds it. `rounded`, by joint: m of each flat that is
+// rounded off.
 void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState> joints,
-                           std::span<const double> lost, const ToolPose& tool, Engagement& engagement);
+                           std::span<const double> rounded, const ToolPose& tool, Engagement& engagement);
 
-// The engaged wrench as the joint law's handle. `lost` in m.
-joint::DriveHandle jaw_handle(const Setup& setup, const NutGeometry& nut, double lost,
-                              const Engagement& engagement);
+// The engaged wrench as the joint law's drive. `rounded` in m.
+joint::NutDrive jaw_drive(const Setup& setup, const NutGeometry& nut, double rounded,
+                          const Engagement& engagement);
 
 // Call after the joint's step. A jaw that turns beyond the corners' torque removes material in proportion to
 // the work, and transmits less torque the further it turns. Returns true in the tick in which it slips off
 // the nut.
-bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint, double& lost,
-                   Engagement& engagement);
+bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::JointState& joint,
+                   double& rounded, Engagement& engagement);
 
 }  // namespace bolt::servo

@@ -39,8 +39,8 @@ struct Wrench {
     double handle_length = 0.0;  // m
     double half_play = 0.0;      // rad of free rotation of the jaw on the hexagon, to either side
     double stiffness = 0.0;      // N·m/rad, wrench and hand in series
-    joint::Click click;          // without its setting, which is an input
-    double deviation = 0.0;      // relative deviation of the click torque from the setting
+    joint::Click click;          // without its set torque, which is an input
+    double deviation = 0.0;      // relative deviation of the click torque from the set torque
 };
 
 struct Setup {

@@ -15,39 +15,39 @@ bool held_by_contact(const State& state) {
     return state.tool_contact && state.engagement.grip == Grip::wrench;
 }
 
-// After the click a changed setting would create energy, so it is ignored.
-void update_setting(const Setup& setup, Engagement& e, float scale) {
+// After the click a changed set torque would create energy, so it is ignored.
+void update_set_torque(const Setup& setup, Engagement& e, float scale) {
     if (e.swung > 0.0) return;
     const bool clicks = e.grip == Grip::wrench && setup.wrench.click.swing > 0.0;
-    e.setting = clicks && std::isfinite(scale) ? std::max(static_cast<double>(scale), 0.0) : 0.0;
+    e.set_torque = clicks && std::isfinite(scale) ? std::max(static_cast<double>(scale), 0.0) : 0.0;
 }
 
-joint::DriveHandle handle_without_click(const Setup& setup, const State& state) {
+joint::NutDrive drive_without_click(const Setup& setup, const State& state) {
     const Engagement& e = state.engagement;
     if (e.joint >= 0 && held_by_contact(state)) {
         const auto i = static_cast<std::size_t>(e.joint);
-        return jaw_handle(setup, setup.nuts[i], state.rounded[i], e);
+        return jaw_drive(setup, setup.nuts[i], state.rounded[i], e);
     }
-    joint::DriveHandle handle;
-    handle.engaged = e.joint >= 0;
-    handle.angle = e.hand_angle;
+    joint::NutDrive drive;
+    drive.engaged = e.joint >= 0;
+    drive.angle = e.hand_angle;
     if (e.grip == Grip::wrench) {
-        handle.half_play = setup.wrench.half_play;
-        handle.stiffness = setup.wrench.stiffness;
+        drive.half_play = setup.wrench.half_play;
+        drive.stiffness = setup.wrench.stiffness;
     } else {
-        handle.stiffness = setup.finger_stiffness;
-        handle.torque_limit = setup.finger_torque(setup.nuts[static_cast<std::size_t>(std::max(e.joint, 0))]);
+        drive.stiffness = setup.finger_stiffness;
+        drive.torque_limit = setup.finger_torque(setup.nuts[static_cast<std::size_t>(std::max(e.joint, 0))]);
     }
-    return handle;
+    return drive;
 }
 
-joint::DriveHandle handle_of(const Setup& setup, const State& state) {
+joint::NutDrive drive_of(const Setup& setup, const State& state) {
     const Engagement& e = state.engagement;
-    joint::DriveHandle handle = handle_without_click(setup, state);
-    handle.click = setup.wrench.click;
-    handle.click.setting = e.setting * (1.0 + setup.wrench.deviation);
-    handle.swung = e.swung;
-    return handle;
+    joint::NutDrive drive = drive_without_click(setup, state);
+    drive.click = setup.wrench.click;
+    drive.click.set_torque = e.set_torque * (1.0 + setup.wrench.deviation);
+    drive.swung = e.swung;
+    return drive;
 }
 
 // Slipping fingertips do not wind up: the hand angle is clamped to the deflection at the largest finger
@@ -133,26 +133,26 @@ force::OutputCommand as_force_at_lever_end(const Setup& setup, const force::Outp
 
 constexpr double undo_clearance = 0.12;  // m between tool and nuts; an undo moves the nuts in one tick
 
-// Saves or restores a checkpoint (Input::undo). Returns the number of the restored checkpoint, 0 if none. The
-// change of energy is not work of the hand.
-std::uint8_t update_checkpoints(const Setup& setup, State& state, const ToolPose& tool, std::uint8_t undo) {
-    if (undo == save_checkpoint) {
+// Saves or restores a checkpoint (Input::checkpoint_action). Returns the number of the restored checkpoint, 0
+// if none. The change of energy is not work of the hand.
+std::uint8_t update_checkpoints(const Setup& setup, State& state, const ToolPose& tool, std::uint8_t action) {
+    if (action == save_checkpoint) {
         Checkpoint& checkpoint = state.checkpoints.at(state.checkpoint_count++ % max_checkpoints);
         std::copy(state.joints.begin(), state.joints.end(), checkpoint.joints.begin());
         std::copy(state.rounded.begin(), state.rounded.end(), checkpoint.rounded.begin());
         return 0;
     }
-    if (undo == 0 || undo > std::min<std::uint32_t>(state.checkpoint_count, max_checkpoints)) return 0;
+    if (action == 0 || action > std::min<std::uint32_t>(state.checkpoint_count, max_checkpoints)) return 0;
     if (state.engagement.joint >= 0) return 0;
     for (std::size_t i = 0; i < setup.nuts.size(); ++i)
         if (tool.valid && glm::distance(tool.position, nut_centre(setup.nuts[i], state.joints[i].nut.angle)) <
                               undo_clearance)
             return 0;
-    const Checkpoint& checkpoint = state.checkpoints.at((state.checkpoint_count - undo) % max_checkpoints);
+    const Checkpoint& checkpoint = state.checkpoints.at((state.checkpoint_count - action) % max_checkpoints);
     std::copy(checkpoint.joints.begin(), checkpoint.joints.end(), state.joints.begin());
     std::copy(checkpoint.rounded.begin(), checkpoint.rounded.end(), state.rounded.begin());
-    state.checkpoint_count -= undo - 1U;  // later checkpoints are discarded; the restored one is kept
-    return undo;
+    state.checkpoint_count -= action - 1U;  // later checkpoints are discarded; the restored one is kept
+    return action;
 }
 
 }  // namespace
@@ -175,8 +175,10 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
     const FlushDenormals flush;
     const ToolPose commanded_tool = pose_of(input.commanded_tool);
     const std::uint8_t undone =
-        input.undo != 0 ? update_checkpoints(setup, state, commanded_tool, input.undo) : std::uint8_t{0};
-    const Grip grip = input.enabled ? input.grip : Grip::none;
+        input.checkpoint_action != 0
+            ? update_checkpoints(setup, state, commanded_tool, input.checkpoint_action)
+            : std::uint8_t{0};
+    const Grip grip = input.dead_man ? input.grip : Grip::none;
     force::ForceRequest contact_request;
     ToolPose constrained_tool = commanded_tool;
     if (state.tool_contact && commanded_tool.valid) {
@@ -200,9 +202,9 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
         update_pose_engagement(setup, state.joints, constrained_tool, grip, state.engagement);
 
     const int engaged = state.engagement.joint;
-    update_setting(setup, state.engagement, input.setting);
+    update_set_torque(setup, state.engagement, input.set_torque);
     const joint::ClickStep click =
-        step_group(setup.group, state.joints, engaged, handle_of(setup, state), setup.dt);
+        step_group(setup.group, state.joints, engaged, drive_of(setup, state), setup.dt);
     state.engagement.swung = click.swung;
 
     Output output;
@@ -210,15 +212,15 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
     output.undone = undone;
     force::ForceRequest request;
     // The guiding force fades out if a nut is engaged or the sample is not a pose.
-    const bool guides = engaged < 0 && constrained_tool.valid && input.enabled;
+    const bool guides = engaged < 0 && constrained_tool.valid && input.dead_man;
     force::ForceRequest help =
         force::guide(setup.guiding, state.guide, guided_tool(setup, constrained_tool),
-                     goal_at(setup, state.joints, guides ? input.guide : -1), free, setup.dt);
+                     guide_target(setup, state.joints, guides ? input.guide : -1), free, setup.dt);
     if (setup.limits.torque <= 0.0 && grip == Grip::wrench)
         help.command = as_force_at_lever_end(setup, help.command, constrained_tool);
     state.guiding_command = help.command;
     if (held_by_spring_before && engaged != engaged_before) state.release_fade = {state.hold_target, 1.0};
-    if (!constrained_tool.valid || !input.enabled) state.release_fade.share = 0.0;
+    if (!constrained_tool.valid || !input.dead_man) state.release_fade.share = 0.0;
     const force::ForceRequest released = release_request(setup, state.release_fade, constrained_tool);
     if (engaged >= 0) {
         const auto i = static_cast<std::size_t>(engaged);
@@ -247,7 +249,7 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
     const double lever_arm = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
     port.pose = {commanded_tool.position + lever_arm * commanded_tool.handle, commanded_tool.orientation};
     port.valid = commanded_tool.valid;
-    port.enabled = input.enabled;
+    port.dead_man = input.dead_man;
     port.fresh = input.fresh;
     port.missed = input.missed;
     port.stop = input.stop;
@@ -272,21 +274,21 @@ force::GuidedTool guided_tool(const Setup& setup, const ToolPose& tool) {
     return {tool.position, jaw, tool.normal};
 }
 
-force::GuideGoal goal_at(const Setup& setup, std::span<const joint::JointState> joints, int joint) {
-    force::GuideGoal goal;
+force::GuideTarget guide_target(const Setup& setup, std::span<const joint::JointState> joints, int joint) {
+    force::GuideTarget target;
     const auto i = static_cast<std::size_t>(joint);
-    if (joint < 0 || i >= setup.nuts.size()) return goal;
+    if (joint < 0 || i >= setup.nuts.size()) return target;
     const NutGeometry& nut = setup.nuts[i];
     const double angle = joints[i].nut.angle;
-    goal.id = joint;
-    goal.target.point = nut_centre(nut, angle);
-    goal.target.axis = nut.axis;
+    target.id = joint;
+    target.point = nut_centre(nut, angle);
+    target.axis = nut.axis;
     // The ball that the target's own nut and bolt end fill; its corners are 0.58 across_flats away.
-    goal.target.bounding_radius = 1.2 * std::max(nut.height, nut.across_flats);
+    target.bounding_radius = 1.2 * std::max(nut.height, nut.across_flats);
     // Tightening a right-hand thread turns about −axis.
-    goal.hexagon = {nut.axis, std::cos(angle) * nut.e1 - std::sin(angle) * nut.e2,
-                    std::sin(angle) * nut.e1 + std::cos(angle) * nut.e2};
-    return goal;
+    target.hexagon = {nut.axis, std::cos(angle) * nut.e1 - std::sin(angle) * nut.e2,
+                      std::sin(angle) * nut.e1 + std::cos(angle) * nut.e2};
+    return target;
 }
 
 }  // namespace bolt::servo

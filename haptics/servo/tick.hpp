@@ -59,8 +59,8 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
 // The tool as the guiding force sees it (haptics/force/guide.hpp).
 force::GuidedTool guided_tool(const Setup& setup, const ToolPose& tool);
 
-// The nut of `joint` at its present angle. Returns a goal with id −1 if `joint` is not an index of
+// The nut of `joint` at its present angle. Returns a target with id −1 if `joint` is not an index of
 // setup.nuts.
-force::GuideGoal goal_at(const Setup& setup, std::span<const joint::JointState> joints, int joint);
+force::GuideTarget guide_target(const Setup& setup, std::span<const joint::JointState> joints, int joint);
 
 }  // namespace bolt::servo

@@ -62,12 +62,12 @@ void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const 
     }
 }
 
-// The pose of a seated nut as the jaw meets it: turned with the jaw beyond the play, less a margin that
+// The pose of a in_jaw nut as the jaw meets it: turned with the jaw beyond the play, less a margin that
 // leaves both flanks their skin. Two flanks pressed at once would be contradictory constraints with unlimited
 // friction.
 Pose hexagon_pose_in_jaw(const Setup& setup, const NutGeometry& nut, const Pose& place, const Pose& wrench) {
     const double off =
-        collision::seat_of(setup.wrench.jaw, prism_of(nut), inverse(place) * wrench).misalignment;
+        collision::jaw_fit(setup.wrench.jaw, prism_of(nut), inverse(place) * wrench).misalignment;
     const double play = joint::rounded_half_play(setup.wrench.jaw.opening, nut.across_flats, 0.0);
     const double lever = 0.5 * nut.across_flats * (std::cos(play) / std::sqrt(3.0) - std::sin(play));
     const double room = std::max(0.0, play - both_skins * jaw_skin / lever);
@@ -85,12 +85,12 @@ collision::ContactQueryResult find_jaw_contacts(const Setup& setup, const ToolCo
     std::array<collision::Contact, collision::max_jaw_contacts> contacts;
     for (std::size_t i = 0; i < contact.hexagons.size(); ++i) {
         const NutGeometry& nut = setup.nuts[i];
-        const bool seated = static_cast<int>(i) == contact.seated_joint;
+        const bool in_jaw = static_cast<int>(i) == contact.joint_in_jaw;
         const Pose place =
-            seated ? hexagon_pose_in_jaw(setup, nut, contact.nut_poses[i], pose) : contact.nut_poses[i];
+            in_jaw ? hexagon_pose_in_jaw(setup, nut, contact.nut_poses[i], pose) : contact.nut_poses[i];
         const std::size_t count = collision::jaw_contacts(contact.jaw, contact.hexagons[i], pose, place, band,
                                                           collision::ObstacleId::nut(i), contacts);
-        if (seated)
+        if (in_jaw)
             collision::remove_axial_moment(place.position, nut.axis, std::span(contacts).first(count));
         for (std::size_t k = 0; k < count; ++k) {
             collision::Contact& c = contacts[k];
@@ -99,7 +99,7 @@ collision::ContactQueryResult find_jaw_contacts(const Setup& setup, const ToolCo
                 out[found.count++] = c;
             } else {
                 found.truncated = true;
-                found.clearance = std::min(found.clearance, c.distance);
+                found.complete_within = std::min(found.complete_within, c.distance);
             }
         }
     }
@@ -143,7 +143,7 @@ collision::ContactQueryResult find_contacts_cached(const Setup& setup, ToolConta
     else
         found = last.meshes = find_mesh_contacts(contact, pose, band, rest);
     found.count += last.nuts.count;
-    found.clearance = std::min(found.clearance, last.nuts.clearance);
+    found.complete_within = std::min(found.complete_within, last.nuts.complete_within);
     found.truncated = found.truncated || last.nuts.truncated;
 
     std::copy_n(out.begin(), found.count, last.contacts.begin());
@@ -214,21 +214,21 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
     set_coupling(setup, contact);
     contact.parameters.radius = contact.wrench.reach();
     contact.parameters.box = contact.wrench.solid.box;
-    contact.parameters.friction = d.friction;
+    contact.parameters.friction_coefficient = d.friction_coefficient;
     return contact;
 }
 
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& commanded_tool,
-                                      bool held, int joint_in_jaw) {
+                                      bool held, int engaged_joint) {
     update_nut_poses(setup, contact, joints, held);
-    const int seated_before = contact.seated_joint;
-    if (joint_in_jaw >= 0)
-        contact.seated_joint = joint_in_jaw;
-    else if (contact.seated_joint >= 0 &&
-             (!held || jaw_is_clear(contact, static_cast<std::size_t>(contact.seated_joint))))
-        contact.seated_joint = -1;
-    contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && contact.seated_joint == seated_before;
+    const int in_jaw_before = contact.joint_in_jaw;
+    if (engaged_joint >= 0)
+        contact.joint_in_jaw = engaged_joint;
+    else if (contact.joint_in_jaw >= 0 &&
+             (!held || jaw_is_clear(contact, static_cast<std::size_t>(contact.joint_in_jaw))))
+        contact.joint_in_jaw = -1;
+    contact.cache.nuts_unchanged = contact.cache.nuts_unchanged && contact.joint_in_jaw == in_jaw_before;
     if (!held || !contact.in_hand) {
         contact.god_object = proxy::start_god_object(commanded_tool);
         contact.last_step = {};

@@ -23,7 +23,7 @@ struct ToolContactDescription {
     std::span<const collision::ContactMesh> still;
     std::span<const collision::ContactMesh> nuts;    // by joint; a mesh without triangles meets the jaw only
     std::span<const collision::ContactMesh> wrench;  // in the tool's frame
-    double friction = 0.15;                          // steel on painted iron with a film of oil
+    double friction_coefficient = 0.15;              // steel on painted iron with a film of oil
 };
 
 // The contacts of the last query with its pose and band: the jaw's with nuts first, then those of meshes.
@@ -47,7 +47,7 @@ struct ToolContact {
     std::vector<collision::Convex> hexagons;             // by joint
     std::vector<Pose> nut_poses;                         // by joint, in the assembly's frame
     collision::JawParts jaw;
-    int seated_joint = -1;           // joint whose nut is inside the jaw, held or slipping; −1: none
+    int joint_in_jaw = -1;           // joint whose nut is inside the jaw, held or slipping; −1: none
     proxy::GodObjectStep last_step;  // result of the last tick
     ContactCache cache;
     bool in_hand = false;           // the wrench was held in the last tick
@@ -61,12 +61,12 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
 void set_coupling(const Setup& setup, ToolContact& contact);
 
 // One tick: places the nuts by their joints' angles and moves the wrench towards `commanded_tool` as far as
-// contacts allow. `joint_in_jaw` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with
+// contacts allow. `engaged_joint` is the joint whose nut the jaw holds, −1 for none: its hexagon turns with
 // the jaw, so that contacts leave that rotation to the joint law (engagement.hpp). If `held` is false the
 // wrench follows the hand and the returned request is zero.
 force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
                                       std::span<const joint::JointState> joints, const Pose& commanded_tool,
-                                      bool held, int joint_in_jaw);
+                                      bool held, int engaged_joint);
 
 // Returns true if an obstacle other than `joint`'s nut crosses the segment. `joint` −1 excludes no nut.
 bool occluded(const ToolContact& contact, const Vec3& from, const Vec3& to, int joint);

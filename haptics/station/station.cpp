@@ -57,7 +57,7 @@ struct Station::Shared {
         count(stats.wheel, station.wheel, output.wheel);
         link_stats.write(stats);
         if (hand)
-            hand->set_tool({tool_commanded_by_glove(layout, setup, station, inputs.controls),
+            hand->set_tool({tool_of_gloved_hand(layout, setup, station, inputs.controls),
                             station.resting_wrench.value_or(station.output.constrained_tool)});
         latest_tick.write(done.tick);
         if (!done.paused && !ticks.push(done.tick)) lost_ticks.fetch_add(1, std::memory_order_relaxed);
@@ -178,7 +178,7 @@ std::vector<std::string> Station::fault_messages() {
     const StationTick& tick = latest_tick();
     // The device's own report describes its silence better.
     const force::Fault fault = tick.output.fault;
-    if (tick.input.enabled && fault != force::Fault::none &&
+    if (tick.input.dead_man && fault != force::Fault::none &&
         (fault != force::Fault::silent || messages.empty()))
         messages.emplace_back(force::name(fault));
     if (shared_->glove && shared_->glove->report().fault_message[0] != '\0')

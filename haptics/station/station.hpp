@@ -14,7 +14,7 @@ namespace bolt::station {
 
 // Statistics of the data between a device and the servo, counted by the servo's ticks.
 struct LinkStats {
-    // Samples that arrived after the first one, those that were replaced before a tick read them included.
+    // Samples that arrived after the first, those that were replaced before a tick read them included.
     std::uint64_t samples = 0;
     double silence = 0.0, longest_silence = 0.0;       // s since the last valid sample
     double largest_force = 0.0, largest_torque = 0.0;  // N, N·m, that were sent

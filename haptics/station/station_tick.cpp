@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "haptics/servo/tick.hpp"
-#include "haptics/station/pivot.hpp"
 
 namespace bolt::station {
 
@@ -37,12 +36,12 @@ namespace {
 
 // A larger change of force in a millisecond is felt as a blow. Contacts are designed for it up to 0.5 m/s
 // (haptics/proxy/coupling), but a hand that reaches without looking hits the casing at 0.8 m/s.
-constexpr double max_force_step = 0.1;  // share of the greatest force, per millisecond
+constexpr double max_slew_share = 0.1;  // of the greatest force and torque, per millisecond
 constexpr double millisecond = 1e-3;    // s
 
-force::OutputLimits limited_steps(force::OutputLimits limits) {
-    limits.force_rate = std::min(limits.force_rate, max_force_step * limits.force / millisecond);
-    limits.torque_rate = std::min(limits.torque_rate, max_force_step * limits.torque / millisecond);
+force::OutputLimits with_limited_slew_rates(force::OutputLimits limits) {
+    limits.force_rate = std::min(limits.force_rate, max_slew_share * limits.force / millisecond);
+    limits.torque_rate = std::min(limits.torque_rate, max_slew_share * limits.torque / millisecond);
     return limits;
 }
 
@@ -60,7 +59,7 @@ force::OutputLimits limits_of(const Layout& layout) {
         force::OutputLimits mover = layout.mover->limits;
         if (!renders_force(*layout.mover)) mover.force = 0.0;
         if (!renders_torque(*layout.mover)) mover.torque = 0.0;
-        limits = force::in_assembly(layout.workspace, limited_steps(mover));
+        limits = force::in_assembly(layout.workspace, with_limited_slew_rates(mover));
     }
     limits.release -= transport_delay;
     if (!layout.wheel) return limits;
@@ -82,11 +81,6 @@ using device::DeviceSnapshot;
 
 // s without a tick; less than device::SupervisorOptions::command_timeout.
 constexpr double servo_stall = 0.010;
-// Chosen for a tool that approaches a nut by itself: 12 cm/s from 8 cm on, slower than a user who pushes it
-// away.
-constexpr force::GuidingParameters approach_guiding{.gain = 0.25, .max_force = 3.0, .max_torque = 0.2};
-constexpr double approach_speed = 0.04;             // m/s per N of the guiding law
-constexpr double approach_angular_speed = 3.0;      // rad/s per N·m; slower than a user who turns the tool
 constexpr double max_deflection = to_radians(2.5);  // of the wrench, at the largest torque
 constexpr double wheel_fade_time = 0.05;            // s in which a wheel's torque fades in and out
 
@@ -295,8 +289,8 @@ void receive(StationState& s, std::span<const StationCommand> commands) {
     }
 }
 
-// The servo's undo input of this tick. A restore stays pending until map_output() sees it done.
-std::uint8_t next_undo(StationState& s) {
+// The servo's checkpoint action of this tick. A restore stays pending until map_output() sees it done.
+std::uint8_t next_checkpoint_action(StationState& s) {
     if (s.checkpoints_to_save == 0) return s.checkpoint_to_restore;
     --s.checkpoints_to_save;
     return servo::save_checkpoint;
@@ -335,10 +329,10 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
     servo::Input input;
     input.commanded_tool = servo::to_commanded_tool(s.workspace.commanded_tool);
     input.grip = grip;
-    input.undo = next_undo(s);
-    input.setting = controls.click_setting;
+    input.checkpoint_action = next_checkpoint_action(s);
+    input.set_torque = controls.set_torque;
 
-    input.enabled = controls.dead_man;
+    input.dead_man = controls.dead_man;
     input.guide = controls.guide;
     input.stop = controls.stop;
     input.reset = controls.reset;
@@ -353,35 +347,6 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
     if (s.restarting) input.fresh = false;
     s.input = input;
     return input;
-}
-
-void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
-                 const StationInputs& inputs, servo::Input& input) {
-    if (!layout.mover || layout.mover->sensing != Sensing::velocity || renders_force(*layout.mover)) return;
-    Pose& tool = s.workspace.commanded_tool;
-    const int held = s.output.joint;
-    const int joint = held < 0 && s.mover.usable && input.enabled ? inputs.controls.approach_joint : -1;
-    // A held nut carries the tool along as it descends.
-    if (held >= 0) {
-        const auto i = static_cast<std::size_t>(held);
-        const Vec3 at = servo::nut_centre(setup.nuts[i], servo.joints[i].nut.angle);
-        if (s.carrying_joint == held) tool.position += at - s.carrying_point;
-        s.carrying_point = at;
-    }
-    s.carrying_joint = held;
-    const servo::ToolPose now = servo::at_pose(s.workspace.commanded_tool);
-    const auto free = [&](const Vec3& from, const Vec3& to) {
-        return !servo.tool_contact || !servo::occluded(*servo.tool_contact, from, to, joint);
-    };
-    const force::OutputCommand guiding =
-        force::guide(approach_guiding, s.approach_guide, servo::guided_tool(setup, now),
-                     servo::goal_at(setup, servo.joints, joint), free, setup.dt)
-            .command;
-    tool.position += approach_speed * setup.dt * guiding.force;
-    tool.orientation =
-        glm::normalize(rotation(approach_angular_speed * setup.dt * guiding.torque) * tool.orientation);
-    input.commanded_tool = servo::to_commanded_tool(tool);
-    s.input = input;
 }
 
 DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& s,
@@ -415,8 +380,8 @@ DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationStat
     return map_output(layout, setup, state, servo::tick(setup, servo, input));
 }
 
-Pose tool_commanded_by_glove(const Layout& layout, const servo::Setup& setup, const StationState& s,
-                             const StationControls& controls) {
+Pose tool_of_gloved_hand(const Layout& layout, const servo::Setup& setup, const StationState& s,
+                         const StationControls& controls) {
     const bool bare = s.resting_wrench && layout.wrist && controls.bare_wrist;
     if (bare) {
         const Vec3 tip = inverse(*s.resting_wrench) * s.workspace.commanded_tool.position;

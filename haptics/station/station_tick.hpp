@@ -70,8 +70,8 @@ struct StationControls {
     // releases it.
     double dead_man_timeout = std::numeric_limits<double>::infinity();
     bool clutch = false, stop = false, reset = false;
-    std::int16_t guide = -1;     // joint that the guiding force leads to; −1: none
-    float click_setting = 0.0F;  // N·m, of a click-type torque wrench
+    std::int16_t guide = -1;  // joint that the guiding force leads to; −1: none
+    float set_torque = 0.0F;  // N·m, of a click-type torque wrench
     // Unit, from the viewer's frame to the assembly's. A puck moves the tool in the viewer's frame, an arm in
     // the assembly's frame turned to the viewer about the vertical.
     Quat view{1.0, 0.0, 0.0, 0.0};
@@ -95,8 +95,8 @@ struct PlaceTool {
 // Stores the state of the nuts for undo. Checkpoints are saved one a tick, before a pending restore.
 struct SaveCheckpoint {};
 // Restores the n-th last checkpoint, 1 … servo::max_checkpoints. It stays pending until the servo permits it
-// (see servo::Input::undo), and replaces a pending restore. More steps than servo::max_checkpoints have no
-// effect.
+// (see servo::Input::checkpoint_action), and replaces a pending restore. More steps than
+// servo::max_checkpoints have no effect.
 struct RestoreCheckpoint {
     std::uint8_t steps = 1;
 };
@@ -177,9 +177,14 @@ StationState initial_state(const Layout& layout);
 DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
                     const StationInputs& inputs);
 
-// The parts of tick(), in order.
+// The parts of tick(), in order; read_inputs() calls pivot_about_bolt().
 servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, StationState& state,
                          const StationInputs& inputs);
+// On a bolt and near it the wrench follows the end of its handle, and its jaw points to the bolt. The wrist
+// may turn freely: a device without torque cannot hold it, and a hand cannot place a jaw with it to a degree.
+// `last`: the tool's pose before this tick.
+void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationState& state, const Pose& last,
+                      double dt);
 // Moves a tool whose device senses velocity and renders no force: along with a held nut, and towards
 // StationControls::approach_joint. Changes `input`.
 void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& state,
@@ -187,11 +192,11 @@ void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& 
 DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const servo::Output& output);
 
-// The tool pose that a gloved hand commands, or would command if it held the tool
-// (ToolPoses::commanded_tool). A bare hand within handle_capture_distance of the wrench snaps to its handle:
-// without touch nobody can place fingers around it to the millimetre.
-Pose tool_commanded_by_glove(const Layout& layout, const servo::Setup& setup, const StationState& state,
-                             const StationControls& controls);
+// The pose at which a gloved hand holds the tool, or would hold it (ToolPoses::commanded_tool). The mover
+// commands it; the glove measures only the fingers. A bare hand within handle_capture_distance of the wrench
+// snaps to its handle: without touch nobody can place fingers around it to the millimetre.
+Pose tool_of_gloved_hand(const Layout& layout, const servo::Setup& setup, const StationState& state,
+                         const StationControls& controls);
 inline constexpr double handle_capture_distance = 0.10;  // m from the handle's centre line to the fingertips
 
 // Replaces tick() while StationControls::pause is set: reads the devices and returns zero commands.

@@ -11,8 +11,8 @@ namespace bolt::station {
 namespace {
 
 constexpr double max_step = 3e-3;                       // m, of the spring's centre
-constexpr double early_begin = 0.05, early_end = 0.30;  // s of a stage
-constexpr double late_begin = 0.60;                     // s; the late part lasts until the end of the stage
+constexpr double early_begin = 0.05, early_end = 0.30;  // s of a level
+constexpr double late_begin = 0.60;                     // s; the late part lasts until the end of the level
 
 // A swing counts if it is larger than both: what a hand at rest does on a spring, and the criterion of
 // tests/stability.
@@ -64,33 +64,33 @@ Swing swing_of(const std::vector<Vec3>& positions) {
 
 bool keeps_oscillating(const StiffnessTrial& t) {
     const Swing early = swing_of(t.early), late = swing_of(t.late);
-    const double min_width = std::max(min_swing, tremor_force / stiffness_of(t, t.stage));
+    const double min_width = std::max(min_swing, tremor_force / stiffness_of(t, t.level));
     return late.crossings >= min_crossings && late.width > min_width &&
            (late.width > lasting_share * early.width || late.width > large_swing);
 }
 
-void end_stage(StiffnessTrial& t) {
+void end_level(StiffnessTrial& t) {
     if (t.moved_at) t.responses.push_back(*t.moved_at);
     if (keeps_oscillating(t))
         t.end = TrialEnd::oscillation;
     else if (t.generated > max_energy)
         t.end = TrialEnd::energy;
     else
-        t.stable = stiffness_of(t, t.stage);
+        t.stable = stiffness_of(t, t.level);
     if (t.end != TrialEnd::none) return;
-    if (t.stage + 1 == stiffness_stages) {
+    if (t.level + 1 == stiffness_levels) {
         t.end = TrialEnd::announced;
         return;
     }
-    ++t.stage;
+    ++t.level;
     t.time = 0.0;
 }
 
 // Moves the spring, so that the handle is pulled there and swings.
-void begin_stage(StiffnessTrial& t, const Vec3& position) {
-    const double step = std::min(max_step, t.limits.force / stiffness_of(t, t.stage));
+void begin_level(StiffnessTrial& t, const Vec3& position) {
+    const double step = std::min(max_step, t.limits.force / stiffness_of(t, t.level));
     t.centre = position;
-    t.offset = (t.stage % 2 == 0 ? step : -step) * t.direction;
+    t.offset = (t.level % 2 == 0 ? step : -step) * t.direction;
     t.moved_at.reset();
     t.early.clear();
     t.late.clear();
@@ -115,8 +115,8 @@ void record_sample(StiffnessTrial& t, const Vec3& position, double stored, doubl
 
 }  // namespace
 
-double stiffness_of(const StiffnessTrial& trial, int stage) {
-    return trial.limits.stiffness * (stage + 1) / stiffness_stages;
+double stiffness_of(const StiffnessTrial& trial, int level) {
+    return trial.limits.stiffness * (level + 1) / stiffness_levels;
 }
 
 StiffnessTrial begin_stiffness_trial(const device::Description& arm) {
@@ -130,27 +130,27 @@ StiffnessTrial begin_stiffness_trial(const device::Description& arm) {
     constexpr std::size_t room = 1000;  // samples, so that a tick does not allocate
     t.early.reserve(room);
     t.late.reserve(room);
-    t.responses.reserve(stiffness_stages);
+    t.responses.reserve(stiffness_levels);
     return t;
 }
 
 force::OutputCommand step(StiffnessTrial& t, const force::PortInput& given, double dt) {
     force::PortInput input = given;
-    input.enabled = given.enabled && t.end == TrialEnd::none;
+    input.dead_man = given.dead_man && t.end == TrialEnd::none;
     const Vec3 position = given.pose.position;
     if (!t.has_centre && given.fresh) t.centre = position;
     t.has_centre = t.has_centre || given.fresh;
-    const double stiffness = stiffness_of(t, t.stage);
+    const double stiffness = stiffness_of(t, t.level);
 
     force::ForceRequest request;
-    const bool strong = input.enabled && t.output_stage.limiter.strength >= 1.0;
+    const bool strong = input.dead_man && t.output_stage.limiter.ramp >= 1.0;
     if (!strong) {
         t.time = 0.0;
         t.offset = Vec3(0.0);
-        if (!input.enabled) t.centre = position;
+        if (!input.dead_man) t.centre = position;
     } else if (t.time == 0.0) {
         const double before = stored_energy(stiffness, t.centre + t.offset - position);
-        begin_stage(t, position);
+        begin_level(t, position);
         request.injected_energy = stored_energy(stiffness, t.offset) - before;
     }
     const Vec3 stretch = t.centre + t.offset - position;
@@ -162,8 +162,8 @@ force::OutputCommand step(StiffnessTrial& t, const force::PortInput& given, doub
     if (strong && t.output_stage.watchdog.fault != force::Fault::none) {
         t.end = TrialEnd::fault;
         t.fault = t.output_stage.watchdog.fault;
-    } else if (strong && t.time >= stiffness_stage_time) {
-        end_stage(t);
+    } else if (strong && t.time >= stiffness_level_time) {
+        end_level(t);
     }
     return command;
 }

@@ -13,8 +13,8 @@
 
 namespace bolt::station {
 
-inline constexpr int stiffness_stages = 10;          // the last one has the stiffness that the arm announces
-inline constexpr double stiffness_stage_time = 1.0;  // s
+inline constexpr int stiffness_levels = 10;          // the last one has the stiffness that the arm announces
+inline constexpr double stiffness_level_time = 1.0;  // s
 inline constexpr double trial_force_share = 0.2;     // of the arm's largest force; the trial renders no more
 
 // Why a trial has ended.
@@ -33,18 +33,18 @@ struct StiffnessTrial {
 
     TrialEnd end = TrialEnd::none;
     force::Fault fault = force::Fault::none;  // for TrialEnd::fault
-    int stage = 0;                            // that runs now, 0 … stiffness_stages − 1
+    int level = 0;                            // that runs now, 0 … stiffness_levels − 1
     double stable = 0.0;                      // N/m, largest stiffness that has passed; 0: none
 
-    // s from the first command of a step until the handle has moved visibly, one for each stage. Includes the
+    // s from the first command of a step until the handle has moved visibly, one for each level. Includes the
     // inertia of arm and hand.
     std::vector<double> responses;
 
-    // The present stage:
+    // The present level:
     double time = 0.0;               // s since its step; 0: the force still ramps up
-    Vec3 centre{0.0}, offset{0.0};   // m, of the spring: where the stage began, and the step from there
+    Vec3 centre{0.0}, offset{0.0};   // m, of the spring: where the level began, and the step from there
     std::optional<double> moved_at;  // s, of the response
-    std::vector<Vec3> early, late;   // m, positions right after the step and at the end of the stage
+    std::vector<Vec3> early, late;   // m, positions right after the step and at the end of the level
     double generated = 0.0;          // J that the spring has given to the hand in the late part
     double energy_before = 0.0;      // J, stored at the last tick
     bool has_centre = false;
@@ -53,12 +53,12 @@ struct StiffnessTrial {
 // The arm renders a force along at least one axis.
 StiffnessTrial begin_stiffness_trial(const device::Description& arm);
 
-// One tick of dt. Returns the command for the arm. The trial advances only while `input.enabled` is set;
-// after an interruption the stage begins again. After the end the command falls to zero.
+// One tick of dt. Returns the command for the arm. The trial advances only while `input.dead_man` is set;
+// after an interruption the level begins again. After the end the command falls to zero.
 force::OutputCommand step(StiffnessTrial& trial, const force::PortInput& input, double dt);
 
-// N/m, of a stage.
-double stiffness_of(const StiffnessTrial& trial, int stage);
+// N/m, of a level.
+double stiffness_of(const StiffnessTrial& trial, int level);
 
 // s, of the responses; none: no step has moved the handle.
 std::optional<double> median_response(const StiffnessTrial& trial);

@@ -1,4 +1,4 @@
-#include "game/report/comparison.hpp"
+#include "game/report/report.hpp"
 
 #include <doctest/doctest.h>
 

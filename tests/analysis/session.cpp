@@ -5,7 +5,7 @@
 
 #include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
-#include "game/report/comparison.hpp"
+#include "game/report/report.hpp"
 #include "game/session/session_file.hpp"
 #include "tests/analysis/curves.hpp"
 #include "tests/report/well_formed.hpp"

@@ -125,7 +125,7 @@ void PlayedLesson::tick() {
     while (arm_.timer.now() < now_) serve();
     controls_.grip = intention_.grip;
     controls_.guide = intention_.guide;
-    controls_.click_setting = static_cast<float>(lesson::wrench_setting(session_->lesson()));
+    controls_.set_torque = static_cast<float>(lesson::wrench_set_torque(session_->lesson()));
     station::StationInputs inputs;
     mailboxes_.snapshots.update();
     inputs.mover = mailboxes_.snapshots.latest();

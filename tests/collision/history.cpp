@@ -36,7 +36,7 @@ class Twins {
         clear_cache(cold_, world_, tool_);
         const ContactQueryResult cold = find_contacts(world_, tool_, pose, band, cold_, b);
         REQUIRE(warm.count == cold.count);
-        REQUIRE(warm.clearance == cold.clearance);
+        REQUIRE(warm.complete_within == cold.complete_within);
         REQUIRE(warm.truncated == cold.truncated);
         for (std::size_t i = 0; i < warm.count; ++i) REQUIRE(same(a[i], b[i]));
         ++compared;

@@ -210,38 +210,38 @@ TEST_CASE("Jaw: the nearest contact is at the separation, and normals are unit v
     }
 }
 
-TEST_CASE("Jaw: the seat of a turned, raised, pulled-back, tilted or flipped jaw") {
+TEST_CASE("Jaw: the fit of a turned, raised, pulled-back, tilted or flipped jaw") {
     const Pair p;
     const double side = flats / std::sqrt(12.0), flat = 2.0 * p.jaw.half_flat();
-    JawSeat seat = seat_of(p.jaw, p.prism, p.wrench());
-    CHECK(seat.overlap == doctest::Approx(flat).epsilon(1e-12));
-    CHECK(seat.toward_mouth == doctest::Approx(side).epsilon(1e-12));
-    CHECK(seat.toward_throat == doctest::Approx(side).epsilon(1e-12));
-    CHECK(std::abs(seat.misalignment) < 1e-12);
-    CHECK(seat.surrounds(opening));
+    JawFit fit = jaw_fit(p.jaw, p.prism, p.wrench());
+    CHECK(fit.overlap == doctest::Approx(flat).epsilon(1e-12));
+    CHECK(fit.toward_mouth == doctest::Approx(side).epsilon(1e-12));
+    CHECK(fit.toward_throat == doctest::Approx(side).epsilon(1e-12));
+    CHECK(std::abs(fit.misalignment) < 1e-12);
+    CHECK(fit.surrounds(opening));
     // Lifted so that half the height of its flats overlaps the flats of the nut.
     const double corner_top = 0.5 * p.prism.height - p.prism.corner_drop();
-    seat = seat_of(p.jaw, p.prism, p.wrench({0, 0, corner_top}));
-    CHECK(seat.overlap == doctest::Approx(0.5 * flat).epsilon(1e-12));
-    CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({0, 0, corner_top + p.jaw.half_flat()})).surrounds(opening));
+    fit = jaw_fit(p.jaw, p.prism, p.wrench({0, 0, corner_top}));
+    CHECK(fit.overlap == doctest::Approx(0.5 * flat).epsilon(1e-12));
+    CHECK_FALSE(jaw_fit(p.jaw, p.prism, p.wrench({0, 0, corner_top + p.jaw.half_flat()})).surrounds(opening));
     // Pulled towards the handle until only half of the flats' length is in contact, and then off the nut.
-    seat = seat_of(p.jaw, p.prism, p.wrench({p.jaw.tip - p.jaw.lead_in, 0, 0}));
-    CHECK(std::abs(seat.toward_mouth) < 1e-12);
-    CHECK(seat.surrounds(opening));
-    CHECK_FALSE(seat_of(p.jaw, p.prism, p.wrench({p.jaw.tip + side, 0, 0})).surrounds(opening));
-    // Tightening is clockwise seen from outside. The seat repeats every sixth of a turn.
+    fit = jaw_fit(p.jaw, p.prism, p.wrench({p.jaw.tip - p.jaw.lead_in, 0, 0}));
+    CHECK(std::abs(fit.toward_mouth) < 1e-12);
+    CHECK(fit.surrounds(opening));
+    CHECK_FALSE(jaw_fit(p.jaw, p.prism, p.wrench({p.jaw.tip + side, 0, 0})).surrounds(opening));
+    // Tightening is clockwise seen from outside. The fit repeats every sixth of a turn.
     for (const double yaw : {0.01, 0.01 - pi / 3.0, 0.01 + pi})
-        CHECK(seat_of(p.jaw, p.prism, p.wrench(Vec3(0.0), yaw)).misalignment ==
+        CHECK(jaw_fit(p.jaw, p.prism, p.wrench(Vec3(0.0), yaw)).misalignment ==
               doctest::Approx(-0.01).epsilon(1e-9));
-    seat = seat_of(p.jaw, p.prism, p.wrench({0, 0.05e-3, 0}, 0.0, 0.01));
-    CHECK(seat.tilt == doctest::Approx(0.01).epsilon(1e-9));
-    CHECK(seat.aside == doctest::Approx(-0.05e-3).epsilon(1e-3));
+    fit = jaw_fit(p.jaw, p.prism, p.wrench({0, 0.05e-3, 0}, 0.0, 0.01));
+    CHECK(fit.tilt == doctest::Approx(0.01).epsilon(1e-9));
+    CHECK(fit.aside == doctest::Approx(-0.05e-3).epsilon(1e-3));
     // Flipped, with the head to the other side.
     Pose over = p.wrench();
     over.orientation = glm::angleAxis(pi, Vec3(1, 0, 0)) * over.orientation;
-    seat = seat_of(p.jaw, p.prism, over);
-    CHECK(seat.overlap == doctest::Approx(flat).epsilon(1e-12));
-    CHECK(std::abs(seat.misalignment) < 1e-9);
+    fit = jaw_fit(p.jaw, p.prism, over);
+    CHECK(fit.overlap == doctest::Approx(flat).epsilon(1e-12));
+    CHECK(std::abs(fit.misalignment) < 1e-9);
     CHECK(p.apart(over) == doctest::Approx(0.1e-3).epsilon(1e-6));
 }
 

@@ -130,7 +130,7 @@ TEST_CASE("Contact reduction: deferred contacts give the same result as contacts
         waited += static_cast<int>(deferred.size());
         const ContactQueryResult y = buffers.reduce_contacts(there, deferred, find, std::span(b).first(room));
         REQUIRE(x.count == y.count);
-        REQUIRE(x.clearance == y.clearance);
+        REQUIRE(x.complete_within == y.complete_within);
         REQUIRE(x.truncated == y.truncated);
         for (std::size_t i = 0; i < x.count; ++i) REQUIRE(a[i].feature == b[i].feature);
     }

@@ -71,7 +71,7 @@ TEST_CASE("Narrow phase: on the reducer a warm cache gives the same contacts as 
                 clear_cache(cold, reducer.world, reducer.tool);
                 const ContactQueryResult y = find_contacts(reducer.world, reducer.tool, pose, band, cold, b);
                 REQUIRE(x.count == y.count);
-                REQUIRE(x.clearance == y.clearance);
+                REQUIRE(x.complete_within == y.complete_within);
                 for (std::size_t k = 0; k < x.count; ++k) {
                     REQUIRE(a[k].distance == b[k].distance);
                     REQUIRE(a[k].on_tool == b[k].on_tool);

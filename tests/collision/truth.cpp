@@ -155,7 +155,7 @@ TEST_CASE("Narrow phase: cached bounds never change the result") {
                     clear_cache(cold, world, tool);
                     const ContactQueryResult cold_found = find_contacts(world, tool, pose, band, cold, b);
                     REQUIRE(warm_found.count == cold_found.count);
-                    REQUIRE(warm_found.clearance == cold_found.clearance);
+                    REQUIRE(warm_found.complete_within == cold_found.complete_within);
                     REQUIRE(warm_found.truncated == cold_found.truncated);
                     for (std::size_t k = 0; k < warm_found.count; ++k) {
                         REQUIRE(a[k].distance == b[k].distance);

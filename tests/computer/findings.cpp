@@ -116,7 +116,7 @@ TEST_CASE("Findings: each fault is found, alone") {
         CHECK(severity_of(facts, "finding.disk_low") == Severity::bad);
     }
     SUBCASE("sessions cannot be written") {
-        facts.folder_trouble = "Read-only file system";
+        facts.folder_error = "Read-only file system";
         CHECK(severity_of(facts, "finding.folder") == Severity::bad);
     }
     SUBCASE("no films") {
@@ -144,7 +144,7 @@ TEST_CASE(
     request.gpu = GpuFacts{"none", false};
     request.open_sound = []() -> Result<std::unique_ptr<audio::Sink>> { return fail(error_of("no card")); };
     const ComputerFacts facts = gather_facts(request);
-    CHECK(facts.folder_trouble.empty());
+    CHECK(facts.folder_error.empty());
     const double available = static_cast<double>(std::filesystem::space(folder.path()).available);
     CHECK(std::abs(facts.free_space - available) < 0.2 * available);  // others write meanwhile
     CHECK(std::filesystem::is_empty(folder.path()));
@@ -153,7 +153,7 @@ TEST_CASE(
 
     request.sessions = "/proc/sessions";  // even root may not write there
     const ComputerFacts elsewhere = gather_facts(request);
-    CHECK((elsewhere.folder_trouble.empty() && elsewhere.free_space >= least_free_space) == false);
+    CHECK((elsewhere.folder_error.empty() && elsewhere.free_space >= least_free_space) == false);
 }
 
 TEST_CASE("Timing: the servo ran at the given rate, and an unknown assembly is an error") {

@@ -74,7 +74,7 @@ TEST_CASE("Assemblies: the twelve bolts of zq350 are where the paper's casing ha
     CHECK(a.joints[11].design.grip_length() == doctest::Approx(0.054));
     CHECK(a.wrench.jaw == doctest::Approx(0.0242));
     CHECK(a.wrench.head_angle == doctest::Approx(pi / 12));
-    CHECK(a.flange.coupled);
+    CHECK(a.flange.joints_interact);
     CHECK(a.flange.interface_stiffness == doctest::Approx(3e11));
     CHECK(a.views.size() == 5);
 }
@@ -156,7 +156,7 @@ TEST_CASE("Assemblies: the cover is far from yield and within the range of hand 
         CHECK(j.spec.torque.high < yield_90(j.design).torque);
         CHECK_FALSE(j.spec.has_angle);
     }
-    CHECK_FALSE(a.flange.coupled);
+    CHECK_FALSE(a.flange.joints_interact);
     CHECK(a.variant.empty());
 }
 

@@ -29,9 +29,9 @@ Life run_life(const LifePlan& plan, const content::Assembly& assembly, Coverage&
         InvariantChecker checker(session, coverage);
         LessonRun run(session, checker);
         if (plan.overtightens) {
-            run.setting_scale = plan.setting_scale;
+            run.set_torque_scale = plan.set_torque_scale;
             (plan.at_mouse ? overtighten_at_mouse : overtighten_at_device)(run, plan.seed, plan.span);
-            run.setting_scale = 1.0;
+            run.set_torque_scale = 1.0;
         } else {
             (plan.at_mouse ? act_randomly_at_mouse : act_randomly_at_device)(run, plan.seed, plan.span,
                                                                              plan.rough);

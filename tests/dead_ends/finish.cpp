@@ -71,7 +71,7 @@ void withdraw_hand(LessonRun& run, const Vec3& at) {
         const Pose now{glm::mix(from.position, at, std::clamp(share, 0.0, 1.0)), Quat(1, 0, 0, 0)};
         input.commanded_tool = servo::to_commanded_tool(now);
         input.reset = share < 0.1;
-        input.enabled = share > 0.2;
+        input.dead_man = share > 0.2;
         run.player.hand.pose = now;
         if (!run.tick(input, false, std::numeric_limits<double>::infinity())) return;
     }

@@ -20,7 +20,7 @@ LessonRun::LessonRun(session::LessonSession& lesson_session, InvariantChecker& i
 }
 
 bool LessonRun::tick(servo::Input input, bool wrench_in_hand, double room, bool hint_key) {
-    input.setting = static_cast<float>(setting_scale * lesson::wrench_setting(session.lesson()));
+    input.set_torque = static_cast<float>(set_torque_scale * lesson::wrench_set_torque(session.lesson()));
     const auto stepped = session.step(world, input);
     if (!stepped) {
         checker.report(stepped.error().message());

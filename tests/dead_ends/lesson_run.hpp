@@ -20,7 +20,7 @@ struct LessonRun {
     servo::Input last;
     trainer_test::Player player;
     trainer::StepUndo undo;
-    double setting_scale = 1.0;  // setting of a torque wrench, relative to the correct one
+    double set_torque_scale = 1.0;  // set torque of a torque wrench, relative to the correct one
 
     LessonRun(session::LessonSession& lesson_session, InvariantChecker& invariant_checker);
 

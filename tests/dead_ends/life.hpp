@@ -10,12 +10,12 @@ struct LifePlan {
     std::string assembly = "cover-m8";
     std::string variant;
     session::LessonOptions options;
-    std::string tool;            // empty: the default
-    double setting_scale = 1.0;  // setting of a torque wrench, relative to the correct one
-    bool at_mouse = true;        // false: at a device, with poses and grips
-    double span = 10.0;          // s of random actions
-    bool rough = false;          // pulls long and hard at one nut
-    bool overtightens = false;   // uses the tools correctly, but tightens too far
+    std::string tool;               // empty: the default
+    double set_torque_scale = 1.0;  // set torque of a torque wrench, relative to the correct one
+    bool at_mouse = true;           // false: at a device, with poses and grips
+    double span = 10.0;             // s of random actions
+    bool rough = false;             // pulls long and hard at one nut
+    bool overtightens = false;      // uses the tools correctly, but tightens too far
 };
 
 // A random plan; the same seed gives the same plan.

@@ -43,7 +43,7 @@ LifePlan make_life_plan(std::uint64_t seed) {
     p.options.obstacles = among ? session::Obstacles::required : session::Obstacles::none;
     if (among && !p.at_mouse) p.span = std::min(p.span, longest_in_walls);
     if (random.chance(0.25)) p.tool = "torque_wrench";
-    if (random.chance(0.3)) p.setting_scale = random.uniform(0.4, 2.5);
+    if (random.chance(0.3)) p.set_torque_scale = random.uniform(0.4, 2.5);
     return p;
 }
 

@@ -156,7 +156,7 @@ void act_randomly_at_device(LessonRun& run, std::uint64_t seed, double span, boo
             input.commanded_tool.position[any(random, 3)] = std::numeric_limits<float>::quiet_NaN();
         if (action.nonsense && random.chance(0.1)) input.commanded_tool.orientation[0] = 1e30F;
         input.grip = action.grip;
-        input.enabled = action.enabled;
+        input.dead_man = action.enabled;
         input.stop = action.stop;
         input.reset = action.reset;
         input.fresh = action.fresh;

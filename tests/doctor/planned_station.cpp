@@ -63,7 +63,7 @@ TEST_CASE(
             CHECK(state->tool_contact.has_value());
             servo::Input input;
             input.commanded_tool = servo::to_commanded_tool(planned->options.home);
-            input.enabled = true;
+            input.dead_man = true;
             input.grip = servo::Grip::wrench;
             servo::Output output;
             for (int i = 0; i < 700; ++i) output = servo::tick(setup, *state, input);
@@ -88,7 +88,7 @@ TEST_CASE("Planned station: without obstacles, and on another nut") {
     servo::Input input;
     input.commanded_tool = servo::to_commanded_tool(planned->options.home);
     input.grip = servo::Grip::wrench;
-    input.enabled = true;
+    input.dead_man = true;
     servo::tick(setup, *state, input);
     CHECK(servo::tick(setup, *state, input).joint == 2);
 }

@@ -109,7 +109,7 @@ TEST_CASE("Trial: the report has the samples and commands of each device and the
                               "largest torque 1.50 N·m of at most 2 N·m", "never held", "0 deadlines missed"})
         CHECK_MESSAGE(plain.find(words) != std::string::npos, words);
     CHECK(plain.find("Glove") == std::string::npos);
-    trial.enabled = 2.0;
+    trial.dead_man_time = 2.0;
     trial.glove.emplace();
     trial.glove->frames = 400.0;
     CHECK(trial_report(trial).find("held for 2.0 s") != std::string::npos);

@@ -46,11 +46,11 @@ bool all_free(const Vec3&, const Vec3&) { return true; }
 const Box wall{Vec3(-0.05, -1.0, -1.0), Vec3(0.05, 0.25, 1.0)};
 const auto over_the_wall = [](const Vec3& a, const Vec3& b) { return !wall.crosses(a, b); };
 
-GuideGoal nut_at(const Vec3& point, int id = 0) {
-    GuideGoal goal;
-    goal.id = id;
-    goal.target.point = point;
-    return goal;
+GuideTarget nut_at(const Vec3& point, int id = 0) {
+    GuideTarget target;
+    target.id = id;
+    target.point = point;
+    return target;
 }
 
 GuidedTool tool_at(const Vec3& position) {
@@ -70,7 +70,7 @@ void follow(Vec3& hand, const Vec3& force) {
 
 TEST_CASE(
     "Guide: an unobstructed path is straight; a path past a wall leads over it, and each segment is free") {
-    const GuideTarget target = nut_at(Vec3(0.2, 0, 0)).target;
+    const GuideTarget target = nut_at(Vec3(0.2, 0, 0));
     CHECK(plan_path(Vec3(0.22, 0.3, 0), target, all_free).count == 2);
     CHECK(plan_path(Vec3(-0.2, 0.01, 0), target, all_free).count == 2);
     CHECK(plan_path(Vec3(-0.2, 0.1, 0), target, all_free).count == 3);
@@ -97,14 +97,14 @@ TEST_CASE("Guide: without a free path the plan is empty, after a bounded number 
         ++asked;
         return false;
     };
-    CHECK(plan_path(Vec3(-0.2, 0, 0), nut_at(Vec3(0.2, 0, 0)).target, closed).count == 0);
+    CHECK(plan_path(Vec3(-0.2, 0, 0), nut_at(Vec3(0.2, 0, 0)), closed).count == 0);
     // Worst case: only the segments at the target are blocked.
     int worst = 0;
     const auto nearly = [&](const Vec3& from, const Vec3&) {
         ++worst;
         return glm::length(from - Vec3(0.2, 0.08, 0)) > 1e-9 || worst < 3;
     };
-    plan_path(Vec3(-0.2, 0, 0), nut_at(Vec3(0.2, 0, 0)).target, nearly);
+    plan_path(Vec3(-0.2, 0, 0), nut_at(Vec3(0.2, 0, 0)), nearly);
     CHECK(asked <= 100);
     CHECK(worst <= 100);
 }
@@ -131,10 +131,10 @@ TEST_CASE("Guide: the hand is led over a wall with continuous force that never p
     const GuidingParameters guiding;
     GuideState state;
     Vec3 hand(-0.2, 0, 0), last(0.0);
-    const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+    const GuideTarget target = nut_at(Vec3(0.2, 0, 0));
     int arrived = 0;
     for (int i = 0; i < 20'000 && arrived < 500; ++i) {
-        const ForceRequest request = guide(guiding, state, tool_at(hand), goal, over_the_wall, dt);
+        const ForceRequest request = guide(guiding, state, tool_at(hand), target, over_the_wall, dt);
         const Vec3& force = request.command.force;
         REQUIRE(glm::length(force) <= 3.0 + 1e-9);
         REQUIRE(glm::length(force - last) <= 0.35);
@@ -142,10 +142,10 @@ TEST_CASE("Guide: the hand is led over a wall with continuous force that never p
         // The next 10 mm along the force are free of the wall.
         if (glm::length(force) > 0.0)
             REQUIRE_FALSE(wall.crosses(
-                hand, hand + glm::normalize(force) * std::min(0.01, glm::length(goal.target.point - hand))));
+                hand, hand + glm::normalize(force) * std::min(0.01, glm::length(target.point - hand))));
         follow(hand, force);
         REQUIRE_FALSE(wall.inside(hand));
-        arrived += glm::length(hand - goal.target.point) < 2e-3;
+        arrived += glm::length(hand - target.point) < 2e-3;
     }
     CHECK(arrived == 500);
     CHECK(glm::length(last) < 1.0);  // near the equilibrium of the spring
@@ -156,31 +156,31 @@ TEST_CASE(
     "target") {
     const GuidingParameters guiding;
     GuideState state;
-    const GuideGoal goal = nut_at(Vec3(0.0));
+    const GuideTarget target = nut_at(Vec3(0.0));
     const Vec3 hand(0.02, 0.3, 0.0);
     ForceRequest request;
     for (int i = 1; i <= 250; ++i) {
-        request = guide(guiding, state, tool_at(hand), goal, all_free, dt);
-        REQUIRE(state.strength == doctest::Approx(i / 250.0));
+        request = guide(guiding, state, tool_at(hand), target, all_free, dt);
+        REQUIRE(state.force_share == doctest::Approx(i / 250.0));
     }
     CHECK(glm::length(request.command.force - guiding_force(guiding, hand, Vec3(0.0))) < 1e-12);
     CHECK(request.command.torque == Vec3(0.0));
     GuidedTool near = tool_at(Vec3(0.05, 0, 0));
     near.jaw = glm::normalize(Vec3(1.0, 0.0, -0.1));
-    for (int i = 0; i < 250; ++i) request = guide(guiding, state, near, goal, all_free, dt);
+    for (int i = 0; i < 250; ++i) request = guide(guiding, state, near, target, all_free, dt);
     CHECK(glm::length(request.command.torque -
-                      aligning_torque(guiding.max_torque, goal.hexagon, near.jaw, near.normal)) < 1e-12);
+                      aligning_torque(guiding.max_torque, target.hexagon, near.jaw, near.normal)) < 1e-12);
     CHECK(request.command.torque.y < 0.0);
 }
 
 TEST_CASE("Guide: the force scales with the strength and fades in 0.25 s after engagement") {
     GuidingParameters guiding;
-    guiding.strength = 0.5;
+    guiding.share = 0.5;
     GuideState state;
-    const GuideGoal goal = nut_at(Vec3(0.0));
+    const GuideTarget target = nut_at(Vec3(0.0));
     const GuidedTool tool = tool_at(Vec3(0.1, 0, 0));
     ForceRequest request;
-    for (int i = 0; i < 500; ++i) request = guide(guiding, state, tool, goal, all_free, dt);
+    for (int i = 0; i < 500; ++i) request = guide(guiding, state, tool, target, all_free, dt);
     CHECK(request.command.force.x == doctest::Approx(-0.5 * guiding.gain / 0.1));
     double last = glm::length(request.command.force);
     for (int i = 0; i < 125; ++i) {
@@ -189,16 +189,16 @@ TEST_CASE("Guide: the force scales with the strength and fades in 0.25 s after e
         last = glm::length(request.command.force);
     }
     CHECK(request.command.force == Vec3(0.0));
-    guiding.strength = 0.0;
+    guiding.share = 0.0;
     for (int i = 0; i < 500; ++i)
-        REQUIRE(guide(guiding, state, tool, goal, all_free, dt).command.force == Vec3(0.0));
+        REQUIRE(guide(guiding, state, tool, target, all_free, dt).command.force == Vec3(0.0));
 }
 
 TEST_CASE("Guide: a new target waits until the old force has faded") {
     const GuidingParameters guiding;
     GuideState state;
     const GuidedTool tool = tool_at(Vec3(0.0));
-    const GuideGoal left = nut_at(Vec3(-0.1, 0, 0), 0), right = nut_at(Vec3(0.1, 0, 0), 1);
+    const GuideTarget left = nut_at(Vec3(-0.1, 0, 0), 0), right = nut_at(Vec3(0.1, 0, 0), 1);
     for (int i = 0; i < 500; ++i) guide(guiding, state, tool, left, all_free, dt);
     double last = -guiding.gain / 0.1;
     bool there = false;
@@ -216,30 +216,30 @@ TEST_CASE("Guide: a new target waits until the old force has faded") {
 TEST_CASE("Guide: an obstacle on the path fades the force, which then leads around it") {
     const GuidingParameters guiding;
     GuideState state;
-    const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+    const GuideTarget target = nut_at(Vec3(0.2, 0, 0));
     const GuidedTool tool = tool_at(Vec3(-0.2, 0, 0));
     bool closed = false;
     const auto free = [&](const Vec3& a, const Vec3& b) { return !closed || over_the_wall(a, b); };
     Vec3 force(0.0);
-    for (int i = 0; i < 500; ++i) force = guide(guiding, state, tool, goal, free, dt).command.force;
+    for (int i = 0; i < 500; ++i) force = guide(guiding, state, tool, target, free, dt).command.force;
     CHECK(force.x > 0.0);
     CHECK(std::abs(force.y) < 1e-12);
     closed = true;
     for (int i = 0; i < 1500; ++i) {
-        const Vec3 now = guide(guiding, state, tool, goal, free, dt).command.force;
+        const Vec3 now = guide(guiding, state, tool, target, free, dt).command.force;
         REQUIRE(glm::length(now - force) < 0.005);
         force = now;
     }
     CHECK(force.y > 0.0);  // over the wall
     const auto walled_in = [](const Vec3&, const Vec3&) { return false; };
-    for (int i = 0; i < 500; ++i) force = guide(guiding, state, tool, goal, walled_in, dt).command.force;
+    for (int i = 0; i < 500; ++i) force = guide(guiding, state, tool, target, walled_in, dt).command.force;
     CHECK(force == Vec3(0.0));
 }
 
 TEST_CASE("Guide: the force fades when the hand is stuck at a corner, and returns when a path exists") {
     const GuidingParameters guiding;
     GuideState state;
-    const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+    const GuideTarget target = nut_at(Vec3(0.2, 0, 0));
     Vec3 hand(-0.2, 0, 0);
     bool closed = false;
     int asked = 0;
@@ -250,9 +250,9 @@ TEST_CASE("Guide: the force fades when the hand is stuck at a corner, and return
     const auto lead = [&](int ticks) {
         bool off = false;
         for (int i = 0; i < ticks; ++i) {
-            const ForceRequest request = guide(guiding, state, tool_at(hand), goal, free, dt);
+            const ForceRequest request = guide(guiding, state, tool_at(hand), target, free, dt);
             follow(hand, request.command.force);
-            off = off || (request.command.force == Vec3(0.0) && state.strength == 0.0);
+            off = off || (request.command.force == Vec3(0.0) && state.force_share == 0.0);
         }
         return off;
     };
@@ -268,27 +268,27 @@ TEST_CASE("Guide: the force fades when the hand is stuck at a corner, and return
     CHECK(asked > 0);
     closed = false;
     lead(20'000);
-    CHECK(glm::length(hand - goal.target.point) < 2e-3);
+    CHECK(glm::length(hand - target.point) < 2e-3);
 }
 
 TEST_CASE("Guide: a descending nut is followed without a step of force") {
     const GuidingParameters guiding;
     GuideState state;
-    GuideGoal goal = nut_at(Vec3(0.0));
+    GuideTarget target = nut_at(Vec3(0.0));
     const GuidedTool tool = tool_at(Vec3(0.02, 0.01, 0));
     Vec3 last(0.0);
     for (int i = 0; i < 1000; ++i) {
-        goal.target.point.y -= 2e-6;
-        const Vec3 force = guide(guiding, state, tool, goal, all_free, dt).command.force;
+        target.point.y -= 2e-6;
+        const Vec3 force = guide(guiding, state, tool, target, all_free, dt).command.force;
         REQUIRE(glm::length(force - last) < 0.0125);
         last = force;
     }
-    CHECK(glm::length(last - guiding_force(guiding, tool.position, goal.target.point)) < 1e-12);
+    CHECK(glm::length(last - guiding_force(guiding, tool.position, target.point)) < 1e-12);
 }
 
 TEST_CASE("Guide: a hand beside the nut is led up or level until it is near the nut's axis") {
     const GuidingParameters guiding;
-    const GuideGoal goal = nut_at(Vec3(0.0));
+    const GuideTarget target = nut_at(Vec3(0.0));
     int outside = 0;
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         CAPTURE(seed);
@@ -299,11 +299,11 @@ TEST_CASE("Guide: a hand beside the nut is led up or level until it is near the 
         Vec3 last(0.0);
         int arrived = 0;
         for (int i = 0; i < 10'000 && arrived < 100; ++i) {
-            const Vec3 force = guide(guiding, state, tool_at(hand), goal, all_free, dt).command.force;
+            const Vec3 force = guide(guiding, state, tool_at(hand), target, all_free, dt).command.force;
             REQUIRE(glm::length(force - last) < 0.4);
             last = force;
             // Below the approach point and more than 6 degrees from the axis.
-            if (hand.y < goal.target.approach_height && std::hypot(hand.x, hand.z) > 4e-3 + 0.1 * hand.y) {
+            if (hand.y < target.approach_height && std::hypot(hand.x, hand.z) > 4e-3 + 0.1 * hand.y) {
                 REQUIRE(force.y > -0.05);
                 ++outside;
             }
@@ -327,7 +327,7 @@ TEST_CASE("Guide: the passivity controller does not count guiding work as genera
         arm.parameters.friction = arm.parameters.angular_friction = 0.0;
         arm.pose.position = Vec3(-0.2, 0.02 * random.normal(), 0.05 * random.normal());
         arm.pose.orientation = rotation(Vec3(0.3 * random.normal(), 0.2, 0.3 * random.normal()));
-        const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+        const GuideTarget target = nut_at(Vec3(0.2, 0, 0));
         const GuidingParameters guiding;
         GuideState state;
         OutputStage stage;
@@ -335,14 +335,14 @@ TEST_CASE("Guide: the passivity controller does not count guiding work as genera
         for (int i = 0; i < 30'000; ++i) {
             PortInput port;
             port.pose = test::encoder_pose(arm);
-            port.enabled = true;
+            port.dead_man = true;
             const GuidedTool tool{port.pose.position, port.pose.orientation * Vec3(1, 0, 0),
                                   port.pose.orientation * Vec3(0, 1, 0)};
-            const ForceRequest request = guide(guiding, state, tool, goal, over_the_wall, dt);
+            const ForceRequest request = guide(guiding, state, tool, target, over_the_wall, dt);
             test::step(arm, render(limits, stage, port, request, dt), dt);
             REQUIRE(stage.watchdog.fault == Fault::none);
         }
-        CHECK(glm::length(arm.pose.position - goal.target.point) < 1e-3);
+        CHECK(glm::length(arm.pose.position - target.point) < 1e-3);
         CHECK(glm::length(arm.velocity) < 5e-3);
         CHECK(arm.energy_out > 0.2);  // the guide does work on the hand
         CHECK(stage.passivity.removed < 0.15 * arm.energy_out);
@@ -351,11 +351,11 @@ TEST_CASE("Guide: the passivity controller does not count guiding work as genera
 
 TEST_CASE("Guide: guiding and planning do not allocate") {
     const GuidingParameters guiding;
-    const GuideGoal goal = nut_at(Vec3(0.2, 0, 0));
+    const GuideTarget target = nut_at(Vec3(0.2, 0, 0));
     CHECK(test::forbidden_in([&] {
               GuideState state;
               Vec3 hand(-0.2, 0, 0);
               for (int i = 0; i < 3000; ++i)
-                  follow(hand, guide(guiding, state, tool_at(hand), goal, over_the_wall, dt).command.force);
+                  follow(hand, guide(guiding, state, tool_at(hand), target, over_the_wall, dt).command.force);
           }).all() == 0);
 }

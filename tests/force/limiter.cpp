@@ -70,7 +70,7 @@ TEST_CASE("Limiter: enabled again after a release or a fault the output ramps up
         LimiterState state = at_full(limits);
         for (int i = 0; i < 20; ++i) limit_output(limits, state, let_go ? sound : broken, !let_go, dt);
         REQUIRE(state.force == Vec3(0.0));
-        CHECK(state.strength == 0.0);
+        CHECK(state.ramp == 0.0);
         for (int i = 0; i < 50; ++i) limit_output(limits, state, sound, true, dt);
         CHECK(state.force.x == doctest::Approx(1.0));
         CHECK(state.torque.y == doctest::Approx(0.1));
@@ -96,7 +96,7 @@ TEST_CASE("Limiter: a state that is not finite is cleared") {
                 }
                 CHECK(out.force == Vec3(0.0));
                 CHECK(out.torque == Vec3(0.0));
-                CHECK(state.strength == 0.0);
+                CHECK(state.ramp == 0.0);
                 CHECK(state.invalid_requests == 1);
                 // The output recovers.
                 for (int i = 0; i < 1000; ++i) out = limit_output(limits, state, wanted, true, dt);

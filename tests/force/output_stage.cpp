@@ -21,7 +21,7 @@ const ForceRequest hard{{Vec3(100, 0, 0), Vec3(0, 100, 0)}};
 
 PortInput held() {
     PortInput input;
-    input.enabled = true;
+    input.dead_man = true;
     return input;
 }
 
@@ -49,7 +49,7 @@ TEST_CASE("Output stage: zero within 20 ms of silence, NaN, a jump, a stop or a 
         if (cause == 1) input.pose.position.x = nan;
         if (cause == 2) input.pose.position.x = 0.5;
         if (cause == 3) input.stop = true;
-        if (cause == 4) input.enabled = false;
+        if (cause == 4) input.dead_man = false;
         if (cause == 5) request.command.torque.z = nan;
         OutputCommand out;
         for (int i = 0; i < 20; ++i) out = render(limits, stage, input, request, dt);
@@ -118,7 +118,7 @@ TEST_CASE("Output stage: for any input the output is finite, within the limits a
         PortInput now = input;
         if (random.chance(0.0003)) now.pose.position.x = wild();
         now.fresh = random.chance(0.9);
-        now.enabled = random.chance(0.9995);
+        now.dead_man = random.chance(0.9995);
         now.stop = random.chance(0.0001);
         now.reset = random.chance(0.5);
         const OutputCommand out = render(limits, stage, now, request, dt);
@@ -180,9 +180,9 @@ TEST_CASE(
     OutputStage stage = at_full(limits);
     stage.passivity.balance = -1.0;
     PortInput input = held();
-    input.enabled = false;
+    input.dead_man = false;
     for (int i = 0; i < 30; ++i) render(limits, stage, input, {}, dt);
-    input.enabled = true;
+    input.dead_man = true;
     for (int i = 0; i < 600; ++i) {
         input.pose.position.x += 1e-4;
         const OutputCommand out = render(limits, stage, input, {}, dt);

@@ -91,7 +91,7 @@ PressResult press_wall(const Scene& scene, const OutputLimits& limits, StoredEne
         arm.intention.position = at * scene.way;
         PortInput input;
         input.pose = test::encoder_pose(arm);
-        input.enabled = true;
+        input.dead_man = true;
         ForceRequest request = wall_of(scene, input.pose);
         if (energy == StoredEnergy::omitted) request.stored_energy = 0.0;
         test::step(arm, render(limits, stage, input, request, dt), dt);
@@ -153,7 +153,7 @@ TEST_CASE("Stability: a wall of 1 N/mm is rendered with at least 0.8 N/mm for ev
             arm.intention.position = -(level == 0 ? 3.0 : 5.0) / scene.arm.stiffness * n;
             PortInput input;
             input.pose = test::encoder_pose(arm);
-            input.enabled = true;
+            input.dead_man = true;
             const double depth = std::max(0.0, -glm::dot(input.pose.position, n));
             const ForceRequest request{{1000.0 * depth * n, Vec3(0.0)}, 500.0 * depth * depth};
             test::step(arm, render(device(), stage, input, request, 1e-3), 1e-3);

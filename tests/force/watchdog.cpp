@@ -21,7 +21,7 @@ struct Device {
     OutputLimits limits;
     WatchdogState state;
     PortInput input;
-    Device() { input.enabled = true; }
+    Device() { input.dead_man = true; }
 
     bool step() { return update_watchdog(limits, state, input, true, dt); }
     // Moves along x at `speed` (m/s) for `ticks`; returns the last result of step().
@@ -200,7 +200,7 @@ TEST_CASE(
     CHECK(device.state.fault == Fault::stopped);
     device.input.reset = true;  // a reset with the dead-man switch held would start by itself
     CHECK_FALSE(device.move(0.0, 10));
-    device.input.enabled = false;
+    device.input.dead_man = false;
     device.input.stop = true;  // the stop is still pressed
     CHECK_FALSE(device.move(0.0, 10));
     device.input.stop = false;

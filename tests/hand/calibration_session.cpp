@@ -83,14 +83,14 @@ TEST_CASE(
     trainee.reaction = 1000.0;
     trainee.follow(19.0);
     CHECK(trainee.session.phase == CalibrationPhase::moving);
-    CHECK(trainee.session.trouble == CalibrationTrouble::none);
+    CHECK(trainee.session.problem == CalibrationProblem::none);
     trainee.follow(2.0);
-    CHECK(trainee.session.trouble == CalibrationTrouble::restless);
-    CHECK(std::string(message_for(trainee.session.trouble)).find("still") != std::string::npos);
+    CHECK(trainee.session.problem == CalibrationProblem::restless);
+    CHECK(std::string(message_for(trainee.session.problem)).find("still") != std::string::npos);
     trainee.reaction = 0.5;
     trainee.follow(10.0);
     CHECK(trainee.session.requested == Posture::spread);
-    CHECK(trainee.session.trouble == CalibrationTrouble::none);
+    CHECK(trainee.session.problem == CalibrationProblem::none);
 }
 
 TEST_CASE("CalibrationSession: motion or silence during sampling restarts the posture") {
@@ -104,7 +104,7 @@ TEST_CASE("CalibrationSession: motion or silence during sampling restarts the po
         if (silent) {
             trainee.connected = false;
             trainee.follow(0.5);
-            CHECK(trainee.session.trouble == CalibrationTrouble::silent);
+            CHECK(trainee.session.problem == CalibrationProblem::silent);
             trainee.connected = true;
         } else {
             trainee.at[3] += 40.0;

@@ -11,7 +11,7 @@ using namespace bolt::joint;
 
 namespace {
 
-constexpr double stiffness = 2000.0, setting = 40.0, swing = to_radians(4.0), play = 0.01;
+constexpr double stiffness = 2000.0, set_torque = 40.0, swing = to_radians(4.0), play = 0.01;
 constexpr double fixed = 1e9;  // N·m, resistance of a nut that must not turn
 
 Resistance constant(double torque) {
@@ -25,25 +25,25 @@ Resistance constant(double torque) {
 struct Bench {
     double dt = 1e-3;
     Resistance held_by = constant(fixed);
-    DriveHandle handle;
+    NutDrive drive;
     NutMotion nut;
     NutStep last;
     double hand = 0.0, work = 0.0;  // rad; J of work by the hand
     int clicks = 0;
 
     explicit Bench(double tick = 1e-3) : dt(tick) {
-        handle.engaged = true;
-        handle.stiffness = stiffness;
-        handle.half_play = play;
-        handle.click.setting = setting;
-        handle.click.swing = swing;
+        drive.engaged = true;
+        drive.stiffness = stiffness;
+        drive.half_play = play;
+        drive.click.set_torque = set_torque;
+        drive.click.swing = swing;
     }
     // Runs one tick with the hand at `angle` (rad); returns the torque, N·m.
     double to(double angle) {
-        handle.angle = angle;
-        last = step_nut(held_by, coupling_inertia(stiffness, dt), nut, handle, dt);
+        drive.angle = angle;
+        last = step_nut(held_by, drive_inertia(stiffness, dt), nut, drive, dt);
         nut = last.nut;
-        handle.swung = last.click.swung;
+        drive.swung = last.click.swung;
         clicks += last.click.clicked ? 1 : 0;
         work += last.torque * (angle - hand);
         hand = angle;
@@ -57,38 +57,38 @@ struct Bench {
     }
     // Energy in J stored in the wrench's spring and in the return spring of the mechanism.
     [[nodiscard]] double stored() const {
-        const Click& c = handle.click;
+        const Click& c = drive.click;
         const double wound = last.torque / stiffness;
-        return 0.5 * stiffness * wound * wound + c.rearm_torque_share * c.setting * handle.swung;
+        return 0.5 * stiffness * wound * wound + c.rearm_torque_share * c.set_torque * drive.swung;
     }
 };
 
 }  // namespace
 
-TEST_CASE("Torque wrench: below its setting and when loosening it equals the plain wrench bit for bit") {
+TEST_CASE("Torque wrench: below its set torque and when loosening it equals the plain wrench bit for bit") {
     Bench click, plain;
-    plain.handle.click = {};
+    plain.drive.click = {};
     Random random(5);
     for (int i = 0; i < 20'000; ++i) {
-        const double torque = random.uniform(-3.0 * setting, 0.999 * setting);
+        const double torque = random.uniform(-3.0 * set_torque, 0.999 * set_torque);
         REQUIRE(click.by_torque(torque) == plain.by_torque(torque));
     }
     CHECK(click.clicks == 0);
-    CHECK(click.handle.swung == 0.0);
-    CHECK(click.by_torque(setting * 1.001) < setting);
+    CHECK(click.drive.swung == 0.0);
+    CHECK(click.by_torque(set_torque * 1.001) < set_torque);
     CHECK(click.clicks == 1);
 }
 
-TEST_CASE("Torque wrench: it trips at play + setting / stiffness, within the hand's motion of one tick") {
+TEST_CASE("Torque wrench: it trips at play + set torque / stiffness, within the hand's motion of one tick") {
     for (const double dt : {1e-3, 2.5e-4}) {
         Bench bench(dt);
         const double speed = 0.2;
         double greatest = 0.0;
         while (bench.clicks == 0) greatest = std::max(greatest, bench.to(bench.hand + speed * dt));
-        CHECK(bench.hand >= play + setting / stiffness);
-        CHECK(bench.hand <= play + setting / stiffness + 1.001 * speed * dt);
-        CHECK(greatest <= setting);
-        CHECK(greatest >= setting - stiffness * speed * dt);
+        CHECK(bench.hand >= play + set_torque / stiffness);
+        CHECK(bench.hand <= play + set_torque / stiffness + 1.001 * speed * dt);
+        CHECK(greatest <= set_torque);
+        CHECK(greatest >= set_torque - stiffness * speed * dt);
     }
 }
 
@@ -97,8 +97,8 @@ TEST_CASE(
     for (const double dt : {1e-3, 2.5e-4}) {
         Bench bench(dt);
         while (bench.clicks == 0) bench.to(bench.hand + 0.05 * dt);
-        const Click& c = bench.handle.click;
-        const double low = c.swing_torque_share * setting, share = dt / c.settling_time;
+        const Click& c = bench.drive.click;
+        const double low = c.swing_torque_share * set_torque, share = dt / c.settling_time;
         double expected = bench.last.torque;
         const double begin = expected;
         for (int i = 0; i < static_cast<int>(0.2 / dt); ++i) {
@@ -106,25 +106,25 @@ TEST_CASE(
             expected =
                 (expected + share * low) / (1.0 + share);  // backward Euler of T' = −(T − low)/settling_time
             REQUIRE(torque == doctest::Approx(expected).epsilon(1e-9));
-            REQUIRE(before - torque <= share * (setting - low) * 1.001);
+            REQUIRE(before - torque <= share * (set_torque - low) * 1.001);
         }
-        CHECK(begin > 0.9 * setting);
+        CHECK(begin > 0.9 * set_torque);
         CHECK(bench.last.torque == doctest::Approx(low).epsilon(1e-6));
-        CHECK(bench.handle.swung == doctest::Approx((setting - low) / stiffness).epsilon(0.01));
+        CHECK(bench.drive.swung == doctest::Approx((set_torque - low) / stiffness).epsilon(0.01));
         CHECK(bench.clicks == 1);
     }
 }
 
 TEST_CASE("Torque wrench: a further pull reaches the end of the swing and exceeds the setting") {
     Bench bench;
-    const double low = bench.handle.click.swing_torque_share * setting;
-    const double speed = 0.02, extra = stiffness * bench.handle.click.settling_time * speed;
+    const double low = bench.drive.click.swing_torque_share * set_torque;
+    const double speed = 0.02, extra = stiffness * bench.drive.click.settling_time * speed;
     bench.slowly_to(play + low / stiffness + 0.9 * swing, speed);
     CHECK(bench.last.torque == doctest::Approx(low + extra).epsilon(0.01));  // torque while it swings
-    CHECK(bench.handle.swung < swing);
-    bench.slowly_to(play + swing + 1.5 * setting / stiffness, speed);
-    CHECK(bench.handle.swung == swing);
-    CHECK(bench.last.torque == doctest::Approx(1.5 * setting));
+    CHECK(bench.drive.swung < swing);
+    bench.slowly_to(play + swing + 1.5 * set_torque / stiffness, speed);
+    CHECK(bench.drive.swung == swing);
+    CHECK(bench.last.torque == doctest::Approx(1.5 * set_torque));
     CHECK(bench.clicks == 1);
 }
 
@@ -132,41 +132,41 @@ TEST_CASE(
     "Torque wrench: after release it swings back only below the re-arming torque, then holds up to its "
     "setting again") {
     Bench bench;
-    const Click& c = bench.handle.click;
-    bench.slowly_to(play + 0.5 * swing + c.swing_torque_share * setting / stiffness);
+    const Click& c = bench.drive.click;
+    bench.slowly_to(play + 0.5 * swing + c.swing_torque_share * set_torque / stiffness);
     for (int i = 0; i < 500; ++i) bench.to(bench.hand);
-    const double swung = bench.handle.swung;
+    const double swung = bench.drive.swung;
     REQUIRE(swung > 0.3 * swing);
-    bench.slowly_to(play + swung + 1.05 * c.rearm_torque_share * setting / stiffness);
-    CHECK(bench.handle.swung == swung);  // it does not move between the two torques
+    bench.slowly_to(play + swung + 1.05 * c.rearm_torque_share * set_torque / stiffness);
+    CHECK(bench.drive.swung == swung);  // it does not move between the two torques
     bench.slowly_to(play);
     for (int i = 0; i < 2000; ++i) bench.to(bench.hand);
-    CHECK(bench.handle.swung == 0.0);
+    CHECK(bench.drive.swung == 0.0);
     CHECK(bench.last.torque == doctest::Approx(0.0));
     CHECK(bench.clicks == 1);
-    bench.slowly_to(play + 0.98 * setting / stiffness);
-    CHECK(bench.last.torque == doctest::Approx(0.98 * setting));
-    bench.slowly_to(play + 1.02 * setting / stiffness);
+    bench.slowly_to(play + 0.98 * set_torque / stiffness);
+    CHECK(bench.last.torque == doctest::Approx(0.98 * set_torque));
+    bench.slowly_to(play + 1.02 * set_torque / stiffness);
     CHECK(bench.clicks == 2);
 }
 
 TEST_CASE(
-    "Torque wrench: a nut that turns below the setting never trips it; a tighter nut stops at the click") {
+    "Torque wrench: a nut that turns below the set torque never trips it; a tighter nut stops at the click") {
     Bench loose;
-    loose.held_by = constant(0.9 * setting);
+    loose.held_by = constant(0.9 * set_torque);
     loose.slowly_to(2.0);
     CHECK(loose.clicks == 0);
     CHECK(loose.nut.angle > 1.9);
 
     Bench tight;
-    tight.held_by = constant(0.8 * setting);
-    tight.held_by.tighten_slope = 300.0;  // reaches the setting after 1.5°
+    tight.held_by = constant(0.8 * set_torque);
+    tight.held_by.tighten_slope = 300.0;  // reaches the set torque after 1.5°
     while (tight.clicks == 0) {
-        tight.held_by.tighten = 0.8 * setting + 300.0 * tight.nut.angle;
+        tight.held_by.tighten = 0.8 * set_torque + 300.0 * tight.nut.angle;
         tight.to(tight.hand + 1e-4);
     }
     const double stopped = tight.nut.angle;
-    CHECK(stopped == doctest::Approx(0.2 * setting / 300.0).epsilon(0.05));
+    CHECK(stopped == doctest::Approx(0.2 * set_torque / 300.0).epsilon(0.05));
     for (int i = 0; i < 100; ++i) tight.to(tight.hand);
     CHECK(tight.nut.angle == doctest::Approx(stopped).epsilon(1e-3));
 }
@@ -176,22 +176,22 @@ TEST_CASE("Torque wrench: it never generates energy with random hands and nuts a
     for (int trial = 0; trial < 400; ++trial) {
         CAPTURE(trial);
         Bench bench(trial % 2 == 0 ? 1e-3 : 2.5e-4);
-        Click& c = bench.handle.click;
-        c.setting = random.uniform(2.0, 80.0);
+        Click& c = bench.drive.click;
+        c.set_torque = random.uniform(2.0, 80.0);
         c.swing_torque_share = random.uniform(0.3, 0.9);
         c.rearm_torque_share = random.uniform(0.05, 0.95) * c.swing_torque_share;
         c.settling_time = random.uniform(2e-3, 40e-3);
         c.swing = to_radians(random.uniform(0.5, 10.0));
-        bench.handle.half_play = random.uniform(0.0, 0.03);
-        bench.held_by = constant(random.chance(0.5) ? fixed : random.uniform(0.3, 2.0) * c.setting);
+        bench.drive.half_play = random.uniform(0.0, 0.03);
+        bench.held_by = constant(random.chance(0.5) ? fixed : random.uniform(0.3, 2.0) * c.set_torque);
         for (int leg = 0; leg < 12; ++leg) {
             const double stored = bench.stored(), work = bench.work;
             bench.slowly_to(bench.nut.angle + random.uniform(-0.1, 0.2), random.uniform(0.02, 4.0));
             for (int i = 0; i < 200; ++i) bench.to(bench.hand);  // until all motion has stopped
             const double lost = bench.work - work - (bench.stored() - stored);
             REQUIRE(lost >= -1e-9);
-            REQUIRE(bench.handle.swung >= 0.0);
-            REQUIRE(bench.handle.swung <= c.swing);
+            REQUIRE(bench.drive.swung >= 0.0);
+            REQUIRE(bench.drive.swung <= c.swing);
             REQUIRE(std::isfinite(bench.last.torque));
         }
     }
@@ -200,22 +200,22 @@ TEST_CASE("Torque wrench: it never generates energy with random hands and nuts a
 TEST_CASE("Torque wrench: under every law tightening stops at the click and is reproducible bit for bit") {
     const auto run = [](const GroupParameters& group, double dt, double trips) {
         std::vector<JointState> joints = initial_state(group, 1);
-        DriveHandle handle;
-        handle.engaged = true;
-        handle.stiffness = stiffness;
-        handle.half_play = play;
-        handle.click.setting = trips;
-        handle.click.swing = swing;
+        NutDrive drive;
+        drive.engaged = true;
+        drive.stiffness = stiffness;
+        drive.half_play = play;
+        drive.click.set_torque = trips;
+        drive.click.swing = swing;
         double greatest = 0.0;
         bool clicked = false;
         for (int i = 0; i < 4'000'000 && !clicked; ++i) {
-            handle.angle += 1.5 * dt;
-            const ClickStep click = step_group(group, joints, 0, handle, dt);
-            handle.swung = click.swung;
+            drive.angle += 1.5 * dt;
+            const ClickStep click = step_group(group, joints, 0, drive, dt);
+            drive.swung = click.swung;
             clicked = click.clicked;
             greatest = std::max(greatest, joints[0].torque);
         }
-        for (int i = 0; i < 1000; ++i) handle.swung = step_group(group, joints, 0, handle, dt).swung;
+        for (int i = 0; i < 1000; ++i) drive.swung = step_group(group, joints, 0, drive, dt).swung;
         CHECK(clicked);
         CHECK(greatest <= trips * (1.0 + 1e-12));
         CHECK(greatest > 0.8 * trips);

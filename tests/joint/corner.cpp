@@ -51,7 +51,7 @@ TEST_CASE(
     grip.toward_mouth = 0.0;
     CHECK(corner_torque(p, grip) == doctest::Approx(0.25 * full).epsilon(1e-12));
     grip = whole();
-    grip.lost = 0.5 * grip.toward_throat;
+    grip.rounded = 0.5 * grip.toward_throat;
     CHECK(corner_torque(p, grip) == doctest::Approx(0.25 * full).epsilon(1e-12));
     grip.height = 0.0;
     CHECK(corner_torque(p, grip) == 0.0);
@@ -78,7 +78,7 @@ TEST_CASE("Corner: the torque falls continuously with the tilt of the jaw") {
     }
 }
 
-TEST_CASE("Corner: the backlash is exact for an intact nut and grows with the lost corner") {
+TEST_CASE("Corner: the backlash is exact for an intact nut and grows with the rounded corner") {
     const double w = 24.2e-3, s = 24e-3;
     const double whole_play = rounded_half_play(w, s, 0.0);
     CHECK(std::cos(whole_play) + std::sin(whole_play) / std::sqrt(3.0) ==

@@ -1,4 +1,4 @@
-// Single steps of the coupling spring between hand and nut, and the limits of its range.
+// Single steps of the drive, the spring between hand and nut, and the limits of its range.
 
 #include <doctest/doctest.h>
 
@@ -12,13 +12,13 @@ using namespace bolt::joint;
 
 namespace {
 
-DriveHandle spring(double angle, double half_play, double stiffness = 2000.0) {
-    DriveHandle handle;
-    handle.engaged = true;
-    handle.angle = angle;
-    handle.half_play = half_play;
-    handle.stiffness = stiffness;
-    return handle;
+NutDrive spring(double angle, double half_play, double stiffness = 2000.0) {
+    NutDrive drive;
+    drive.engaged = true;
+    drive.angle = angle;
+    drive.half_play = half_play;
+    drive.stiffness = stiffness;
+    return drive;
 }
 
 Resistance constant(double tighten, double loosen, double lead = 0.0) {
@@ -29,16 +29,16 @@ Resistance constant(double tighten, double loosen, double lead = 0.0) {
     return r;
 }
 
-double stored(const DriveHandle& handle, double nut) {
-    const double gap = handle.angle - nut;
-    return 0.5 * handle.stiffness * square(std::max(0.0, std::abs(gap) - handle.half_play));
+double stored(const NutDrive& drive, double nut) {
+    const double gap = drive.angle - nut;
+    return 0.5 * drive.stiffness * square(std::max(0.0, std::abs(gap) - drive.half_play));
 }
 
 }  // namespace
 
 TEST_CASE("Hand and nut: friction acts in tightening below the lead torque, and in loosening above it") {
     const Resistance r = constant(100.0, -70.0, 20.0);  // N·m: friction 80 in tightening, 90 in loosening
-    const double inertia = coupling_inertia(2000.0, 1e-3);
+    const double inertia = drive_inertia(2000.0, 1e-3);
     const std::pair<double, double> torques[] = {{0.0, -20.0 / 90.0},   {10.0, -10.0 / 90.0},
                                                  {20.0, 0.0},           {50.0, 30.0 / 80.0},
                                                  {-30.0, -50.0 / 90.0}, {99.0, 79.0 / 80.0}};
@@ -47,7 +47,7 @@ TEST_CASE("Hand and nut: friction acts in tightening below the lead torque, and 
         const NutStep step = step_nut(r, inertia, {}, spring(torque / 2000.0, 0.0), 1e-3);
         CHECK(step.nut.speed == 0.0);
         CHECK(step.torque == doctest::Approx(torque));
-        CHECK(step.share == doctest::Approx(share).epsilon(1e-9));
+        CHECK(step.friction_share == doctest::Approx(share).epsilon(1e-9));
     }
 }
 
@@ -68,7 +68,7 @@ TEST_CASE("Hand and nut: at the end of the bolt the nut stops and the hand winds
 TEST_CASE("Hand and nut: a nut that leaves the jaw face for the backlash stops at once") {
     for (const double dt : {2.5e-4, 1e-3, 4e-3}) {
         const double drag = 0.05;
-        const NutStep step = step_nut(constant(drag, -drag), coupling_inertia(2000.0, dt), {0.0, 1.0},
+        const NutStep step = step_nut(constant(drag, -drag), drive_inertia(2000.0, dt), {0.0, 1.0},
                                       spring(0.0, to_radians(2.5)), dt);
         CHECK(step.nut.angle == 0.0);
         CHECK(step.nut.speed == 0.0);
@@ -77,7 +77,7 @@ TEST_CASE("Hand and nut: a nut that leaves the jaw face for the backlash stops a
 }
 
 TEST_CASE(
-    "Hand and nut: the coupling returns no more energy than the hand put in, for a nearly free nut with wide "
+    "Hand and nut: the drive returns no more energy than the hand put in, for a nearly free nut with wide "
     "play") {
     Random random(17);
     for (const double dt : {2.5e-4, 1e-3, 4e-3}) {
@@ -88,16 +88,16 @@ TEST_CASE(
             const Resistance r = constant(drag, -drag);
             const double frequency = random.uniform(0.5, 8.0), reach = random.uniform(0.02, 0.6);
             NutMotion nut;
-            DriveHandle handle = spring(0.0, to_radians(2.5));
+            NutDrive drive = spring(0.0, to_radians(2.5));
             double given = 0.0;
-            const double start = stored(handle, nut.angle);
+            const double start = stored(drive, nut.angle);
             for (double t = dt; t < 3.0; t += dt) {
-                const double hand = handle.angle;
-                handle.angle = reach * std::sin(2.0 * pi * frequency * t);
-                const NutStep step = step_nut(r, coupling_inertia(2000.0, dt), nut, handle, dt);
-                given += step.torque * (handle.angle - hand) - step.torque * (step.nut.angle - nut.angle);
+                const double hand = drive.angle;
+                drive.angle = reach * std::sin(2.0 * pi * frequency * t);
+                const NutStep step = step_nut(r, drive_inertia(2000.0, dt), nut, drive, dt);
+                given += step.torque * (drive.angle - hand) - step.torque * (step.nut.angle - nut.angle);
                 nut = step.nut;
-                REQUIRE(given >= stored(handle, nut.angle) - start - 1e-9);
+                REQUIRE(given >= stored(drive, nut.angle) - start - 1e-9);
             }
         }
     }
@@ -106,7 +106,7 @@ TEST_CASE(
 TEST_CASE("Hand and nut: a jaw at rest does not hold back a fast nut") {
     for (const double sign : {1.0, -1.0}) {
         const double dt = 1e-3, wound = 1e-4, play = to_radians(2.5);
-        const NutStep step = step_nut(constant(0.05, -0.05), coupling_inertia(2000.0, dt), {0.0, 20.0 * sign},
+        const NutStep step = step_nut(constant(0.05, -0.05), drive_inertia(2000.0, dt), {0.0, 20.0 * sign},
                                       spring(sign * (play + wound), play), dt);
         CHECK(step.torque == 0.0);
         CHECK(step.nut.speed * sign > 19.0);
@@ -115,7 +115,7 @@ TEST_CASE("Hand and nut: a jaw at rest does not hold back a fast nut") {
 
 TEST_CASE("Hand and nut: fingers slow a faster nut with their limit torque in both directions") {
     for (const double sign : {1.0, -1.0}) {
-        DriveHandle fingers = spring(0.0, 0.0, 5.0);
+        NutDrive fingers = spring(0.0, 0.0, 5.0);
         fingers.torque_limit = 0.03;
         // 1e-5 kg m2 at 20 rad/s over 1 ms is 0.2 N m, less 0.02 of drag and 0.03 of the fingers: 15 rad/s.
         const NutStep step = step_nut(constant(0.02, -0.02), 1e-5, {0.0, 20.0 * sign}, fingers, 1e-3);

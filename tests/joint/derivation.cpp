@@ -58,13 +58,14 @@ TEST_CASE("Derive: joints couple as far as ten lengths of the plate and no furth
     const double l = plate.length();
     for (const double lengths : {1.0, 5.0, 9.9}) {
         const std::vector<Vec3> seats = {Vec3(0.0), Vec3(0.6 * lengths * l, 0.0, 0.8 * lengths * l)};
-        const CouplingMatrix m = couple(plate, seats);
+        const InteractionMatrix m = interaction_matrix(plate, seats);
         REQUIRE(m.row_begin == std::vector<std::uint32_t>{0, 1, 2});
         CHECK(m.column == std::vector<std::uint32_t>{1, 0});
         for (const double w : m.value)
             CHECK(w / plate.deflection_per_force(lengths * l) == doctest::Approx(1.0).epsilon(1e-9));
     }
-    const CouplingMatrix far = couple(plate, std::vector<Vec3>{Vec3(0.0), Vec3(10.1 * l, 0.0, 0.0)});
+    const InteractionMatrix far =
+        interaction_matrix(plate, std::vector<Vec3>{Vec3(0.0), Vec3(10.1 * l, 0.0, 0.0)});
     CHECK(far.column.empty());
     CHECK(std::abs(plate.deflection_per_force(10.0 * l)) < 1e-3 * plate.deflection_per_force(0.0));
 }

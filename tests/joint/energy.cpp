@@ -93,12 +93,12 @@ TEST_CASE("Energy: equal runs are equal bit for bit") {
             const GroupParameters group = test::single(test::random_joint(random));
             std::vector<JointState> joints = initial_state(group, 1);
             for (int i = 0; i < 2000; ++i) {
-                DriveHandle handle;
-                handle.engaged = true;
-                handle.angle = 2e-3 * i + 0.1 * std::sin(0.05 * i);
-                handle.stiffness = 500.0;
-                handle.half_play = 0.01;
-                step_group(group, joints, 0, handle, 1e-3);
+                NutDrive drive;
+                drive.engaged = true;
+                drive.angle = 2e-3 * i + 0.1 * std::sin(0.05 * i);
+                drive.stiffness = 500.0;
+                drive.half_play = 0.01;
+                step_group(group, joints, 0, drive, 1e-3);
             }
             out.push_back(joints[0].torque);
             out.push_back(joints[0].clamp);
@@ -118,13 +118,13 @@ TEST_CASE("Energy: jumps of many turns and reversals every step give finite resu
         const GroupParameters group = test::single(test::random_joint(random));
         std::vector<JointState> joints = initial_state(group, 1);
         for (int i = 0; i < 400; ++i) {
-            DriveHandle handle;
-            handle.engaged = random.chance(0.9);
-            handle.angle = random.uniform(-1.0, 1.0) * std::pow(10.0, random.uniform(-3.0, 3.0));
-            handle.stiffness = std::pow(10.0, random.uniform(0.0, 5.0));
-            handle.half_play = random.uniform(0.0, 0.05);
-            handle.torque_limit = random.chance(0.3) ? random.uniform(0.1, 5.0) : 0.0;
-            step_group(group, joints, 0, handle, 1e-3);
+            NutDrive drive;
+            drive.engaged = random.chance(0.9);
+            drive.angle = random.uniform(-1.0, 1.0) * std::pow(10.0, random.uniform(-3.0, 3.0));
+            drive.stiffness = std::pow(10.0, random.uniform(0.0, 5.0));
+            drive.half_play = random.uniform(0.0, 0.05);
+            drive.torque_limit = random.chance(0.3) ? random.uniform(0.1, 5.0) : 0.0;
+            step_group(group, joints, 0, drive, 1e-3);
             REQUIRE(std::isfinite(joints[0].torque));
             REQUIRE(std::isfinite(joints[0].clamp));
             REQUIRE(joints[0].clamp >= 0.0);

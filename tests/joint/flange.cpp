@@ -27,15 +27,15 @@ TEST_CASE("Flange: neighbours are pressed down nearby and lifted farther out") {
     CHECK(plate.deflection_per_force(5.0 * plate.length()) < 0.0);
 }
 
-TEST_CASE("Flange: the coupling is symmetric and its energy is positive for any forces") {
+TEST_CASE("Flange: the interaction of joints is symmetric and its energy is positive for any forces") {
     const FlangePlate plate = FlangePlate::make(0.024, 110e9, 0.25, 1e11);
     Random random(5);
     std::vector<Vec3> seats;
     for (int i = 0; i < 40; ++i) seats.emplace_back(random.uniform(0, 0.7), 0.0, random.uniform(0, 0.3));
-    const CouplingMatrix m = couple(plate, seats);
+    const InteractionMatrix m = interaction_matrix(plate, seats);
     std::vector<std::vector<double>> dense(40, std::vector<double>(40, 0.0));
     for (std::size_t i = 0; i < 40; ++i) {
-        dense[i][i] = m.own;
+        dense[i][i] = m.own_compliance;
         for (std::uint32_t k = m.row_begin[i]; k < m.row_begin[i + 1]; ++k)
             dense[i][m.column[k]] = m.value[k];
     }
@@ -48,7 +48,7 @@ TEST_CASE("Flange: the coupling is symmetric and its energy is positive for any 
         for (std::size_t i = 0; i < 40; ++i)
             for (std::size_t j = 0; j < 40; ++j) energy += F[i] * dense[i][j] * F[j];
         for (const double f : F) size += f * f;
-        REQUIRE(energy >= -1e-3 * m.own * size);
+        REQUIRE(energy >= -1e-3 * m.own_compliance * size);
     }
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("Flange: tightening one joint unloads its neighbours, and a second rou
     CHECK(spread_after < spread_before);
 }
 
-TEST_CASE("Flange: the sweep converges to the solution of the coupled equations") {
+TEST_CASE("Flange: the sweep converges to the solution of the equations of all joints") {
     std::vector<JointDesign> designs;
     for (int i = 0; i < 6; ++i) {
         JointDesign d = test::m16_flange_joint();
@@ -105,13 +105,13 @@ TEST_CASE("Flange: the sweep converges to the solution of the coupled equations"
     for (int round = 0; round < 3; ++round)
         for (std::size_t i = 0; i < 6; ++i)
             while (joints[i].clamp < 15e3) turn_nut(group, joints, i, joints[i].nut.angle + 1e-3, 1.0, 1e-3);
-    for (int k = 0; k < 50; ++k) step_group(group, joints, -1, DriveHandle{}, 1e-3);
+    for (int k = 0; k < 50; ++k) step_group(group, joints, -1, NutDrive{}, 1e-3);
     for (std::size_t i = 0; i < 6; ++i) {
         const MechanisticParameters& p = group.joints[i];
         const MechanisticState& s = joints[i].mechanistic;
         double left = p.levers.lead * s.angle - p.gap - s.plastic - s.embedding - p.seat.closure(s.clamp);
-        for (std::uint32_t k = group.coupling.row_begin[i]; k < group.coupling.row_begin[i + 1]; ++k)
-            left -= group.coupling.value[k] * joints[group.coupling.column[k]].clamp;
+        for (std::uint32_t k = group.interaction.row_begin[i]; k < group.interaction.row_begin[i + 1]; ++k)
+            left -= group.interaction.value[k] * joints[group.interaction.column[k]].clamp;
         CHECK(std::abs(left) < 1e-12);  // m
     }
 }

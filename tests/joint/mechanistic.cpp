@@ -151,7 +151,7 @@ TEST_CASE(
     GroupParameters group = test::single(design);
     std::vector<JointState> joints = initial_state(group, 1);
     while (joints[0].clamp < 40e3) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
-    for (int i = 0; i < 5000; ++i) step_group(group, joints, -1, DriveHandle{}, 1e-3);
+    for (int i = 0; i < 5000; ++i) step_group(group, joints, -1, NutDrive{}, 1e-3);
     const MechanisticParameters& p = group.joints[0];
     const Resistance rested = resistance(group, 0, joints[0]);
     const double F = joints[0].clamp;
@@ -269,7 +269,7 @@ TEST_CASE("Mechanistic law: embedding takes f_Z/(delta_S + delta_P) of the clamp
     while (joints[0].clamp < p.reference_load * 1.0001)
         turn_nut(group, joints, 0, joints[0].nut.angle + 2e-3, 1.0, 1e-3);
     const double before = joints[0].clamp, already = joints[0].mechanistic.embedding;
-    for (int i = 0; i < 120'000; ++i) step_group(group, joints, -1, DriveHandle{}, 1e-3);
+    for (int i = 0; i < 120'000; ++i) step_group(group, joints, -1, NutDrive{}, 1e-3);
     const double loss = before - joints[0].clamp;
     const double settled = joints[0].mechanistic.embedding - already;
     CHECK(loss == doctest::Approx(settled / p.seat.compliance).epsilon(0.05));

@@ -11,13 +11,13 @@ using namespace bolt::joint;
 
 namespace {
 
-DriveHandle spring(double angle, double half_play = 0.0) {
-    DriveHandle handle;
-    handle.engaged = true;
-    handle.angle = angle;
-    handle.stiffness = 2000.0;
-    handle.half_play = half_play;
-    return handle;
+NutDrive spring(double angle, double half_play = 0.0) {
+    NutDrive drive;
+    drive.engaged = true;
+    drive.angle = angle;
+    drive.stiffness = 2000.0;
+    drive.half_play = half_play;
+    return drive;
 }
 
 // A nut tightened to about 40 kN.
@@ -32,7 +32,7 @@ struct Tight {
     Tight() {
         while (joints[0].clamp < 40e3) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
         joints[0].nut.speed = 0.0;
-        for (int i = 0; i < 3000; ++i) step_group(group, joints, -1, DriveHandle{}, 1e-3);
+        for (int i = 0; i < 3000; ++i) step_group(group, joints, -1, NutDrive{}, 1e-3);
     }
 };
 
@@ -77,13 +77,13 @@ TEST_CASE("Nut: a slowly turned nut follows the hand at exactly the running torq
     const Resistance r = resistance(tight.group, 0, tight.joints[0]);
     CHECK(tight.joints[0].torque == doctest::Approx(r.tighten).epsilon(0.005));
     CHECK(tight.joints[0].nut.speed == doctest::Approx(0.1).epsilon(0.1));
-    CHECK(tight.joints[0].mechanistic.share == 1.0);
+    CHECK(tight.joints[0].mechanistic.friction_share == 1.0);
 }
 
 TEST_CASE("Nut: tension does not unscrew a released nut") {
     Tight tight;
     const double stands_at = tight.joints[0].nut.angle;
-    for (int i = 0; i < 10'000; ++i) step_group(tight.group, tight.joints, 0, DriveHandle{}, 1e-3);
+    for (int i = 0; i < 10'000; ++i) step_group(tight.group, tight.joints, 0, NutDrive{}, 1e-3);
     CHECK(tight.joints[0].nut.angle == stands_at);
     CHECK(tight.joints[0].torque == 0.0);
 }
@@ -105,7 +105,7 @@ TEST_CASE("Nut: the torque is zero within the backlash and rises continuously fr
 
 TEST_CASE("Nut: fingers slip at their limit torque") {
     Tight tight;
-    DriveHandle fingers = spring(tight.joints[0].nut.angle + 1.0);
+    NutDrive fingers = spring(tight.joints[0].nut.angle + 1.0);
     fingers.stiffness = 5.0;
     fingers.torque_limit = 0.8;
     step_group(tight.group, tight.joints, 0, fingers, 1e-3);
@@ -127,7 +127,7 @@ TEST_CASE("Nut: a jaw pushes and never pulls, for any motion of the nut") {
 }
 
 TEST_CASE("Nut: the wrench generates no energy over any motion of the hand") {
-    // The work of the coupling on the nut exceeds the energy that the joint can store.
+    // The work of the drive on the nut exceeds the energy that the joint can store.
     Random random(10);
     for (int trial = 0; trial < 20; ++trial) {
         Tight tight;

@@ -40,8 +40,8 @@ LessonRun play_through(const content::Assembly& assembly, const char* trainee, s
     run.deviation = setup.wrench.deviation;
     while (lesson.due() != nullptr && state.tick < 1'200'000) {
         servo::Input input = hand.act(setup, state, lesson);
-        input.setting = static_cast<float>(wrench_setting(lesson));
-        const double trips = wrench_setting(lesson) * (1.0 + run.deviation);
+        input.set_torque = static_cast<float>(wrench_set_torque(lesson));
+        const double trips = wrench_set_torque(lesson) * (1.0 + run.deviation);
         const servo::Output output = servo::tick(setup, state, input);
         if (output.clicked) {
             ++run.clicks;
@@ -61,18 +61,18 @@ LessonRun play_through(const content::Assembly& assembly, const char* trainee, s
 TEST_CASE("Torque wrench: set to the step's torque, and to 0 for steps without a torque") {
     Script s;
     s.idle();
-    CHECK(wrench_setting(s.lesson) == 0.0);  // run down
+    CHECK(wrench_set_torque(s.lesson) == 0.0);  // run down
     s.seat(0);
     s.seat(1);
-    CHECK(wrench_setting(s.lesson) == 0.0);  // a plain wrench has no scale
+    CHECK(wrench_set_torque(s.lesson) == 0.0);  // a plain wrench has no scale
     s.assembly.wrench.click_swing = 0.07;
-    CHECK(wrench_setting(s.lesson) == 35.0);
+    CHECK(wrench_set_torque(s.lesson) == 35.0);
     s.pull(0, 35.0);
     s.pull(1, 35.0);
-    CHECK(wrench_setting(s.lesson) == 70.0);
+    CHECK(wrench_set_torque(s.lesson) == 70.0);
     s.pull(0, 70.0);
     s.pull(1, 70.0);
-    CHECK(wrench_setting(s.lesson) == 0.0);  // all steps are done
+    CHECK(wrench_set_torque(s.lesson) == 0.0);  // all steps are done
 }
 
 TEST_CASE("Torque wrench: a click gives one event with its torque") {

@@ -115,7 +115,7 @@ std::vector<Constraint> random_contacts(Random& random, std::size_t count, doubl
         c.arm = random.uniform(0.0, 0.2) * any_direction(random);
         c.normal = any_direction(random);
         c.slack = random.chance(0.5) ? 0.0 : random.uniform(0.0, 2e-3);
-        c.friction = friction;
+        c.friction_coefficient = friction;
         const double kind = random.uniform();
         if (i > 0 && kind < 0.15) c = rows.back();                               // a duplicate
         if (i > 0 && kind >= 0.15 && kind < 0.3) c.normal = rows.back().normal;  // a face
@@ -219,9 +219,9 @@ TEST_CASE("Constraint solver: each force satisfies Coulomb's law, and the sum ba
             const Vec3 tangential = forces[i] - normal * c.normal;
             const Vec3 u = found.motion.linear + glm::cross(found.motion.angular, c.arm);
             const Vec3 slip = u - glm::dot(u, c.normal) * c.normal;
-            CHECK(glm::length(tangential) <= c.friction * normal * (1 + 1e-9) + 1e-9 * size);
+            CHECK(glm::length(tangential) <= c.friction_coefficient * normal * (1 + 1e-9) + 1e-9 * size);
             const double slack = (glm::dot(u, c.normal) + c.slack) * metric.linear / size;
-            const double room = (c.friction * normal - glm::length(tangential)) / size;
+            const double room = (c.friction_coefficient * normal - glm::length(tangential)) / size;
             worst_depth = std::max(worst_depth, -slack);
             // Complementarity: slack excludes force, and slip excludes a margin in the friction cone.
             residual = std::max(residual, std::min(normal / size, slack));

@@ -21,7 +21,7 @@ constexpr double dt = 1e-3;
 GodObjectParameters frictionless() {
     GodObjectParameters p;
     p.coupling = {1000.0, 10.0, 0.0, 0.0, 1e6, 1e6};  // linear: the rendered force is the spring's
-    p.friction = 0.0;
+    p.friction_coefficient = 0.0;
     p.radius = 0.25;
     return p;
 }
@@ -157,7 +157,7 @@ TEST_CASE("God-object: friction sticks within its cone, and a slipping force lie
     GodObjectParameters p = frictionless();
     const Scene scene = point_among({HalfSpace{}});
     for (const double mu : {0.1, 0.3, 0.6}) {
-        p.friction = mu;
+        p.friction_coefficient = mu;
         const double depth = 4e-3;
         GodObjectState state = start_god_object(at(Vec3(0, 0, 0.01)));
         lead(p, state, at(Vec3(0, 0, -depth)), scene);

@@ -249,7 +249,7 @@ TEST_CASE("God-object: a tip in a gap of 1 mm stays in it under any pull") {
 
 TEST_CASE("God-object: a frictionless wall pushes only along its normal and never pulls") {
     GodObjectParameters p = for_wrench();
-    p.friction = 0.0;
+    p.friction_coefficient = 0.0;
     p.coupling.damping = p.coupling.torsion_damping = 0.0;
     Random random(12);
     for (int trial = 0; trial < 20; ++trial) {

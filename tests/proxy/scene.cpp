@@ -66,19 +66,19 @@ Closest closest(const Obstacle& obstacle, const Vec3& to) {
 ContactQueryResult Scene::operator()(const Pose& pose, double band, std::span<Contact> contacts) const {
     ++looks;
     ContactQueryResult found;
-    found.clearance = band;
+    found.complete_within = band;
     const auto keep = [&](const Contact& contact) {
-        if (contact.distance >= found.clearance) return;
+        if (contact.distance >= found.complete_within) return;
         std::size_t at = found.count;
         while (at > 0 && contacts[at - 1].distance > contact.distance) --at;
         if (at == contacts.size()) {
             found.truncated = true;
-            found.clearance = contact.distance;
+            found.complete_within = contact.distance;
             return;
         }
         if (found.count == contacts.size()) {
             found.truncated = true;
-            found.clearance = contacts[--found.count].distance;
+            found.complete_within = contacts[--found.count].distance;
         }
         for (std::size_t i = found.count; i > at; --i) contacts[i] = contacts[i - 1];
         contacts[at] = contact;

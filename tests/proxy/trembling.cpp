@@ -80,7 +80,7 @@ Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_lim
     p.coupling = proxy::make_coupling({});
     p.radius = tool->reach();
     p.rate_limits = rate_limits;
-    p.friction = 0.1;
+    p.friction_coefficient = 0.1;
     // One corner points down.
     const Vec3 corner = glm::normalize(Vec3(-1.0)), down(0, 0, -1);
     const Quat turn = rotation(std::acos(glm::dot(corner, down)) * glm::normalize(glm::cross(corner, down)));

@@ -1,5 +1,5 @@
-// The click-type torque wrench: its setting is an input, the deviation from it belongs to the tool, and the
-// click is rendered within the device's limits.
+// The click-type torque wrench: its set torque is an input, the deviation from it belongs to the tool, and
+// the click is rendered within the device's limits.
 #include <doctest/doctest.h>
 
 #include "tests/servo/support.hpp"
@@ -10,7 +10,7 @@ using namespace bolt::servo;
 
 namespace {
 
-constexpr float setting = 60.0F;
+constexpr float set_torque = 60.0F;
 
 Setup with_torque_wrench(double deviation = 0.0, double dt = 1e-3) {
     Setup setup = test::two_joints();
@@ -24,7 +24,7 @@ Setup with_torque_wrench(double deviation = 0.0, double dt = 1e-3) {
 struct Bench {
     Setup setup;
     State state;
-    double handle = 0.0, scale = setting;
+    double handle = 0.0, scale = set_torque;
     Grip grip = Grip::wrench;
     Output last;
 
@@ -34,7 +34,7 @@ struct Bench {
         const NutGeometry& nut = setup.nuts[0];
         const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
         Input input = test::holding(grip, test::tool_at(nut, at, setup.wrench.head_angle + handle));
-        input.setting = static_cast<float>(scale);
+        input.set_torque = static_cast<float>(scale);
         return last = tick(setup, state, input);
     }
     // Turns the handle until the wrench clicks, at most by `at_most` (rad). Returns the greatest torque, N·m.
@@ -52,14 +52,14 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("Click: the wrench clicks at its setting plus its deviation, at any servo rate") {
+TEST_CASE("Click: the wrench clicks at its set torque plus its deviation, at any servo rate") {
     for (const double dt : {1e-3, 2.5e-4})
         for (const double deviation : {-0.04, 0.0, 0.03}) {
             Bench bench(with_torque_wrench(deviation, dt));
             bench.hold(0.0);
             const double greatest = bench.pull(60.0);
             CHECK(bench.last.clicked);
-            const double trips = static_cast<double>(setting) * (1.0 + deviation);
+            const double trips = static_cast<double>(set_torque) * (1.0 + deviation);
             CHECK(greatest <= trips * (1.0 + 1e-9));
             CHECK(greatest > 0.95 * trips);
             int clicks = 0;
@@ -69,20 +69,20 @@ TEST_CASE("Click: the wrench clicks at its setting plus its deviation, at any se
         }
 }
 
-TEST_CASE("Click: none without a setting, with a plain wrench or with fingers") {
+TEST_CASE("Click: none without a set torque, with a plain wrench or with fingers") {
     SUBCASE("no setting") {
         Bench bench(with_torque_wrench());
         bench.scale = 0.0;
-        CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(setting));
+        CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(set_torque));
     }
-    SUBCASE("a setting of NaN") {
+    SUBCASE("a set torque of NaN") {
         Bench bench(with_torque_wrench());
         bench.scale = std::numeric_limits<double>::quiet_NaN();
-        CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(setting));
+        CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(set_torque));
     }
     SUBCASE("a plain wrench") {
         Bench bench(test::two_joints());
-        CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(setting));
+        CHECK(bench.pull(40.0) > 1.5 * static_cast<double>(set_torque));
     }
     SUBCASE("fingers") {
         Bench bench(with_torque_wrench());
@@ -94,7 +94,7 @@ TEST_CASE("Click: none without a setting, with a plain wrench or with fingers") 
     }
 }
 
-TEST_CASE("Click: a setting changed after the click has no effect until the wrench is released") {
+TEST_CASE("Click: a set torque changed after the click has no effect until the wrench is released") {
     Bench turned(with_torque_wrench()), left(with_torque_wrench());
     for (Bench* bench : {&turned, &left}) {
         bench->hold(0.0);
@@ -120,7 +120,7 @@ TEST_CASE("Click: the wrench is armed again once it left the nut") {
     CHECK(bench.state.engagement.swung == 0.0);
 }
 
-TEST_CASE("Click: the device's torque drops briefly, within the slew limits") {
+TEST_CASE("Click: the device's torque drops briefly, within the slew rates") {
     for (const double dt : {1e-3, 2.5e-4}) {
         Bench bench(with_torque_wrench(0.0, dt));
         for (int i = 0; i < static_cast<int>(1.0 / dt); ++i) bench.hold(0.0);
@@ -131,7 +131,7 @@ TEST_CASE("Click: the device's torque drops briefly, within the slew limits") {
         for (int i = 0; i < static_cast<int>(0.1 / dt); ++i) {
             const Vec3 felt = bench.last.torque;
             bench.hold(bench.handle);
-            // The click itself is slower than the slew limit.
+            // The click itself is slower than the slew rate permits.
             REQUIRE(glm::length(bench.last.torque - felt) <= 0.9 * bench.setup.limits.torque_rate * dt);
         }
         CHECK(glm::length(bench.last.torque) < 0.6 * before);

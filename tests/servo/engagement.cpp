@@ -84,7 +84,7 @@ TEST_CASE("Engagement: NaN, infinity and invalid quaternions engage nothing and 
     const float nan = std::nanf("");
     for (int i = 0; i < 100; ++i) {
         Input input;
-        input.enabled = true;
+        input.dead_man = true;
         input.grip = Grip::wrench;
         input.guide = static_cast<std::int16_t>(i % 5 - 2);
         for (float& x : input.commanded_tool.position) x = i % 2 == 0 ? nan : INFINITY;

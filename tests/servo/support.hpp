@@ -40,7 +40,7 @@ inline servo::CommandedTool tool_at(const servo::NutGeometry& nut, const Vec3& p
 
 inline servo::Input holding(servo::Grip grip, const servo::CommandedTool& commanded) {
     servo::Input input;
-    input.enabled = true;
+    input.dead_man = true;
     input.grip = grip;
     input.commanded_tool = commanded;
     return input;

@@ -91,7 +91,7 @@ TEST_CASE("Servo: the same inputs give the same bits") {
     CHECK(run() == run());
 }
 
-TEST_CASE("Servo: reach, engage, turn and release keep force and torque within the slew limits") {
+TEST_CASE("Servo: reach, engage, turn and release keep force and torque within the slew rates") {
     const Setup setup = test::two_joints();
     State state = initial_state(setup);
     Output last;
@@ -199,7 +199,7 @@ TEST_CASE("Servo: without the dead-man switch nothing is held or rendered") {
     State state = initial_state(setup);
     for (int i = 0; i < 3000; ++i) {
         Input input = scripted(setup, state, 1500 + i % 1000);
-        input.enabled = false;
+        input.dead_man = false;
         const Output output = tick(setup, state, input);
         REQUIRE(output.joint == -1);
         REQUIRE(glm::length(output.force) == 0.0);

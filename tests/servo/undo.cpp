@@ -19,7 +19,7 @@ struct Bench {
     // Input of a hand far from all nuts.
     [[nodiscard]] Input away(std::uint8_t undo) const {
         Input input = test::holding(Grip::none, test::tool_at(setup.nuts[0], Vec3(0.0, 1.0, 1.0), 0.0));
-        input.undo = undo;
+        input.checkpoint_action = undo;
         return input;
     }
     Output step(std::uint8_t undo) { return tick(setup, state, away(undo)); }
@@ -79,10 +79,10 @@ TEST_CASE("Undo: not while a nut is held or the tool is beside it") {
     Output output;
     for (int i = 0; i < 50; ++i) output = tick(bench.setup, bench.state, input);
     REQUIRE(output.joint == 0);
-    input.undo = 1;
+    input.checkpoint_action = 1;
     CHECK(tick(bench.setup, bench.state, input).undone == 0);
     Input beside = test::holding(Grip::none, test::tool_at(nut, at + 0.1 * nut.axis, 0.0));
-    beside.undo = 1;
+    beside.checkpoint_action = 1;
     CHECK(tick(bench.setup, bench.state, beside).undone == 0);
     CHECK(bench.step(1).undone == 1);
 }

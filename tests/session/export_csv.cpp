@@ -125,7 +125,7 @@ TEST_CASE("CSV export: an exported session reads back to the same ticks") {
         CHECK(number(row[14]) == static_cast<float>(to_degrees(static_cast<double>(tick.nut_angle))));
         const char* const grips[] = {"none", "fingers", "wrench"};
         CHECK(row[8] == grips[tick.grip]);
-        CHECK(row[9] == ((tick.flags & flag_enabled) != 0 ? "1" : "0"));
+        CHECK(row[9] == ((tick.flags & flag_dead_man) != 0 ? "1" : "0"));
         CHECK(row[10] == joints[tick.guide + 1]);
         CHECK(row[11] == joints[tick.joint + 1]);
         const char* const obstacles[] = {"", "housing", "a \"lid\", 盖", "#2"};

@@ -48,7 +48,7 @@ TEST_CASE("Session format: a session of format 2 opens, without undo") {
     CHECK(ticks.size() > 10'000);
     bool held = false;
     for (const TickRecord& tick : ticks) {
-        CHECK(tick.undo == 0);
+        CHECK(tick.checkpoint_action == 0);
         held = held || (tick.joint == 0 && tick.wrench_torque > 15.0F);
     }
     CHECK(held);
@@ -65,9 +65,9 @@ TEST_CASE("Session format: a session of format 3 opens, with a set torque of 0")
     CHECK(ticks.size() > 10'000);
     bool held = false, marked = false;
     for (const TickRecord& tick : ticks) {
-        CHECK(tick.setting == 0.0F);
+        CHECK(tick.set_torque == 0.0F);
         held = held || (tick.joint == 0 && tick.wrench_torque > 15.0F);
-        marked = marked || tick.undo == servo::save_checkpoint;
+        marked = marked || tick.checkpoint_action == servo::save_checkpoint;
     }
     CHECK(held);
     CHECK(marked);

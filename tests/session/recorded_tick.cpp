@@ -13,7 +13,7 @@ TEST_CASE("Tick record: converting to a record and back returns the input") {
         servo::Input input;
         input.commanded_tool = session::test::random_tick(random).commanded_tool;
         input.grip = static_cast<servo::Grip>(random.bits() % 3);
-        input.enabled = random.chance(0.5);
+        input.dead_man = random.chance(0.5);
         input.fresh = random.chance(0.5);
         input.stop = random.chance(0.5);
         input.reset = random.chance(0.5);
@@ -23,7 +23,7 @@ TEST_CASE("Tick record: converting to a record and back returns the input") {
         CHECK(is_valid(record));
         CHECK(session::test::same(make_record(input_of(record), {}), record));
         CHECK(input_of(record).grip == input.grip);
-        CHECK(input_of(record).enabled == input.enabled);
+        CHECK(input_of(record).dead_man == input.dead_man);
         CHECK(input_of(record).fresh == input.fresh);
         CHECK(input_of(record).stop == input.stop);
         CHECK(input_of(record).reset == input.reset);

@@ -28,7 +28,7 @@ servo::Input hand_at(std::size_t i) {
     input.commanded_tool.orientation[2] = static_cast<float>(q.y);
     input.commanded_tool.orientation[3] = static_cast<float>(q.z);
     input.fresh = i % 7 != 6;
-    input.enabled = i < 2000;
+    input.dead_man = i < 2000;
     return input;
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("Replay device: a recorded hand repeats its motion, grip and release i
         for (int k = 0; k < 4; ++k)
             REQUIRE(std::abs(input.commanded_tool.orientation[k] - was.commanded_tool.orientation[k]) <
                     1e-6F);
-        REQUIRE(input.enabled == was.enabled);
+        REQUIRE(input.dead_man == was.dead_man);
         do {
             ++next;
         } while (!hand_at(next).fresh);

@@ -31,9 +31,9 @@ TickRecord random_tick(Random& random) {
     tick.touched =
         obstacle_of_number(static_cast<std::int16_t>(static_cast<int>(random.bits() % 65535) - 32767));
     tick.fault = static_cast<std::uint8_t>(random.bits() % force::fault_kinds);
-    tick.undo = static_cast<std::uint8_t>(random.bits() % (servo::max_checkpoints + 2U));
-    if (tick.undo > servo::max_checkpoints) tick.undo = servo::save_checkpoint;
-    tick.setting = any();
+    tick.checkpoint_action = static_cast<std::uint8_t>(random.bits() % (servo::max_checkpoints + 2U));
+    if (tick.checkpoint_action > servo::max_checkpoints) tick.checkpoint_action = servo::save_checkpoint;
+    tick.set_torque = any();
     return tick;
 }
 
@@ -57,7 +57,7 @@ bool same(const TickRecord& a, const TickRecord& b) {
         all = all && equal(a.commanded_tool.orientation[i], b.commanded_tool.orientation[i]);
     return all && a.grip == b.grip && a.flags == b.flags && a.guide == b.guide && a.joint == b.joint &&
            a.stage == b.stage && a.contacts == b.contacts && a.touched == b.touched && a.fault == b.fault &&
-           a.undo == b.undo && equal(a.setting, b.setting);
+           a.checkpoint_action == b.checkpoint_action && equal(a.set_torque, b.set_torque);
 }
 
 bool same(std::span<const TickRecord> a, std::span<const TickRecord> b) {

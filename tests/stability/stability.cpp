@@ -109,7 +109,7 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
         arm.intention.position = at;
         PortInput input;
         input.pose = test::encoder_pose(arm);
-        input.enabled = true;
+        input.dead_man = true;
         step_god_object(parameters, tool, input.pose, t.scene, dt);
         const ForceRequest request{tool.felt, stored_energy(parameters.coupling, tool.offset)};
         test::step(arm, render(limits, stage, input, request, dt), dt);

@@ -73,12 +73,12 @@ TEST_CASE(
     rig.commands = {RestoreCheckpoint{2}};
     rig.ticks(20);
     CHECK(rig.servo.checkpoint_count == 3);
-    CHECK(rig.state.input.undo == 2);
+    CHECK(rig.state.input.checkpoint_action == 2);
     SUBCASE("each command is executed once") {
         rig.commands = {PlaceTool{away}};
         rig.ticks(20);
         CHECK(rig.servo.checkpoint_count == 2);
-        CHECK(rig.state.input.undo == 0);
+        CHECK(rig.state.input.checkpoint_action == 0);
         rig.commands = {AmendRestore{2}};  // too late: the restore is done
         rig.ticks(20);
         CHECK(rig.servo.checkpoint_count == 2);
@@ -90,7 +90,7 @@ TEST_CASE(
         rig.commands = {AmendRestore{1}, PlaceTool{away}};
         rig.ticks(20);
         CHECK(rig.servo.checkpoint_count == 3);
-        CHECK(rig.state.input.undo == 0);
+        CHECK(rig.state.input.checkpoint_action == 0);
     }
     SUBCASE("cancelled") {
         rig.commands = {AmendRestore{0}, PlaceTool{away}};
@@ -172,7 +172,7 @@ TEST_CASE(
     rig.inputs.controls.wrench_rest_pose = Pose{Vec3(0.0, 0.01, 0.3), rotation(Vec3(0.0, 0.4, 0.0))};
     rig.inputs.controls.bare_wrist = Pose{Vec3(0.02, 0.1, 0.05), rotation(Vec3(-1.0, 0.2, 0.3))};
     const auto wrist = [&] {
-        return tool_commanded_by_glove(layout, rig.setup, rig.state, rig.inputs.controls) * *layout.wrist;
+        return tool_of_gloved_hand(layout, rig.setup, rig.state, rig.inputs.controls) * *layout.wrist;
     };
     rig.inputs.hand_grip = servo::Grip::none;
     rig.ticks(5);
@@ -202,14 +202,14 @@ TEST_CASE("Station: the dead-man switch of a window that hangs expires, a device
     REQUIRE(glm::length(rig.ticks(50).mover.force) > 1.0);
     rig.inputs.controls_age = 0.51;
     CHECK(nothing(rig.ticks(25).mover));
-    CHECK_FALSE(rig.state.input.enabled);
+    CHECK_FALSE(rig.state.input.dead_man);
     rig.inputs.mover.sample.buttons = 1;
     rig.tick();
-    CHECK(rig.state.input.enabled);
+    CHECK(rig.state.input.dead_man);
     rig.inputs.mover.sample.buttons = 0;
     rig.inputs.controls_age = 0.0;
     rig.tick();
-    CHECK(rig.state.input.enabled);
+    CHECK(rig.state.input.dead_man);
 }
 
 }  // namespace station_commands_test

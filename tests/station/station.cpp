@@ -95,7 +95,7 @@ TEST_CASE("Station: a puck moves the tool, and every tick can be recorded in ord
             number = tick.number;
             height = tick.input.commanded_tool.position[1];
         }
-        return height > 0.4F && station->latest_tick().input.enabled &&
+        return height > 0.4F && station->latest_tick().input.dead_man &&
                station->latest_tick().input.guide == 1;
     }));
     CHECK(in_order);
@@ -113,7 +113,7 @@ TEST_CASE("Station: every command reaches the servo once and in order; a full qu
     int saved = 0;
     const auto read_ticks = [&] {
         for (StationTick tick; station->next_tick(tick);)
-            saved += tick.input.undo == servo::save_checkpoint ? 1 : 0;
+            saved += tick.input.checkpoint_action == servo::save_checkpoint ? 1 : 0;
     };
     for (int i = 1; i <= rounds; ++i) {
         const Pose there{Vec3(0.001 * i, 0.4, 0.0), Quat(1, 0, 0, 0)};

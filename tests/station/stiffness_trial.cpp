@@ -52,7 +52,7 @@ struct Bench {
     double tick(bool enabled) {
         force::PortInput input;
         input.pose = device::encoder_pose(arm);
-        input.enabled = enabled;
+        input.dead_man = enabled;
         const force::OutputCommand command = step(trial, input, dt);
         under_way_.push_back(command);
         device::step(arm, under_way_.front(), dt);
@@ -87,7 +87,7 @@ TEST_CASE("Stiffness trial: a good arm renders all that it announces, with a fif
     CHECK(m.trial.stable == 5000.0);
     CHECK(m.largest_force <= 0.2 * 12.0 + 1e-9);
     CHECK(m.largest_force > 1.0);
-    CHECK(m.seconds == doctest::Approx(0.5 + stiffness_stages * stiffness_stage_time).epsilon(0.01));
+    CHECK(m.seconds == doctest::Approx(0.5 + stiffness_levels * stiffness_level_time).epsilon(0.01));
     REQUIRE(median_response(m.trial));
     CHECK(*median_response(m.trial) <= 5e-3);
 }
@@ -138,11 +138,11 @@ TEST_CASE("Stiffness trial: it renders only while the button is held, and goes o
     Bench bench(arm_with(0.3, 12.0));
     for (int i = 0; i < 1000; ++i) CHECK(bench.tick(false) == 0.0);
     for (int i = 0; i < 2800; ++i) bench.tick(true);
-    const int reached = bench.trial.stage;
+    const int reached = bench.trial.level;
     CHECK(reached == 2);
     for (int i = 0; i < 20; ++i) bench.tick(false);
     for (int i = 0; i < 1000; ++i) CHECK(bench.tick(false) == 0.0);
-    CHECK(bench.trial.stage == reached);
+    CHECK(bench.trial.level == reached);
     for (int i = 0; i < 20000 && bench.trial.end == TrialEnd::none; ++i) bench.tick(true);
     CHECK(bench.trial.end == TrialEnd::announced);
     for (int i = 0; i < 20; ++i) bench.tick(true);

@@ -39,8 +39,8 @@ TEST_CASE("Station: a closed gripper is the dead-man switch, and opens only when
         rig.inputs.mover.sample.gripper = opening;
         rig.tick();
         CHECK(rig.state.gripper.opening == opening);
-        CHECK(rig.state.input.enabled == rig.state.gripper.closed);
-        return rig.state.input.enabled;
+        CHECK(rig.state.input.dead_man == rig.state.gripper.closed);
+        return rig.state.input.dead_man;
     };
     CHECK_FALSE(enabled_at(1.0));
     CHECK_FALSE(enabled_at(gripper_closes_below + 0.01));
@@ -53,14 +53,14 @@ TEST_CASE("Station: a closed gripper is the dead-man switch, and opens only when
     rig.inputs.mover.sample.gripper = 1.0;
     rig.tick();
     CHECK(rig.state.gripper.closed);
-    CHECK_FALSE(rig.state.input.enabled);
+    CHECK_FALSE(rig.state.input.dead_man);
     // The sample of an arm without a gripper does not count.
     layout.mover->senses_gripper = false;
     Rig without(layout);
     without.inputs.controls.dead_man = false;
     without.inputs.mover.sample.gripper = 0.0;
     without.tick();
-    CHECK_FALSE(without.state.input.enabled);
+    CHECK_FALSE(without.state.input.dead_man);
 }
 
 TEST_CASE("Station: after a clutch, a loss or a reconnection the tool stays and follows from there") {
@@ -97,10 +97,10 @@ TEST_CASE("Station: buttons have their configured function, on connected devices
     rig.layout.mover_buttons = {4, 8, 16, 32};
     rig.inputs.controls.dead_man = false;
     rig.tick();
-    CHECK_FALSE(rig.state.input.enabled);
+    CHECK_FALSE(rig.state.input.dead_man);
     rig.inputs.mover.sample.buttons = 4 | 16;
     rig.tick();
-    CHECK(rig.state.input.enabled);
+    CHECK(rig.state.input.dead_man);
     CHECK(rig.state.input.stop);
     CHECK(rig.state.output.fault == force::Fault::stopped);
     rig.inputs.mover.sample.buttons = 32;
@@ -110,7 +110,7 @@ TEST_CASE("Station: buttons have their configured function, on connected devices
     rig.inputs.mover.sample.buttons = 4;
     rig.inputs.mover.usable = false;
     rig.tick();
-    CHECK_FALSE(rig.state.input.enabled);
+    CHECK_FALSE(rig.state.input.dead_man);
     rig.inputs.missed = 40;
     rig.tick();
     CHECK(rig.state.input.missed == 15);

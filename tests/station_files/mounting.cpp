@@ -194,10 +194,10 @@ TEST_CASE("Station file: its buttons have their functions in the ticks") {
         rig.tick();
         return rig.state.input;
     };
-    CHECK(!with(0).enabled);
-    CHECK(!with(1).enabled);
-    CHECK(with(2).enabled);
-    CHECK(with(16).enabled);
+    CHECK(!with(0).dead_man);
+    CHECK(!with(1).dead_man);
+    CHECK(with(2).dead_man);
+    CHECK(with(16).dead_man);
     CHECK(with(4).stop);
     CHECK(with(8).reset);
     const Vec3 before = rig.tool().position;

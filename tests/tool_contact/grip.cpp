@@ -50,11 +50,11 @@ struct Watch {
         const ToolContact& t = *bench.state.tool_contact;
         for (std::size_t i = 0; i < t.hexagons.size() && t.in_hand; ++i) {
             Pose to_nut = inverse(t.nut_poses[i]) * t.god_object.constrained_tool;
-            if (static_cast<int>(i) == t.seated_joint) {  // beyond the play the hexagon turns with the jaw
+            if (static_cast<int>(i) == t.joint_in_jaw) {  // beyond the play the hexagon turns with the jaw
                 const collision::Jaw& jaw = bench.setup.wrench.jaw;
                 const NutGeometry& nut = bench.setup.nuts[i];
                 const double play = joint::rounded_half_play(jaw.opening, nut.across_flats, 0.0);
-                const double off = collision::seat_of(jaw, prism_of(nut), to_nut).misalignment;
+                const double off = collision::jaw_fit(jaw, prism_of(nut), to_nut).misalignment;
                 const Quat back = glm::angleAxis(off - std::clamp(off, -play, play), Vec3(0, 0, 1));
                 to_nut = Pose{Vec3(0.0), back} * to_nut;
             }
@@ -218,7 +218,7 @@ TEST_CASE(
     const double top = 0.5 * nut.height - prism_of(nut).corner_drop() + bench.setup.wrench.jaw.half_flat();
     const Pose on = lower_onto_nut(bench, watch, top - 0.4e-3);
     REQUIRE(watch.engaged);
-    const double overlap = bench.state.engagement.seat.overlap;
+    const double overlap = bench.state.engagement.fit.overlap;
     CHECK(overlap == doctest::Approx(0.4e-3).epsilon(0.1));
     const double side = prism_of(nut).half_side();
     const double corner_torque =

@@ -150,15 +150,15 @@ TEST_CASE("Preferences: an unreadable file is reported and not overwritten until
     const std::string broken = "{\n  \"format\": \"boltwright settings 1\",\n  \"volum\": 1\n}\n";
     REQUIRE(write_file(path, broken));
     load_preferences(p, "Ada");
-    CHECK(p.trouble == Preferences::Trouble::read_failed);
-    CHECK(p.trouble_message.find(path.string() + ":3:3: ") == 0);
+    CHECK(p.file_error == Preferences::FileError::read_failed);
+    CHECK(p.file_error_message.find(path.string() + ":3:3: ") == 0);
     CHECK(save_preferences(p));
     CHECK(read_file(path, 1000, ErrorCode::failed).value() == broken);
     p.settings.captions = true;
     CHECK(save_preferences(p));
     CHECK(read_file(path.string() + ".unread", 1000, ErrorCode::failed).value() == broken);
     load_preferences(p, "Ada");
-    CHECK(p.trouble == Preferences::Trouble::none);
+    CHECK(p.file_error == Preferences::FileError::none);
     CHECK(p.settings.captions);
 }
 
@@ -170,12 +170,12 @@ TEST_CASE(
     load_preferences(p, "Ada");
     p.settings.force_scale = 0.25;
     CHECK_FALSE(save_preferences(p));
-    CHECK(p.trouble == Preferences::Trouble::write_failed);
-    CHECK(p.trouble_message.find("taken") != std::string::npos);
+    CHECK(p.file_error == Preferences::FileError::write_failed);
+    CHECK(p.file_error_message.find("taken") != std::string::npos);
     CHECK(p.settings.force_scale == 0.25);
     fs::remove(folder / "taken");
     CHECK(save_preferences(p));
-    CHECK(p.trouble == Preferences::Trouble::none);
+    CHECK(p.file_error == Preferences::FileError::none);
     load_preferences(p, "Ada");
     CHECK(p.settings.force_scale == 0.25);
 }

@@ -304,7 +304,7 @@ bool FreeHandUser::lower(const Pose& seated) {
         const Pose tool = hand();
         const Vec3 error = seated.position - tool.position;
         const Vec3 level = error - glm::dot(error, up) * up;
-        const collision::JawSeat seat = collision::seat_of(
+        const collision::JawFit seat = collision::jaw_fit(
             setup().wrench.jaw, servo::prism_of(geometry),
             servo::on_nut(geometry, state().joints[joint].nut.angle, servo::at_pose(tool)));
         const Vec3 handle = grip_of(tool) - tool.position;
@@ -323,7 +323,7 @@ void FreeHandUser::push_down() {
     hold(true);
     double most = 0.0, moved = now();
     while (going() && due() != nullptr && engaged() >= 0 && now() < moved + settled_time) {
-        const double overlap = state().engagement.seat.overlap;
+        const double overlap = state().engagement.fit.overlap;
         if (overlap > most + settled) moved = now();
         most = std::max(most, overlap);
         frame({}, push_speed * seconds_ / notch_on_bolt);

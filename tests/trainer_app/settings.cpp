@@ -202,7 +202,7 @@ TEST_CASE("Settings: an unreadable file is reported with its position, and lesso
     const fs::path path = content::settings_path(settings_folder, "Ada");
     REQUIRE(write_file(path, "{\n  \"format\": 7\n}\n"));
     SettingsTrainer driver(options(true));
-    CHECK(driver.app().preferences().trouble == Preferences::Trouble::read_failed);
+    CHECK(driver.app().preferences().file_error == Preferences::FileError::read_failed);
     REQUIRE(driver.log().size() == 1);
     CHECK(driver.log().front().find(path.string() + ":2:13: ") == 0);
     driver.press_button("menu.start");

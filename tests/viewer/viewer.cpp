@@ -101,7 +101,7 @@ TEST_CASE("Recording: its states are those of the replay, to the bit") {
         for (const world::Joint& joint : state.joints)
             CHECK(same_joint(joint, world::joint_at(world::ReadJoints(world), joint.index)));
         CHECK(state.tool.pose.position == world.only<world::ConstrainedTool>().pose.position);
-        CHECK(state.contact.joint == world.only<world::ContactState>().joint);
+        CHECK(state.contact.joint == world.only<world::ToolState>().joint);
         ++compared;
         return true;
     }));

@@ -16,7 +16,7 @@ struct Bench {
     world::World world;
 
     Bench() {
-        input.enabled = true;
+        input.dead_man = true;
         world::add_haptics(world, state, {Vec3(0.3, 0.0, 0.1), Quat(1, 0, 0, 0)});
     }
     servo::Output tick() {
@@ -40,7 +40,7 @@ TEST_CASE("World: after each tick the components equal the servo's values bit fo
     for (int i = 0; i < 1600; ++i) {
         bench.put_on(1, to_radians(0.05 * i));
         const servo::Output output = bench.tick();
-        const world::ContactState& contact = bench.world.only<world::ContactState>();
+        const world::ToolState& contact = bench.world.only<world::ToolState>();
         REQUIRE(contact.joint == output.joint);
         REQUIRE(bench.world.only<world::ConstrainedTool>().pose.position == output.constrained_tool.position);
         REQUIRE(bench.world.only<world::DeviceForce>().torque == output.torque);

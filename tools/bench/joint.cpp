@@ -20,7 +20,7 @@ JointDesign m16() {
     return d;
 }
 
-// The argument is the number of joints. All are tight, on a 60 mm grid; a handle turns one nut on and off.
+// The argument is the number of joints. All are tight, on a 60 mm grid; a drive turns one nut on and off.
 void group_tick(benchmark::State& state) {
     const auto n = static_cast<std::size_t>(state.range(0));
     std::vector<JointDesign> designs(n, m16());
@@ -32,15 +32,15 @@ void group_tick(benchmark::State& state) {
     for (std::size_t i = 0; i < n; ++i) {
         joints[i].mechanistic.angle = joints[i].nut.angle = 0.3;  // a few kilonewtons
     }
-    DriveHandle handle;
-    handle.engaged = true;
-    handle.stiffness = 2000.0;
-    handle.half_play = 0.01;
+    NutDrive drive;
+    drive.engaged = true;
+    drive.stiffness = 2000.0;
+    drive.half_play = 0.01;
     double t = 0.0;
     for (auto _ : state) {
         t += 1e-3;
-        handle.angle = 0.5 + 0.2 * std::sin(3.0 * t);
-        step_group(group, joints, 0, handle, 1e-3);
+        drive.angle = 0.5 + 0.2 * std::sin(3.0 * t);
+        step_group(group, joints, 0, drive, 1e-3);
         benchmark::DoNotOptimize(joints.data());
     }
     state.SetComplexityN(state.range(0));
@@ -98,14 +98,14 @@ BENCHMARK(yielding_tick);
 void published_tick(benchmark::State& state) {
     const GroupParameters group = make_published_group(PublishedParameters{});
     std::vector<JointState> joints = initial_state(group, 1);
-    DriveHandle handle;
-    handle.engaged = true;
-    handle.stiffness = 2000.0;
+    NutDrive drive;
+    drive.engaged = true;
+    drive.stiffness = 2000.0;
     double t = 0.0;
     for (auto _ : state) {
         t += 1e-3;
-        handle.angle = to_radians(7125.0) + 0.1 * std::sin(3.0 * t);
-        step_group(group, joints, 0, handle, 1e-3);
+        drive.angle = to_radians(7125.0) + 0.1 * std::sin(3.0 * t);
+        step_group(group, joints, 0, drive, 1e-3);
         benchmark::DoNotOptimize(joints.data());
     }
 }
@@ -125,7 +125,7 @@ void servo_tick_12_joints(benchmark::State& state) {
     const servo::Setup setup = servo::make_setup(description);
     servo::State servo = servo::initial_state(setup);
     servo::Input input;
-    input.enabled = true;
+    input.dead_man = true;
     input.grip = servo::Grip::fingers;
     const Vec3 centre = servo::nut_centre(setup.nuts[0], 0.0);
     for (int i = 0; i < 3; ++i) input.commanded_tool.position[i] = static_cast<float>(centre[i]);

@@ -212,7 +212,7 @@ void reset(ServoFixture& servo) {
     servo::ToolContact contact = std::move(*servo.state.tool_contact);
     contact.narrow_phase = collision::make_narrow_phase(contact.world, contact.wrench);
     contact.god_object = {};
-    contact.seated_joint = -1;
+    contact.joint_in_jaw = -1;
     contact.last_step = {};
     contact.in_hand = false;
     contact.touched = {};
@@ -247,7 +247,7 @@ std::vector<servo::Input> make_path(ServoFixture& servo, const DeviceModel& devi
                 target = {glm::mix(from.position, leg.to.position, s),
                           glm::slerp(from.orientation, leg.to.orientation, s)};
                 servo::Input input;
-                input.enabled = true;
+                input.dead_man = true;
                 input.grip = servo::Grip::wrench;
                 input.guide = leg.guide;
                 input.commanded_tool =

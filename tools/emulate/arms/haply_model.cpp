@@ -77,7 +77,7 @@ void HaplyArmModel::step() {
     const Vec3 spring = options_.stiffness * (intention - position_);
     // Implicit in the friction.
     velocity_ = (velocity_ + dt / options_.mass * (spring + force())) /
-                (1.0 + dt / options_.mass * options_.friction);
+                (1.0 + dt / options_.mass * options_.viscous_friction);
     position_ += dt * velocity_;
 }
 

@@ -50,9 +50,9 @@ struct EmulatedHaplyOptions {
     double command_lifetime = 5e-3;  // s that one message keeps a force
     double answer_delay = 0.0;       // s from a message to its answer
     // The hand that holds the arm.
-    double mass = 0.4;         // kg, of both
-    double friction = 12.0;    // N·s/m
-    double stiffness = 300.0;  // N/m, of the spring to the intended position
+    double mass = 0.4;               // kg, of both
+    double viscous_friction = 12.0;  // N·s/m
+    double stiffness = 300.0;        // N/m, of the spring to the intended position
 };
 
 // The arm, the hand, and what the service says of them. Not safe for threads.

@@ -92,7 +92,7 @@ std::optional<double> free_way(servo::ToolContact& contact, const Pose& start, c
         const Pose pose{start.position + way * direction, start.orientation};
         const collision::ContactQueryResult result =
             collision::find_contacts(contact.world, contact.wrench, pose, band, contact.narrow_phase, found);
-        double nearest = result.clearance;
+        double nearest = result.complete_within;
         for (const collision::Contact& c : std::span(found).first(result.count))
             nearest = std::min(nearest, c.distance);
         if (nearest < 2.0 * contact.parameters.skin) return way > clear ? std::optional(way) : std::nullopt;
@@ -126,7 +126,8 @@ Aim aim_at(const collision::Box& casing, std::string_view name, Random& random) 
     return aim;
 }
 
-// Near a bolt the wrench turns to it by itself (haptics/station/pivot.hpp), away from where the hand presses.
+// Near a bolt the wrench turns to it by itself (haptics/station/near_nut.cpp), away from where the hand
+// presses.
 bool near_a_bolt(const servo::Setup& setup, const Vec3& jaw) {
     constexpr double aside = 0.13, above = 0.11;  // m
     return std::any_of(setup.nuts.begin(), setup.nuts.end(), [&](const servo::NutGeometry& nut) {

@@ -43,7 +43,7 @@ class SimulatedHand {
 
     servo::Output step(const Pose& hand, servo::Grip grip = servo::Grip::wrench) {
         servo::Input input;
-        input.enabled = true;
+        input.dead_man = true;
         input.grip = grip;
         input.commanded_tool = servo::to_commanded_tool(hand);
         const servo::Output output = servo::tick(setup_, state_, input);
@@ -89,14 +89,14 @@ class SimulatedHand {
     [[nodiscard]] Pose world_pose_of(const ObstaclePart& part, const Pose& tool) const {
         const servo::ToolContact& contact = *state_.tool_contact;
         const Pose pose_of_body = contact.world.bodies[part.body].pose;
-        if (contact.seated_joint < 0 ||
-            part.id != collision::ObstacleId::nut(static_cast<std::size_t>(contact.seated_joint)))
+        if (contact.joint_in_jaw < 0 ||
+            part.id != collision::ObstacleId::nut(static_cast<std::size_t>(contact.joint_in_jaw)))
             return pose_of_body;
         const collision::Jaw& jaw = setup_.wrench.jaw;
-        const servo::NutGeometry& nut = setup_.nuts[static_cast<std::size_t>(contact.seated_joint)];
+        const servo::NutGeometry& nut = setup_.nuts[static_cast<std::size_t>(contact.joint_in_jaw)];
         const double play = joint::rounded_half_play(jaw.opening, nut.across_flats, 0.0);
         const double off =
-            collision::seat_of(jaw, servo::prism_of(nut), inverse(pose_of_body) * tool).misalignment;
+            collision::jaw_fit(jaw, servo::prism_of(nut), inverse(pose_of_body) * tool).misalignment;
         return {pose_of_body.position,
                 pose_of_body.orientation * glm::angleAxis(std::clamp(off, -play, play) - off, Vec3(0, 0, 1))};
     }

@@ -1,7 +1,10 @@
-#include "haptics/station/pivot.hpp"
-
+// A station moves the tool near a nut: a wrench pivots about the bolt, and a tool whose device renders no
+// force approaches the nut by itself.
 #include <algorithm>
 #include <limits>
+
+#include "haptics/servo/tick.hpp"
+#include "haptics/station/station_tick.hpp"
 
 namespace bolt::station {
 
@@ -83,12 +86,52 @@ void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationSt
     const Vec3 lever_end = force::lever_end(s.workspace, s.workspace.commanded_tool);
     const double lever_arm = s.workspace.lever_arm;
     // Without output nothing holds the jaw: a tilted wrench that was turned square would sink into the work.
-    const bool turns = s.input.enabled && !is_held_back(last, s.output);
+    const bool turns = s.input.dead_man && !is_held_back(last, s.output);
     const double max_turn = turns ? pivot_rate * dt : 0.0;
     force::realign(layout.workspace, s.workspace, s.mover_pose,
                    s.output.joint >= 0
                        ? force::pivoted(pivot, s.output.constrained_tool, lever_arm, lever_end)
                        : squared(last, pivot, lever_arm, lever_end, max_turn));
+}
+
+namespace {
+
+// Chosen for a tool that approaches a nut by itself: 12 cm/s from 8 cm on, slower than a user who pushes it
+// away.
+constexpr force::GuidingParameters approach_guiding{.gain = 0.25, .max_force = 3.0, .max_torque = 0.2};
+constexpr double approach_speed = 0.04;         // m/s per N of the guiding law
+constexpr double approach_angular_speed = 3.0;  // rad/s per N·m; slower than a user who turns the tool
+
+}  // namespace
+
+void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
+                 const StationInputs& inputs, servo::Input& input) {
+    if (!layout.mover || layout.mover->sensing != device::Sensing::velocity || renders_force(*layout.mover))
+        return;
+    Pose& tool = s.workspace.commanded_tool;
+    const int held = s.output.joint;
+    const int joint = held < 0 && s.mover.usable && input.dead_man ? inputs.controls.approach_joint : -1;
+    // A held nut carries the tool along as it descends.
+    if (held >= 0) {
+        const auto i = static_cast<std::size_t>(held);
+        const Vec3 at = servo::nut_centre(setup.nuts[i], servo.joints[i].nut.angle);
+        if (s.carrying_joint == held) tool.position += at - s.carrying_point;
+        s.carrying_point = at;
+    }
+    s.carrying_joint = held;
+    const servo::ToolPose now = servo::at_pose(s.workspace.commanded_tool);
+    const auto free = [&](const Vec3& from, const Vec3& to) {
+        return !servo.tool_contact || !servo::occluded(*servo.tool_contact, from, to, joint);
+    };
+    const force::OutputCommand guiding =
+        force::guide(approach_guiding, s.approach_guide, servo::guided_tool(setup, now),
+                     servo::guide_target(setup, servo.joints, joint), free, setup.dt)
+            .command;
+    tool.position += approach_speed * setup.dt * guiding.force;
+    tool.orientation =
+        glm::normalize(rotation(approach_angular_speed * setup.dt * guiding.torque) * tool.orientation);
+    input.commanded_tool = servo::to_commanded_tool(tool);
+    s.input = input;
 }
 
 }  // namespace bolt::station
