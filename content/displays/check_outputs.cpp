@@ -70,6 +70,12 @@ std::string monitor_list(std::span<const Monitor> monitors) {
     return text;
 }
 
+// "did you mean "DP-1"?" or "expected one of DP-1, DP-2".
+std::string suggestion(const std::string& name, std::span<const std::string> names) {
+    const std::string text = suggest(name, names);
+    return (text.starts_with("did you mean") ? "" : "expected ") + text;
+}
+
 // Finds the output's monitor, or reports why there is none.
 void place_on_monitors(PlacedOutput& placed, std::span<const Monitor> monitors,
                        std::vector<DisplayFinding>& findings) {
@@ -90,10 +96,8 @@ void place_on_monitors(PlacedOutput& placed, std::span<const Monitor> monitors,
         names.push_back(monitor.name);
     }
     if (!output.monitor.empty() && found == nullptr)
-        findings.push_back({true, Error{.what = fmt::format("{}: there is no monitor {}", placed.place,
-                                                            in_quotes(output.monitor)),
-                                        .expected = suggest(output.monitor, names)}
-                                      .message()});
+        findings.push_back({true, fmt::format("{}: there is no monitor {}; {}", placed.place,
+                                              in_quotes(output.monitor), suggestion(output.monitor, names))});
     if (output.monitor_index) {
         const auto index = static_cast<std::size_t>(*output.monitor_index);
         if (index < monitors.size())

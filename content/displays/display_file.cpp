@@ -56,11 +56,12 @@ ordered_json json_of(const HeadTracking& head) {
     if (head.tracker == HeadTracker::dtrack || head.port != unless_given.port) object["port"] = head.port;
     if (head.tracker == HeadTracker::dtrack || head.body != unless_given.body) object["body"] = head.body;
     if (!head.recording.empty()) object["recording"] = head.recording;
-    if (head.tracker == HeadTracker::fixed && head == HeadTracking{.fixed_head = head.fixed_head,
-                                                                   .port = head.port,
-                                                                   .body = head.body,
-                                                                   .recording = head.recording})
-        return object;
+    HeadTracking without_settings;
+    without_settings.fixed_head = head.fixed_head;
+    without_settings.port = head.port;
+    without_settings.body = head.body;
+    without_settings.recording = head.recording;
+    if (head == without_settings) return object;
     for (const TrackerAxis& axis : head.axes) object["axes"].push_back(axis_name(axis));
     object["scale"] = head.scale;
     object["tracker_in_room"] = json_of(head.tracker_in_room);

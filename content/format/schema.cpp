@@ -267,18 +267,18 @@ std::vector<SchemaViolation> explain_value(const json& schema, const json& node,
 using valijson::adapters::NlohmannJsonAdapter;
 
 struct JsonSchema::Compiled {
-    json parsed;
+    nlohmann::json parsed;
     valijson::Schema schema;  // cannot be moved
 };
 
 JsonSchema::JsonSchema(std::string_view text) : compiled_(std::make_unique<Compiled>()) {
-    compiled_->parsed = json::parse(text);
+    compiled_->parsed = nlohmann::json::parse(text);
     valijson::SchemaParser().populateSchema(NlohmannJsonAdapter(compiled_->parsed), compiled_->schema);
 }
 
 JsonSchema::~JsonSchema() = default;
 
-const json& JsonSchema::json() const { return compiled_->parsed; }
+const nlohmann::json& JsonSchema::json() const { return compiled_->parsed; }
 
 std::map<std::vector<std::string>, std::string> validator_errors(const nlohmann::json& document,
                                                                  const JsonSchema& schema) {

@@ -3,10 +3,11 @@
 //   fr 21753
 //   ts 39596.024831
 //   6dcal 2
-//   6d 1 [0 1.000][326.8 -187.2 109.5 -160.5 -3.7 -7.1][-0.94 -0.34 -0.02 0.33 -0.93 0.14 -0.06 0.12 0.99]
+//   6d 1 [0 1.0][326.8 -187.2 109.5 -160.5 -3.7 -7.1][-0.941 -0.339 -0.019 0.334 -0.933 0.138 -0.064 0.123
+//   0.990]
 //
-// A body in a 6d line has an id and a quality, its position in mm and three angles, and the columns of its
-// rotation matrix. A body that is not seen is missing or has the quality -1.
+// A body in a 6d line has an id and a quality, its position in mm and three angles (which are not used), and
+// the columns of its rotation matrix. A body that is not seen is missing or has the quality -1.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +34,7 @@ struct DtrackFrame {
 };
 
 inline constexpr std::size_t max_dtrack_bodies = 256;
-inline constexpr double rotation_tolerance = 1e-3;  // of lengths and right angles of a matrix in a packet
+inline constexpr double rotation_tolerance = 0.01;  // of products of columns; a packet may have few digits
 
 // None if the packet is damaged: no frame number, or a 6d line that is cut or has another form. Other lines,
 // such as those of flysticks (6df) and markers (3d), are skipped.
