@@ -22,8 +22,24 @@ void check_names(const DisplayFile& displays, Findings& findings) {
         for (std::size_t j = 0; j < i; ++j)
             if (displays.walls[i].name == displays.walls[j].name)
                 findings.push_back(
-                    {true, fmt::format("walls {} and {} are both named {}; expected a name of its own", j + 1,
-                                       i + 1, in_quotes(displays.walls[i].name))});
+                    {true,
+                     fmt::format("walls {} and {} are both named {}; expected a name of its own", j + 1,
+                                 i + 1, in_quotes(displays.walls[i].name)),
+                     i});
+}
+
+void check_eyes(const DisplayFile& displays, Findings& findings) {
+    const double separation = displays.eye_separation;
+    const bool stereo = std::any_of(displays.walls.begin(), displays.walls.end(),
+                                    [](const Wall& wall) { return wall.stereo != StereoMode::mono; });
+    if (!(separation >= 0.0 && separation <= max_eye_separation))
+        findings.push_back({true, fmt::format("the eye separation is {:g} m; expected 0 to {:g} m",
+                                              separation, max_eye_separation)});
+    else if (stereo && (separation < narrow_eyes || separation > wide_eyes))
+        findings.push_back(
+            {false, fmt::format("the eye separation is {:g} m; expected {:g} to {:g} m, the distance "
+                                "between the pupils of the viewer",
+                                separation, narrow_eyes, wide_eyes)});
 }
 
 // Returns true if the corners make a rectangle of plausible size, so that other checks make sense.
@@ -100,17 +116,25 @@ void check_pair(const Wall& wall, const Wall& other, Findings& findings) {
 std::vector<DisplayFinding> check_walls(const DisplayFile& displays) {
     Findings findings;
     check_names(displays, findings);
-    if (!(displays.eye_separation >= 0.0 && displays.eye_separation <= max_eye_separation))
-        findings.push_back({true, fmt::format("the eye separation is {:g} m; expected 0 to {:g} m",
-                                              displays.eye_separation, max_eye_separation)});
-    std::vector<const Wall*> shaped;
-    for (const Wall& wall : displays.walls) {
-        if (!check_shape(wall, findings)) continue;
-        check_viewer(displays, wall, findings);
-        shaped.push_back(&wall);
+    check_eyes(displays, findings);
+    std::vector<std::size_t> shaped;
+    const auto place_at = [&](std::size_t wall, std::size_t from) {
+        for (std::size_t i = from; i < findings.size(); ++i) findings[i].wall = wall;
+    };
+    for (std::size_t i = 0; i < displays.walls.size(); ++i) {
+        const std::size_t before = findings.size();
+        if (check_shape(displays.walls[i], findings)) {
+            check_viewer(displays, displays.walls[i], findings);
+            shaped.push_back(i);
+        }
+        place_at(i, before);
     }
-    for (std::size_t i = 0; i < shaped.size(); ++i)
-        for (std::size_t j = i + 1; j < shaped.size(); ++j) check_pair(*shaped[i], *shaped[j], findings);
+    for (std::size_t j = 0; j < shaped.size(); ++j)
+        for (std::size_t i = 0; i < j; ++i) {
+            const std::size_t before = findings.size();
+            check_pair(displays.walls[shaped[i]], displays.walls[shaped[j]], findings);
+            place_at(shaped[j], before);
+        }
     return findings;
 }
 
@@ -124,10 +148,18 @@ std::vector<DisplayFinding> check_displays(const DisplayFile& displays, std::spa
     return findings;
 }
 
-std::string describe(std::span<const DisplayFinding> findings) {
+std::string describe(std::span<const DisplayFinding> findings, const LoadedDisplays& loaded) {
     std::string text;
-    for (const DisplayFinding& finding : findings)
-        text += fmt::format("{}{}\n", finding.prevents_use ? "" : "warning: ", finding.text);
+    for (const DisplayFinding& finding : findings) {
+        Error line;
+        line.file = loaded.file;
+        line.what = (finding.prevents_use ? "" : "warning: ") + finding.text;
+        if (finding.wall && *finding.wall < loaded.wall_positions.size()) {
+            line.line = loaded.wall_positions[*finding.wall].line;
+            line.column = loaded.wall_positions[*finding.wall].column;
+        }
+        text += line.message() + "\n";
+    }
     return text;
 }
 

@@ -1,6 +1,7 @@
 // Checks of a display file that go beyond the form of its members. All are pure functions.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ struct DisplayFinding {
     // The picture would be wrong or could not be shown. False: it is shown, but probably not as intended.
     bool prevents_use = false;
     std::string text;
+    std::optional<std::size_t> wall{};  // index of the wall, of two walls the later one; none: the whole file
 };
 
 // A monitor of a computer, and where it is on the desktop.
@@ -21,6 +23,9 @@ struct Monitor {
     int x = 0, y = 0, width = 0, height = 0;  // pixels, y down
     bool operator==(const Monitor&) const = default;
 };
+
+// The monitor that an output fills; null: it is in a window, or there is no such monitor.
+const Monitor* find_monitor(const DisplayOutput& output, std::span<const Monitor> monitors);
 
 // Tolerances of the checks.
 inline constexpr double right_angle_tolerance = to_radians(0.5);
@@ -31,6 +36,7 @@ inline constexpr double wall_tolerance = 0.01;       // m, by which walls may cr
 inline constexpr double seam_tolerance = 0.001;      // m, of a gap between walls that meet
 inline constexpr double seam_width = 0.05;           // m, of the widest gap that is taken for a seam
 inline constexpr double pixel_tolerance = 0.01;      // of the ratio of a pixel's width to its height
+inline constexpr double narrow_eyes = 0.05, wide_eyes = 0.08;  // m; nearly all adults are between these
 
 // Names, shapes, the fixed head in front of each wall, crossings, overlaps, seams, and the eye separation.
 std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
@@ -45,7 +51,7 @@ std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, std::span
 std::vector<DisplayFinding> check_displays(const DisplayFile& displays,
                                            std::span<const Monitor> monitors = {}, int rank = 0);
 
-// A line each.
-std::string describe(std::span<const DisplayFinding> findings);
+// A line each; it begins with file, line and column of the wall.
+std::string describe(std::span<const DisplayFinding> findings, const LoadedDisplays& loaded);
 
 }  // namespace bolt::content

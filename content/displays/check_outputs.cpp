@@ -9,6 +9,8 @@ namespace bolt::content {
 
 namespace {
 
+using Findings = std::vector<DisplayFinding>;
+
 struct PixelRect {
     int x = 0, y = 0, width = 0, height = 0;
 };
@@ -17,6 +19,7 @@ struct PixelRect {
 struct PlacedOutput {
     std::string place;  // for messages
     const Wall* wall = nullptr;
+    std::size_t index = 0;  // of the wall
     const DisplayOutput* output = nullptr;
     std::optional<PixelRect> rect;
     std::optional<PixelSize> size;
@@ -49,7 +52,12 @@ bool is_covered(const PixelRect& rect, std::span<const Monitor> by) {
 std::vector<PlacedOutput> outputs_of(const DisplayFile& displays) {
     std::vector<PlacedOutput> all;
     const auto add = [&](const Wall& wall, const DisplayOutput& output, const char* eye) {
-        PlacedOutput placed{"wall " + in_quotes(wall.name) + eye, &wall, &output, {}, output.resolution};
+        PlacedOutput placed;
+        placed.place = "wall " + in_quotes(wall.name) + eye;
+        placed.wall = &wall;
+        placed.index = static_cast<std::size_t>(&wall - displays.walls.data());
+        placed.output = &output;
+        placed.size = output.resolution;
         if (output.position && output.resolution)
             placed.rect = {output.position->x, output.position->y, output.resolution->width,
                            output.resolution->height};
@@ -62,72 +70,70 @@ std::vector<PlacedOutput> outputs_of(const DisplayFile& displays) {
     return all;
 }
 
+std::string geometry(const PixelRect& rect) {
+    return fmt::format("{}x{}+{}+{}", rect.width, rect.height, rect.x, rect.y);
+}
+
 std::string monitor_list(std::span<const Monitor> monitors) {
     std::string text;
     for (const Monitor& m : monitors)
         text +=
-            fmt::format("{}{} {}x{}+{}+{}", text.empty() ? "" : ", ", m.name, m.width, m.height, m.x, m.y);
+            fmt::format("{}{} {}", text.empty() ? "" : ", ", m.name, geometry({m.x, m.y, m.width, m.height}));
     return text;
 }
 
 // "did you mean "DP-1"?" or "expected one of DP-1, DP-2".
-std::string suggestion(const std::string& name, std::span<const std::string> names) {
+std::string suggestion(const std::string& name, std::span<const Monitor> monitors) {
+    std::vector<std::string> names;
+    for (const Monitor& monitor : monitors) names.push_back(monitor.name);
     const std::string text = suggest(name, names);
     return (text.starts_with("did you mean") ? "" : "expected ") + text;
 }
 
+void report(Findings& findings, bool prevents_use, const PlacedOutput& placed, const std::string& text) {
+    findings.push_back({prevents_use, placed.place + ": " + text, placed.index});
+}
+
 // Finds the output's monitor, or reports why there is none.
-void place_on_monitors(PlacedOutput& placed, std::span<const Monitor> monitors,
-                       std::vector<DisplayFinding>& findings) {
+void place_on_monitors(PlacedOutput& placed, std::span<const Monitor> monitors, Findings& findings) {
     const DisplayOutput& output = *placed.output;
     if (placed.rect) {
         if (!is_covered(*placed.rect, monitors))
-            findings.push_back(
-                {true, fmt::format("{}: the window {}x{}+{}+{} is not on the monitors; expected it "
-                                   "within {}",
-                                   placed.place, placed.rect->width, placed.rect->height, placed.rect->x,
-                                   placed.rect->y, monitor_list(monitors))});
+            report(findings, true, placed,
+                   fmt::format("the window {} is not on the monitors; expected it within {}",
+                               geometry(*placed.rect), monitor_list(monitors)));
         return;
     }
-    const Monitor* found = nullptr;
-    std::vector<std::string> names;
-    for (const Monitor& monitor : monitors) {
-        if (!output.monitor.empty() && monitor.name == output.monitor) found = &monitor;
-        names.push_back(monitor.name);
-    }
-    if (!output.monitor.empty() && found == nullptr)
-        findings.push_back({true, fmt::format("{}: there is no monitor {}; {}", placed.place,
-                                              in_quotes(output.monitor), suggestion(output.monitor, names))});
-    if (output.monitor_index) {
-        const auto index = static_cast<std::size_t>(*output.monitor_index);
-        if (index < monitors.size())
-            found = &monitors[index];
-        else
-            findings.push_back(
-                {true, fmt::format("{}: there is no monitor with the index {}; expected 0 to {}",
-                                   placed.place, index, monitors.size() - 1)});
-    }
+    const Monitor* found = find_monitor(output, monitors);
+    if (found == nullptr && output.monitor_index)
+        report(findings, true, placed,
+               fmt::format("there is no monitor with the index {}; expected 0 to {}", *output.monitor_index,
+                           monitors.size() - 1));
+    else if (found == nullptr)
+        report(findings, true, placed,
+               fmt::format("there is no monitor {}; {}", in_quotes(output.monitor),
+                           suggestion(output.monitor, monitors)));
     if (found == nullptr) return;
     placed.rect = {found->x, found->y, found->width, found->height};
     const PixelSize size{found->width, found->height};
     if (placed.size && *placed.size != size)
-        findings.push_back(
-            {false, fmt::format("{}: the monitor {} has {}x{} pixels; expected {}x{}, as the file says",
-                                placed.place, in_quotes(found->name), size.width, size.height,
-                                placed.size->width, placed.size->height)});
+        report(findings, false, placed,
+               fmt::format("the monitor {} has {}x{} pixels; expected {}x{}, as the file says",
+                           in_quotes(found->name), size.width, size.height, placed.size->width,
+                           placed.size->height));
     placed.size = size;
 }
 
-void check_pixels(const PlacedOutput& placed, std::vector<DisplayFinding>& findings) {
+void check_pixels(const PlacedOutput& placed, Findings& findings) {
     if (!placed.size) return;
     const Wall& wall = *placed.wall;
     const auto [across, upwards] = *placed.size;
     const bool beside = wall.stereo == StereoMode::side_by_side,
                above = wall.stereo == StereoMode::top_bottom;
     if ((beside && across % 2 != 0) || (above && upwards % 2 != 0)) {
-        findings.push_back(
-            {true, fmt::format("{}: {}x{} pixels cannot be halved for two eyes; expected an even {}",
-                               placed.place, across, upwards, beside ? "width" : "height")});
+        report(findings, true, placed,
+               fmt::format("{}x{} pixels cannot be halved for two eyes; expected an even {}", across, upwards,
+                           beside ? "width" : "height"));
         return;
     }
     const double tall = width(wall) / across / (height(wall) / upwards);  // pixel: width over height
@@ -135,11 +141,11 @@ void check_pixels(const PlacedOutput& placed, std::vector<DisplayFinding>& findi
     const auto is_square = [](double ratio) { return std::abs(ratio - 1.0) <= pixel_tolerance; };
     // Screens that take both pictures squeezed into one have square pixels again.
     if (is_square(halved) || is_square(tall) || !(height(wall) > 0.0)) return;
-    findings.push_back(
-        {false, fmt::format("{}: its pixels are not square: {:.3g} m by {:.3g} m with {}x{} pixels"
-                            "{}, so a pixel is {:.3f} times as wide as high",
-                            placed.place, width(wall), height(wall), across, upwards,
-                            beside || above ? " for two eyes" : "", halved)});
+    report(findings, false, placed,
+           fmt::format("its pixels are not square: {:.3g} m by {:.3g} m with {}x{} pixels{}, so a pixel is "
+                       "{:.3f} times as wide as high",
+                       width(wall), height(wall), across, upwards, beside || above ? " for two eyes" : "",
+                       halved));
 }
 
 // Returns true if both outputs name the same monitor, or rectangles of the same desktop that overlap.
@@ -152,6 +158,16 @@ bool collide(const PlacedOutput& a, const PlacedOutput& b) {
 }
 
 }  // namespace
+
+const Monitor* find_monitor(const DisplayOutput& output, std::span<const Monitor> monitors) {
+    if (output.monitor_index) {
+        const auto index = static_cast<std::size_t>(*output.monitor_index);
+        return index < monitors.size() ? &monitors[index] : nullptr;
+    }
+    for (const Monitor& monitor : monitors)
+        if (!output.monitor.empty() && monitor.name == output.monitor) return &monitor;
+    return nullptr;
+}
 
 std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, std::span<const Monitor> monitors,
                                           int rank) {
@@ -166,8 +182,10 @@ std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, std::span
         for (std::size_t j = i + 1; j < outputs.size(); ++j)
             if (collide(outputs[i], outputs[j]))
                 findings.push_back(
-                    {true, fmt::format("{} and {} are shown on the same pixels; expected an output for each",
-                                       outputs[i].place, outputs[j].place)});
+                    {true,
+                     fmt::format("{} and {} are shown on the same pixels; expected an output for each",
+                                 outputs[i].place, outputs[j].place),
+                     outputs[j].index});
     return findings;
 }
 

@@ -96,6 +96,7 @@ LoadedDisplays load_displays(const std::filesystem::path& path) {
     const Result<std::string> text = read_file(path, max_display_file_size, ErrorCode::bad_content);
     if (text) return parse_displays(*text, path.string());
     LoadedDisplays loaded;
+    loaded.file = path.string();
     loaded.errors.push_back(text.error());
     return loaded;
 }

@@ -110,10 +110,17 @@ struct DisplayFile {
     bool operator==(const DisplayFile&) const = default;
 };
 
+// A place in a text file, 1-based; a column counts characters.
+struct FilePosition {
+    int line = 0, column = 0;
+};
+
 // A display file without mistakes, or all mistakes of the file in its order, each with
 // ErrorCode::bad_content, file, line, column and JSON pointer.
 struct LoadedDisplays {
     DisplayFile displays;
+    std::string file;                          // for messages
+    std::vector<FilePosition> wall_positions;  // of displays.walls, so that later checks can name them
     std::vector<Error> errors;
     [[nodiscard]] bool ok() const { return errors.empty(); }
 };

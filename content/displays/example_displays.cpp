@@ -1,5 +1,7 @@
 #include "content/displays/example_displays.hpp"
 
+#include <algorithm>
+
 namespace bolt::content {
 
 namespace {
@@ -42,7 +44,6 @@ DisplayFile single_wall() {
     wall.lower_left = {-2.0, 0.3, 0.0};
     wall.lower_right = {2.0, 0.3, 0.0};
     wall.upper_right = {2.0, 2.55, 0.0};
-    wall.stereo = StereoMode::side_by_side;
     wall.output.monitor_index = 0;
     wall.output.resolution = PixelSize{3840, 2160};
     file.walls.push_back(wall);
@@ -70,9 +71,22 @@ const std::vector<std::string>& display_kind_names() {
     return names;
 }
 
-DisplayFile example_displays(DisplayKind kind) {
-    if (kind == DisplayKind::cave) return cave();
-    return kind == DisplayKind::desk ? desk() : single_wall();
+DisplayFile example_displays(DisplayKind kind, StereoMode stereo) {
+    DisplayFile file = kind == DisplayKind::cave   ? cave()
+                       : kind == DisplayKind::desk ? desk()
+                                                   : single_wall();
+    int bottom = 0;  // of all windows, pixels
+    for (const Wall& wall : file.walls)
+        if (wall.output.position)
+            bottom = std::max(bottom, wall.output.position->y + wall.output.resolution->height);
+    for (Wall& wall : file.walls) {
+        wall.stereo = stereo;
+        if (stereo != StereoMode::two_outputs) continue;
+        wall.right_output = wall.output;
+        if (wall.right_output->position) wall.right_output->position->y += bottom;
+        if (wall.right_output->monitor_index) ++*wall.right_output->monitor_index;
+    }
+    return file;
 }
 
 }  // namespace bolt::content

@@ -210,6 +210,7 @@ std::string axis_name(const TrackerAxis& axis) {
 
 LoadedDisplays parse_displays(std::string_view text, const std::string& file) {
     LoadedDisplays loaded;
+    loaded.file = file;
     const auto document = JsonDocument::parse(text, file, loaded.errors);
     if (!document) return loaded;
     JsonReader reader(*document, displays_schema());
@@ -220,7 +221,12 @@ LoadedDisplays parse_displays(std::string_view text, const std::string& file) {
     displays.name = reader.text(reader.member(root, "name")).value_or("");
     read_number(reader, root, "eye_separation_m", displays.eye_separation);
     displays.head = read_head(reader, reader.member(root, "head"));
-    displays.walls = read_walls(reader, reader.member(root, "walls"));
+    const JsonNode walls = reader.member(root, "walls");
+    displays.walls = read_walls(reader, walls);
+    for (const JsonNode& wall : reader.items(walls)) {
+        const Error place = document->error(wall.pointer, JsonPart::value, {}, {});
+        loaded.wall_positions.push_back({place.line, place.column});
+    }
     for (Error& error : reader.take_errors()) loaded.errors.push_back(std::move(error));
     sort_by_position(loaded.errors);
     return loaded;

@@ -29,6 +29,21 @@ void add_scale(TestPattern& pattern, const dvec2& from, const dvec2& direction, 
     for (const dvec2& end : {from, to}) add_line(pattern, PatternPart::scale, end - across, end + across);
 }
 
+// The number of the frame, and upright marks in a row to the right of it.
+void add_frame(TestPattern& pattern, std::uint64_t frame, const dvec2& left, double text_height) {
+    const double spacing = 0.6 * text_height, half = 0.4 * text_height;
+    pattern.texts.push_back(
+        {fmt::format("frame {}", frame), left + dvec2(3.0 * text_height, 0.0), text_height});
+    const auto present = static_cast<int>(frame % std::uint64_t{frame_mark_count});
+    for (int i = 0; i < frame_mark_count; ++i) {
+        const dvec2 at = left + dvec2(6.5 * text_height + i * spacing, 0.0);
+        const bool is_present = i == present;
+        const dvec2 arm(0.0, is_present ? 2.0 * half : half);
+        add_line(pattern, is_present ? PatternPart::present_mark : PatternPart::frame_marks, at - arm,
+                 at + arm);
+    }
+}
+
 double longest_scale(double edge) {
     constexpr double lengths[] = {1.0, 0.5, 0.2, 0.1, 0.05, 0.02};
     const auto* const it = std::find_if(std::begin(lengths), std::end(lengths),
@@ -38,7 +53,7 @@ double longest_scale(double edge) {
 
 }  // namespace
 
-TestPattern test_pattern(const Wall& wall, PatternEye eye) {
+TestPattern test_pattern(const Wall& wall, PatternEye eye, std::uint64_t frame) {
     TestPattern pattern;
     const double across = width(wall), upwards = height(wall), edge = std::min(across, upwards);
     if (!(edge > 0.0)) return pattern;
@@ -62,6 +77,8 @@ TestPattern test_pattern(const Wall& wall, PatternEye eye) {
     pattern.texts.push_back({wall.name, {center.x, 0.8 * upwards}, text_height});
     pattern.texts.push_back(
         {fmt::format("{:g} m", pattern.scale_length), {center.x, 0.2 * upwards - text_height}, text_height});
+    // 12 text heights wide.
+    add_frame(pattern, frame, {center.x - 6.0 * text_height, 0.68 * upwards}, text_height);
     if (eye == PatternEye::left) pattern.texts.push_back({"left", {0.3 * across, center.y}, text_height});
     if (eye == PatternEye::right) pattern.texts.push_back({"right", {0.7 * across, center.y}, text_height});
     return pattern;

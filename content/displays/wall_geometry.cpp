@@ -7,6 +7,8 @@ namespace bolt::content {
 
 namespace {
 
+constexpr double least_sine = 1e-3;  // of the angle between walls that are not parallel
+
 struct WallEdge {
     Vec3 from{0.0}, to{0.0};
 };
@@ -17,13 +19,20 @@ std::array<WallEdge, 4> edges_of(const std::array<Vec3, 4>& corners) {
     return edges;
 }
 
-// Returns true if the edge passes through the wall, `margin` inside its edges.
-bool pierces(const WallEdge& edge, const WallFrame& wall, double margin) {
-    const double from = distance_in_front(wall, edge.from), to = distance_in_front(wall, edge.to);
-    if (from * to >= 0.0) return false;
-    const Vec3 at = edge.from + (edge.to - edge.from) * (from / (from - to)) - wall.origin;
-    const double x = glm::dot(at, wall.right), y = glm::dot(at, wall.up);
-    return x > margin && x < wall.width - margin && y > margin && y < wall.height - margin;
+// The part of the line from + t·along that is inside the wall, `margin` from its edges, as t; the line must
+// lie in the wall's plane. Empty if first > second.
+std::pair<double, double> inside(const WallFrame& wall, const Vec3& from, const Vec3& along, double margin) {
+    std::pair range(-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
+    for (const auto& [axis, size] : {std::pair(wall.right, wall.width), std::pair(wall.up, wall.height)}) {
+        const double at = glm::dot(axis, from - wall.origin), slope = glm::dot(axis, along);
+        if (std::abs(slope) < 1e-12) {
+            if (at < margin || at > size - margin) return {1.0, 0.0};
+            continue;
+        }
+        const auto [low, high] = std::minmax({(margin - at) / slope, (size - margin - at) / slope});
+        range = {std::max(range.first, low), std::min(range.second, high)};
+    }
+    return range;
 }
 
 // The overlap of the projections of both outlines on `axis`; negative: the distance between them.
@@ -49,7 +58,7 @@ std::optional<double> edge_gap(const WallEdge& a, const WallEdge& b) {
     const double length = glm::length(along), other_length = glm::length(other);
     const Vec3 direction = along / length;
     const double cosine = glm::dot(direction, other) / other_length;
-    if (std::abs(cosine) < least_cosine) return std::nullopt;
+    if (!(std::abs(cosine) >= least_cosine)) return std::nullopt;  // also without a length
     const double start = glm::dot(direction, b.from - a.from), end = glm::dot(direction, b.to - a.from);
     const double low = std::max(0.0, std::min(start, end)), high = std::min(length, std::max(start, end));
     if (high - low < least_share * std::min(length, other_length)) return std::nullopt;
@@ -81,12 +90,15 @@ std::array<Vec3, 4> corners_of(const WallFrame& wall, double margin) {
 }
 
 bool cross(const WallFrame& a, const WallFrame& b, double margin) {
-    const auto any = [margin](const WallFrame& edges, const WallFrame& wall) {
-        const auto all = edges_of(corners_of(edges, margin));
-        return std::any_of(all.begin(), all.end(),
-                           [&](const WallEdge& edge) { return pierces(edge, wall, margin); });
-    };
-    return any(a, b) || any(b, a);
+    // The line that both planes have in common: its direction, and its point nearest to the origin of `a`.
+    const Vec3 direction = glm::cross(a.normal, b.normal);
+    const double sine = glm::length(direction);
+    if (sine < least_sine) return false;
+    const Vec3 along = direction / sine, towards_b = glm::cross(along, a.normal);
+    const Vec3 from = a.origin - towards_b * (distance_in_front(b, a.origin) / glm::dot(towards_b, b.normal));
+    const auto [a_first, a_last] = inside(a, from, along, margin);
+    const auto [b_first, b_last] = inside(b, from, along, margin);
+    return std::min(a_last, b_last) > std::max(a_first, b_first);
 }
 
 std::optional<double> coplanar_overlap(const WallFrame& a, const WallFrame& b, double tolerance) {

@@ -29,7 +29,8 @@ inline double distance_in_front(const WallFrame& wall, const Vec3& point) {
 // Lower left, lower right, upper right, upper left; each `margin` inside the edges.
 std::array<Vec3, 4> corners_of(const WallFrame& wall, double margin = 0.0);
 
-// Returns true if the walls cross inside their edges; `margin`: how far inside at least.
+// Returns true if the walls have a line in common that is at least `margin` inside the edges of both.
+// Parallel walls do not cross.
 bool cross(const WallFrame& a, const WallFrame& b, double margin);
 
 // The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if there is

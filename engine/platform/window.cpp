@@ -64,12 +64,8 @@ Button button_of(int glfw_button) {
     }
 }
 
-struct Rect {
-    int x = 0, y = 0, width = 0, height = 0;
-};
-
-Rect area(GLFWwindow* window) {
-    Rect r;
+DesktopArea area(GLFWwindow* window) {
+    DesktopArea r;
     glfwGetWindowPos(window, &r.x, &r.y);
     glfwGetWindowSize(window, &r.width, &r.height);
     return r;
@@ -78,7 +74,7 @@ Rect area(GLFWwindow* window) {
 // Returns the display that shows most of the window.
 GLFWmonitor* monitor_of(GLFWwindow* window) {
     if (GLFWmonitor* full_screen = glfwGetWindowMonitor(window)) return full_screen;
-    const Rect w = area(window);
+    const DesktopArea w = area(window);
     int count = 0;
     GLFWmonitor** monitors = glfwGetMonitors(&count);
     GLFWmonitor* best = glfwGetPrimaryMonitor();
@@ -104,7 +100,7 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
 struct Window::State {
     GLFWwindow* window = nullptr;
     std::vector<InputEvent> events;
-    Rect before_full_screen;
+    DesktopArea before_full_screen;
     std::shared_ptr<const bool> lost;
     // The cursor position at the time of the event: glfwGetCursorPos would return the current one.
     glm::dvec2 cursor{0.0};
@@ -256,6 +252,24 @@ void fit_into_work_area(GLFWwindow* window) {
 
 }  // namespace
 
+std::vector<Monitor> monitors(const Desktop&) {
+    std::vector<Monitor> all;
+    int count = 0;
+    GLFWmonitor** connected = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        Monitor monitor;
+        if (const char* name = glfwGetMonitorName(connected[i])) monitor.name = name;
+        glfwGetMonitorPos(connected[i], &monitor.area.x, &monitor.area.y);
+        if (const GLFWvidmode* mode = glfwGetVideoMode(connected[i])) {
+            monitor.area.width = mode->width;
+            monitor.area.height = mode->height;
+            monitor.refresh_rate = mode->refreshRate;
+        }
+        all.push_back(std::move(monitor));
+    }
+    return all;
+}
+
 Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options) {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
@@ -324,7 +338,7 @@ void Window::resize(Size size) {
 void Window::set_full_screen(bool on) {
     if (on == full_screen()) return;
     if (!on) {
-        const Rect& r = state_->before_full_screen;
+        const DesktopArea& r = state_->before_full_screen;
         glfwSetWindowMonitor(state_->window, nullptr, r.x, r.y, r.width, r.height, GLFW_DONT_CARE);
         return;
     }

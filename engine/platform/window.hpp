@@ -36,6 +36,22 @@ class Desktop {
     std::shared_ptr<bool> lost_;  // the display server has ended; Xlib's exit handler holds the address
 };
 
+// A rectangle of the desktop, which extends over all monitors, in desktop units: pixels, except where the
+// desktop scales windows itself.
+struct DesktopArea {
+    int x = 0, y = 0;  // the upper left corner
+    int width = 0, height = 0;
+};
+
+struct Monitor {
+    std::string name;  // as the desktop calls its output, such as "DP-1"
+    DesktopArea area;
+    double refresh_rate = 0.0;  // Hz; 0: unknown
+};
+
+// The connected monitors, the primary one first.
+std::vector<Monitor> monitors(const Desktop& desktop);
+
 struct WindowOptions {
     std::string title = "Boltwright";
     // At a scale of 1. On X11 the window gets as many pixels times content_scale(), but no more than the
