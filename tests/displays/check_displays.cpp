@@ -82,6 +82,8 @@ TEST_CASE("Display check: walls that cross, overlap or nearly meet are found") {
     check_one(file, "walls \"front\" and \"left\" cross; expected walls that meet at their edges");
     CHECK(check_displays(file).front().prevents_use);
     CHECK(check_displays(file).front().wall == 1);
+    check_one(with_walls({front_wall(), moved(turned_wall("left", 90.0), {0.2, 0.0, 0.0})}),
+              "warning: wall \"left\" ends 200 mm inside wall \"front\": what is behind it cannot be seen");
     check_one(with_walls({front_wall(), moved(front_wall("right"), {2.9, 0.0, 0.0})}),
               "warning: walls \"front\" and \"right\" overlap by 100.0 mm: their pictures are not blended");
     check_one(with_walls({front_wall(), moved(front_wall("right"), {3.012, 0.0, 0.0})}),

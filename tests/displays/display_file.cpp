@@ -145,6 +145,18 @@ TEST_CASE("Displays: a file is written and read to the same value") {
     }
 }
 
+TEST_CASE("Displays: lists of numbers are written in one line, and texts with any characters survive") {
+    DisplayFile file = example_displays(DisplayKind::desk);
+    file.walls[0].name = "a \"b\" [c,\n d] \\";
+    file.head.tracker = HeadTracker::file;
+    file.head.recording = "[x\\\"] ,{";
+    const std::string text = displays_json(file);
+    CHECK_MESSAGE(has(text, "\"lower_left_m\": [-0.48, 0.75, -0.3],"), text);
+    CHECK(has(text, "\"axes\": [\"+x\", \"+y\", \"+z\"],"));
+    CHECK(std::count(text.begin(), text.end(), '\n') < 60);
+    CHECK(read(text) == file);
+}
+
 TEST_CASE("Displays: every kind of mistake has its line, column, and what is expected") {
     check_mistake("\"format\": \"boltwright displays 1\"", "\"format\": \"boltwright displays 2\"",
                   "\"boltwright displays 2\"", "\"boltwright displays 1\"");

@@ -143,6 +143,21 @@ TEST_CASE("Wall: walls cross exactly if a common line is inside both") {
     CHECK(crossings < 290);
 }
 
+TEST_CASE("Wall: a wall that ends inside another one is found, with its distance from the edge") {
+    const WallFrame front = frame_of(front_wall()), left = frame_of(turned_wall("left", 90.0));
+    CHECK_FALSE(ends_inside(left, front, 0.01));  // they meet at their edges
+    CHECK_FALSE(ends_inside(front, left, 0.01));
+    const WallFrame inner = frame_of(moved(turned_wall("left", 90.0), {0.2, 0.0, 0.0}));
+    CHECK(ends_inside(inner, front, 0.01).value_or(0.0) == doctest::Approx(0.2));
+    CHECK_FALSE(ends_inside(front, inner, 0.01));
+    CHECK_FALSE(cross(inner, front, 0.01));
+    // Beside the other wall, above it, and not on its plane.
+    CHECK_FALSE(ends_inside(frame_of(moved(turned_wall("left", 90.0), {-0.2, 0.0, 0.0})), front, 0.01));
+    CHECK_FALSE(ends_inside(frame_of(moved(turned_wall("left", 90.0), {0.2, 2.4, 0.0})), front, 0.01));
+    CHECK_FALSE(ends_inside(frame_of(moved(turned_wall("left", 90.0), {0.2, 0.0, 0.1})), front, 0.01));
+    CHECK_FALSE(ends_inside(frame_of(moved(front_wall(), {0.2, 0.0, 0.0})), front, 0.01));  // one plane
+}
+
 TEST_CASE("Wall: overlaps in one plane and gaps of seams are measured") {
     const WallFrame front = frame_of(front_wall());
     CHECK_FALSE(coplanar_overlap(front, frame_of(moved(front_wall(), {3.0, 0.0, 0.0})), 0.01));

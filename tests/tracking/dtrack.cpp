@@ -1,11 +1,7 @@
 // DTrack's packets, and their reception over UDP.
 #include "engine/tracking/dtrack.hpp"
 
-#include <arpa/inet.h>
 #include <doctest/doctest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <string>
 
@@ -13,6 +9,7 @@
 #include "engine/tracking/dtrack_receiver.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/replaced.hpp"
+#include "tests/tracking/sender.hpp"
 
 namespace dtrack_test {
 
@@ -44,28 +41,6 @@ DtrackFrame parsed(const std::string& text) {
     REQUIRE_MESSAGE(frame, text);
     return *frame;
 }
-
-// A sender on this machine.
-class Sender {
-  public:
-    explicit Sender(int port) : socket_(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
-        address_.sin_family = AF_INET;
-        address_.sin_port = htons(static_cast<std::uint16_t>(port));
-        address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    }
-    Sender(const Sender&) = delete;
-    Sender& operator=(const Sender&) = delete;
-    ~Sender() { ::close(socket_); }
-    void send(const std::string& text) const {
-        const ssize_t sent = ::sendto(socket_, text.data(), text.size(), 0,
-                                      reinterpret_cast<const sockaddr*>(&address_), sizeof address_);
-        REQUIRE(sent == static_cast<ssize_t>(text.size()));
-    }
-
-  private:
-    int socket_;
-    sockaddr_in address_{};
-};
 
 DtrackReceiver opened() {
     auto receiver = DtrackReceiver::open(0);
@@ -229,7 +204,7 @@ TEST_CASE("DTrack: the newest frame of those that arrived on the UDP port is ret
     DtrackReceiver receiver = opened();
     CHECK(receiver.port() > 0);
     CHECK_FALSE(receiver.poll());
-    const Sender sender(receiver.port());
+    const test::UdpSender sender(receiver.port());
     for (int i = 1; i <= 3; ++i) sender.send(frame_text(i));
     const auto frame = received(receiver, 3);
     REQUIRE(frame);
@@ -241,7 +216,7 @@ TEST_CASE("DTrack: the newest frame of those that arrived on the UDP port is ret
 
 TEST_CASE("DTrack: damaged, empty and too long packets are counted and harm nothing") {
     DtrackReceiver receiver = opened();
-    const Sender sender(receiver.port());
+    const test::UdpSender sender(receiver.port());
     sender.send("garbage");
     sender.send("");
     sender.send(frame_text(7) + std::string(max_dtrack_packet, ' '));
@@ -258,7 +233,7 @@ TEST_CASE("DTrack: damaged, empty and too long packets are counted and harm noth
 
 TEST_CASE("DTrack: an overtaken or repeated packet is dropped, and a restarted tracker is followed") {
     DtrackReceiver receiver = opened();
-    const Sender sender(receiver.port());
+    const test::UdpSender sender(receiver.port());
     sender.send(frame_text(5000));
     CHECK(received(receiver, 1)->number == 5000);
     sender.send(frame_text(4999));
@@ -282,7 +257,7 @@ TEST_CASE("DTrack: an overtaken or repeated packet is dropped, and a restarted t
 
 TEST_CASE("DTrack: a poll reads a bounded number of packets") {
     DtrackReceiver receiver = opened();
-    const Sender sender(receiver.port());
+    const test::UdpSender sender(receiver.port());
     for (int i = 1; i <= max_packets_a_poll + 10; ++i) sender.send(frame_text(i));
     (void)receiver.poll();
     CHECK(receiver.counts().frames <= static_cast<std::uint64_t>(max_packets_a_poll));
