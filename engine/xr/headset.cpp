@@ -47,6 +47,8 @@ bool Headset::keep(const Status& status) {
 }
 
 void Headset::drop() {
+    if (session_ && session_->counts().begun > 0)
+        log(fmt::format("headset: {}", describe(session_->counts())));
     if (session_ && !session_->stop()) (void)input_.release();
     input_.reset();
     session_.reset();

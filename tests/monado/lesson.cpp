@@ -88,5 +88,5 @@ void play_lesson(const std::string& assembly) {
 
 }  // namespace
 
-TEST_CASE("Monado: a driven hand plays the tour's nut") { play_lesson("first-nut"); }
-TEST_CASE("Monado: a driven hand plays a whole guided lesson") { play_lesson("cover-m8"); }
+TEST_CASE("Monado: first-nut is played by a driven hand") { play_lesson("first-nut"); }
+TEST_CASE("Monado: cover-m8 is played by a driven hand") { play_lesson("cover-m8"); }

@@ -56,6 +56,35 @@ TEST_CASE("Session: passes through its states to focus, and frames are submitted
     }
 }
 
+TEST_CASE("Session: frames are counted, and the headset's log has their number when it ends") {
+    const test::MockRuntime mock;
+    test::Program program;
+    REQUIRE(program.connect());
+    (void)program.focus();
+    const xr::FrameCounts before = program.headset().session().counts();
+    CHECK(before.missed == 0);
+    for (int i = 0; i < 4; ++i) (void)program.frame();
+    mock->delay_frame(3);
+    for (int i = 0; i < 6; ++i) (void)program.frame();
+    const xr::FrameCounts& counts = program.headset().session().counts();
+    CHECK(counts.begun - before.begun == 10);
+    CHECK(counts.drawn - before.drawn == 10);
+    CHECK(counts.missed == 3);
+    CHECK(counts.seconds - before.seconds == doctest::Approx(13 * 0.011111111));
+    // The time without a session is no missed frame.
+    mock->send(mock::Event::taken_off);
+    CHECK_FALSE(program.frame().has_value());
+    idle(program, 3);
+    mock->delay_frame(100);
+    mock->send(mock::Event::put_on);
+    (void)program.focus();
+    CHECK(program.headset().session().counts().missed == 3);
+    program.disconnect();
+    const auto& lines = program.lines();
+    CHECK(std::any_of(lines.begin(), lines.end(),
+                      [](const std::string& line) { return line.find("3 missed") != std::string::npos; }));
+}
+
 TEST_CASE("Session: the user's focus on another program pauses, and returns") {
     const test::MockRuntime mock;
     test::Program program;
