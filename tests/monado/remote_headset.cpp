@@ -14,7 +14,7 @@ namespace bolt::test {
 
 namespace {
 
-constexpr char magic[8] = "mndrmt3";
+constexpr char magic[8] = "mndrmt3";  // the runtime's own messages begin with zeros
 constexpr std::size_t head_at = 104, own_views_at = 132;
 constexpr std::array<std::size_t, 2> hands_at{136, 256};
 // In a hand: after the pose and six velocities the curl of five fingers, trigger, squeeze, and further on the
@@ -46,6 +46,7 @@ Error socket_error(const char* what) {
 }  // namespace
 
 void write_poses(RemoteMessage& message, const Pose& head, const xr::Hands& hands) {
+    std::memcpy(message.data(), magic, sizeof magic);
     put(message, head_at, head);
     message[own_views_at] = std::byte{0};
     for (std::size_t side = 0; side < hands_at.size(); ++side) {
@@ -79,9 +80,6 @@ Result<RemoteHeadset> RemoteHeadset::connect(std::uint16_t port) {
     if (::recv(remote.socket_, remote.message_.data(), remote_message_size, MSG_WAITALL) !=
         static_cast<ssize_t>(remote_message_size))
         return fail(socket_error("no initial state"));
-    if (std::memcmp(remote.message_.data(), magic, sizeof magic) != 0)
-        return fail(ErrorCode::no_device, "Monado's remote driver: its messages have another layout",
-                    "\"mndrmt3\", which Monado 25.0 sends");
     return remote;
 }
 
