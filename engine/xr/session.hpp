@@ -42,6 +42,12 @@ struct FrameTiming {
     bool should_render = false;  // false: nothing that is drawn would be seen
 };
 
+// Returns the period of the display, ns. Runtimes such as Monado report that of the program instead: a
+// multiple, once it misses frames. `known`: the period that was returned before; 0: none. `reported`: by the
+// runtime for the next frame. A period that is no multiple of the known one is another frame rate of the
+// display.
+XrDuration display_period(XrDuration known, XrDuration reported);
+
 // The frames since a session was created.
 struct FrameCounts {
     std::int64_t begun = 0;
@@ -179,7 +185,7 @@ class Session {
     Status create_swapchains();
     Result<Swapchain> make_swapchain(VkFormat format, std::uint32_t layers, XrSwapchainUsageFlags usage);
     Status follow(const XrEventDataSessionStateChanged& event);
-    void count(const XrFrameState& frame);
+    void count(XrTime display_time);
     Status acquire(Swapchain& swapchain);
     Status release(Swapchain& swapchain);
     template <class Visit>
@@ -199,6 +205,7 @@ class Session {
     bool depth_drawn_ = false;              // and their depth
     std::shared_ptr<FrameWaiter> waiter_;
     FrameCounts counts_;
+    XrDuration period_ = 0;                    // of the display, ns
     std::optional<XrTime> last_display_time_;  // of this run of the session
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
     bool running_ = false, ended_ = false, abandoned_ = false;

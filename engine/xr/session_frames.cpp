@@ -24,17 +24,25 @@ std::string describe(const FrameCounts& counts) {
                        counts.begun, counts.seconds, rate, counts.drawn, counts.missed, counts.waited);
 }
 
-void Session::count(const XrFrameState& frame) {
+XrDuration display_period(XrDuration known, XrDuration reported) {
+    constexpr double tolerance = 0.02;  // of rounding and of prediction, as a share of the period
+    if (known <= 0 || reported <= 0) return std::max(known, reported);
+    const double ratio = static_cast<double>(reported) / static_cast<double>(known);
+    const double multiple = std::round(ratio);
+    return multiple >= 1.0 && std::abs(ratio - multiple) < tolerance ? known : reported;
+}
+
+void Session::count(XrTime display_time) {
     ++counts_.begun;
     if (last_display_time_) {
-        const auto passed = static_cast<double>(frame.predictedDisplayTime - *last_display_time_);
-        counts_.seconds += 1e-9 * passed;
+        const XrDuration passed = display_time - *last_display_time_;
+        counts_.seconds += 1e-9 * static_cast<double>(passed);
         // Display times are multiples of the period, but for rounding errors.
-        if (frame.predictedDisplayPeriod > 0)
+        if (period_ > 0)
             counts_.missed += std::max<std::int64_t>(
-                std::llround(passed / static_cast<double>(frame.predictedDisplayPeriod)) - 1, 0);
+                std::llround(static_cast<double>(passed) / static_cast<double>(period_)) - 1, 0);
     }
-    last_display_time_ = frame.predictedDisplayTime;
+    last_display_time_ = display_time;
 }
 
 Result<std::optional<FrameTiming>> Session::begin_frame(double timeout) {
@@ -47,10 +55,11 @@ Result<std::optional<FrameTiming>> Session::begin_frame(double timeout) {
     const XrFrameBeginInfo info{XR_TYPE_FRAME_BEGIN_INFO, nullptr};
     BOLT_TRY(check(xrBeginFrame(session_.get(), &info), "beginning the headset's frame"));
     waiter_->request();  // for the next frame, while this one is drawn
-    count(answer->state);
+    period_ = display_period(period_, answer->state.predictedDisplayPeriod);
+    count(answer->state.predictedDisplayTime);
     FrameTiming timing;
     timing.display_time = answer->state.predictedDisplayTime;
-    timing.period = 1e-9 * static_cast<double>(answer->state.predictedDisplayPeriod);
+    timing.period = 1e-9 * static_cast<double>(period_);
     timing.should_render = answer->state.shouldRender == XR_TRUE;
     return timing;
 }

@@ -62,7 +62,7 @@ XrResult wait_next(State& s, std::unique_lock<std::mutex>& lock, XrFrameState& o
         session.state == XR_SESSION_STATE_VISIBLE || session.state == XR_SESSION_STATE_FOCUSED;
     session.waited_render = visible && s.should_render;
     out.predictedDisplayTime = session.last_display;
-    out.predictedDisplayPeriod = period;
+    out.predictedDisplayPeriod = s.reported_periods * period;
     out.shouldRender = session.waited_render ? XR_TRUE : XR_FALSE;
     return XR_SUCCESS;
 }

@@ -43,6 +43,7 @@ Status HeadsetDriver::update(const view::WindowFrame& window) {
     const bool seen = window.immersion != nullptr && window.immersion->attentive;
     if (seen) {
         compare(*window.immersion);
+        received_ = window.immersion->hands;
         ++frames_.count;
         if (last_frame_) frames_.seconds += std::chrono::duration<double>(now - *last_frame_).count();
     }

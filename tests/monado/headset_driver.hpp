@@ -51,6 +51,8 @@ class HeadsetDriver final : public view::WindowContent, public RoomDriver {
 
     [[nodiscard]] Turns& turns() { return turns_; }
     [[nodiscard]] const HeadsetFrames& frames() const { return frames_; }
+    // The hands that the last frame got from the runtime.
+    [[nodiscard]] const xr::Hands& received() const { return received_; }
 
   private:
     void compare(const view::Immersion& immersion);
@@ -63,7 +65,7 @@ class HeadsetDriver final : public view::WindowContent, public RoomDriver {
     bool user_done_ = false;
     view::GpuContext* gpu_ = nullptr;
     HeadsetFrames frames_;
-    xr::Hands sent_;
+    xr::Hands sent_, received_;
     std::optional<std::chrono::steady_clock::time_point> last_frame_;
     std::optional<VkExtent2D> drawn_;  // size of the pictures of the last frame
     double next_picture_ = 0.0;        // s of the lesson

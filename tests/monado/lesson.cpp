@@ -45,6 +45,21 @@ Status play_in_headset(test::Program& program, test::HeadsetDriver& driver, std:
     return done;
 }
 
+// Fingers that the runtime simulates around a controller: how far the program finds them closed.
+double closing_by_fingers(test::HeadsetDriver& driver, const Pose& head, float bent) {
+    xr::Hands hands;
+    xr::HandInput& hand = hands[xr::Side::left];
+    hand.active = true;
+    hand.grip = xr::TrackedPose{{{-0.4, 1.3, -0.2}, {1.0, 0.0, 0.0, 0.0}}, true};
+    hand.joints.emplace();
+    hand.grasp = bent;
+    for (int i = 0; i < 3; ++i) driver.frame(head, hands);
+    xr::HandInput received = driver.received()[xr::Side::left];
+    REQUIRE(received.joints);
+    received.grasp = 0.0F;
+    return trainer::closing(received);
+}
+
 void play_lesson(const std::string& assembly) {
     auto remote = test::RemoteHeadset::connect();
     if (!remote) return test::skip_rest(remote.error().message());
@@ -64,6 +79,9 @@ void play_lesson(const std::string& assembly) {
     double lesson_time = 0.0;  // s
     const Status run = play_in_headset(program, driver, log, [&] {
         while (driver.app().screen() != trainer::ShownScreen::lesson) driver.frame(trainee.head, {});
+        MESSAGE("fingers open " << closing_by_fingers(driver, trainee.head, 0.0F) << ", half "
+                                << closing_by_fingers(driver, trainee.head, 0.5F) << ", closed "
+                                << closing_by_fingers(driver, trainee.head, 1.0F));
         trainee.play(longest_lesson);
         lesson_time = driver.app().lesson()->session->time();
         for (int i = 0; i < 30; ++i) driver.frame(trainee.head, {});  // the result

@@ -59,7 +59,7 @@ void write_poses(RemoteMessage& message, const Pose& head, const xr::Hands& hand
         put(message, at + squeeze_at, hand.grasp);
         put(message, at + stick_at, hand.stick.x);
         put(message, at + stick_at + 4, hand.stick.y);
-        message[at + joints_at] = std::byte{0};
+        message[at + joints_at] = hand.joints ? std::byte{1} : std::byte{0};
         message[at + active_at] = hand.active ? std::byte{1} : std::byte{0};
         message[at + secondary_at] = hand.secondary ? std::byte{1} : std::byte{0};
         message[at + menu_at] = hand.menu ? std::byte{1} : std::byte{0};

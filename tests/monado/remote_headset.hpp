@@ -17,7 +17,8 @@ inline constexpr std::size_t remote_message_size = 376;
 using RemoteMessage = std::array<std::byte, remote_message_size>;
 
 // Writes head and hands into a message. An inactive hand becomes a controller that is switched off. The
-// runtime takes a controller's pose for both grip and aim.
+// runtime takes a controller's pose for both grip and aim. With `joints` it simulates fingers, as closed as
+// `grasp` says.
 void write_poses(RemoteMessage& message, const Pose& head, const xr::Hands& hands);
 
 class RemoteHeadset {

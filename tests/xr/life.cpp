@@ -85,6 +85,29 @@ TEST_CASE("Session: frames are counted, and the headset's log has their number w
                       [](const std::string& line) { return line.find("3 missed") != std::string::npos; }));
 }
 
+TEST_CASE("Session: the period is the display's, also if the runtime reports the program's") {
+    const test::MockRuntime mock;
+    test::Program program;
+    REQUIRE(program.connect());
+    (void)program.focus();
+    mock->report_period(3);
+    mock->delay_frame(2);
+    for (int i = 0; i < 4; ++i) {
+        const std::optional<xr::HeadsetFrame> frame = program.frame();
+        REQUIRE(frame.has_value());
+        CHECK(frame->timing.period == doctest::Approx(0.011111111));
+    }
+    CHECK(program.headset().session().counts().missed == 2);
+
+    constexpr XrDuration at_90 = 11'111'111, at_72 = 13'888'889, at_120 = 8'333'333;
+    CHECK(xr::display_period(0, at_90) == at_90);
+    CHECK(xr::display_period(at_90, 2 * at_90 + 1000) == at_90);
+    CHECK(xr::display_period(at_90, at_72) == at_72);
+    CHECK(xr::display_period(at_90, at_120) == at_120);
+    CHECK(xr::display_period(2 * at_90, at_90) == at_90);  // the first report was a multiple
+    CHECK(xr::display_period(at_90, 0) == at_90);
+}
+
 TEST_CASE("Session: the user's focus on another program pauses, and returns") {
     const test::MockRuntime mock;
     test::Program program;
