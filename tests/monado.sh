@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Plays lessons on a real OpenXR runtime: monado.sh BUILD SOURCE [OUT [ROOT [PARTS...]]]. It is Monado of Debian 13, with simulated
 # devices, in a Debian 13 root. ROOT (default: /tmp/monado_root) keeps the root, so that a second run is fast; OUT (default:
-# BUILD/monado) gets sessions, logs, pictures and a film of both eyes. PARTS (default: program first-nut cover-m8): what
-# tests/monado/inside.sh runs. Needs root, mmdebstrap and the package archive; exits with 77 and the reason where one of them is missing.
+# BUILD/monado) gets sessions, logs, pictures and a film of both eyes. PARTS (default: program first-nut cover-m8): see
+# tests/monado/inside.sh. Needs root, mmdebstrap and the package archive; exits with 77 and the reason where one of them is missing.
 set -euo pipefail
 # In namespaces of its own: nothing stays mounted or running whatever happens to this script, and only this computer can reach
 # Monado, which listens on every network interface.
