@@ -28,8 +28,8 @@ if [[ ! -e $root/made ]]; then
     # Monado, then what a desktop has: a driver, a screen, pictures of it, and the libraries of our programs.
     mmdebstrap --variant=apt --aptopt='APT::Install-Recommends "false"' \
         --include=monado-service,libopenxr1-monado,libopenxr-loader1,mesa-vulkan-drivers,vulkan-validationlayers \
-        --include=xvfb,imagemagick,xdotool,iproute2,procps,fontconfig,fonts-dejavu-core,fonts-wqy-microhei \
-        --include=libglfw3,libopenal1,libsqlite3-0,libspirv-cross-c-shared0,libhidapi-hidraw0 \
+        --include=xvfb,imagemagick,iproute2,procps,fontconfig,fonts-dejavu-core,fonts-wqy-microhei \
+        --include=libglfw3,libopenal1,libsqlite3-0 \
         trixie "$root" >"$folder/log" 2>&1 || skip "mmdebstrap failed: $(tail -1 "$folder/log")"
     touch "$root/made"
 fi
