@@ -53,20 +53,22 @@ Status HeadsetDriver::update(const view::WindowFrame& window) {
 }
 
 Status HeadsetDriver::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
-    BOLT_TRY(app_.draw(frame, window));
-    drawn_.reset();
-    if (window.immersion == nullptr || !window.immersion->attentive) return {};
-    if (!window.immersion->groups.empty()) drawn_ = window.immersion->groups.front().size;
-    user_done_ = turns_.give();
+    const bool seen = window.immersion != nullptr && window.immersion->attentive;
+    const double time = app_.lesson() ? app_.lesson()->session->time() : 0.0;
+    newly_drawn_ = !seen || !drawn_ || app_.screen() != trainer::ShownScreen::lesson ||
+                   time >= drawn_at_ + options_.draw_interval || time < drawn_at_;
+    if (newly_drawn_) {
+        drawn_at_ = time;
+        BOLT_TRY(app_.draw(frame, window));
+        if (seen && !window.immersion->groups.empty()) drawn_ = window.immersion->groups.front().size;
+    }
+    if (seen) user_done_ = turns_.give();
     return {};
 }
 
 // The pictures of the last frame, which were copied into the headset's.
 Status HeadsetDriver::take_picture() {
-    if (options_.pictures.empty() || !drawn_ || !app_.lesson()) return {};
-    const double time = app_.lesson()->session->time();
-    if (time < next_picture_) return {};
-    next_picture_ = time + options_.picture_interval;
+    if (options_.pictures.empty() || !drawn_ || !newly_drawn_) return {};
     BOLT_TRY(gpu_->frames->finish());
     std::vector<render::Picture> eyes;
     for (std::uint32_t eye = 0; eye < 2; ++eye) {

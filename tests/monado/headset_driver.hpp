@@ -16,9 +16,11 @@ namespace bolt::test {
 struct HeadsetDriverOptions {
     // s of the lesson per frame of the headset: the lesson runs slower than the clock where drawing is slow.
     double step = 0.02;
-    // Folder for pictures of both eyes side by side, 00000.png and so on; empty: none.
+    // s of the lesson between frames that are drawn; 0: every frame is. The frames between them show the last
+    // picture again, which saves most of the time on a computer without a GPU.
+    double draw_interval = 0.0;
+    // Folder for the drawn pictures, both eyes side by side, 00000.png and so on; empty: none.
     std::filesystem::path pictures;
-    double picture_interval = 0.2;  // s of the lesson
 };
 
 // The frames in which the user saw the lesson.
@@ -67,8 +69,9 @@ class HeadsetDriver final : public view::WindowContent, public RoomDriver {
     HeadsetFrames frames_;
     xr::Hands sent_, received_;
     std::optional<std::chrono::steady_clock::time_point> last_frame_;
-    std::optional<VkExtent2D> drawn_;  // size of the pictures of the last frame
-    double next_picture_ = 0.0;        // s of the lesson
+    std::optional<VkExtent2D> drawn_;  // size of the pictures since start(); none: nothing was drawn
+    bool newly_drawn_ = false;         // in the last frame
+    double drawn_at_ = 0.0;            // s of the lesson
     int pictures_ = 0;
 };
 

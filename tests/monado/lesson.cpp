@@ -71,6 +71,7 @@ void play_lesson(const std::string& assembly) {
     options.out = std::filesystem::path(BOLT_TRAINER_OUT) / assembly;
     test::Program program(std::move(options), {window_size.width, window_size.height});
     test::HeadsetDriverOptions how;
+    how.draw_interval = 0.2;
     if (const char* pictures = std::getenv("BOLT_MONADO_PICTURES"))
         how.pictures = std::filesystem::path(pictures) / assembly;
     test::HeadsetDriver driver(*program.app, std::move(*remote), how);
@@ -84,7 +85,7 @@ void play_lesson(const std::string& assembly) {
                                 << closing_by_fingers(driver, trainee.head, 1.0F));
         trainee.play(longest_lesson);
         lesson_time = driver.app().lesson()->session->time();
-        for (int i = 0; i < 30; ++i) driver.frame(trainee.head, {});  // the result
+        for (int i = 0; i < 10; ++i) driver.frame(trainee.head, {});  // the result
     });
     for (const std::string& line : log) MESSAGE(line);
     CHECK_MESSAGE(run.has_value(), (run ? "" : run.error().message()));
