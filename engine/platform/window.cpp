@@ -64,12 +64,8 @@ Button button_of(int glfw_button) {
     }
 }
 
-struct Rect {
-    int x = 0, y = 0, width = 0, height = 0;
-};
-
-Rect area(GLFWwindow* window) {
-    Rect r;
+DesktopArea area(GLFWwindow* window) {
+    DesktopArea r;
     glfwGetWindowPos(window, &r.x, &r.y);
     glfwGetWindowSize(window, &r.width, &r.height);
     return r;
@@ -78,7 +74,7 @@ Rect area(GLFWwindow* window) {
 // Returns the display that shows most of the window.
 GLFWmonitor* monitor_of(GLFWwindow* window) {
     if (GLFWmonitor* full_screen = glfwGetWindowMonitor(window)) return full_screen;
-    const Rect w = area(window);
+    const DesktopArea w = area(window);
     int count = 0;
     GLFWmonitor** monitors = glfwGetMonitors(&count);
     GLFWmonitor* best = glfwGetPrimaryMonitor();
@@ -104,7 +100,7 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
 struct Window::State {
     GLFWwindow* window = nullptr;
     std::vector<InputEvent> events;
-    Rect before_full_screen;
+    DesktopArea before_full_screen;
     std::shared_ptr<const bool> lost;
     // The cursor position at the time of the event: glfwGetCursorPos would return the current one.
     glm::dvec2 cursor{0.0};
@@ -256,20 +252,51 @@ void fit_into_work_area(GLFWwindow* window) {
 
 }  // namespace
 
+std::vector<Monitor> monitors(const Desktop&) {
+    std::vector<Monitor> all;
+    int count = 0;
+    GLFWmonitor** connected = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        Monitor monitor;
+        if (const char* name = glfwGetMonitorName(connected[i])) monitor.name = name;
+        glfwGetMonitorPos(connected[i], &monitor.area.x, &monitor.area.y);
+        if (const GLFWvidmode* mode = glfwGetVideoMode(connected[i])) {
+            monitor.area.width = mode->width;
+            monitor.area.height = mode->height;
+            monitor.refresh_rate = mode->refreshRate;
+        }
+        all.push_back(std::move(monitor));
+    }
+    return all;
+}
+
 Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options) {
+    const bool covers = options.covers.has_value();
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, covers ? GLFW_FALSE : GLFW_TRUE);
+    // A window that covers an area is shown when it is there.
+    glfwWindowHint(GLFW_VISIBLE, options.hidden || covers ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_DECORATED, covers ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_RESIZABLE, covers ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_FOCUS_ON_SHOW, covers ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_AUTO_ICONIFY, covers ? GLFW_FALSE : GLFW_TRUE);
+    const int width = covers ? options.covers->width : static_cast<int>(options.width),
+              height = covers ? options.covers->height : static_cast<int>(options.height);
     auto state = std::make_unique<State>();
-    state->window = glfwCreateWindow(static_cast<int>(options.width), static_cast<int>(options.height),
-                                     options.title.c_str(), nullptr, nullptr);
+    state->window = glfwCreateWindow(width, height, options.title.c_str(), nullptr, nullptr);
     if (state->window == nullptr) return desktop_error("the window cannot be opened", "");
-    fit_into_work_area(state->window);
+    if (covers) {
+        glfwSetWindowPos(state->window, options.covers->x, options.covers->y);
+        if (!options.hidden) glfwShowWindow(state->window);
+        glfwSetWindowPos(state->window, options.covers->x, options.covers->y);  // window managers may move it
+    } else {
+        fit_into_work_area(state->window);
+    }
     state->lost = desktop.lost_;
     state->register_callbacks();
     Window window(std::move(state));
-    if (options.full_screen) window.set_full_screen(true);
+    if (options.full_screen && !covers) window.set_full_screen(true);
     return window;
 }
 
@@ -324,7 +351,7 @@ void Window::resize(Size size) {
 void Window::set_full_screen(bool on) {
     if (on == full_screen()) return;
     if (!on) {
-        const Rect& r = state_->before_full_screen;
+        const DesktopArea& r = state_->before_full_screen;
         glfwSetWindowMonitor(state_->window, nullptr, r.x, r.y, r.width, r.height, GLFW_DONT_CARE);
         return;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,22 @@ class Desktop {
     std::shared_ptr<bool> lost_;  // the display server has ended; Xlib's exit handler holds the address
 };
 
+// A rectangle of the desktop, which extends over all monitors, in desktop units: pixels, except where the
+// desktop scales windows itself.
+struct DesktopArea {
+    int x = 0, y = 0;  // the upper left corner
+    int width = 0, height = 0;
+};
+
+struct Monitor {
+    std::string name;  // as the desktop calls its output, such as "DP-1"
+    DesktopArea area;
+    double refresh_rate = 0.0;  // Hz; 0: unknown
+};
+
+// The connected monitors, the primary one first.
+std::vector<Monitor> monitors(const Desktop& desktop);
+
 struct WindowOptions {
     std::string title = "Boltwright";
     // At a scale of 1. On X11 the window gets as many pixels times content_scale(), but no more than the
@@ -43,6 +60,9 @@ struct WindowOptions {
     std::uint32_t width = 1280, height = 720;
     bool full_screen = false;
     bool hidden = false;  // to query the display without showing a window
+    // Covers exactly this area, without a frame, and stays there when another window has the focus: for
+    // projection walls. Replaces width, height and full_screen.
+    std::optional<DesktopArea> covers;
 };
 
 struct Size {

@@ -347,11 +347,12 @@ void App::pause_unseen(bool seen) {
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::Immersion* immersion = window.immersion;
     pause_unseen(immersion != nullptr && immersion->attentive);
-    if (room_) room_->shown = immersion != nullptr;
+    if (room_) room_->shown = false;
     if (immersion == nullptr) return;
     if (!room_) room_.emplace();
     Room& room = *room_;
-    room.shown = true;
+    // On walls a lesson by mouse is played in the window, and the walls show it.
+    room.shown = immersion->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
     room.seen = immersion->attentive;
     if (immersion->tracks_hands) offer_tracked_hand(menu_.devices);
     if (immersion->recentred) room.panel = room.workpiece = std::nullopt;
@@ -364,13 +365,13 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
             immersion->floor_known
                 ? std::nullopt
                 : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
-    // The window's pointer would compete with the hands'.
-    const auto of_pointer = [](const platform::InputEvent& event) {
-        return std::holds_alternative<platform::CursorEvent>(event) ||
-               std::holds_alternative<platform::ButtonEvent>(event) ||
-               std::holds_alternative<platform::WheelEvent>(event);
-    };
-    std::erase_if(events, of_pointer);
+    if (!room.shown) return;
+    if (immersion->tracks_hands) {
+        // The window's pointer would compete with the hands'.
+        std::erase_if(events, [](platform::InputEvent& event) { return pointer_position(event) != nullptr; });
+    } else {
+        move_to_panel(events, view::fitted(panel_extent, window.size));
+    }
     const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
     const std::vector<platform::InputEvent> hands = hand_events(room, immersion->hands, keys, window.seconds);
     events.insert(events.end(), hands.begin(), hands.end());
@@ -415,9 +416,8 @@ Status App::update(const view::WindowFrame& window) {
     return {};
 }
 
-// The interface first, because the eyes see its panel.
-Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion) {
-    static const render::Scene empty_scene;
+// Draws the interface, before the eyes that see its panel.
+Status App::draw_panel(gpu::FrameContext& frame) {
     render::Renderer& renderer = *gpu_->context->renderer;
     if (!gpu_->panel) {
         BOLT_TRY_ASSIGN(auto panel, render::PanelPicture::create(*gpu_->context->device, panel_extent));
@@ -427,28 +427,35 @@ Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion
         BOLT_TRY(pictures_.draw(*gpu_->context->device, renderer, frame,
                                 picture_request(menu_, options_.choice.assembly, panel_extent, panel_scale)));
     gpu_->panel->clear(frame);
-    BOLT_TRY(draw_interface(frame, gpu_->panel->layer()));
+    return draw_interface(frame, gpu_->panel->layer());
+}
+
+Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion) {
+    static const render::Scene empty_scene;
     const Pose place = scene_in_room();
     render::Scene scene = active_ ? active_->scene : empty_scene;
     if (!active_) scene.background = surroundings;
-    if (room_->panel) scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
+    if (in_room() && room_->panel)
+        scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
     for (std::uint32_t i = 0; i < immersion.groups.size(); ++i) {
         const view::EyeGroup& group = immersion.groups[i];
         std::vector<render::Eye> eyes;
         for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, place));
         if (!eyes.empty())
-            BOLT_TRY(renderer.render(frame, scene, eyes, group.size, view::immersive_group + i));
+            BOLT_TRY(
+                gpu_->context->renderer->render(frame, scene, eyes, group.size, view::immersive_group + i));
     }
     return {};
 }
 
 Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
     if (in_room()) {
-        BOLT_TRY(draw_room(frame, *window.immersion));
-    } else {
+        BOLT_TRY(draw_panel(frame));
+    } else if (window.size.width > 0 && window.size.height > 0) {
         BOLT_TRY(draw_pictures(frame, window.size, window.scale));
         BOLT_TRY(draw_interface(frame, gpu_->context->renderer->picture(0)));
     }
+    if (window.immersion != nullptr) BOLT_TRY(draw_room(frame, *window.immersion));
     return std::exchange(end_requested_, false) ? end_lesson() : Status{};
 }
 

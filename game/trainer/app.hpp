@@ -68,6 +68,9 @@ class App : public view::WindowContent {
     Status end() override { return end_lesson(); }
 
     [[nodiscard]] bool closed() const override { return closed_; }
+    [[nodiscard]] render::ImageLayer window_picture(const render::Renderer& renderer) const override {
+        return in_room() ? gpu_->panel->layer() : renderer.picture(0);
+    }
     [[nodiscard]] bool take_full_screen_request() override {
         return std::exchange(full_screen_requested_, false);
     }
@@ -116,6 +119,7 @@ class App : public view::WindowContent {
     [[nodiscard]] Pose scene_in_room() const;
     Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);
     Status draw_interface(gpu::FrameContext& frame, const render::ImageLayer& picture);
+    Status draw_panel(gpu::FrameContext& frame);
     Status draw_room(gpu::FrameContext& frame, const view::Immersion& immersion);
     void draw_screen(const ScreenContext& context);
     void press_start();

@@ -110,6 +110,21 @@ std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands
     return events;
 }
 
+glm::dvec2* pointer_position(platform::InputEvent& event) {
+    if (auto* cursor = std::get_if<platform::CursorEvent>(&event)) return &cursor->at;
+    if (auto* button = std::get_if<platform::ButtonEvent>(&event)) return &button->at;
+    if (auto* wheel = std::get_if<platform::WheelEvent>(&event)) return &wheel->at;
+    return nullptr;
+}
+
+void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown) {
+    if (shown.extent.width == 0 || shown.extent.height == 0) return;
+    const glm::dvec2 offset(shown.offset.x, shown.offset.y), size(shown.extent.width, shown.extent.height);
+    const glm::dvec2 panel(panel_extent.width, panel_extent.height);
+    for (platform::InputEvent& event : events)
+        if (glm::dvec2* at = pointer_position(event)) *at = (*at - offset) / size * panel;
+}
+
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture) {
     const Pose at = inverse(scene_in_room) * panel;
     const glm::dvec2 half = 0.5 * point_size * panel_points;

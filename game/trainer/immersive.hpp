@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/platform/input.hpp"
@@ -62,6 +63,12 @@ struct HandKeys {
 // `seconds`: of the frame.
 std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys,
                                               double seconds);
+
+// The position of an event of the pointer, px; null for other events.
+glm::dvec2* pointer_position(platform::InputEvent& event);
+
+// Changes the pointer's positions from a window, where the panel's picture covers `shown`, to the panel.
+void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown);
 
 // The panel in the scene whose frame is `scene_in_room`.
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture);

@@ -40,4 +40,7 @@ EyeGroup eye_group(const xr::HeadView& view, VkExtent2D size);
 // The part of a picture of this size that fills a window of `window`'s shape, in the middle.
 VkRect2D filling_part(VkExtent2D picture, VkExtent2D window);
 
+// The largest rectangle with the picture's shape in the middle of a window of this size.
+VkRect2D fitted(VkExtent2D picture, VkExtent2D window);
+
 }  // namespace bolt::view
