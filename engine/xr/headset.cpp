@@ -47,6 +47,8 @@ bool Headset::keep(const Status& status) {
 }
 
 void Headset::drop() {
+    if (session_ && session_->counts().begun > 0)
+        log(fmt::format("headset: {}", describe(session_->counts())));
     if (session_ && !session_->stop()) (void)input_.release();
     input_.reset();
     session_.reset();
@@ -94,9 +96,9 @@ std::optional<HeadsetFrame> Headset::begin_frame(double timeout) {
     if (failed_) (void)keep(fail(*std::exchange(failed_, std::nullopt)));
     if (!session_ || !keep(session_->poll(events_))) return std::nullopt;
     if (session_->ended()) {
-        log("the program was ended in the headset's menu");
         exit_requested_ = true;
         drop();
+        log("the program was ended in the headset's menu");
         return std::nullopt;
     }
     const Result<std::optional<FrameTiming>> begun = session_->begin_frame(timeout);

@@ -192,6 +192,7 @@ Status Session::follow(const XrEventDataSessionStateChanged& event) {
         info.primaryViewConfigurationType = runtime_->view_configuration();
         BOLT_TRY(check(xrBeginSession(session_.get(), &info), "beginning the headset's session"));
         running_ = true;
+        last_display_time_.reset();
         waiter_->request();
     } else if (event.state == XR_SESSION_STATE_STOPPING) {
         running_ = false;

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -40,6 +41,23 @@ struct FrameTiming {
     double period = 0.0;         // s between frames of the display
     bool should_render = false;  // false: nothing that is drawn would be seen
 };
+
+// Returns the period of the display, ns. Runtimes such as Monado report that of the program instead: a
+// multiple, once it misses frames. `known`: the period that was returned before; 0: none. `reported`: by the
+// runtime for the next frame. A period that is no multiple of the known one is another frame rate of the
+// display.
+XrDuration display_period(XrDuration known, XrDuration reported);
+
+// The frames since a session was created.
+struct FrameCounts {
+    std::int64_t begun = 0;
+    std::int64_t drawn = 0;   // with pictures
+    std::int64_t missed = 0;  // in which the display showed an older picture, because the next one was late
+    double seconds = 0.0;     // between the first and the last frame, on the display's clock
+    double waited = 0.0;      // s for which begin_frame() waited for the runtime
+};
+// "812 frames in 60.0 s (13.5 a second, 800 drawn), 388 missed, 1.2 s of waiting".
+std::string describe(const FrameCounts& counts);
 
 // The base space of all poses.
 enum class BaseSpace : std::uint8_t {
@@ -134,6 +152,7 @@ class Session {
         DepthRange depth;
     };
     Status end_frame(const FrameTiming& frame, const Drawn& drawn);
+    [[nodiscard]] const FrameCounts& counts() const { return counts_; }
 
     // Largest size of an eye's picture.
     [[nodiscard]] VkExtent2D extent() const { return extent_; }
@@ -166,6 +185,7 @@ class Session {
     Status create_swapchains();
     Result<Swapchain> make_swapchain(VkFormat format, std::uint32_t layers, XrSwapchainUsageFlags usage);
     Status follow(const XrEventDataSessionStateChanged& event);
+    void count(XrTime display_time);
     Status acquire(Swapchain& swapchain);
     Status release(Swapchain& swapchain);
     template <class Visit>
@@ -184,6 +204,9 @@ class Session {
     std::vector<VkExtent2D> drawn_;         // sizes of the pictures that record() copied
     bool depth_drawn_ = false;              // and their depth
     std::shared_ptr<FrameWaiter> waiter_;
+    FrameCounts counts_;
+    XrDuration period_ = 0;                    // of the display, ns
+    std::optional<XrTime> last_display_time_;  // of this run of the session
     XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
     bool running_ = false, ended_ = false, abandoned_ = false;
 };

@@ -1,6 +1,10 @@
 // The frames of a session: when they begin, where the eyes are, and the pictures that are shown.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
 
 #include "engine/xr/frame_waiter.hpp"
 #include "engine/xr/session.hpp"
@@ -14,17 +18,48 @@ constexpr XrDuration image_timeout = 100'000'000;
 
 }  // namespace
 
+std::string describe(const FrameCounts& counts) {
+    const double rate = counts.seconds > 0.0 ? static_cast<double>(counts.begun) / counts.seconds : 0.0;
+    return fmt::format("{} frames in {:.1f} s ({:.1f} a second, {} drawn), {} missed, {:.1f} s of waiting",
+                       counts.begun, counts.seconds, rate, counts.drawn, counts.missed, counts.waited);
+}
+
+XrDuration display_period(XrDuration known, XrDuration reported) {
+    constexpr double tolerance = 0.02;  // of rounding and of prediction, as a share of the period
+    if (known <= 0 || reported <= 0) return std::max(known, reported);
+    const double ratio = static_cast<double>(reported) / static_cast<double>(known);
+    const double multiple = std::round(ratio);
+    return multiple >= 1.0 && std::abs(ratio - multiple) < tolerance ? known : reported;
+}
+
+void Session::count(XrTime display_time) {
+    ++counts_.begun;
+    if (last_display_time_) {
+        const XrDuration passed = display_time - *last_display_time_;
+        counts_.seconds += 1e-9 * static_cast<double>(passed);
+        // Display times are multiples of the period, but for rounding errors.
+        if (period_ > 0)
+            counts_.missed += std::max<std::int64_t>(
+                std::llround(static_cast<double>(passed) / static_cast<double>(period_)) - 1, 0);
+    }
+    last_display_time_ = display_time;
+}
+
 Result<std::optional<FrameTiming>> Session::begin_frame(double timeout) {
     if (!running_) return std::nullopt;
+    const auto begin = std::chrono::steady_clock::now();
     const std::optional<FrameWaiter::Answer> answer = waiter_->take(timeout);
+    counts_.waited += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!answer) return std::nullopt;
     BOLT_TRY(check(answer->result, "waiting for the headset's frame"));
     const XrFrameBeginInfo info{XR_TYPE_FRAME_BEGIN_INFO, nullptr};
     BOLT_TRY(check(xrBeginFrame(session_.get(), &info), "beginning the headset's frame"));
     waiter_->request();  // for the next frame, while this one is drawn
+    period_ = display_period(period_, answer->state.predictedDisplayPeriod);
+    count(answer->state.predictedDisplayTime);
     FrameTiming timing;
     timing.display_time = answer->state.predictedDisplayTime;
-    timing.period = 1e-9 * static_cast<double>(answer->state.predictedDisplayPeriod);
+    timing.period = 1e-9 * static_cast<double>(period_);
     timing.should_render = answer->state.shouldRender == XR_TRUE;
     return timing;
 }
@@ -207,6 +242,7 @@ Status Session::end_frame(const FrameTiming& frame, const Drawn& drawn) {
     info.environmentBlendMode = blends ? *runtime_->passthrough() : runtime_->opaque();
     info.layerCount = eyes > 0 && eyes == runtime_->views().size() ? 1 : 0;
     info.layers = layers;
+    counts_.drawn += info.layerCount;
     drawn_.clear();
     return check(xrEndFrame(session_.get(), &info), "ending the headset's frame");
 }

@@ -12,10 +12,9 @@ namespace bolt::trainer {
 
 namespace {
 
-constexpr double longest_frame = 0.25;       // s; a slower frame delays the lesson instead of making it jump
-constexpr float text_size = 15.0F;           // points
-constexpr double timing_duration = 1.5;      // s, of the servo in the check of the computer
-constexpr double default_seated_eyes = 1.2;  // m above the floor, about the mean of DIN 33402-2
+constexpr double longest_frame = 0.25;   // s; a slower frame delays the lesson instead of making it jump
+constexpr float text_size = 15.0F;       // points
+constexpr double timing_duration = 1.5;  // s, of the servo in the check of the computer
 constexpr glm::vec4 surroundings{0.02F, 0.025F, 0.035F, 1.0F};  // of the menu in a room
 
 std::string describe_event(const content::Assembly& assembly, const lesson::LessonEvent& event, double dt) {
@@ -323,58 +322,6 @@ Status App::draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale
     if (active_) return {};
     return pictures_.draw(*gpu_->context->device, renderer, frame,
                           picture_request(menu_, options_.choice.assembly, size, scale));
-}
-
-// The pose of the assembly's frame in the room; that of the room without a lesson.
-Pose App::scene_in_room() const {
-    if (!active_ || !room_->workpiece) return {};
-    return adjusted(*room_->workpiece, active_->workplace.machine, room_->turns, room_->height);
-}
-
-// Pauses a lesson that its user suddenly does not see: no device may push, and a tracked hand is gone. It
-// continues when the user sees it again; at the window it can be continued or ended before.
-void App::pause_unseen(bool seen) {
-    if (!room_) return;
-    const bool was_seen = std::exchange(room_->seen, seen);
-    if (!active_ || screen_ != ShownScreen::lesson || !active_->station) return;
-    bool& paused = active_->clock.paused;
-    if (was_seen && !seen && !paused) room_->paused = paused = true;
-    if (!seen) return;
-    if (std::exchange(room_->paused, false)) paused = false;
-}
-
-// Places workpiece and panel, and adds the input of the hands as events.
-void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
-    const view::Immersion* immersion = window.immersion;
-    pause_unseen(immersion != nullptr && immersion->attentive);
-    if (room_) room_->shown = false;
-    if (immersion == nullptr) return;
-    if (!room_) room_.emplace();
-    Room& room = *room_;
-    // On walls a lesson by mouse is played in the window, and the walls show it.
-    room.shown = immersion->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
-    room.seen = immersion->attentive;
-    if (immersion->tracks_hands) offer_tracked_hand(menu_.devices);
-    if (immersion->recentred) room.panel = room.workpiece = std::nullopt;
-    const bool placed = immersion->tracked || room.panel.has_value();
-    if (placed && !room.panel) room.panel = place_panel(immersion->head);
-    if (!active_) room.workpiece.reset();
-    if (placed && active_ && !room.workpiece)
-        room.workpiece = place_workpiece(
-            immersion->head, active_->workplace.machine,
-            immersion->floor_known
-                ? std::nullopt
-                : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
-    if (!room.shown) return;
-    if (immersion->tracks_hands) {
-        // The window's pointer would compete with the hands'.
-        std::erase_if(events, [](platform::InputEvent& event) { return pointer_position(event) != nullptr; });
-    } else {
-        move_to_panel(events, view::fitted(panel_extent, window.size));
-    }
-    const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
-    const std::vector<platform::InputEvent> hands = hand_events(room, immersion->hands, keys, window.seconds);
-    events.insert(events.end(), hands.begin(), hands.end());
 }
 
 Status App::update(const view::WindowFrame& window) {

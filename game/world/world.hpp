@@ -43,7 +43,7 @@ struct ConstrainedTool {
     Pose pose;
 };
 
-// What the tool holds and touches. −1: none.
+// The contact of the tool with nuts and obstacles. A joint is −1 if there is none.
 struct ToolState {
     std::int16_t joint = -1;               // engaged joint
     servo::Grip grip = servo::Grip::none;  // what holds the engaged joint
@@ -55,7 +55,7 @@ struct ToolState {
 
 // The force that guides the tool to a nut, before the limits of the output stage.
 struct GuidingForce {
-    std::int16_t joint = -1;  // that it leads to; −1: none
+    std::int16_t joint = -1;  // its nut is the target; −1: none
     Vec3 force{0.0};
     Vec3 torque{0.0};
 };

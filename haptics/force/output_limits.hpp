@@ -20,7 +20,7 @@ struct OutputLimits {
     double torque = 2.0;         // N·m, magnitude; 0: no torque output
     double force_rate = 2000.0;  // N/s, slew rate while rendering
     double torque_rate = 200.0;  // N·m/s, the same
-    double ramp_up = 0.5;        // s from enabling to the full force
+    double ramp_up = 0.5;        // s from closing the dead-man switch to the full force
     double release = 0.02;       // s from releasing the dead-man switch to zero output, at most
 
     double stiffness = 2000.0;     // N/m, largest stiffness that the device renders stably

@@ -124,7 +124,7 @@ void record_sent(PassivityState& state, const OutputCommand& sent);
 struct LimiterState {
     Vec3 force{0.0};    // N, last output
     Vec3 torque{0.0};   // N·m
-    double ramp = 0.0;  // 0 … 1, share of the request that is rendered; grows after enabling
+    double ramp = 0.0;  // 0 … 1, rendered share of the request; grows while the dead-man switch is held
     std::uint64_t invalid_requests = 0;  // steps with a request that was not finite
 };
 

@@ -42,7 +42,7 @@ TEST_CASE("Device check: the report has what was measured, and why the rest was 
 
     check.stiffness = station::begin_stiffness_trial(check.description);
     check.stiffness->end = station::TrialEnd::oscillation;
-    check.stiffness->stage = 4;
+    check.stiffness->level = 4;
     check.stiffness->stable = 800.0;
     check.stiffness->responses = {0.004, 0.009, 0.005};
     text = device_check_report(check);
@@ -51,7 +51,7 @@ TEST_CASE("Device check: the report has what was measured, and why the rest was 
               "oscillating\n"));
     CHECK(has(text, "moves by 0.03 mm within 5 ms of a command (median of 3 steps of 2.4 N"));
     check.stiffness->stable = 0.0;
-    check.stiffness->stage = 0;
+    check.stiffness->level = 0;
     check.stiffness->end = station::TrialEnd::fault;
     check.stiffness->fault = force::Fault::too_fast;
     CHECK(has(device_check_report(check),

@@ -54,7 +54,7 @@ XrResult wait_next(State& s, std::unique_lock<std::mutex>& lock, XrFrameState& o
     }
     Session& session = *s.instance->session;
     count_frame(s);
-    session.last_display += period;
+    session.last_display += (1 + std::exchange(s.delayed_periods, 0)) * period;
     session.waited = session.last_display;
     for (std::string& file : s.script.requested) s.script.pictures.emplace(*session.waited, std::move(file));
     s.script.requested.clear();
@@ -62,7 +62,7 @@ XrResult wait_next(State& s, std::unique_lock<std::mutex>& lock, XrFrameState& o
         session.state == XR_SESSION_STATE_VISIBLE || session.state == XR_SESSION_STATE_FOCUSED;
     session.waited_render = visible && s.should_render;
     out.predictedDisplayTime = session.last_display;
-    out.predictedDisplayPeriod = period;
+    out.predictedDisplayPeriod = s.reported_periods * period;
     out.shouldRender = session.waited_render ? XR_TRUE : XR_FALSE;
     return XR_SUCCESS;
 }

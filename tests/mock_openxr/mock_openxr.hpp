@@ -176,6 +176,10 @@ struct Control {
     // The same after `skip` further calls.
     void (*fail_after)(const std::string& function, int skip, XrResult result, int count);
     void (*block_wait)(bool blocked);  // xrWaitFrame does not return until released or lost
+    // The next frame is displayed `count` periods later than it would be, as after a slow frame.
+    void (*delay_frame)(int count);
+    // The following frames report this multiple of the period, as Monado does while the client misses frames.
+    void (*report_period)(int multiple);
     void (*set_should_render)(bool should_render);
     void (*set_capture)(bool capture);  // read the pictures of all following frames
 

@@ -61,6 +61,8 @@ void reset() {
         s.hands = {};
         s.worn = s.focus = s.should_render = true;
         s.blocked = s.capture = false;
+        s.delayed_periods = 0;
+        s.reported_periods = 1;
         s.injected.clear();
         s.calls.clear();
         s.violations.clear();
@@ -97,6 +99,8 @@ const Control control{
             s.changed.notify_all();
         });
     },
+    [](int count) { locked([&](State& s) { s.delayed_periods = count; }); },
+    [](int multiple) { locked([&](State& s) { s.reported_periods = multiple; }); },
     [](bool should_render) { locked([&](State& s) { s.should_render = should_render; }); },
     [](bool capture) { locked([&](State& s) { s.capture = capture; }); },
     [] { return locked([](State& s) { return std::exchange(s.violations, {}); }); },

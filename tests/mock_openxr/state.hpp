@@ -110,6 +110,8 @@ struct State {
     Config config;
     Tracked head{{{0.0, 1.6, 0.0}}};
     std::array<Hand, 2> hands{};
+    int delayed_periods = 0;   // of the next frame
+    int reported_periods = 1;  // in a reported period
     bool worn = true, focus = true, should_render = true, blocked = false, capture = false;
     std::map<std::string, InjectedResult, std::less<>> injected;
     std::map<std::string, std::uint64_t, std::less<>> calls;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "tests/room/trainee_in_room.hpp"
+#include "tests/room/immersion_driver.hpp"
 #include "tests/trainer/one_joint.hpp"
 
 using namespace bolt;
@@ -98,7 +98,8 @@ TEST_CASE("Room: a tracked hand runs a nut down with its fingers, takes the wren
         felt.emplace_back(driver.lesson().session->time(), vibration);
     };
     double tightening = 0.0;  // s, when the jaw first holds the nut
-    test::TraineeInRoom trainee(driver);
+    test::ImmersionDriver hands(driver);
+    test::TraineeInRoom trainee(hands);
     trainee.on_frame = [&] {
         if (tightening == 0.0 && hand_of(driver.lesson()).wrench &&
             driver.lesson().session->state().engagement.joint >= 0)
@@ -129,7 +130,8 @@ TEST_CASE("Room: a lesson pauses while its user does not see it, and when the he
     HeadlessTrainer driver(tracked_hand("first-nut"), {eye_size, 0.3F, 0.02});
     driver.draws = false;
     driver.immersion = test::standing_user(eye_size);
-    test::TraineeInRoom trainee(driver);
+    test::ImmersionDriver hands(driver);
+    test::TraineeInRoom trainee(hands);
     driver.frame();
     trainee.hold_still(0.2, 0.0);
     REQUIRE_FALSE(driver.lesson().clock.paused);

@@ -15,6 +15,7 @@ constexpr double fov = to_radians(45.0);       // to each side
 constexpr double hand_speed = 0.35;            // m/s
 constexpr double hand_turn = 3.0;              // rad/s
 constexpr double correction = 6.0;             // 1/s, rate at which the visible error is corrected
+constexpr double gaze_rate = 2.0;              // 1/s, at which the head turns to what it looks at
 constexpr double forearm = to_radians(100.0);  // rad by which a nut is turned before the fingers regrasp
 constexpr double stroke = to_radians(50.0);    // rad of a pull
 constexpr double pull_speed = 0.6;             // rad/s
@@ -34,9 +35,13 @@ view::EyeGroup two_eyes(const Pose& head, VkExtent2D size) {
     return group;
 }
 
+Pose standing_head() {
+    return {{0.0, eye_height, 0.0}, glm::angleAxis(to_radians(-20.0), Vec3(1.0, 0.0, 0.0))};
+}
+
 view::Immersion standing_user(VkExtent2D size) {
     view::Immersion immersion;
-    immersion.head = {{0.0, eye_height, 0.0}, glm::angleAxis(to_radians(-20.0), Vec3(1.0, 0.0, 0.0))};
+    immersion.head = standing_head();
     immersion.tracked = immersion.attentive = true;
     immersion.groups = {two_eyes(immersion.head, size)};
     return immersion;
@@ -65,10 +70,20 @@ void TraineeInRoom::frame(const Pose& palm, double closed) {
         const Pose assembly =
             trainer::adjusted(*room.workpiece, lesson().workplace.machine, room.turns, room.height);
         hand.grip = xr::TrackedPose{assembly * palm_, true};
+        look_at(assembly *
+                (0.5 * (tool().position + (due() != nullptr ? nut(due()->joint) : tool().position))));
     }
-    driver_.immersion->hands = hands;
-    driver_.frame();
+    driver_.frame(head, hands);
     on_frame();
+}
+
+// Turns the head, without tilting it to a side.
+void TraineeInRoom::look_at(const Vec3& target) {
+    const Vec3 along = target - head.position;
+    const double yaw = std::atan2(-along.x, -along.z),
+                 pitch = std::atan2(along.y, std::hypot(along.x, along.z));
+    const Quat seen = glm::angleAxis(yaw, Vec3(0.0, 1.0, 0.0)) * glm::angleAxis(pitch, Vec3(1.0, 0.0, 0.0));
+    head.orientation = glm::slerp(head.orientation, seen, std::min(1.0, gaze_rate * driver_.step()));
 }
 
 void TraineeInRoom::hold_still(double seconds, double closed) {
@@ -149,12 +164,12 @@ bool TraineeInRoom::lower(std::size_t joint, const Pose& seated) {
         const Pose at = tool();
         const Vec3 error = seated.position - at.position;
         const Vec3 level = error - glm::dot(error, up) * up;
-        const collision::JawSeat seat =
-            collision::seat_of(setup().wrench.jaw, servo::prism_of(geometry),
+        const collision::JawFit fit =
+            collision::jaw_fit(setup().wrench.jaw, servo::prism_of(geometry),
                                servo::on_nut(geometry, state().joints[joint].nut.angle, servo::at_pose(at)));
         const Vec3 handle = at.orientation * Vec3(setup().wrench.handle_length, 0.0, 0.0);
-        const Vec3 swing = seat.misalignment * glm::cross(up, handle);
-        const bool fits = std::abs(seat.misalignment) < aligned && glm::length(level) < level_error;
+        const Vec3 swing = fit.misalignment * glm::cross(up, handle);
+        const bool fits = std::abs(fit.misalignment) < aligned && glm::length(level) < level_error;
         const double height = fits ? 0.0 : 0.8 * geometry.height + 0.5 * setup().wrench.jaw.thickness;
         const Vec3 normal = at.orientation * Vec3(0.0, 0.0, 1.0);
         frame(moved_palm(level + swing + (glm::dot(error, up) + height) * up, glm::cross(normal, up)), 1.0);

@@ -3,6 +3,7 @@
 
 #include "game/scene/annotations.hpp"
 #include "game/session/session_file.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/skip.hpp"
 #include "tests/trainer/one_joint.hpp"
 #include "tests/trainer_app/free_hand_user.hpp"
@@ -66,6 +67,7 @@ TEST_CASE("Free hand: a simulated user aligns and tightens the nut by dragging a
 }
 
 TEST_CASE("Free hand: fingers and wrench leave a nut without a mistake, and go to the next among obstacles") {
+    if (test::sanitized) return test::skip_rest("four nuts by hand take minutes under a sanitizer");
     HeadlessTrainer driver(free_hand("cover-m8"), {{320, 180}, 0.3F, 0.05});
     driver.frame();
     test::FreeHandUser user(driver);

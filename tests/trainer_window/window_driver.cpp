@@ -1,7 +1,6 @@
 #include "tests/trainer_window/window_driver.hpp"
 
 #include <cstdlib>
-#include <stdexcept>
 
 namespace bolt::test {
 
@@ -22,58 +21,11 @@ std::string keysym(platform::Key key) {
 
 }  // namespace
 
-void WindowDriver::wait_for(Turn turn) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return turn_ == turn || done_ || window_closed_; });
-}
-
-void WindowDriver::pass_to(Turn turn) {
-    {
-        const std::lock_guard lock(mutex_);
-        turn_ = turn;
-    }
-    changed_.notify_all();
-}
-
-bool WindowDriver::turn() {
-    pass_to(Turn::user);
-    wait_for(Turn::trainer);
-    const std::lock_guard lock(mutex_);
-    return done_;
-}
-
 void WindowDriver::run(const std::function<void()>& act) {
-    const auto leave = [&] {
-        {
-            const std::lock_guard lock(mutex_);
-            done_ = true;
-        }
-        changed_.notify_all();
-    };
-    try {
-        wait_for(Turn::user);
+    turns_.run([&] {
         hand_ = std::make_unique<WindowUser>("boltwright");
         act();
-    } catch (...) {
-        leave();
-        throw;
-    }
-    leave();
-}
-
-void WindowDriver::window_closed() {
-    {
-        const std::lock_guard lock(mutex_);
-        window_closed_ = true;
-    }
-    changed_.notify_all();
-}
-
-void WindowDriver::frame() {
-    pass_to(Turn::trainer);
-    wait_for(Turn::user);
-    const std::lock_guard lock(mutex_);
-    if (window_closed_) throw std::runtime_error("the window is gone");
+    });
 }
 
 void WindowDriver::key(platform::Key key) {

@@ -4,12 +4,11 @@
 // user always sees the picture that was shown last.
 #pragma once
 
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 
 #include "engine/platform/window.hpp"
 #include "tests/platform/window_user.hpp"
+#include "tests/support/turns.hpp"
 #include "tests/trainer_app/trainer_driver.hpp"
 
 namespace bolt::test {
@@ -19,13 +18,13 @@ class WindowDriver final : public TrainerDriver {
     WindowDriver(const trainer::App& app, const platform::Window& window) : app_(app), window_(window) {}
 
     // Call once a frame in the trainer's thread. Returns true when the user is done.
-    bool turn();
+    bool turn() { return turns_.give(); }
     // Runs `act` in the user's thread from the first picture on.
     void run(const std::function<void()>& act);
     // Call when the window is closed; a waiting frame() then throws.
-    void window_closed();
+    void window_closed() { turns_.end_program(); }
 
-    void frame() override;
+    void frame() override { turns_.take(); }
     void key(platform::Key key) override;
     void move(const glm::dvec2& to) override;
     void press(const glm::dvec2& at) override;
@@ -39,14 +38,7 @@ class WindowDriver final : public TrainerDriver {
     const trainer::App& app_;
     const platform::Window& window_;
     std::unique_ptr<WindowUser> hand_;
-    // Not a semaphore: std::counting_semaphore of libstdc++ 12 was observed not to wake up after a release.
-    enum class Turn : std::uint8_t { trainer, user };
-    void wait_for(Turn turn);
-    void pass_to(Turn turn);
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    Turn turn_ = Turn::trainer;
-    bool done_ = false, window_closed_ = false;
+    Turns turns_;
 };
 
 }  // namespace bolt::test

@@ -56,6 +56,58 @@ TEST_CASE("Session: passes through its states to focus, and frames are submitted
     }
 }
 
+TEST_CASE("Session: frames are counted, and the headset's log has their number when it ends") {
+    const test::MockRuntime mock;
+    test::Program program;
+    REQUIRE(program.connect());
+    (void)program.focus();
+    const xr::FrameCounts before = program.headset().session().counts();
+    CHECK(before.missed == 0);
+    for (int i = 0; i < 4; ++i) (void)program.frame();
+    mock->delay_frame(3);
+    for (int i = 0; i < 6; ++i) (void)program.frame();
+    const xr::FrameCounts& counts = program.headset().session().counts();
+    CHECK(counts.begun - before.begun == 10);
+    CHECK(counts.drawn - before.drawn == 10);
+    CHECK(counts.missed == 3);
+    CHECK(counts.seconds - before.seconds == doctest::Approx(13 * 0.011111111));
+    // The time without a session is no missed frame.
+    mock->send(mock::Event::taken_off);
+    CHECK_FALSE(program.frame().has_value());
+    idle(program, 3);
+    mock->delay_frame(100);
+    mock->send(mock::Event::put_on);
+    (void)program.focus();
+    CHECK(program.headset().session().counts().missed == 3);
+    program.disconnect();
+    const auto& lines = program.lines();
+    CHECK(std::any_of(lines.begin(), lines.end(),
+                      [](const std::string& line) { return line.find("3 missed") != std::string::npos; }));
+}
+
+TEST_CASE("Session: the period is the display's, also if the runtime reports the program's") {
+    const test::MockRuntime mock;
+    test::Program program;
+    REQUIRE(program.connect());
+    (void)program.focus();
+    mock->report_period(3);
+    mock->delay_frame(2);
+    for (int i = 0; i < 4; ++i) {
+        const std::optional<xr::HeadsetFrame> frame = program.frame();
+        REQUIRE(frame.has_value());
+        CHECK(frame->timing.period == doctest::Approx(0.011111111));
+    }
+    CHECK(program.headset().session().counts().missed == 2);
+
+    constexpr XrDuration at_90 = 11'111'111, at_72 = 13'888'889, at_120 = 8'333'333;
+    CHECK(xr::display_period(0, at_90) == at_90);
+    CHECK(xr::display_period(at_90, 2 * at_90 + 1000) == at_90);
+    CHECK(xr::display_period(at_90, at_72) == at_72);
+    CHECK(xr::display_period(at_90, at_120) == at_120);
+    CHECK(xr::display_period(2 * at_90, at_90) == at_90);  // the first report was a multiple
+    CHECK(xr::display_period(at_90, 0) == at_90);
+}
+
 TEST_CASE("Session: the user's focus on another program pauses, and returns") {
     const test::MockRuntime mock;
     test::Program program;

@@ -1,0 +1,78 @@
+// Plays a trainer in a headset of Monado: the trainee's poses go to the runtime as messages, and come back
+// through OpenXR, with the frames of view::run_in_window.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+
+#include "game/trainer/app.hpp"
+#include "tests/monado/remote_headset.hpp"
+#include "tests/room/trainee_in_room.hpp"
+#include "tests/support/turns.hpp"
+
+namespace bolt::test {
+
+struct HeadsetDriverOptions {
+    // s of the lesson per frame of the headset: the lesson runs slower than the clock where drawing is slow.
+    double step = 0.02;
+    // s of the lesson between frames that are drawn; 0: every frame is. The frames between them show the last
+    // picture again, which saves most of the time on a computer without a GPU.
+    double draw_interval = 0.0;
+    // Folder for the drawn pictures, both eyes side by side, 00000.png and so on; empty: none.
+    std::filesystem::path pictures;
+};
+
+// The frames in which the user saw the lesson.
+struct HeadsetFrames {
+    int count = 0;
+    double seconds = 0.0;         // of the clock
+    double grip_error = 0.0;      // m, the largest distance of a hand from where it was last sent
+    int without_hand = 0;         // frames in which the runtime had no pose for an active hand
+    bool unlike_trigger = false;  // a value of the trigger or squeeze was not the one last sent
+};
+
+class HeadsetDriver final : public view::WindowContent, public RoomDriver {
+  public:
+    HeadsetDriver(trainer::App& app, RemoteHeadset remote, HeadsetDriverOptions options)
+        : app_(app), remote_(std::move(remote)), options_(std::move(options)) {}
+
+    // As the content of the window: the app, whose user acts after each frame that was drawn in the headset.
+    Status start(view::GpuContext& gpu_context) override;
+    void release() override;
+    Status update(const view::WindowFrame& window) override;
+    Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
+    Status frame_while_hidden() override { return app_.frame_while_hidden(); }
+    Status end() override { return app_.end(); }
+    [[nodiscard]] bool closed() const override { return user_done_ || app_.closed(); }
+
+    // As the driver of a trainee, in the trainee's thread.
+    void frame(const Pose& head, const xr::Hands& hands) override;
+    [[nodiscard]] const trainer::App& app() const override { return app_; }
+    [[nodiscard]] double step() const override { return options_.step; }
+
+    [[nodiscard]] Turns& turns() { return turns_; }
+    [[nodiscard]] const HeadsetFrames& frames() const { return frames_; }
+    // The hands that the last frame got from the runtime.
+    [[nodiscard]] const xr::Hands& received() const { return received_; }
+
+  private:
+    void compare(const view::Immersion& immersion);
+    Status take_picture();
+
+    trainer::App& app_;
+    RemoteHeadset remote_;
+    HeadsetDriverOptions options_;
+    Turns turns_;
+    bool user_done_ = false;
+    view::GpuContext* gpu_ = nullptr;
+    HeadsetFrames frames_;
+    xr::Hands sent_, received_;
+    std::optional<std::chrono::steady_clock::time_point> last_frame_;
+    std::optional<VkExtent2D> drawn_;  // size of the pictures since start(); none: nothing was drawn
+    bool newly_drawn_ = false;         // in the last frame
+    double drawn_at_ = 0.0;            // s of the lesson
+    int pictures_ = 0;
+};
+
+}  // namespace bolt::test
