@@ -7,6 +7,7 @@ find_package(Boost 1.74 CONFIG REQUIRED)  # Beast and Asio, which are headers on
 # Each io_context has one thread and needs no fences, which ThreadSanitizer does not know.
 set_property(TARGET Boost::headers APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS BOOST_ASIO_DISABLE_FENCED_BLOCK)
 find_package(CLI11 REQUIRED)
+find_package(pugixml REQUIRED)
 find_package(SQLite3 REQUIRED)
 find_package(zstd REQUIRED)
 find_package(TinyGLTF REQUIRED)

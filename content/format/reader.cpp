@@ -10,8 +10,8 @@ namespace bolt::content {
 
 using nlohmann::json;
 
-JsonReader::JsonReader(const JsonDocument& document) : document_(document) {
-    SchemaFindings findings = check_schema(document);
+JsonReader::JsonReader(const JsonDocument& document, const JsonSchema& schema) : document_(document) {
+    SchemaFindings findings = check_schema(document, schema);
     errors_ = std::move(findings.errors);
     unusable_.insert(findings.unusable.begin(), findings.unusable.end());
 }

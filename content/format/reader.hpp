@@ -33,7 +33,7 @@ struct Located {
 
 class JsonReader {
   public:
-    explicit JsonReader(const JsonDocument& document);
+    explicit JsonReader(const JsonDocument& document, const JsonSchema& schema = assembly_schema());
 
     // Returns the schema errors and those added by report(), sorted by position, without duplicates.
     std::vector<Error> take_errors();

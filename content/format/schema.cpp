@@ -54,9 +54,9 @@ std::string purpose(const json& node) {
 // not a unit.
 std::string unit_in_words(std::string_view token) {
     constexpr std::pair<std::string_view, std::string_view> units[] = {
-        {"mm", "mm"},           {"um", "µm"},   {"m", "m"},        {"Nm", "N·m"}, {"kN", "kN"},
-        {"MN", "MN"},           {"GPa", "GPa"}, {"MPa", "MPa"},    {"g", "g"},    {"s", "s"},
-        {"percent", "percent"}, {"deg", "deg"}, {"turns", "turns"}};
+        {"mm", "mm"},           {"um", "µm"},   {"m", "m"},         {"Nm", "N·m"},   {"kN", "kN"},
+        {"MN", "MN"},           {"GPa", "GPa"}, {"MPa", "MPa"},     {"g", "g"},      {"s", "s"},
+        {"percent", "percent"}, {"deg", "deg"}, {"turns", "turns"}, {"px", "pixels"}};
     const bool squared = token.ends_with('2');
     if (squared) token.remove_suffix(1);
     for (const auto& [name, written] : units)
@@ -90,7 +90,8 @@ std::string number_in_words(const json& node, const std::string& name) {
         bounds.push_back(fmt::format("> {:g}", node["exclusiveMinimum"].get<double>()));
     if (node.contains("minimum")) bounds.push_back(fmt::format(">= {:g}", node["minimum"].get<double>()));
     if (node.contains("maximum")) bounds.push_back(fmt::format("<= {:g}", node["maximum"].get<double>()));
-    return fmt::format("a number {}{}", fmt::join(bounds, " and "), unit_of(name));
+    const char* kind = node.value("type", std::string{}) == "integer" ? "a whole number" : "a number";
+    return fmt::format("{} {}{}", kind, fmt::join(bounds, " and "), unit_of(name));
 }
 
 std::string list_in_words(const json& node) {
@@ -108,7 +109,7 @@ std::string expected_text(const json& node, const std::string& name) {
         return names.size() == 1 ? in_quotes(names[0]) : fmt::format("one of {}", fmt::join(names, ", "));
     }
     const std::string type = node.value("type", std::string{});
-    if (type == "number") return number_in_words(node, name);
+    if (type == "number" || type == "integer") return number_in_words(node, name);
     if (type == "array") return list_in_words(node);
     if (type == "string") return "a text in double quotes";
     if (type == "boolean") return "true or false";
@@ -124,13 +125,22 @@ std::vector<std::string> member_names(const json& node) {
 
 bool right_type(const json& node, const json& value) {
     const std::string type = node.value("type", std::string(node.contains("enum") ? "string" : ""));
-    return (type == "number" && value.is_number()) || (type == "array" && value.is_array()) ||
-           (type == "string" && value.is_string()) || (type == "boolean" && value.is_boolean()) ||
-           (type == "object" && value.is_object()) || type.empty();
+    return ((type == "number" || type == "integer") && value.is_number()) ||
+           (type == "array" && value.is_array()) || (type == "string" && value.is_string()) ||
+           (type == "boolean" && value.is_boolean()) || (type == "object" && value.is_object()) ||
+           type.empty();
 }
 
-void explain_number(const json& node, double value, const std::string& name,
+void explain_number(const json& node, const json& number, const std::string& name,
                     std::vector<SchemaViolation>& out) {
+    const double value = number.get<double>();
+    if (node.value("type", std::string{}) == "integer" && !number.is_number_integer()) {
+        SchemaViolation mistake;
+        mistake.what = fmt::format("{} is not a whole number", in_quotes(number.dump()));
+        mistake.expected = number_in_words(node, name);
+        out.push_back(std::move(mistake));
+        return;
+    }
     const bool low = (node.contains("minimum") && value < node["minimum"].get<double>()) ||
                      (node.contains("exclusiveMinimum") && value <= node["exclusiveMinimum"].get<double>());
     const bool high = node.contains("maximum") && value > node["maximum"].get<double>();
@@ -242,7 +252,7 @@ std::vector<SchemaViolation> explain_value(const json& schema, const json& node,
         mistake.expected = expected_text(node, name);
         out.push_back(std::move(mistake));
     } else if (value.is_number()) {
-        explain_number(node, value.get<double>(), name, out);
+        explain_number(node, value, name, out);
     } else if (value.is_string()) {
         explain_text(node, value.get_ref<const std::string&>(), out);
     } else if (value.is_array()) {
@@ -256,20 +266,25 @@ std::vector<SchemaViolation> explain_value(const json& schema, const json& node,
 
 using valijson::adapters::NlohmannJsonAdapter;
 
-namespace {
-
-struct CompiledSchema {
+struct JsonSchema::Compiled {
+    nlohmann::json parsed;
     valijson::Schema schema;  // cannot be moved
-    CompiledSchema() { valijson::SchemaParser().populateSchema(NlohmannJsonAdapter(schema_json()), schema); }
 };
 
-}  // namespace
+JsonSchema::JsonSchema(std::string_view text) : compiled_(std::make_unique<Compiled>()) {
+    compiled_->parsed = nlohmann::json::parse(text);
+    valijson::SchemaParser().populateSchema(NlohmannJsonAdapter(compiled_->parsed), compiled_->schema);
+}
 
-std::map<std::vector<std::string>, std::string> validator_errors(const nlohmann::json& document) {
-    static const CompiledSchema compiled;
+JsonSchema::~JsonSchema() = default;
+
+const nlohmann::json& JsonSchema::json() const { return compiled_->parsed; }
+
+std::map<std::vector<std::string>, std::string> validator_errors(const nlohmann::json& document,
+                                                                 const JsonSchema& schema) {
     valijson::Validator validator;
     valijson::ValidationResults results;
-    validator.validate(compiled.schema, NlohmannJsonAdapter(document), &results);
+    validator.validate(schema.compiled_->schema, NlohmannJsonAdapter(document), &results);
     std::map<std::vector<std::string>, std::string> errors_by_value;
     for (const auto& error : results) {
         // The context is "<root>", "[joints]", "[3]", ...
@@ -319,16 +334,17 @@ bool is_inside(const std::vector<std::string>& inner, const std::vector<std::str
 
 }  // namespace
 
-const json& schema_json() {
-    static const json schema = json::parse(schema_text());
+const JsonSchema& assembly_schema() {
+    static const JsonSchema schema(schema_text());
     return schema;
 }
 
-SchemaFindings check_schema(const JsonDocument& document) {
+SchemaFindings check_schema(const JsonDocument& document, const JsonSchema& schema) {
     SchemaFindings findings;
     // The validator also reports every parent of an invalid value. In sorted order the parts of a value
     // follow it directly.
-    const std::map<std::vector<std::string>, std::string> errors_by_value = validator_errors(document.root());
+    const std::map<std::vector<std::string>, std::string> errors_by_value =
+        validator_errors(document.root(), schema);
     for (auto it = errors_by_value.begin(); it != errors_by_value.end(); ++it) {
         if (findings.errors.size() >= max_findings) {
             findings.unusable.emplace_back();  // the whole file
@@ -336,11 +352,11 @@ SchemaFindings check_schema(const JsonDocument& document) {
         }
         const auto& [tokens, validator_message] = *it;
         const std::string pointer = pointer_of(tokens);
-        const json* node = schema_of(schema_json(), tokens);
+        const json* node = schema_of(schema.json(), tokens);
         const json* value = value_at(document.root(), tokens);
         std::vector<SchemaViolation> mistakes;
         if (node != nullptr && value != nullptr)
-            mistakes = explain_value(schema_json(), *node, *value, name_of(tokens));
+            mistakes = explain_value(schema.json(), *node, *value, name_of(tokens));
         bool value_unusable = mistakes.empty();
         for (const SchemaViolation& m : mistakes) {
             const std::string at = m.key.empty() ? pointer : pointer + "/" + pointer_token(m.key);

@@ -1,8 +1,9 @@
-// Validation of a document against the assembly's JSON Schema (draft-07, the keywords that our schema uses).
-// The errors are worded for authors.
+// Validation of a document against a JSON Schema (draft-07, the keywords that our schemas use). The errors
+// are worded for authors.
 #pragma once
 
 #include <map>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -10,6 +11,25 @@
 #include "content/format/json_document.hpp"
 
 namespace bolt::content {
+
+// A schema, parsed, and compiled for the validator. Its text must be a valid schema.
+class JsonSchema {
+  public:
+    explicit JsonSchema(std::string_view text);
+    JsonSchema(const JsonSchema&) = delete;
+    JsonSchema& operator=(const JsonSchema&) = delete;
+    ~JsonSchema();
+    [[nodiscard]] const nlohmann::json& json() const;
+
+  private:
+    friend std::map<std::vector<std::string>, std::string> validator_errors(const nlohmann::json& document,
+                                                                            const JsonSchema& schema);
+    struct Compiled;
+    std::unique_ptr<Compiled> compiled_;
+};
+
+// The schema of assembly.json.
+const JsonSchema& assembly_schema();
 
 // A violation of the schema by one value.
 struct SchemaViolation {
@@ -30,10 +50,8 @@ std::vector<SchemaViolation> explain_value(const nlohmann::json& schema, const n
 
 // All values that violate the schema, by the tokens of their JSON pointers, each with the validator's first
 // message.
-std::map<std::vector<std::string>, std::string> validator_errors(const nlohmann::json& document);
-
-// The assembly schema, parsed.
-const nlohmann::json& schema_json();
+std::map<std::vector<std::string>, std::string> validator_errors(const nlohmann::json& document,
+                                                                 const JsonSchema& schema);
 
 struct SchemaFindings {
     std::vector<Error> errors;
@@ -41,6 +59,6 @@ struct SchemaFindings {
     std::vector<std::string> unusable;
 };
 
-SchemaFindings check_schema(const JsonDocument& document);
+SchemaFindings check_schema(const JsonDocument& document, const JsonSchema& schema);
 
 }  // namespace bolt::content

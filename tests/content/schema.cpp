@@ -23,7 +23,7 @@ namespace {
 void each_object(const json& value, std::vector<std::string>& place,
                  const std::function<void(const std::vector<std::string>&, const json& schema)>& visit) {
     if (!value.is_structured()) return;
-    const json* schema = schema_of(schema_json(), place);
+    const json* schema = schema_of(assembly_schema().json(), place);
     REQUIRE(schema != nullptr);
     if (value.is_object()) visit(place, *schema);
     for (const auto& [key, member] : value.items()) {
@@ -74,19 +74,19 @@ TEST_CASE("Schema: the built-in schema equals the file in content/") {
                                       bolt::ErrorCode::failed);
     REQUIRE(file);
     CHECK(*file == schema_text());
-    CHECK(schema_json()["$schema"] == "http://json-schema.org/draft-07/schema#");
+    CHECK(assembly_schema().json()["$schema"] == "http://json-schema.org/draft-07/schema#");
 }
 
 TEST_CASE("Schema: every property has a title and a description, and every object is closed") {
-    each_property_schema(schema_json(), [](const std::string& name, const json& property) {
+    each_property_schema(assembly_schema().json(), [](const std::string& name, const json& property) {
         CAPTURE(name);
         const json* at = &property;
         while (!at->contains("title") && at->contains("$ref"))
-            at = &schema_json().at(json::json_pointer((*at)["$ref"].get<std::string>().substr(1)));
+            at = &assembly_schema().json().at(json::json_pointer((*at)["$ref"].get<std::string>().substr(1)));
         CHECK(at->contains("title"));
         CHECK((at->contains("description") || at->contains("properties")));
     });
-    for (const auto& [name, definition] : schema_json()["definitions"].items()) {
+    for (const auto& [name, definition] : assembly_schema().json()["definitions"].items()) {
         CAPTURE(name);
         if (!definition.contains("properties")) continue;
         CHECK(definition.contains("additionalProperties"));
@@ -95,7 +95,7 @@ TEST_CASE("Schema: every property has a title and a description, and every objec
 }
 
 TEST_CASE("Schema: every number has bounds") {
-    each_property_schema(schema_json(), [](const std::string& name, const json& property) {
+    each_property_schema(assembly_schema().json(), [](const std::string& name, const json& property) {
         CAPTURE(name);
         if (property.value("type", "") != "number") return;
         CHECK((property.contains("minimum") || property.contains("exclusiveMinimum")));
@@ -112,7 +112,7 @@ TEST_CASE("Schema: a file with every property loads, and the loader reads exactl
     for (const bolt::Error& error : reader.take_errors()) FAIL_CHECK(error.message());
 
     std::set<std::string> in_schema;
-    each_property_schema(schema_json(),
+    each_property_schema(assembly_schema().json(),
                          [&](const std::string& name, const json&) { in_schema.insert(name); });
     std::set<std::string> read(reader.names_read().begin(), reader.names_read().end());
     for (const char* own : {"plain", "weak", "M12x1.25", "clicker"})
@@ -129,7 +129,8 @@ TEST_CASE("Schema: the file with every property leaves none out") {
         for (const auto& [name, member] : document.at(pointer(at)).items())
             if (schema.contains("properties") && schema["properties"].contains(name)) used.insert(name);
     });
-    each_property_schema(schema_json(), [&](const std::string& name, const json&) { known.insert(name); });
+    each_property_schema(assembly_schema().json(),
+                         [&](const std::string& name, const json&) { known.insert(name); });
     CHECK(used == known);
 }
 
@@ -199,7 +200,8 @@ TEST_CASE("Schema: each value of a wrong type gives exactly one error at its pos
 
 TEST_CASE("Schema: an error names the whole unit of a number") {
     const auto expected = [](const std::string& name) {
-        const auto found = explain_value(schema_json(), {{"type", "number"}, {"minimum", 0}}, -1, name);
+        const auto found =
+            explain_value(assembly_schema().json(), {{"type", "number"}, {"minimum", 0}}, -1, name);
         REQUIRE(found.size() == 1);
         return found[0].expected;
     };

@@ -1,0 +1,57 @@
+// Checks of a display file that go beyond the form of its members. All are pure functions.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "content/displays/display_file.hpp"
+
+namespace bolt::content {
+
+struct DisplayFinding {
+    // The picture would be wrong or could not be shown. False: it is shown, but probably not as intended.
+    bool prevents_use = false;
+    std::string text;
+    std::optional<std::size_t> wall{};  // index of the wall, of two walls the later one; none: the whole file
+};
+
+// A monitor of a computer, and where it is on the desktop.
+struct Monitor {
+    std::string name;
+    int x = 0, y = 0, width = 0, height = 0;  // pixels, y down
+    bool operator==(const Monitor&) const = default;
+};
+
+// The monitor that an output fills; null: it is in a window, or there is no such monitor.
+const Monitor* find_monitor(const DisplayOutput& output, std::span<const Monitor> monitors);
+
+// Tolerances of the checks.
+inline constexpr double right_angle_tolerance = to_radians(0.5);
+inline constexpr double min_wall_edge = 0.05;        // m; a shorter edge is a mistake
+inline constexpr double max_wall_edge = 100.0;       // m; a longer one is probably not in metres
+inline constexpr double min_viewer_distance = 0.05;  // m, of the head from a wall
+inline constexpr double wall_tolerance = 0.01;       // m, by which walls may cross or overlap
+inline constexpr double seam_tolerance = 0.001;      // m, of a gap between walls that meet
+inline constexpr double seam_width = 0.05;           // m, of the widest gap that is taken for a seam
+inline constexpr double pixel_tolerance = 0.01;      // of the ratio of a pixel's width to its height
+inline constexpr double narrow_eyes = 0.05, wide_eyes = 0.08;  // m; nearly all adults are between these
+
+// Names, shapes, the fixed head in front of each wall, crossings, overlaps, seams, and the eye separation.
+std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
+
+// Shapes of pixels; outputs that show on the same pixels. `monitors`: those of the computer `rank`; its
+// outputs without a display of their own are compared with them. Without monitors the outputs are compared
+// with one another only.
+std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, std::span<const Monitor> monitors = {},
+                                          int rank = 0);
+
+// Both; findings that prevent the use come first.
+std::vector<DisplayFinding> check_displays(const DisplayFile& displays,
+                                           std::span<const Monitor> monitors = {}, int rank = 0);
+
+// A line each; it begins with file, line and column of the wall.
+std::string describe(std::span<const DisplayFinding> findings, const LoadedDisplays& loaded);
+
+}  // namespace bolt::content

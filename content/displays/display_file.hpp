@@ -1,0 +1,138 @@
+// Reads and writes the display file: the projection walls of one room, where their pictures are shown, and
+// how the viewer's head is tracked. A JSON file, whose members content/schema/displays.schema.json describes:
+//
+//   {"format": "boltwright displays 1",
+//    "head": {"tracker": "dtrack", "port": 5000, "body": 0},
+//    "walls": [{"name": "front", "lower_left_m": [-1.5, 0, -1.5], "lower_right_m": [1.5, 0, -1.5],
+//               "upper_right_m": [1.5, 2.4, -1.5], "stereo": "side_by_side", "output": {"monitor": "DP-1"}}]}
+//
+// Coordinates are in the room: x to the right, y up from the floor, z towards the viewer's first position, m.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/math.hpp"
+#include "engine/base/result.hpp"
+
+namespace bolt::content {
+
+struct PixelPosition {
+    int x = 0, y = 0;  // y down
+    bool operator==(const PixelPosition&) const = default;
+};
+struct PixelSize {
+    int width = 0, height = 0;
+    bool operator==(const PixelSize&) const = default;
+};
+
+// Where a picture is shown. Exactly one of `monitor`, `monitor_index` and `position` is given.
+struct DisplayOutput {
+    std::string monitor;                    // its name; the picture fills it. Empty: not given
+    std::optional<int> monitor_index;       // from 0
+    std::optional<PixelPosition> position;  // of a window without a border, on the desktop
+    std::optional<PixelSize> resolution;    // a window has one; none: that of the monitor
+    std::string display;                    // X display; empty: that of the program
+    int rank = 0;                           // of the computer that shows it
+    bool operator==(const DisplayOutput&) const = default;
+};
+
+enum class StereoMode : std::uint8_t {
+    mono,          // one picture, from between the eyes
+    side_by_side,  // the left eye's in the left half of the output
+    top_bottom,    // the left eye's in the upper half of the output
+    two_outputs,   // an output for each eye
+};
+std::string_view name(StereoMode mode);
+
+// The corners of the picture, as the viewer sees it, m in the room.
+struct Wall {
+    std::string name;
+    Vec3 lower_left{0.0}, lower_right{0.0}, upper_right{0.0};
+    StereoMode stereo = StereoMode::mono;
+    bool swap_eyes = false;                     // exchanges the pictures of the eyes
+    DisplayOutput output;                       // two_outputs: that of the left eye
+    std::optional<DisplayOutput> right_output;  // given if and only if two_outputs
+    bool operator==(const Wall&) const = default;
+};
+
+// The fourth corner (R. Kooima, Generalized Perspective Projection, 2008).
+inline Vec3 upper_left(const Wall& wall) { return wall.lower_left + wall.upper_right - wall.lower_right; }
+inline double width(const Wall& wall) { return glm::length(wall.lower_right - wall.lower_left); }    // m
+inline double height(const Wall& wall) { return glm::length(wall.upper_right - wall.lower_right); }  // m
+
+enum class HeadTracker : std::uint8_t { fixed, dtrack, openxr, file };
+std::string_view name(HeadTracker tracker);
+
+// An axis of the tracker: 0, 1, 2 for x, y, z.
+struct TrackerAxis {
+    int axis = 0;
+    bool negative = false;
+    bool operator==(const TrackerAxis&) const = default;
+};
+
+// The pose of the head is that of the point between the eyes, which looks along −z with y up.
+struct HeadTracking {
+    HeadTracker tracker = HeadTracker::fixed;
+    Pose fixed_head{{0.0, 1.6, 0.0}, {1.0, 0.0, 0.0, 0.0}};  // without a tracker, and after it lost the head
+    int port = 5000;                                         // UDP, dtrack
+    int body = 0;                                            // dtrack
+    std::string recording;  // file of recorded poses, relative to the folder of the display file
+    std::array<TrackerAxis, 3> axes{{{0}, {1}, {2}}};  // those that point along the room's x, y and z
+    double scale = 1.0;                                // m of the room per m of the tracker
+    Pose tracker_in_room;                              // after the axes are renamed and scaled
+    Pose head_in_body;                                 // in the tracked body, after the axes are renamed
+    double hold = 0.5;                                 // s, for which the last pose is kept after a loss
+    double fade = 2.0;                                 // s, from there to the fixed head
+    double max_speed = 4.0;                            // m/s; a faster change is a jump
+    double jump_time = 0.3;                            // s, after which a lasting jump is accepted
+    bool operator==(const HeadTracking& other) const;
+};
+
+// The rotation from the tracker's axes to the room's.
+Quat orientation_of(const std::array<TrackerAxis, 3>& axes);
+
+inline constexpr double default_eye_separation = 0.065;  // m
+inline constexpr double max_eye_separation = 0.1;        // m
+inline constexpr std::size_t max_walls = 32;
+
+struct DisplayFile {
+    std::string schema;                              // path of the JSON schema, for editors; may be empty
+    std::string name;                                // for people; may be empty
+    double eye_separation = default_eye_separation;  // m
+    HeadTracking head;
+    std::vector<Wall> walls;
+    bool operator==(const DisplayFile&) const = default;
+};
+
+// A place in a text file, 1-based; a column counts characters.
+struct FilePosition {
+    int line = 0, column = 0;
+};
+
+// A display file without mistakes, or all mistakes of the file in its order, each with
+// ErrorCode::bad_content, file, line, column and JSON pointer.
+struct LoadedDisplays {
+    DisplayFile displays;
+    std::string file;                          // for messages
+    std::vector<FilePosition> wall_positions;  // of displays.walls, so that later checks can name them
+    std::vector<Error> errors;
+    [[nodiscard]] bool ok() const { return errors.empty(); }
+};
+
+// `file` is used in messages.
+LoadedDisplays parse_displays(std::string_view text, const std::string& file);
+LoadedDisplays load_displays(const std::filesystem::path& path);
+
+// The text of a file, in the order of the structs. It is read back to an equal value if that is valid.
+std::string displays_json(const DisplayFile& displays);
+
+// Fails, and leaves the file unchanged, if parse_displays() would refuse the value.
+Status save_displays(const std::filesystem::path& path, const DisplayFile& displays);
+
+}  // namespace bolt::content

@@ -1,0 +1,27 @@
+// Converts ParaView's description of a cave (.pvx, XML) to a display file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "content/displays/display_file.hpp"
+
+namespace bolt::content {
+
+// Errors and warnings name file, line and column. A warning states what the display file does not have.
+struct ImportedDisplays {
+    DisplayFile displays;
+    std::vector<Error> warnings;
+    std::vector<Error> errors;
+    [[nodiscard]] bool ok() const { return errors.empty(); }
+};
+
+// Each Machine becomes a wall with a window at its Geometry; machines of one Name become one rank. Two
+// machines with the same corners and the stereo types Left and Right become one wall with two outputs.
+// `scale`: metres per unit of the file's corners and eye separation.
+ImportedDisplays import_pvx(std::string_view text, const std::string& file, double scale = 1.0);
+ImportedDisplays load_pvx(const std::filesystem::path& path, double scale = 1.0);
+
+}  // namespace bolt::content

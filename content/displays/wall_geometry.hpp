@@ -1,0 +1,44 @@
+// Where walls are to one another and to a point: distances, seams and crossings. All values are in m.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "content/displays/display_file.hpp"
+
+namespace bolt::content {
+
+// The axes of a wall; meaningless for a wall without width or height.
+struct WallFrame {
+    Vec3 origin{0.0};                       // the lower left corner
+    Vec3 right{0.0}, up{0.0}, normal{0.0};  // unit vectors; the normal points towards the viewer
+    double width = 0.0, height = 0.0;
+};
+WallFrame frame_of(const Wall& wall);
+
+// The point at `x` to the right of and `y` above the lower left corner.
+inline Vec3 in_room(const WallFrame& wall, double x, double y) {
+    return wall.origin + x * wall.right + y * wall.up;
+}
+
+// Distance of the point in front of the wall's plane; negative behind it.
+inline double distance_in_front(const WallFrame& wall, const Vec3& point) {
+    return glm::dot(wall.normal, point - wall.origin);
+}
+
+// Lower left, lower right, upper right, upper left; each `margin` inside the edges.
+std::array<Vec3, 4> corners_of(const WallFrame& wall, double margin = 0.0);
+
+// Returns true if the walls have a line in common that is at least `margin` inside the edges of both.
+// Parallel walls do not cross.
+bool cross(const WallFrame& a, const WallFrame& b, double margin);
+
+// The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if there is
+// none.
+std::optional<double> coplanar_overlap(const WallFrame& a, const WallFrame& b, double tolerance);
+
+// The largest distance along the pair of nearly parallel edges that are nearest to each other; none if no
+// such pair runs side by side.
+std::optional<double> seam_gap(const WallFrame& a, const WallFrame& b);
+
+}  // namespace bolt::content

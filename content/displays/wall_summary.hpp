@@ -1,0 +1,30 @@
+// A table of the walls, for the fitter of a room.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+
+#include "content/displays/check_displays.hpp"
+
+namespace bolt::content {
+
+// Where a wall is and what its picture is made of.
+struct WallSummary {
+    double width = 0.0, height = 0.0;              // m
+    double turn = 0.0;                             // rad about the vertical: 0 faces +z, pi/2 faces +x
+    double tilt = 0.0;                             // rad: 0 upright, pi/2 faces up (a floor), -pi/2 down
+    double distance = 0.0;                         // m, of the fixed head in front of the wall's plane
+    double seen_width = 0.0, seen_height = 0.0;    // rad, angles between its edges, seen by the fixed head
+    std::optional<PixelSize> resolution;           // of one eye's picture; none: unknown
+    double pixel_width = 0.0, pixel_height = 0.0;  // m; 0: unknown
+};
+
+// `resolution`: of the output; none: unknown. The wall must have a width and a height.
+WallSummary summarize(const Wall& wall, const Vec3& fixed_head, const std::optional<PixelSize>& resolution);
+
+// The head's tracker, a line for each wall, and one for each pair of walls that meet, with their angle and
+// the gap. `monitors`: those of the computer `rank`, for outputs that fill a monitor.
+std::string list_walls(const DisplayFile& displays, std::span<const Monitor> monitors = {}, int rank = 0);
+
+}  // namespace bolt::content

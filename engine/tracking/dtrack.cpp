@@ -1,0 +1,138 @@
+#include "engine/tracking/dtrack.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <glm/mat3x3.hpp>
+
+namespace bolt::tracking {
+
+namespace {
+
+constexpr double max_tracked_distance = 1000.0;  // m
+
+// Reads tokens from the front of a line.
+class LineReader {
+  public:
+    explicit LineReader(std::string_view line) : rest_(line) {}
+
+    bool word(std::string_view expected) {
+        skip_blanks();
+        const std::size_t end = std::min(rest_.find_first_of(" \t["), rest_.size());
+        if (rest_.substr(0, end) != expected) return false;
+        rest_.remove_prefix(end);
+        return true;
+    }
+    bool sign(char expected) {
+        skip_blanks();
+        if (rest_.empty() || rest_.front() != expected) return false;
+        rest_.remove_prefix(1);
+        return true;
+    }
+    template <class Number>
+    bool number(Number& value) {
+        skip_blanks();
+        if (rest_.starts_with('+')) rest_.remove_prefix(1);
+        const auto [end, problem] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+        if (problem != std::errc()) return false;
+        rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+        return rest_.empty() || rest_.front() == ' ' || rest_.front() == '\t' || rest_.front() == ']';
+    }
+    // "[1 2 3]"
+    template <std::size_t N>
+    bool numbers(std::array<double, N>& values) {
+        return sign('[') && std::all_of(values.begin(), values.end(), [&](double& v) { return number(v); }) &&
+               sign(']');
+    }
+    bool at_end() {
+        skip_blanks();
+        return rest_.empty();
+    }
+
+  private:
+    void skip_blanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r"), rest_.size())); }
+    std::string_view rest_;
+};
+
+bool is_rotation(const glm::dmat3& m) {
+    for (int i = 0; i < 3; ++i) {
+        if (!finite(m[i])) return false;
+        for (int j = 0; j <= i; ++j)
+            if (!(std::abs(glm::dot(m[i], m[j]) - (i == j ? 1.0 : 0.0)) <= rotation_tolerance)) return false;
+    }
+    return glm::determinant(m) > 0.0;
+}
+
+// Returns false if the text of the body is damaged.
+bool read_body(LineReader& line, DtrackFrame& frame) {
+    DtrackBody body;
+    std::array<double, 6> place{};  // position, mm, and angles
+    std::array<double, 9> b{};
+    if (!line.sign('[') || !line.number(body.id) || !line.number(body.quality) || !line.sign(']') ||
+        !line.numbers(place) || !line.numbers(b))
+        return false;
+    if (body.quality < 0.0) return true;  // not seen
+    const glm::dmat3 matrix(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8]);
+    body.pose.position = Vec3(place[0], place[1], place[2]) * mm;
+    const bool is_near = glm::length(body.pose.position) <= max_tracked_distance;  // false for NaN
+    if (!is_near || !std::isfinite(body.quality) || !is_rotation(matrix)) {
+        ++frame.refused;
+        return true;
+    }
+    body.pose.orientation = glm::normalize(glm::quat_cast(matrix));
+    frame.bodies.push_back(body);
+    return true;
+}
+
+bool read_bodies(LineReader& line, DtrackFrame& frame) {
+    std::size_t count = 0;
+    if (!line.number(count) || count > max_dtrack_bodies) return false;
+    for (std::size_t i = 0; i < count; ++i)
+        if (!read_body(line, frame)) return false;
+    return line.at_end();
+}
+
+// Returns false if the line is one that is read and damaged.
+bool read_line(std::string_view text, DtrackFrame& frame, bool& has_number) {
+    LineReader line(text);
+    if (line.word("fr")) {
+        if (has_number || !line.number(frame.number)) return false;
+        has_number = true;
+        return line.at_end();
+    }
+    if (line.word("ts")) {
+        double time = 0.0;
+        if (!line.number(time) || !std::isfinite(time)) return false;
+        frame.time = time;
+        return line.at_end();
+    }
+    if (line.word("6dcal")) {
+        int count = 0;
+        if (!line.number(count)) return false;
+        frame.calibrated = count;
+        return true;
+    }
+    return !line.word("6d") || read_bodies(line, frame);
+}
+
+}  // namespace
+
+std::optional<DtrackFrame> parse_dtrack(std::string_view packet) {
+    DtrackFrame frame;
+    bool has_number = false;
+    while (!packet.empty()) {
+        const std::size_t end = std::min(packet.find('\n'), packet.size());
+        if (!read_line(packet.substr(0, end), frame, has_number)) return std::nullopt;
+        packet.remove_prefix(std::min(end + 1, packet.size()));
+    }
+    if (!has_number || frame.bodies.size() > max_dtrack_bodies) return std::nullopt;
+    return frame;
+}
+
+const DtrackBody* find_body(const DtrackFrame& frame, int id) {
+    const auto it = std::find_if(frame.bodies.begin(), frame.bodies.end(),
+                                 [id](const DtrackBody& body) { return body.id == id; });
+    return it == frame.bodies.end() ? nullptr : &*it;
+}
+
+}  // namespace bolt::tracking

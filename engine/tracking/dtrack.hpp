@@ -1,0 +1,45 @@
+// Packets of ART's DTrack: ASCII lines of one measurement, such as
+//
+//   fr 21753
+//   ts 39596.024831
+//   6dcal 2
+//   6d 1 [0 1.0][326.8 -187.2 109.5 -160 -3.7 -7.1][-0.941 -0.339 -0.019 0.334 -0.933 0.138 -0.064 0.123 0.99]
+//
+// A body in a 6d line has an id and a quality, its position in mm and three angles (which are not used), and
+// the columns of its rotation matrix. A body that is not seen is missing or has the quality -1.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/math.hpp"
+
+namespace bolt::tracking {
+
+struct DtrackBody {
+    int id = 0;
+    double quality = 0.0;  // 0 to 1
+    Pose pose;             // in the tracker's frame, m
+};
+
+struct DtrackFrame {
+    std::uint32_t number = 0;       // of the measurement
+    std::optional<double> time;     // s, on the tracker's clock
+    std::optional<int> calibrated;  // bodies that the tracker knows
+    std::vector<DtrackBody> bodies;
+    int refused = 0;  // bodies whose values are no pose: not finite, or no rotation
+};
+
+inline constexpr std::size_t max_dtrack_bodies = 256;
+inline constexpr double rotation_tolerance = 0.01;  // of products of columns; a packet may have few digits
+
+// None if the packet is damaged: no frame number, or a 6d line that is cut or has another form. Other lines,
+// such as those of flysticks (6df) and markers (3d), are skipped.
+std::optional<DtrackFrame> parse_dtrack(std::string_view packet);
+
+// The body's pose; null: it is not tracked.
+const DtrackBody* find_body(const DtrackFrame& frame, int id);
+
+}  // namespace bolt::tracking

@@ -1,0 +1,48 @@
+// Receives DTrack's packets on a UDP port, without waiting and without a thread.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "engine/base/result.hpp"
+#include "engine/tracking/dtrack.hpp"
+
+namespace bolt::tracking {
+
+struct DtrackCounts {
+    std::uint64_t frames = 0;     // good packets
+    std::uint64_t malformed = 0;  // damaged or too long packets, and those of other programs
+    std::uint64_t late = 0;       // good packets that a newer one had overtaken, or repeated ones
+    std::uint64_t refused = 0;    // bodies whose values are no pose
+};
+
+class DtrackReceiver {
+  public:
+    // Binds to the port on all IPv4 addresses; 0: a free port, for tests. Fails with ErrorCode::no_device if
+    // another program has the port.
+    static Result<DtrackReceiver> open(int port);
+    DtrackReceiver(DtrackReceiver&& other) noexcept;
+    DtrackReceiver& operator=(DtrackReceiver&& other) noexcept;
+    ~DtrackReceiver();
+
+    // The newest frame that has arrived since the last call; none: no new one. Reads at most
+    // max_packets_a_poll packets, so that a flood of them cannot stop the caller.
+    std::optional<DtrackFrame> poll();
+
+    [[nodiscard]] const DtrackCounts& counts() const { return counts_; }
+    [[nodiscard]] int port() const { return port_; }
+
+  private:
+    DtrackReceiver(int socket, int port) : socket_(socket), port_(port) {}
+    bool is_newer(std::uint32_t number);
+
+    int socket_ = -1;
+    int port_ = 0;
+    std::optional<std::uint32_t> newest_;  // number of the newest frame
+    DtrackCounts counts_;
+};
+
+inline constexpr std::size_t max_dtrack_packet = 16384;  // bytes; a longer packet is malformed
+inline constexpr int max_packets_a_poll = 256;
+
+}  // namespace bolt::tracking

@@ -1,0 +1,83 @@
+#include "engine/tracking/head_filter.hpp"
+
+#include <algorithm>
+
+namespace bolt::tracking {
+
+namespace {
+
+Pose between(const Pose& from, const Pose& to, double share) {
+    return {glm::mix(from.position, to.position, share),
+            glm::normalize(glm::slerp(from.orientation, to.orientation, share))};
+}
+
+// Returns true if a head can move from one sample to the other.
+bool agree(const HeadFilterSettings& settings, const HeadSample& from, const HeadSample& to) {
+    const double duration = to.time - from.time;
+    const double distance = glm::length(to.pose.position - from.pose.position);
+    const double turn = glm::length(turn_between(from.pose.orientation, to.pose.orientation));
+    return distance <= jump_slack + settings.max_speed * duration &&
+           turn <= turn_slack + settings.max_turn * duration;
+}
+
+bool is_usable(const HeadFilterState& state, const HeadSample& sample) {
+    const Quat& q = sample.pose.orientation;
+    const bool is_finite =
+        std::isfinite(sample.time) && finite(sample.pose.position) && std::abs(glm::length(q) - 1.0) < 1e-3;
+    const auto is_newer = [&](const std::optional<HeadSample>& than) {
+        return !than || sample.time > than->time;
+    };
+    return is_finite && is_newer(state.accepted) && is_newer(state.jump_end);
+}
+
+void accept(HeadFilterState& state, const HeadSample& sample, bool is_return, double now) {
+    if (is_return && state.shown) state.return_from = HeadSample{now, state.shown->pose};
+    state.accepted = sample;
+    state.jump_start = state.jump_end = std::nullopt;
+}
+
+void add_sample(HeadFilterState& state, const HeadFilterSettings& settings, const HeadSample& sample,
+                double now) {
+    if (!is_usable(state, sample)) return;
+    if (!state.accepted || agree(settings, *state.accepted, sample)) {
+        const bool was_lost = !state.accepted || sample.time - state.accepted->time > max_sample_age;
+        accept(state, sample, was_lost, now);
+        return;
+    }
+    const bool lasts = state.jump_end && sample.time - state.jump_end->time <= max_sample_age &&
+                       agree(settings, *state.jump_end, sample);
+    if (!lasts) state.jump_start = sample;
+    state.jump_end = sample;
+    if (sample.time - state.jump_start->time >= settings.jump_time) accept(state, sample, true, now);
+}
+
+// The head as the accepted sample gives it.
+FilteredHead target_at(const HeadFilterState& state, const HeadFilterSettings& settings, double now) {
+    if (!state.accepted) return {settings.fixed_head, HeadStatus::faded};
+    const Pose& last = state.accepted->pose;
+    const double age = now - state.accepted->time, hold = std::max(settings.hold, max_sample_age);
+    if (age <= max_sample_age) return {last, HeadStatus::tracked};
+    if (age <= hold) return {last, HeadStatus::held};
+    const double share = settings.fade > 0.0 ? minimum_jerk((age - hold) / settings.fade) : 1.0;
+    return {between(last, settings.fixed_head, share), HeadStatus::faded};
+}
+
+}  // namespace
+
+FilteredHead filter_head(HeadFilterState& state, const HeadFilterSettings& settings,
+                         std::span<const HeadSample> samples, double now) {
+    for (const HeadSample& sample : samples) add_sample(state, settings, sample, now);
+    FilteredHead head = target_at(state, settings, now);
+    if (state.return_from) {
+        const double passed = now - state.return_from->time;
+        if (passed < settings.return_time)
+            head.pose =
+                between(state.return_from->pose, head.pose, minimum_jerk(passed / settings.return_time));
+        else
+            state.return_from.reset();
+    }
+    state.shown = head;
+    return head;
+}
+
+}  // namespace bolt::tracking

@@ -1,0 +1,58 @@
+// Makes a steady pose of the head from the samples of a tracker: it bridges dropouts and refuses jumps.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "engine/base/math.hpp"
+
+namespace bolt::tracking {
+
+// Pose of the head in the room at a time, s, on any steady clock.
+struct HeadSample {
+    double time = 0.0;
+    Pose pose;
+};
+
+struct HeadFilterSettings {
+    Pose fixed_head;         // without a tracker, and after a dropout
+    double hold = 0.5;       // s after the last sample, for which its pose is kept
+    double fade = 2.0;       // s, from there to the fixed head
+    double max_speed = 4.0;  // m/s; a faster change is a jump
+    double max_turn = 20.0;  // rad/s, likewise; people turn their heads at up to 12 rad/s
+    double jump_time = 0.3;  // s, for which the poses after a jump must agree before they are accepted
+    double return_time =
+        0.3;  // s, from the shown pose to the tracked one after a dropout or an accepted jump
+};
+
+// A change within these is never a jump: noise, and samples that arrive at nearly the same time.
+inline constexpr double jump_slack = 0.02;     // m
+inline constexpr double turn_slack = 0.1;      // rad
+inline constexpr double max_sample_age = 0.1;  // s; without a sample for longer the head is not tracked
+
+enum class HeadStatus : std::uint8_t {
+    tracked,
+    held,   // the last pose
+    faded,  // on the way to the fixed head, or there
+};
+
+struct FilteredHead {
+    Pose pose;
+    HeadStatus status = HeadStatus::faded;
+};
+
+struct HeadFilterState {
+    std::optional<HeadSample> accepted;              // the newest accepted sample
+    std::optional<HeadSample> jump_start, jump_end;  // first and newest sample after a jump, not yet accepted
+    std::optional<HeadSample> return_from;           // the pose that was shown when the tracker came back
+    std::optional<FilteredHead> shown;               // the last result
+};
+
+// The head at the time `now`, which never decreases from call to call. `samples`: those since the last call,
+// oldest first; samples that are not finite or not newer than the newest one are ignored. The result depends
+// on the arguments alone. It changes without steps, except at the first call and as fast as the head itself.
+FilteredHead filter_head(HeadFilterState& state, const HeadFilterSettings& settings,
+                         std::span<const HeadSample> samples, double now);
+
+}  // namespace bolt::tracking
