@@ -1,5 +1,5 @@
-// The part of App that is played in a room, in a headset or before walls: where workpiece and panel stand, and
-// the input of the hands.
+// The part of App that is played in a room, in a headset or before walls: where workpiece and panel stand,
+// and the input of the hands.
 #include <algorithm>
 #include <utility>
 

@@ -112,11 +112,11 @@ std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows sh
 }
 
 Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, content::DisplayFile displays,
-                                           std::function<Head(double)> head) {
+                                           HeadSource head, std::function<void(const std::string&)> log) {
     const char* x_display = std::getenv("DISPLAY");  // NOLINT(concurrency-mt-unsafe): before any thread
     BOLT_TRY_ASSIGN(const auto plan, plan_wall_windows(displays, platform::monitors(desktop),
                                                        x_display != nullptr ? x_display : ""));
-    std::unique_ptr<Walls> walls(new Walls());
+    std::unique_ptr<Walls> walls(new Walls(std::move(head)));
     for (const WallWindow& wanted : plan) {
         platform::WindowOptions options;
         options.title = wanted.title;
@@ -125,7 +125,7 @@ Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, con
         walls->outputs_.push_back({wanted, std::move(window), nullptr, {}});
     }
     walls->displays_ = std::move(displays);
-    walls->head_ = std::move(head);
+    walls->log_ = std::move(log);
     return walls;
 }
 
@@ -165,10 +165,12 @@ std::vector<platform::InputEvent> Walls::poll_events() {
 }
 
 Result<Immersion> Walls::begin_frame(double seconds) {
-    const Head head = head_(seconds);
+    const tracking::FilteredHead head = head_.at(seconds);
+    const std::string change = head_.take_change();
+    if (log_ && !change.empty()) log_(change);
     Immersion immersion;
     immersion.head = head.pose;
-    immersion.tracked = head.tracked;
+    immersion.tracked = head.status == tracking::HeadStatus::tracked;
     immersion.attentive = true;
     for (const content::Wall& wall : displays_.walls) {
         VkExtent2D size{};

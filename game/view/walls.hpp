@@ -12,6 +12,7 @@
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/window.hpp"
 #include "engine/render/renderer.hpp"
+#include "game/view/head_source.hpp"
 #include "game/view/immersion.hpp"
 
 namespace bolt::view {
@@ -41,19 +42,13 @@ struct EyePlace {
 };
 std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows shows, VkExtent2D window);
 
-// Where the viewer's head is.
-struct Head {
-    Pose pose;
-    bool tracked = false;  // false: held, or the fixed pose
-};
-
 // The windows of all walls in this process. Not movable, because the swapchains refer to their windows.
 class Walls {
   public:
-    // `head` is called once for each frame with the time in s.
+    // `log` receives a line when the tracker finds or loses the head; it may be empty.
     static Result<std::unique_ptr<Walls>> open(const platform::Desktop& desktop,
-                                               content::DisplayFile displays,
-                                               std::function<Head(double seconds)> head);
+                                               content::DisplayFile displays, HeadSource head,
+                                               std::function<void(const std::string&)> log);
 
     // Creates the swapchains; release() destroys them before the device is destroyed.
     Status start(gpu::Device& device, const gpu::Instance& instance);
@@ -73,6 +68,7 @@ class Walls {
     [[nodiscard]] double refresh_rate() const;  // Hz, the lowest of the windows; 0: unknown
 
   private:
+    explicit Walls(HeadSource head) : head_(std::move(head)) {}
     struct Output {
         WallWindow plan;
         platform::Window window;
@@ -80,7 +76,8 @@ class Walls {
         VkExtent2D size{};
     };
     content::DisplayFile displays_;
-    std::function<Head(double)> head_;
+    HeadSource head_;
+    std::function<void(const std::string&)> log_;
     std::vector<Output> outputs_;
 };
 
