@@ -21,15 +21,15 @@ Error output_error(const content::Wall& wall, std::string what, std::string expe
             std::move(expected)};
 }
 
-std::string monitor_names(std::span<const platform::Monitor> monitors) {
+std::string monitor_names(std::span<const content::Monitor> monitors) {
     std::string all;
-    for (const platform::Monitor& monitor : monitors)
+    for (const content::Monitor& monitor : monitors)
         all += (all.empty() ? "" : ", ") + fmt::format("\"{}\"", monitor.name);
     return all.empty() ? "a connected monitor" : all;
 }
 
 Result<platform::DesktopArea> area_of(const content::Wall& wall, const content::DisplayOutput& output,
-                                      std::span<const platform::Monitor> monitors,
+                                      std::span<const content::Monitor> monitors,
                                       const std::string& x_display) {
     if (output.rank != 0)
         return fail(output_error(wall, fmt::format("its output is on computer {}", output.rank),
@@ -41,17 +41,14 @@ Result<platform::DesktopArea> area_of(const content::Wall& wall, const content::
         const content::PixelSize size = output.resolution.value_or(content::PixelSize{});
         return platform::DesktopArea{output.position->x, output.position->y, size.width, size.height};
     }
-    const auto named = std::find_if(monitors.begin(), monitors.end(), [&](const platform::Monitor& monitor) {
-        return output.monitor_index ? &monitor - monitors.data() == *output.monitor_index
-                                    : monitor.name == output.monitor;
-    });
-    if (named == monitors.end())
+    const content::Monitor* named = content::find_monitor(output, monitors);
+    if (named == nullptr)
         return fail(output_error(wall,
                                  output.monitor_index
                                      ? fmt::format("there is no monitor {}", *output.monitor_index)
                                      : fmt::format("there is no monitor \"{}\"", output.monitor),
                                  monitor_names(monitors)));
-    return named->area;
+    return platform::DesktopArea{named->x, named->y, named->width, named->height};
 }
 
 }  // namespace
@@ -73,8 +70,16 @@ EyeGroup wall_eyes(const content::Wall& wall, const Pose& head, double eye_separ
     return group;
 }
 
+std::vector<content::Monitor> monitor_areas(std::span<const platform::Monitor> monitors) {
+    std::vector<content::Monitor> areas;
+    for (const platform::Monitor& monitor : monitors)
+        areas.push_back(
+            {monitor.name, monitor.area.x, monitor.area.y, monitor.area.width, monitor.area.height});
+    return areas;
+}
+
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
-                                                  std::span<const platform::Monitor> monitors,
+                                                  std::span<const content::Monitor> monitors,
                                                   const std::string& x_display) {
     std::vector<WallWindow> windows;
     for (std::size_t i = 0; i < displays.walls.size(); ++i) {
@@ -114,7 +119,7 @@ std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows sh
 Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, content::DisplayFile displays,
                                            HeadSource head, std::function<void(const std::string&)> log) {
     const char* x_display = std::getenv("DISPLAY");  // NOLINT(concurrency-mt-unsafe): before any thread
-    BOLT_TRY_ASSIGN(const auto plan, plan_wall_windows(displays, platform::monitors(desktop),
+    BOLT_TRY_ASSIGN(const auto plan, plan_wall_windows(displays, monitor_areas(platform::monitors(desktop)),
                                                        x_display != nullptr ? x_display : ""));
     std::unique_ptr<Walls> walls(new Walls(std::move(head)));
     for (const WallWindow& wanted : plan) {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "content/displays/display_file.hpp"
+#include "content/displays/check_displays.hpp"
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/window.hpp"
 #include "engine/render/renderer.hpp"
@@ -29,10 +29,12 @@ struct WallWindow {
     enum class Shows : std::uint8_t { all, left_output, right_output } shows = Shows::all;
 };
 
+std::vector<content::Monitor> monitor_areas(std::span<const platform::Monitor> monitors);
+
 // The windows of the outputs. Fails if an output is on a monitor that is not connected, on another X display,
 // or on another computer. `x_display`: the one that the program uses.
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
-                                                  std::span<const platform::Monitor> monitors,
+                                                  std::span<const content::Monitor> monitors,
                                                   const std::string& x_display);
 
 // The part of a window that shows an eye: 0 is the first eye of wall_eyes().

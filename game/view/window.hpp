@@ -75,8 +75,8 @@ class OrbitControl {
 
 // How run_in_window() runs the content.
 struct WindowRunOptions {
-    std::string gpu;                 // part of the name of the GPU to use; empty: the best
-    std::function<bool()> stop;      // polled every frame; true closes the window
+    std::string gpu{};               // part of the name of the GPU to use; empty: the best
+    std::function<bool()> stop{};    // polled every frame; true closes the window
     xr::Headset* headset = nullptr;  // null: none is used
     Walls* walls = nullptr;          // null: there are none; not together with a headset
     // With a headset: lower its resolution if the GPU cannot keep its frame rate.
