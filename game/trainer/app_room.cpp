@@ -44,12 +44,13 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     room.seen = immersion->attentive;
     if (immersion->tracks_hands) offer_tracked_hand(menu_.devices);
     if (immersion->recentred) room.panel = room.workpiece = std::nullopt;
-    const bool placed = immersion->tracked || room.panel.has_value();
-    if (placed && !room.panel) room.panel = place_panel(immersion->head);
+    const Pose& viewer = immersion->expected_head ? *immersion->expected_head : immersion->head;
+    const bool placed = immersion->tracked || immersion->expected_head || room.panel;
+    if (placed && !room.panel) room.panel = place_panel(viewer);
     if (!active_) room.workpiece.reset();
     if (placed && active_ && !room.workpiece)
         room.workpiece = place_workpiece(
-            immersion->head, active_->workplace.machine,
+            viewer, active_->workplace.machine,
             immersion->floor_known
                 ? std::nullopt
                 : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));

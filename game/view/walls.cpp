@@ -176,6 +176,7 @@ Result<Immersion> Walls::begin_frame(double seconds) {
     Immersion immersion;
     immersion.head = head.pose;
     immersion.tracked = head.status == tracking::HeadStatus::tracked;
+    immersion.expected_head = displays_.head.fixed_head;
     immersion.attentive = true;
     for (const content::Wall& wall : displays_.walls) {
         VkExtent2D size{};
