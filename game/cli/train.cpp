@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "content/displays/check_displays.hpp"
 #include "content/format/assembly.hpp"
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
@@ -155,31 +154,6 @@ Result<std::unique_ptr<xr::Headset>> open_headset(HeadsetUse use, bool quiet) {
     return headset;
 }
 
-// The windows of the walls of --displays; null: there are none. Prints doubtful findings of the file.
-Result<std::unique_ptr<view::Walls>> open_walls(const TrainArguments& options,
-                                                const platform::Desktop& desktop) {
-    if (options.displays.empty()) return std::unique_ptr<view::Walls>();
-    content::LoadedDisplays loaded = content::load_displays(options.displays);
-    if (!loaded.ok()) {
-        for (std::size_t i = 0; i + 1 < loaded.errors.size(); ++i) (void)print_error(loaded.errors[i]);
-        return fail(loaded.errors.back());
-    }
-    const std::vector<content::DisplayFinding> findings =
-        content::check_displays(loaded.displays, view::monitor_areas(platform::monitors(desktop)));
-    if (!findings.empty() && (findings.front().prevents_use || !options.quiet))
-        (void)std::fputs(content::describe(findings, loaded).c_str(), stderr);
-    if (!findings.empty() && findings.front().prevents_use)
-        return fail(
-            ErrorCode::bad_content, "the walls cannot be shown",
-            fmt::format("a file without mistakes; see boltwright displays check {}", options.displays));
-    BOLT_TRY_ASSIGN(auto head, view::HeadSource::open(loaded.displays.head,
-                                                      std::filesystem::path(options.displays).parent_path()));
-    std::function<void(const std::string&)> log;
-    if (!options.quiet)
-        log = [](const std::string& line) { (void)std::fprintf(stderr, "%s\n", line.c_str()); };
-    return view::Walls::open(desktop, std::move(loaded.displays), std::move(head), std::move(log));
-}
-
 // What surrounds the user; at most one.
 struct Surroundings {
     xr::Headset* headset = nullptr;
@@ -292,7 +266,8 @@ int run_train(TrainArguments options) {
     std::error_code ignored;
     if (std::filesystem::exists(options.assembly, ignored))
         named.assembly = std::filesystem::absolute(options.assembly).lexically_normal().string();
-    const auto walls = open_walls(options, *desktop);
+    Result<std::unique_ptr<view::Walls>> walls = std::unique_ptr<view::Walls>();
+    if (!options.displays.empty()) walls = open_walls(options.displays, *desktop, options.quiet);
     if (!walls) return print_error(walls.error());
     const Status done = run_window(named, *train, *equipment, {headset->get(), walls->get()}, *desktop);
     return done ? 0 : print_error(done.error());

@@ -48,12 +48,16 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     const bool placed = immersion->tracked || immersion->expected_head || room.panel;
     if (placed && !room.panel) room.panel = place_panel(viewer);
     if (!active_) room.workpiece.reset();
-    if (placed && active_ && !room.workpiece)
+    if (placed && active_ && !room.workpiece) {
+        const render::BoundingBox& machine = active_->workplace.machine;
         room.workpiece = place_workpiece(
-            viewer, active_->workplace.machine,
+            viewer, machine,
             immersion->floor_known
                 ? std::nullopt
                 : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
+        if (immersion->shows)
+            room.workpiece = moved_into_view(*room.workpiece, machine, viewer, immersion->shows);
+    }
     if (!room.shown) return;
     if (immersion->tracks_hands) {
         // The window's pointer would compete with the hands'.

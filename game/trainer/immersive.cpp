@@ -55,6 +55,32 @@ Pose place_workpiece(const Pose& head, const render::BoundingBox& machine,
     return place;
 }
 
+Pose moved_into_view(const Pose& workpiece, const render::BoundingBox& machine, const Pose& head,
+                     const std::function<bool(const Vec3&)>& shows) {
+    constexpr double farthest = 2.5, step = 0.05;  // m
+    const Vec3 away = heading(head) * Vec3(0.0, 0.0, -1.0);
+    const auto seen_corners = [&](const Pose& place) {
+        int seen = 0;
+        for (unsigned corner = 0; corner < 8; ++corner)
+            seen += shows(place * Vec3((corner & 1U) != 0 ? machine.high.x : machine.low.x,
+                                       (corner & 2U) != 0 ? machine.high.y : machine.low.y,
+                                       (corner & 4U) != 0 ? machine.high.z : machine.low.z))
+                        ? 1
+                        : 0;
+        return seen;
+    };
+    Pose best = workpiece;
+    int most = seen_corners(best);
+    for (double distance = step; distance <= farthest && most < 8; distance += step) {
+        const Pose place{workpiece.position + distance * away, workpiece.orientation};
+        if (const int seen = seen_corners(place); seen > most) {
+            most = seen;
+            best = place;
+        }
+    }
+    return best;
+}
+
 Pose place_panel(const Pose& head) {
     const Quat turn = heading(head);
     Vec3 centre = head.position + turn * Vec3(0.0, -panel_below_eyes, -panel_distance);

@@ -3,6 +3,7 @@
 // (view::Immersion) unless a comment says otherwise.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -44,6 +45,11 @@ struct Room {
 // Where the workpiece stands when the user looks straight ahead: in front, on a bench whose floor is the
 // room's, or for a seated user at `seated_eyes` m below the eyes.
 Pose place_workpiece(const Pose& head, const render::BoundingBox& machine, std::optional<double> seated_eyes);
+
+// The workpiece, moved away from the head until a display shows as many corners of the machine as it can
+// within 2.5 m.
+Pose moved_into_view(const Pose& workpiece, const render::BoundingBox& machine, const Pose& head,
+                     const std::function<bool(const Vec3&)>& shows);
 
 // In front of the user, upright, a little below the eyes and behind the workpiece.
 Pose place_panel(const Pose& head);

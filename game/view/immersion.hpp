@@ -25,6 +25,8 @@ struct Immersion {
     // Where a viewer is expected, if the display is fixed in the room. Workpiece and panel are placed for it;
     // none: for the head, once it is tracked.
     std::optional<Pose> expected_head;
+    // Returns true if the display shows a point of the room to the expected head; empty: it shows all points.
+    std::function<bool(const Vec3&)> shows;
     bool recentred = false;   // the room's origin has moved since the last frame
     bool floor_known = true;  // y is 0 at the floor; false: at the eyes of a seated user
     // Group i is drawn as the renderer's group immersive_group + i. May be empty: nothing can be drawn.

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "content/displays/wall_geometry.hpp"
+
 namespace bolt::view {
 
 namespace {
@@ -70,6 +72,18 @@ EyeGroup wall_eyes(const content::Wall& wall, const Pose& head, double eye_separ
     return group;
 }
 
+bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3& point) {
+    return std::any_of(walls.begin(), walls.end(), [&](const content::Wall& wall) {
+        const content::WallFrame frame = content::frame_of(wall);
+        const double from = content::distance_in_front(frame, eye),
+                     towards = from - content::distance_in_front(frame, point);
+        if (from <= 0.0 || towards <= 0.0) return false;
+        const Vec3 seen = eye + from / towards * (point - eye) - frame.origin;
+        const double x = glm::dot(seen, frame.right), y = glm::dot(seen, frame.up);
+        return x >= 0.0 && x <= frame.width && y >= 0.0 && y <= frame.height;
+    });
+}
+
 std::vector<content::Monitor> monitor_areas(std::span<const platform::Monitor> monitors) {
     std::vector<content::Monitor> areas;
     for (const platform::Monitor& monitor : monitors)
@@ -117,7 +131,8 @@ std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows sh
 }
 
 Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, content::DisplayFile displays,
-                                           HeadSource head, std::function<void(const std::string&)> log) {
+                                           displays::HeadSource head,
+                                           std::function<void(const std::string&)> log) {
     const char* x_display = std::getenv("DISPLAY");  // NOLINT(concurrency-mt-unsafe): before any thread
     BOLT_TRY_ASSIGN(const auto plan, plan_wall_windows(displays, monitor_areas(platform::monitors(desktop)),
                                                        x_display != nullptr ? x_display : ""));
@@ -169,14 +184,36 @@ std::vector<platform::InputEvent> Walls::poll_events() {
     return events;
 }
 
+// Logs a change of the tracker's state.
+void Walls::tell(tracking::HeadStatus status) {
+    const bool first = !told_;
+    if (told_ == status) return;
+    told_ = status;
+    if (!log_) return;
+    switch (status) {
+        case tracking::HeadStatus::tracked:
+            log_(first ? "head: tracked" : "head: tracked again");
+            break;
+        case tracking::HeadStatus::held:
+            log_("head: not tracked; its last pose is used");
+            break;
+        case tracking::HeadStatus::faded:
+            log_("head: not tracked; the fixed pose of the display file is used");
+            break;
+    }
+}
+
 Result<Immersion> Walls::begin_frame(double seconds) {
     const tracking::FilteredHead head = head_.at(seconds);
-    const std::string change = head_.take_change();
-    if (log_ && !change.empty()) log_(change);
+    const bool fixed = displays_.head.tracker == content::HeadTracker::fixed;
+    if (!fixed) tell(head.status);
     Immersion immersion;
     immersion.head = head.pose;
-    immersion.tracked = head.status == tracking::HeadStatus::tracked;
+    immersion.tracked = fixed || head.status == tracking::HeadStatus::tracked;
     immersion.expected_head = displays_.head.fixed_head;
+    immersion.shows = [this](const Vec3& point) {
+        return on_a_wall(displays_.walls, displays_.head.fixed_head.position, point);
+    };
     immersion.attentive = true;
     for (const content::Wall& wall : displays_.walls) {
         VkExtent2D size{};

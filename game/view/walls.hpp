@@ -12,7 +12,7 @@
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/window.hpp"
 #include "engine/render/renderer.hpp"
-#include "game/view/head_source.hpp"
+#include "game/displays/head_source.hpp"
 #include "game/view/immersion.hpp"
 
 namespace bolt::view {
@@ -20,6 +20,9 @@ namespace bolt::view {
 // The eyes of a head in front of a wall, the left one first; one eye in the middle for a mono wall. Empty if
 // an eye is not in front of the wall: then nothing can be drawn on it.
 EyeGroup wall_eyes(const content::Wall& wall, const Pose& head, double eye_separation, VkExtent2D size);
+
+// Returns true if the point, or something in its direction, is in the picture of a wall.
+bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3& point);
 
 // A window that shows a wall, or the picture of one of its eyes.
 struct WallWindow {
@@ -49,7 +52,7 @@ class Walls {
   public:
     // `log` receives a line when the tracker finds or loses the head; it may be empty.
     static Result<std::unique_ptr<Walls>> open(const platform::Desktop& desktop,
-                                               content::DisplayFile displays, HeadSource head,
+                                               content::DisplayFile displays, displays::HeadSource head,
                                                std::function<void(const std::string&)> log);
 
     // Creates the swapchains; release() destroys them before the device is destroyed.
@@ -70,15 +73,18 @@ class Walls {
     [[nodiscard]] double refresh_rate() const;  // Hz, the lowest of the windows; 0: unknown
 
   private:
-    explicit Walls(HeadSource head) : head_(std::move(head)) {}
+    explicit Walls(displays::HeadSource head) : head_(std::move(head)) {}
     struct Output {
         WallWindow plan;
         platform::Window window;
         std::unique_ptr<gpu::Swapchain> swapchain;
         VkExtent2D size{};
     };
+    void tell(tracking::HeadStatus status);
+
     content::DisplayFile displays_;
-    HeadSource head_;
+    displays::HeadSource head_;
+    std::optional<tracking::HeadStatus> told_;  // in the log
     std::function<void(const std::string&)> log_;
     std::vector<Output> outputs_;
 };

@@ -150,11 +150,12 @@ Status draw_walls(WindowContent& content, Canvas& canvas, Walls& walls, WindowFr
     BOLT_TRY(content.update(window));
     BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
     BOLT_TRY(content.draw(*recorded, window));
-    const render::ImageLayer picture = content.window_picture(*gpu.renderer);
-    std::vector<gpu::WindowPictures> windows{
-        {canvas.swapchain.get(),
-         {{picture.image, picture.layer, {}, fitted(picture.image->info().extent, window.size)}},
-         false}};
+    std::vector<gpu::WindowPictures> windows;
+    if (window.size.width > 0 && window.size.height > 0) {
+        const render::ImageLayer picture = content.window_picture(*gpu.renderer);
+        const VkRect2D place = fitted(picture.image->info().extent, window.size);
+        windows.push_back({canvas.swapchain.get(), {{picture.image, picture.layer, {}, place}}, false});
+    }
     walls.add_pictures(*gpu.renderer, immersion, windows);
     BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows));
     return {};

@@ -1,0 +1,68 @@
+#include "game/displays/head_source.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/tracking/recorded_poses.hpp"
+
+namespace bolt::displays {
+
+using content::HeadTracker;
+
+Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std::filesystem::path& folder) {
+    HeadSource source;
+    source.registration_ = {content::orientation_of(head.axes), head.scale, head.tracker_in_room,
+                            head.head_in_body};
+    source.settings_.fixed_head = head.fixed_head;
+    source.settings_.hold = head.hold;
+    source.settings_.fade = head.fade;
+    source.settings_.max_speed = head.max_speed;
+    source.settings_.jump_time = head.jump_time;
+    source.body_ = head.body;
+    if (head.tracker == HeadTracker::dtrack) {
+        BOLT_TRY_ASSIGN(auto receiver, tracking::DtrackReceiver::open(head.port));
+        source.receiver_ = std::move(receiver);
+    } else if (head.tracker == HeadTracker::file) {
+        BOLT_TRY_ASSIGN(auto poses, tracking::load_recorded_poses(folder / head.recording));
+        source.recording_ = std::move(poses);
+    }
+    return source;
+}
+
+void HeadSource::add(const tracking::HeadSample& body) {
+    ++counts_.samples;
+    waiting_.push_back({body.time, tracking::head_in_room(registration_, body.pose)});
+}
+
+// The tracker's clock is another one, so a frame counts from its arrival.
+void HeadSource::receive(double now) {
+    const auto frame = receiver_->poll();
+    counts_.dtrack = receiver_->counts();
+    if (!frame) return;
+    for (const tracking::DtrackBody& body : frame->bodies) {
+        const auto at = std::lower_bound(counts_.bodies.begin(), counts_.bodies.end(), body.id);
+        if (at == counts_.bodies.end() || *at != body.id) counts_.bodies.insert(at, body.id);
+    }
+    if (const tracking::DtrackBody* body = tracking::find_body(*frame, body_)) add({now, body->pose});
+}
+
+void HeadSource::play(double now) {
+    if (!started_) {
+        started_ = now - recording_.front().time;
+        played_until_ = -std::numeric_limits<double>::infinity();
+    }
+    const double until = now - *started_;
+    for (const tracking::HeadSample& pose : tracking::poses_between(recording_, played_until_, until))
+        add({pose.time + *started_, pose.pose});
+    played_until_ = until;
+}
+
+tracking::FilteredHead HeadSource::at(double now) {
+    if (receiver_) receive(now);
+    if (!recording_.empty()) play(now);
+    const tracking::FilteredHead head = tracking::filter_head(state_, settings_, waiting_, now);
+    waiting_.clear();
+    return head;
+}
+
+}  // namespace bolt::displays
