@@ -57,16 +57,18 @@ Pose place_workpiece(const Pose& head, const render::BoundingBox& machine,
 
 Pose moved_into_view(const Pose& workpiece, const render::BoundingBox& machine, const Pose& head,
                      const std::function<bool(const Vec3&)>& shows) {
-    constexpr double farthest = 2.5, step = 0.05;  // m
+    constexpr double farthest = 2.5, step = 0.05,
+                     margin = 0.1;  // m; the margin around the machine is for the hand
+    const Vec3 low = Vec3(machine.low) - margin, high = Vec3(machine.high) + margin;
     const Vec3 away = heading(head) * Vec3(0.0, 0.0, -1.0);
     const auto seen_corners = [&](const Pose& place) {
         int seen = 0;
         for (unsigned corner = 0; corner < 8; ++corner)
-            seen += shows(place * Vec3((corner & 1U) != 0 ? machine.high.x : machine.low.x,
-                                       (corner & 2U) != 0 ? machine.high.y : machine.low.y,
-                                       (corner & 4U) != 0 ? machine.high.z : machine.low.z))
-                        ? 1
-                        : 0;
+            seen +=
+                shows(place * Vec3((corner & 1U) != 0 ? high.x : low.x, (corner & 2U) != 0 ? high.y : low.y,
+                                   (corner & 4U) != 0 ? high.z : low.z))
+                    ? 1
+                    : 0;
         return seen;
     };
     Pose best = workpiece;

@@ -116,8 +116,11 @@ Status WallPattern::draw_wall(gpu::FrameContext& frame, std::size_t wall, const 
         const content::TestPattern pattern =
             content::test_pattern(of_wall, eye_of(eye, group.eyes.size()), frame_number_);
         const PatternPicture picture{size / meters, size.y};
-        const double text_height =
-            pattern.texts.empty() ? 0.0 : pattern.texts.front().height * picture.pixels_per_meter.y;
+        // Pictures that a projector stretches have few pixels in one direction; the text fits into both.
+        const double text_height = pattern.texts.empty()
+                                       ? 0.0
+                                       : pattern.texts.front().height *
+                                             std::min(picture.pixels_per_meter.x, picture.pixels_per_meter.y);
         const auto text_size = static_cast<float>(std::max(std::round(text_height), 8.0));
         ui::UiInput input;
         input.size = glm::vec2(size);
