@@ -98,6 +98,16 @@ void check_pair(const Wall& wall, const Wall& other, Findings& findings) {
         findings.push_back({true, place + " cross; expected walls that meet at their edges"});
         return;
     }
+    const auto a_in_b = ends_inside(a, b, wall_tolerance), b_in_a = ends_inside(b, a, wall_tolerance);
+    if (a_in_b || b_in_a) {
+        const Wall &ends = a_in_b ? wall : other, &hidden = a_in_b ? other : wall;
+        findings.push_back(
+            {false,
+             fmt::format("wall {} ends {:.0f} mm inside wall {}: what is behind it cannot "
+                         "be seen",
+                         in_quotes(ends.name), (a_in_b ? *a_in_b : *b_in_a) / mm, in_quotes(hidden.name))});
+        return;
+    }
     if (const auto overlap = coplanar_overlap(a, b, wall_tolerance)) {
         findings.push_back({false, fmt::format("{} overlap by {:.1f} mm: their pictures are not blended",
                                                place, *overlap / mm)});

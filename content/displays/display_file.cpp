@@ -73,6 +73,46 @@ ordered_json json_of(const HeadTracking& head) {
     return object;
 }
 
+// The end of the array that begins at `start`; npos if it has arrays or objects in it. The text is valid
+// JSON.
+std::size_t end_of_flat_array(std::string_view text, std::size_t start) {
+    bool in_text = false;
+    for (std::size_t i = start + 1; i < text.size(); ++i) {
+        if (text[i] == '\\' && in_text)
+            ++i;
+        else if (text[i] == '"')
+            in_text = !in_text;
+        else if (!in_text && (text[i] == '[' || text[i] == '{'))
+            return std::string_view::npos;
+        else if (!in_text && text[i] == ']')
+            return i;
+    }
+    return std::string_view::npos;
+}
+
+// Writes arrays of numbers or texts in one line, as people do.
+std::string with_flat_arrays(std::string_view text) {
+    std::string flat;
+    bool in_text = false;
+    std::size_t array_end = 0;  // of the flat array that `i` is in
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '[' && !in_text && i >= array_end) {
+            const std::size_t end = end_of_flat_array(text, i);
+            if (end != std::string_view::npos) array_end = end;
+        }
+        if (c == '"') in_text = !in_text;
+        if (c == '\n' && i < array_end) {  // a line break is never in a text
+            i = text.find_first_not_of(' ', i + 1) - 1;
+            if (flat.back() == ',') flat += ' ';
+            continue;
+        }
+        flat += c;
+        if (c == '\\') flat += text[++i];
+    }
+    return flat;
+}
+
 }  // namespace
 
 bool HeadTracking::operator==(const HeadTracking& other) const {
@@ -111,7 +151,7 @@ std::string displays_json(const DisplayFile& displays) {
     root["walls"] = ordered_json::array();
     for (const Wall& wall : displays.walls) root["walls"].push_back(json_of(wall));
     // Bytes that are not UTF-8 are replaced, because they would make the file unreadable.
-    return root.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+    return with_flat_arrays(root.dump(2, ' ', false, ordered_json::error_handler_t::replace)) + "\n";
 }
 
 Status save_displays(const std::filesystem::path& path, const DisplayFile& displays) {

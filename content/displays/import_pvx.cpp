@@ -262,10 +262,10 @@ void PvxImport::read_root(pugi::xml_node root) {
     const pugi::xml_node process = choose_process(root);
     for (const pugi::xml_node node : root.children()) {
         if (node.type() != pugi::node_element || node == process) continue;
-        if (process && std::string_view(node.name()) == "Process")
-            messages_.warn_at(node, nullptr, "another Process is used; this one is left out");
-        else
+        if (std::string_view(node.name()) != "Process")
             read_element(node);
+        else if (node.first_child())
+            messages_.warn_at(node, nullptr, "another Process is used; this one is left out");
     }
     for (const pugi::xml_node node : process.children())
         if (node.type() == pugi::node_element) read_element(node);

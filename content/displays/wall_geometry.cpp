@@ -101,6 +101,24 @@ bool cross(const WallFrame& a, const WallFrame& b, double margin) {
     return std::min(a_last, b_last) > std::max(a_first, b_first);
 }
 
+std::optional<double> ends_inside(const WallFrame& a, const WallFrame& b, double tolerance) {
+    if (glm::length(glm::cross(a.normal, b.normal)) < least_sine) return std::nullopt;
+    std::optional<double> deepest;
+    for (const WallEdge& edge : edges_of(corners_of(a))) {
+        if (std::abs(distance_in_front(b, edge.from)) > tolerance ||
+            std::abs(distance_in_front(b, edge.to)) > tolerance)
+            continue;
+        const Vec3 along = edge.to - edge.from;
+        const auto [first, last] = inside(b, edge.from, along, tolerance);
+        const double from = std::max(first, 0.0), to = std::min(last, 1.0);
+        if (from >= to) continue;
+        const Vec3 at = edge.from + along * (0.5 * (from + to)) - b.origin;
+        const double x = glm::dot(at, b.right), y = glm::dot(at, b.up);
+        deepest = std::max(deepest.value_or(0.0), std::min({x, b.width - x, y, b.height - y}));
+    }
+    return deepest;
+}
+
 std::optional<double> coplanar_overlap(const WallFrame& a, const WallFrame& b, double tolerance) {
     const std::array<Vec3, 4> corners = corners_of(a), others = corners_of(b);
     for (const Vec3& corner : others)

@@ -33,6 +33,10 @@ std::array<Vec3, 4> corners_of(const WallFrame& wall, double margin = 0.0);
 // Parallel walls do not cross.
 bool cross(const WallFrame& a, const WallFrame& b, double margin);
 
+// If an edge of `a` lies on `b`, inside its edges by more than `tolerance`: how far inside. The part of `b`
+// behind `a` cannot be seen.
+std::optional<double> ends_inside(const WallFrame& a, const WallFrame& b, double tolerance);
+
 // The width of the strip that two walls in the same plane (to `tolerance`) have in common; none if there is
 // none.
 std::optional<double> coplanar_overlap(const WallFrame& a, const WallFrame& b, double tolerance);

@@ -98,7 +98,7 @@ WallSummary summarize(const Wall& wall, const Vec3& fixed_head, const std::optio
     const Vec3& normal = frame.normal;
     const double level = std::hypot(normal.x, normal.z);
     s.turn = level > 1e-3 ? std::atan2(normal.x, normal.z) : 0.0;
-    s.tilt = std::atan2(normal.y, level);
+    s.tilt = std::atan2(normal.y, level) + 0.0;  // no negative zero
     s.distance = distance_in_front(frame, fixed_head);
     const Vec3 across = 0.5 * frame.width * frame.right, upwards = 0.5 * frame.height * frame.up;
     const Vec3 center = frame.origin + across + upwards;

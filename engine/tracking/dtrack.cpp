@@ -50,7 +50,7 @@ class LineReader {
     }
 
   private:
-    void skip_blanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t\r"), rest_.size())); }
+    void skip_blanks() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size())); }
     std::string_view rest_;
 };
 
@@ -122,7 +122,9 @@ std::optional<DtrackFrame> parse_dtrack(std::string_view packet) {
     bool has_number = false;
     while (!packet.empty()) {
         const std::size_t end = std::min(packet.find('\n'), packet.size());
-        if (!read_line(packet.substr(0, end), frame, has_number)) return std::nullopt;
+        std::string_view line = packet.substr(0, end);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        if (!read_line(line, frame, has_number)) return std::nullopt;
         packet.remove_prefix(std::min(end + 1, packet.size()));
     }
     if (!has_number || frame.bodies.size() > max_dtrack_bodies) return std::nullopt;

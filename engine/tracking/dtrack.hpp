@@ -3,7 +3,8 @@
 //   fr 21753
 //   ts 39596.024831
 //   6dcal 2
-//   6d 1 [0 1.0][326.8 -187.2 109.5 -160 -3.7 -7.1][-0.941 -0.339 -0.019 0.334 -0.933 0.138 -0.064 0.123 0.99]
+//   6d 1 [0 1.0][326.8 -187.2 109.5 -160 -3.7 -7.1][-0.941 -0.339 -0.019 0.334 -0.933 0.138 -0.064 0.123
+//   0.99]
 //
 // A body in a 6d line has an id and a quality, its position in mm and three angles (which are not used), and
 // the columns of its rotation matrix. A body that is not seen is missing or has the quality -1.

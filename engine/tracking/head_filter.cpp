@@ -41,7 +41,9 @@ void add_sample(HeadFilterState& state, const HeadFilterSettings& settings, cons
     if (!is_usable(state, sample)) return;
     if (!state.accepted || agree(settings, *state.accepted, sample)) {
         const bool was_lost = !state.accepted || sample.time - state.accepted->time > max_sample_age;
-        accept(state, sample, was_lost, now);
+        // A jump so short that a head could have covered it by now.
+        const bool ends_jump = state.jump_end && agree(settings, *state.jump_end, sample);
+        accept(state, sample, was_lost || ends_jump, now);
         return;
     }
     const bool lasts = state.jump_end && sample.time - state.jump_end->time <= max_sample_age &&

@@ -21,9 +21,10 @@ struct HeadFilterSettings {
     double fade = 2.0;       // s, from there to the fixed head
     double max_speed = 4.0;  // m/s; a faster change is a jump
     double max_turn = 20.0;  // rad/s, likewise; people turn their heads at up to 12 rad/s
-    double jump_time = 0.3;  // s, for which the poses after a jump must agree before they are accepted
-    double return_time =
-        0.3;  // s, from the shown pose to the tracked one after a dropout or an accepted jump
+    // s, for which the poses after a jump must agree before they are accepted; less if a head could have
+    // covered the jump since the last accepted sample.
+    double jump_time = 0.3;
+    double return_time = 0.3;  // s, from the shown pose to the tracked one after a dropout or a jump
 };
 
 // A change within these is never a jump: noise, and samples that arrive at nearly the same time.

@@ -47,10 +47,10 @@ Result<HeadSample> parse_row(std::string_view line, const RowPosition& position)
         at =
             std::min(line.find_first_not_of(" \t", static_cast<std::size_t>(end - line.data())), line.size());
         const bool is_last = i + 1 == columns;
-        if (is_last ? at != line.size() : at == line.size() || line[at++] != ',')
-            return position.error(std::min(at, line.size()),
-                                  fmt::format("column {} does not end here", i + 1),
+        if (is_last ? at != line.size() : at == line.size() || line[at] != ',')
+            return position.error(at, fmt::format("column {} does not end here", i + 1),
                                   is_last ? "the end of the line" : "a comma");
+        ++at;
     }
     const auto [time, x, y, z, qw, qx, qy, qz] = row;
     const Quat read(qw, qx, qy, qz);

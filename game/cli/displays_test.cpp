@@ -60,6 +60,10 @@ Result<std::unique_ptr<view::Walls>> open_walls(const std::string& file, const p
     if (unusable)
         return fail(ErrorCode::bad_content, fmt::format("{}: the walls cannot be shown", file),
                     "a display file without mistakes for these monitors");
+    if (loaded.displays.head.tracker == content::HeadTracker::openxr)
+        return fail(ErrorCode::no_device,
+                    fmt::format("{}: the tracker \"openxr\" is not supported on walls", file),
+                    "\"fixed\", \"dtrack\" or \"file\"");
     BOLT_TRY_ASSIGN(auto head, displays::HeadSource::open(loaded.displays.head,
                                                           std::filesystem::path(file).parent_path()));
     std::function<void(const std::string&)> log;
@@ -72,7 +76,7 @@ void add_displays_test(CLI::App& displays, int& exit_code) {
     CLI::App* test = displays.add_subcommand(
         "test",
         "Show a test pattern on the walls: borders, a scale to measure, eyes, the number of the frame");
-    test->add_option("file", options->file, "Display file")->required();
+    test->add_option("FILE", options->file, "The display file")->required();
     test->add_option("--size", options->size, "WIDTHxHEIGHT of the window beside the walls")
         ->capture_default_str();
     test->add_option("--gpu", options->gpu, "Part of the name of the GPU to use");

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include "engine/base/process.hpp"
 #include "engine/program/program.hpp"
 #include "game/cli/commands.hpp"
@@ -63,7 +62,7 @@ int main(int argc, char** argv) {
     bolt::cli::add_glove(app, exit_code);
     bolt::cli::add_devices(app, exit_code);
     bolt::cli::add_station(app, exit_code);
-    bolt::cli::add_displays_test(*app.add_subcommand("displays", "Projection walls"), exit_code);
+    bolt::cli::add_displays(app, exit_code);
     app.callback([&] {
         if (!app.get_subcommands().empty()) return;
         const bolt::Status done = bolt::cli::train_from_desktop();

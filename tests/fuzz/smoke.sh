@@ -26,6 +26,9 @@ smoke calibration 50000 -dict="$here/calibration.dict" -max_len=8192 "$bin/../co
 smoke settings 50000 -dict="$here/settings.dict" -max_len=4096 "$bin/../corpus/settings"
 smoke station 50000 -dict="$here/station.dict" -max_len=4096 "$bin/../corpus/station"
 smoke points 100000 -max_len=2048 "$bin/../corpus/points"
+smoke displays 30000 -dict="$here/displays.dict" -max_len=4096 "$bin/../corpus/displays"
+smoke pvx 50000 -dict="$here/pvx.dict" -max_len=4096 "$bin/../corpus/pvx"
+smoke dtrack 200000 -dict="$here/dtrack.dict" -max_len=1024 "$bin/../corpus/dtrack"
 smoke report 200000 -max_len=512
 smoke force_device 200000 -max_len=1024 "$bin/../corpus/force_device"
 smoke haply 30000 -max_len=4096 -dict="$here/haply.dict" "$bin/../corpus/haply"
