@@ -84,7 +84,7 @@ send() {  # send BODY: a packet every 50 ms, each in one write
     done 2> /dev/null
 }
 send 3 & player=$!
-expect 0 'tracked +x +0.100  y +1.700  z +0.200 m +looks +-?0 degrees' "${run[@]}" track dtrack.json --seconds 1.2
+expect 0 'tracked +x +0.100  y +1.700  z +0.200 m +looks +-?0 degrees' "${run[@]}" track dtrack.json --seconds 4
 kill $player; wait $player 2> /dev/null
 send 4 & player=$!
 expect 1 'Body 3 is not seen; DTrack sees 4' "${run[@]}" track dtrack.json --seconds 0.7
