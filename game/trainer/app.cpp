@@ -340,6 +340,7 @@ Status App::update(const view::WindowFrame& window) {
         starter_.reset();
         BOLT_TRY(report_start(enter_lesson(std::move(*started), aspect)));
     }
+    if (window.immersion != nullptr) place_in_room(*window.immersion);  // a lesson that has just begun
     if (screen_ == ShownScreen::menu && active_) BOLT_TRY(close_lesson());
     const bool chooses = screen_ == ShownScreen::menu || screen_ == ShownScreen::result;
     const bool can_start = chooses && !settings_ && menu_.page == MenuPage::choices;

@@ -115,6 +115,7 @@ class App : public view::WindowContent {
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
     void pause_unseen(bool seen);
+    void place_in_room(const view::Immersion& immersion);
     void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);
     [[nodiscard]] Pose scene_in_room() const;
     Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);

@@ -31,6 +31,25 @@ void App::pause_unseen(bool seen) {
     if (std::exchange(room_->paused, false)) paused = false;
 }
 
+// Places panel and workpiece if they have no place yet.
+void App::place_in_room(const view::Immersion& immersion) {
+    Room& room = *room_;
+    const Pose& viewer = immersion.expected_head ? *immersion.expected_head : immersion.head;
+    const bool placed = immersion.tracked || immersion.expected_head || room.panel;
+    if (placed && !room.panel) room.panel = place_panel(viewer);
+    if (!active_) room.workpiece.reset();
+    if (placed && active_ && !room.workpiece) {
+        const render::BoundingBox& machine = active_->workplace.machine;
+        room.workpiece = place_workpiece(
+            viewer, machine,
+            immersion.floor_known
+                ? std::nullopt
+                : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
+        if (immersion.shows)
+            room.workpiece = moved_into_view(*room.workpiece, machine, viewer, immersion.shows);
+    }
+}
+
 // Places workpiece and panel, and adds the input of the hands as events.
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::Immersion* immersion = window.immersion;
@@ -44,20 +63,7 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     room.seen = immersion->attentive;
     if (immersion->tracks_hands) offer_tracked_hand(menu_.devices);
     if (immersion->recentred) room.panel = room.workpiece = std::nullopt;
-    const Pose& viewer = immersion->expected_head ? *immersion->expected_head : immersion->head;
-    const bool placed = immersion->tracked || immersion->expected_head || room.panel;
-    if (placed && !room.panel) room.panel = place_panel(viewer);
-    if (!active_) room.workpiece.reset();
-    if (placed && active_ && !room.workpiece) {
-        const render::BoundingBox& machine = active_->workplace.machine;
-        room.workpiece = place_workpiece(
-            viewer, machine,
-            immersion->floor_known
-                ? std::nullopt
-                : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
-        if (immersion->shows)
-            room.workpiece = moved_into_view(*room.workpiece, machine, viewer, immersion->shows);
-    }
+    place_in_room(*immersion);
     if (!room.shown) return;
     if (immersion->tracks_hands) {
         // The window's pointer would compete with the hands'.
