@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "content/displays/display_file.hpp"
@@ -41,15 +42,22 @@ inline constexpr double narrow_eyes = 0.05, wide_eyes = 0.08;  // m; nearly all 
 // Names, shapes, the fixed head in front of each wall, crossings, overlaps, seams, and the eye separation.
 std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
 
-// Shapes of pixels; outputs that show on the same pixels. `monitors`: those of the computer `rank`; its
-// outputs without a display of their own are compared with them. Without monitors the outputs are compared
-// with one another only.
-std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, std::span<const Monitor> monitors = {},
-                                          int rank = 0);
+// The computer on which walls are checked.
+struct Computer {
+    std::vector<Monitor> monitors;  // none: outputs are compared with one another only
+    int rank = 0;                   // its number in the file
+    std::string display;            // X display of the program, such as ":0"; empty: unknown
+};
+
+// Returns true for names of the same X screen: ":0" is ":0.0".
+bool is_same_display(std::string_view a, std::string_view b);
+
+// Shapes of pixels; outputs that show on the same pixels; outputs of the computer that are not on its
+// monitors, or on another X display than the program.
+std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const Computer& computer = {});
 
 // Both; findings that prevent the use come first.
-std::vector<DisplayFinding> check_displays(const DisplayFile& displays,
-                                           std::span<const Monitor> monitors = {}, int rank = 0);
+std::vector<DisplayFinding> check_displays(const DisplayFile& displays, const Computer& computer = {});
 
 // A line each; it begins with file, line and column of the wall.
 std::string describe(std::span<const DisplayFinding> findings, const LoadedDisplays& loaded);

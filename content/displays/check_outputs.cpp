@@ -21,6 +21,7 @@ struct PlacedOutput {
     const Wall* wall = nullptr;
     std::size_t index = 0;  // of the wall
     const DisplayOutput* output = nullptr;
+    std::string display;  // empty: that of the program, whose name is not known
     std::optional<PixelRect> rect;
     std::optional<PixelSize> size;
 };
@@ -57,6 +58,7 @@ std::vector<PlacedOutput> outputs_of(const DisplayFile& displays) {
         placed.wall = &wall;
         placed.index = static_cast<std::size_t>(&wall - displays.walls.data());
         placed.output = &output;
+        placed.display = output.display;
         placed.size = output.resolution;
         if (output.position && output.resolution)
             placed.rect = {output.position->x, output.position->y, output.resolution->width,
@@ -68,6 +70,12 @@ std::vector<PlacedOutput> outputs_of(const DisplayFile& displays) {
         if (wall.right_output) add(wall, *wall.right_output, ", right output");
     }
     return all;
+}
+
+// ":0" is the X screen ":0.0".
+std::string_view x_screen(std::string_view display) {
+    if (display.ends_with(".0")) display.remove_suffix(2);
+    return display;
 }
 
 std::string geometry(const PixelRect& rect) {
@@ -151,7 +159,7 @@ void check_pixels(const PlacedOutput& placed, Findings& findings) {
 // Returns true if both outputs name the same monitor, or rectangles of the same desktop that overlap.
 bool collide(const PlacedOutput& a, const PlacedOutput& b) {
     const DisplayOutput &one = *a.output, &other = *b.output;
-    if (one.rank != other.rank || one.display != other.display) return false;
+    if (one.rank != other.rank || !is_same_display(a.display, b.display)) return false;
     if (a.rect && b.rect) return has_pixels(common_part(*a.rect, *b.rect));
     return (!one.monitor.empty() && one.monitor == other.monitor) ||
            (one.monitor_index && one.monitor_index == other.monitor_index);
@@ -169,13 +177,22 @@ const Monitor* find_monitor(const DisplayOutput& output, std::span<const Monitor
     return nullptr;
 }
 
-std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, std::span<const Monitor> monitors,
-                                          int rank) {
-    std::vector<DisplayFinding> findings;
+bool is_same_display(std::string_view a, std::string_view b) { return x_screen(a) == x_screen(b); }
+
+std::vector<DisplayFinding> check_outputs(const DisplayFile& displays, const Computer& computer) {
+    Findings findings;
     std::vector<PlacedOutput> outputs = outputs_of(displays);
     for (PlacedOutput& placed : outputs) {
-        const bool is_here = placed.output->rank == rank && placed.output->display.empty();
-        if (!monitors.empty() && is_here) place_on_monitors(placed, monitors, findings);
+        const DisplayOutput& output = *placed.output;
+        if (output.rank == computer.rank) {
+            if (placed.display.empty()) placed.display = computer.display;
+            if (!computer.display.empty() && !is_same_display(placed.display, computer.display))
+                report(findings, true, placed,
+                       fmt::format("its output is on the X display {}; expected {}, that of the program",
+                                   in_quotes(output.display), in_quotes(computer.display)));
+            else if (!computer.monitors.empty())
+                place_on_monitors(placed, computer.monitors, findings);
+        }
         check_pixels(placed, findings);
     }
     for (std::size_t i = 0; i < outputs.size(); ++i)

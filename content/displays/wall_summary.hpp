@@ -2,7 +2,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 
 #include "content/displays/check_displays.hpp"
@@ -24,7 +23,7 @@ struct WallSummary {
 WallSummary summarize(const Wall& wall, const Vec3& fixed_head, const std::optional<PixelSize>& resolution);
 
 // The head's tracker, a line for each wall, and one for each pair of walls that meet, with their angle and
-// the gap. `monitors`: those of the computer `rank`, for outputs that fill a monitor.
-std::string list_walls(const DisplayFile& displays, std::span<const Monitor> monitors = {}, int rank = 0);
+// the gap. The monitors of the computer tell the resolution of outputs that fill one.
+std::string list_walls(const DisplayFile& displays, const Computer& computer = {});
 
 }  // namespace bolt::content

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <thread>
@@ -13,6 +14,7 @@
 #include "content/displays/display_file.hpp"
 #include "content/displays/example_displays.hpp"
 #include "content/displays/import_pvx.hpp"
+#include "content/displays/wall_geometry.hpp"
 #include "content/displays/wall_summary.hpp"
 #include "content/format/folders.hpp"
 #include "engine/base/steady_seconds.hpp"
@@ -83,9 +85,8 @@ bool any_prevents_use(const std::vector<content::DisplayFinding>& findings) {
 
 // Prints all findings. Returns the exit code: bad_content if the file is wrong on any computer, failed if it
 // does not fit this one.
-int report_findings(const content::LoadedDisplays& loaded, std::span<const content::Monitor> monitors,
-                    int rank) {
-    const auto findings = content::check_displays(loaded.displays, monitors, rank);
+int report_findings(const content::LoadedDisplays& loaded, const content::Computer& computer) {
+    const auto findings = content::check_displays(loaded.displays, computer);
     print_to_stderr(content::describe(findings, loaded));
     if (any_prevents_use(content::check_displays(loaded.displays)))
         return static_cast<int>(ErrorCode::bad_content);
@@ -101,23 +102,24 @@ int check_display_file(const DisplaysArguments& options) {
         const auto poses = tracking::load_recorded_poses(folder / head.recording);
         if (!poses) return print_error(poses.error());
     }
-    std::vector<content::Monitor> monitors;
+    content::Computer computer;
+    computer.rank = options.rank;
     std::string compared = "The outputs were not compared with monitors";
     if (!options.without_monitors) {
         auto connected = connected_monitors();
         if (connected) {
-            monitors = std::move(*connected);
-            compared = fmt::format(
-                "The outputs were compared with {} of this computer",
-                monitors.size() == 1 ? "the monitor" : fmt::format("the {} monitors", monitors.size()));
+            computer.monitors = std::move(*connected);
+            if (const char* display = std::getenv("DISPLAY")) computer.display = display;
+            const std::size_t count = computer.monitors.size();
+            compared = fmt::format("The outputs were compared with {} of this computer",
+                                   count == 1 ? "the monitor" : fmt::format("the {} monitors", count));
         } else {
             compared += ": " + connected.error().message();
         }
     }
-    const Status listed =
-        print(content::list_walls(loaded.displays, monitors, options.rank) + compared + "\n");
+    const Status listed = print(content::list_walls(loaded.displays, computer) + compared + "\n");
     if (!listed) return print_error(listed.error());
-    const int exit_code = report_findings(loaded, monitors, options.rank);
+    const int exit_code = report_findings(loaded, computer);
     const Status printed =
         print(exit_code == 0 ? "The file is right\n" : "These walls cannot be used as the file says\n");
     return printed ? exit_code : print_error(printed.error());
@@ -135,17 +137,28 @@ int import_displays(const DisplaysArguments& options) {
     const content::LoadedDisplays loaded = content::load_displays(options.file);
     const Status printed = print(options.file + ":\n" + content::list_walls(loaded.displays));
     if (!printed) return print_error(printed.error());
-    return report_findings(loaded, {}, 0);
+    return report_findings(loaded, {});
 }
 
-std::string describe_shown_head(const tracking::FilteredHead& head) {
+// The walls that a head at this point sees from behind: then the axes or the place of the tracker are wrong.
+std::string describe_walls_behind(const content::DisplayFile& displays, const Vec3& head) {
+    std::vector<std::string> names;
+    for (const content::Wall& wall : displays.walls)
+        if (content::distance_in_front(content::frame_of(wall), head) <= 0.0) names.push_back(wall.name);
+    return names.empty() ? "" : fmt::format("   behind {}", fmt::join(names, ", "));
+}
+
+std::string describe_shown_head(const content::DisplayFile& displays, const tracking::FilteredHead& head) {
     constexpr const char* states[] = {"tracked", "held", "lost"};
     const Vec3& at = head.pose.position;
     const Vec3 ahead = head.pose.orientation * Vec3(0.0, 0.0, -1.0);
+    // Whole degrees, without a negative zero.
+    const auto degrees = [](double angle) { return std::round(to_degrees(angle)) + 0.0; };
     return fmt::format(
-        "{:<8} x {:6.3f}  y {:6.3f}  z {:6.3f} m   looks {:4.0f} degrees to the right, {:3.0f} up\n",
+        "{:<8} x {:6.3f}  y {:6.3f}  z {:6.3f} m   looks {:4.0f} degrees to the right, {:3.0f} up{}\n",
         states[static_cast<std::size_t>(head.status)], at.x, at.y, at.z,
-        to_degrees(std::atan2(ahead.x, -ahead.z)), to_degrees(std::asin(std::clamp(ahead.y, -1.0, 1.0))));
+        degrees(std::atan2(ahead.x, -ahead.z)), degrees(std::asin(std::clamp(ahead.y, -1.0, 1.0))),
+        describe_walls_behind(displays, at));
 }
 
 std::string describe_tracker_counts(const displays::TrackerCounts& counts,
@@ -186,7 +199,7 @@ int track_head(const DisplaysArguments& options) {
         const tracking::FilteredHead shown = source->at(now);
         if (now >= next_line) {
             next_line += 0.5;
-            if (const Status printed = print(describe_shown_head(shown)); !printed)
+            if (const Status printed = print(describe_shown_head(loaded.displays, shown)); !printed)
                 return print_error(printed.error());
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -84,10 +84,14 @@ send() {  # send BODY: a packet every 50 ms, each in one write
     done 2> /dev/null
 }
 send 3 & player=$!
-expect 0 'tracked +x +0.100  y +1.700  z +0.200 m +looks +-?0 degrees' "${run[@]}" track dtrack.json --seconds 4
+expect 0 'tracked +x +0.100  y +1.700  z +0.200 m +looks +0 degrees to the right, +0 up$' "${run[@]}" track dtrack.json --seconds 4
+kill $player; wait $player 2> /dev/null
+change "s/\"port\": 5000/\"port\": $port/; s/\"axes\": .*/\"axes\": [\"+x\", \"+z\", \"-y\"],/" turned.json
+send 0 & player=$!
+expect 0 'tracked +x +0.100  y +0.200  z -1.700 m .* behind front' "${run[@]}" track turned.json --seconds 4
 kill $player; wait $player 2> /dev/null
 send 4 & player=$!
-expect 1 'Body 3 is not seen; DTrack sees 4' "${run[@]}" track dtrack.json --seconds 0.7
+expect 1 'Body 3 is not seen; DTrack sees 4' "${run[@]}" track dtrack.json --seconds 2
 kill $player; wait $player 2> /dev/null
 player=
 expect 2 'the tracker of lab.json is "fixed"; expected "dtrack" or "file"' "${run[@]}" track lab.json

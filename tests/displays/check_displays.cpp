@@ -15,8 +15,8 @@ using namespace displays_test;
 namespace {
 
 // Exactly one finding of the file, with this part.
-void check_one(const DisplayFile& displays, const std::string& part, std::span<const Monitor> monitors = {}) {
-    const auto found = texts(check_displays(displays, monitors));
+void check_one(const DisplayFile& displays, const std::string& part, const Computer& computer = {}) {
+    const auto found = texts(check_displays(displays, computer));
     REQUIRE_MESSAGE(found.size() == 1, part);
     CHECK_MESSAGE(has(found.front(), part), found.front());
 }
@@ -28,7 +28,7 @@ DisplayFile on_monitor(const std::string& name) {
     return file;
 }
 
-const std::vector<Monitor> two_monitors{{"DP-1", 0, 0, 1500, 1200}, {"DP-2", 1500, 0, 1920, 1080}};
+const Computer two_monitors{{{"DP-1", 0, 0, 1500, 1200}, {"DP-2", 1500, 0, 1920, 1080}}, 0, ":0"};
 
 }  // namespace
 
@@ -129,6 +129,11 @@ TEST_CASE("Display check: no two outputs have the same pixels") {
     file.walls[1].output.rank = 1;  // another computer
     CHECK(check_displays(file).empty());
     file.walls[1].output.rank = 0;
+    file.walls[1].output.display = ":0.1";  // another desktop than that of the program
+    CHECK(check_displays(file).empty());
+    file.walls[0].output.display = ":0";
+    file.walls[1].output.display = ":0.0";
+    check_one(file, "wall \"front\" and wall \"left\" are shown on the same pixels");
     file.walls[1].output.display = ":0.1";  // another desktop
     CHECK(check_displays(file).empty());
     file = on_monitor("DP-1");
@@ -155,7 +160,20 @@ TEST_CASE("Display check: outputs are compared with the monitors of this compute
               "warning: wall \"front\": the monitor \"DP-1\" has 1500x1200 pixels; expected 1000x800, as the "
               "file says",
               two_monitors);
-    CHECK(texts(check_outputs(file, two_monitors, 1)).empty());  // of another computer
+    CHECK(check_outputs(file, {two_monitors.monitors, 1, ":0"}).empty());  // of another computer
+}
+
+TEST_CASE("Display check: the output of this computer is on the X display of the program") {
+    DisplayFile file = on_monitor("DP-1");
+    file.walls[0].output.display = ":0.0";
+    CHECK(check_displays(file, two_monitors).empty());
+    file.walls[0].output.display = ":0.1";
+    check_one(file,
+              "wall \"front\": its output is on the X display \":0.1\"; expected \":0\", that of the program",
+              two_monitors);
+    CHECK(check_displays(file).empty());  // the display of the program is not known
+    file.walls[0].output.rank = 1;
+    CHECK(check_displays(file, two_monitors).empty());
 }
 
 TEST_CASE("Display check: a window must be on monitors, and may extend over several") {
