@@ -73,11 +73,6 @@ Status make_displays(const DisplaysArguments& options) {
                  options.file + "\n");
 }
 
-Result<std::vector<content::Monitor>> connected_monitors() {
-    BOLT_TRY_ASSIGN(const auto desktop, platform::Desktop::open());
-    return view::monitor_areas(platform::monitors(desktop));
-}
-
 bool any_prevents_use(const std::vector<content::DisplayFinding>& findings) {
     return std::any_of(findings.begin(), findings.end(),
                        [](const content::DisplayFinding& finding) { return finding.prevents_use; });
@@ -106,15 +101,15 @@ int check_display_file(const DisplaysArguments& options) {
     computer.rank = options.rank;
     std::string compared = "The outputs were not compared with monitors";
     if (!options.without_monitors) {
-        auto connected = connected_monitors();
-        if (connected) {
-            computer.monitors = std::move(*connected);
-            if (const char* display = std::getenv("DISPLAY")) computer.display = display;
+        const auto desktop = platform::Desktop::open();
+        if (desktop) {
+            computer = view::this_computer(*desktop);
+            computer.rank = options.rank;
             const std::size_t count = computer.monitors.size();
             compared = fmt::format("The outputs were compared with {} of this computer",
                                    count == 1 ? "the monitor" : fmt::format("the {} monitors", count));
         } else {
-            compared += ": " + connected.error().message();
+            compared += ": " + desktop.error().message();
         }
     }
     const Status listed = print(content::list_walls(loaded.displays, computer) + compared + "\n");

@@ -53,7 +53,7 @@ Result<std::unique_ptr<view::Walls>> open_walls(const std::string& file, const p
         return fail(loaded.errors.back());
     }
     const std::vector<content::DisplayFinding> findings =
-        content::check_displays(loaded.displays, view::monitor_areas(platform::monitors(desktop)));
+        content::check_displays(loaded.displays, view::this_computer(desktop));
     const bool unusable = !findings.empty() && findings.front().prevents_use;
     if (!findings.empty() && (unusable || !quiet))
         (void)std::fputs(content::describe(findings, loaded).c_str(), stderr);

@@ -31,25 +31,25 @@ std::string monitor_names(std::span<const content::Monitor> monitors) {
 }
 
 Result<platform::DesktopArea> area_of(const content::Wall& wall, const content::DisplayOutput& output,
-                                      std::span<const content::Monitor> monitors,
-                                      const std::string& x_display) {
-    if (output.rank != 0)
-        return fail(output_error(wall, fmt::format("its output is on computer {}", output.rank),
-                                 "rank 0: this program shows the walls of one computer"));
-    if (!output.display.empty() && output.display != x_display)
+                                      const content::Computer& computer) {
+    if (output.rank != computer.rank)
+        return fail(output_error(
+            wall, fmt::format("its output is on computer {}", output.rank),
+            fmt::format("rank {}: this program shows the walls of one computer", computer.rank)));
+    if (!output.display.empty() && !content::is_same_display(output.display, computer.display))
         return fail(output_error(wall, fmt::format("its output is on X display \"{}\"", output.display),
-                                 fmt::format("\"{}\", which DISPLAY names", x_display)));
+                                 fmt::format("\"{}\", which DISPLAY names", computer.display)));
     if (output.position) {
         const content::PixelSize size = output.resolution.value_or(content::PixelSize{});
         return platform::DesktopArea{output.position->x, output.position->y, size.width, size.height};
     }
-    const content::Monitor* named = content::find_monitor(output, monitors);
+    const content::Monitor* named = content::find_monitor(output, computer.monitors);
     if (named == nullptr)
         return fail(output_error(wall,
                                  output.monitor_index
                                      ? fmt::format("there is no monitor {}", *output.monitor_index)
                                      : fmt::format("there is no monitor \"{}\"", output.monitor),
-                                 monitor_names(monitors)));
+                                 monitor_names(computer.monitors)));
     return platform::DesktopArea{named->x, named->y, named->width, named->height};
 }
 
@@ -84,26 +84,27 @@ bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3
     });
 }
 
-std::vector<content::Monitor> monitor_areas(std::span<const platform::Monitor> monitors) {
-    std::vector<content::Monitor> areas;
-    for (const platform::Monitor& monitor : monitors)
-        areas.push_back(
+content::Computer this_computer(const platform::Desktop& desktop) {
+    content::Computer computer;
+    for (const platform::Monitor& monitor : platform::monitors(desktop))
+        computer.monitors.push_back(
             {monitor.name, monitor.area.x, monitor.area.y, monitor.area.width, monitor.area.height});
-    return areas;
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): before any thread
+    if (const char* display = std::getenv("DISPLAY")) computer.display = display;
+    return computer;
 }
 
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
-                                                  std::span<const content::Monitor> monitors,
-                                                  const std::string& x_display) {
+                                                  const content::Computer& computer) {
     std::vector<WallWindow> windows;
     for (std::size_t i = 0; i < displays.walls.size(); ++i) {
         const content::Wall& wall = displays.walls[i];
         const bool two = wall.right_output.has_value();
-        BOLT_TRY_ASSIGN(const auto area, area_of(wall, wall.output, monitors, x_display));
+        BOLT_TRY_ASSIGN(const auto area, area_of(wall, wall.output, computer));
         windows.push_back({"Boltwright: " + wall.name, area, i,
                            two ? WallWindow::Shows::left_output : WallWindow::Shows::all});
         if (!two) continue;
-        BOLT_TRY_ASSIGN(const auto right, area_of(wall, *wall.right_output, monitors, x_display));
+        BOLT_TRY_ASSIGN(const auto right, area_of(wall, *wall.right_output, computer));
         windows.push_back({"Boltwright: " + wall.name, right, i, WallWindow::Shows::right_output});
     }
     return windows;
@@ -133,9 +134,7 @@ std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows sh
 Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, content::DisplayFile displays,
                                            displays::HeadSource head,
                                            std::function<void(const std::string&)> log) {
-    const char* x_display = std::getenv("DISPLAY");  // NOLINT(concurrency-mt-unsafe): before any thread
-    BOLT_TRY_ASSIGN(const auto plan, plan_wall_windows(displays, monitor_areas(platform::monitors(desktop)),
-                                                       x_display != nullptr ? x_display : ""));
+    BOLT_TRY_ASSIGN(const auto plan, plan_wall_windows(displays, this_computer(desktop)));
     std::unique_ptr<Walls> walls(new Walls(std::move(head)));
     for (const WallWindow& wanted : plan) {
         platform::WindowOptions options;

@@ -32,13 +32,13 @@ struct WallWindow {
     enum class Shows : std::uint8_t { all, left_output, right_output } shows = Shows::all;
 };
 
-std::vector<content::Monitor> monitor_areas(std::span<const platform::Monitor> monitors);
+// The computer that the program runs on, with rank 0.
+content::Computer this_computer(const platform::Desktop& desktop);
 
 // The windows of the outputs. Fails if an output is on a monitor that is not connected, on another X display,
-// or on another computer. `x_display`: the one that the program uses.
+// or of another computer.
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
-                                                  std::span<const content::Monitor> monitors,
-                                                  const std::string& x_display);
+                                                  const content::Computer& computer);
 
 // The part of a window that shows an eye: 0 is the first eye of wall_eyes().
 struct EyePlace {

@@ -116,8 +116,8 @@ TEST_CASE("Walls: a point is on a wall if the line from the eye through it meets
 
 TEST_CASE("Walls: outputs become windows, and an output that is not here is refused by name") {
     content::DisplayFile file = test::small_cave();
-    const std::vector<content::Monitor> monitors{{"DP-1", 0, 0, 1920, 1080}, {"DP-2", 1920, 0, 1280, 720}};
-    const auto plan = view::plan_wall_windows(file, monitors, ":0");
+    const content::Computer computer{{{"DP-1", 0, 0, 1920, 1080}, {"DP-2", 1920, 0, 1280, 720}}, 0, ":0"};
+    const auto plan = view::plan_wall_windows(file, computer);
     REQUIRE(plan);
     REQUIRE(plan->size() == test::cave_walls);
     CHECK((*plan)[1].area.x == 240);
@@ -130,7 +130,7 @@ TEST_CASE("Walls: outputs become windows, and an output that is not here is refu
     wall.output.monitor = "DP-2";
     wall.right_output = content::DisplayOutput();
     wall.right_output->monitor_index = 0;
-    const auto two = view::plan_wall_windows(file, monitors, ":0");
+    const auto two = view::plan_wall_windows(file, computer);
     REQUIRE(two);
     REQUIRE(two->size() == test::cave_walls + 1);
     CHECK((*two)[1].area.x == 1920);
@@ -139,7 +139,7 @@ TEST_CASE("Walls: outputs become windows, and an output that is not here is refu
     CHECK((*two)[2].shows == view::WallWindow::Shows::right_output);
 
     const auto refused = [&](const char* part) {
-        const auto result = view::plan_wall_windows(file, monitors, ":0");
+        const auto result = view::plan_wall_windows(file, computer);
         REQUIRE_FALSE(result);
         CHECK(result.error().code == ErrorCode::no_device);
         CHECK(result.error().message().find("\"front\"") != std::string::npos);
