@@ -176,19 +176,25 @@ Status Frames::submit(FrameContext& frame, const Signals& signals) {
 
     VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = frame.commands_;
-    VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-    wait.semaphore = signals.wait;
-    wait.stageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;  // pictures are copied into the swapchain
-    VkSemaphoreSubmitInfo signal{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-    signal.semaphore = signals.signal;
-    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    const auto semaphores = [](std::span<const VkSemaphore> all, VkPipelineStageFlags2 stages) {
+        std::vector<VkSemaphoreSubmitInfo> infos;
+        for (const VkSemaphore semaphore : all) {
+            infos.push_back({VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO});
+            infos.back().semaphore = semaphore;
+            infos.back().stageMask = stages;
+        }
+        return infos;
+    };
+    // Pictures are copied into the swapchains.
+    const auto waits = semaphores(signals.wait, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT),
+               signalled = semaphores(signals.signal, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
     VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     info.commandBufferInfoCount = 1;
     info.pCommandBufferInfos = &commands;
-    info.waitSemaphoreInfoCount = signals.wait != VK_NULL_HANDLE ? 1 : 0;
-    info.pWaitSemaphoreInfos = &wait;
-    info.signalSemaphoreInfoCount = signals.signal != VK_NULL_HANDLE ? 1 : 0;
-    info.pSignalSemaphoreInfos = &signal;
+    info.waitSemaphoreInfoCount = static_cast<std::uint32_t>(waits.size());
+    info.pWaitSemaphoreInfos = waits.data();
+    info.signalSemaphoreInfoCount = static_cast<std::uint32_t>(signalled.size());
+    info.pSignalSemaphoreInfos = signalled.data();
     next_ = (next_ + 1) % frames_in_flight;
     return check(vkQueueSubmit2(device_->queue(), 1, &info, fence), "submitting a frame");
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -94,8 +95,8 @@ class Frames {
 
     // Ends recording and submits the frame.
     struct Signals {
-        VkSemaphore wait = VK_NULL_HANDLE;    // transfers wait for it
-        VkSemaphore signal = VK_NULL_HANDLE;  // signalled when all commands are complete
+        std::span<const VkSemaphore> wait;    // transfers wait for them
+        std::span<const VkSemaphore> signal;  // signalled when all commands are complete
     };
     Status submit(FrameContext& frame, const Signals& signals);
     Status submit(FrameContext& frame) { return submit(frame, Signals{}); }

@@ -268,70 +268,129 @@ Result<VkExtent2D> Swapchain::prepare(VkExtent2D window) {
     return plan_.extent;
 }
 
-void Swapchain::copy(VkCommandBuffer commands, VkImage to, const Image& picture,
-                     const PresentOptions& options) const {
-    image_barrier(commands, to, ResourceUse::acquired, ResourceUse::transfer_to);
-    const VkRect2D part = options.part.value_or(VkRect2D{{0, 0}, picture.info().extent});
-    const VkExtent2D from_size = part.extent, to_size = plan_.extent;
-    const VkOffset3D from_low{part.offset.x, part.offset.y, 0};
-    const VkImageSubresourceLayers from_layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, options.layer, 1},
+namespace {
+
+void copy_part(VkCommandBuffer commands, const ShownPicture& picture, const VkRect2D& place, VkImage to,
+               VkFormat format) {
+    const VkRect2D part = picture.part.value_or(VkRect2D{{0, 0}, picture.picture->info().extent});
+    const VkImageSubresourceLayers from_layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, picture.layer, 1},
         to_layer{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    if (same(from_size, to_size) && picture.info().format == plan_.format.format) {
+    const bool same_size = same(part.extent, place.extent);
+    if (same_size && picture.picture->info().format == format) {
         VkImageCopy region{};
         region.srcSubresource = from_layer;
-        region.srcOffset = from_low;
+        region.srcOffset = {part.offset.x, part.offset.y, 0};
         region.dstSubresource = to_layer;
-        region.extent = {to_size.width, to_size.height, 1};
-        vkCmdCopyImage(commands, picture.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+        region.dstOffset = {place.offset.x, place.offset.y, 0};
+        region.extent = {place.extent.width, place.extent.height, 1};
+        vkCmdCopyImage(commands, picture.picture->get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
                        VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
-    } else {
-        const auto corner = [](VkOffset3D low, VkExtent2D size) {
-            return VkOffset3D{low.x + static_cast<std::int32_t>(size.width),
-                              low.y + static_cast<std::int32_t>(size.height), 1};
-        };
-        VkImageBlit region{};
-        region.srcSubresource = from_layer;
-        region.srcOffsets[0] = from_low;
-        region.srcOffsets[1] = corner(from_low, from_size);
-        region.dstSubresource = to_layer;
-        region.dstOffsets[1] = corner({}, to_size);
-        const VkFilter filter = same(from_size, to_size) ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
-        vkCmdBlitImage(commands, picture.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
-                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, filter);
+        return;
+    }
+    const auto set_corners = [](VkOffset3D(&corners)[2], const VkRect2D& rectangle) {
+        corners[0] = {rectangle.offset.x, rectangle.offset.y, 0};
+        corners[1] = {rectangle.offset.x + static_cast<std::int32_t>(rectangle.extent.width),
+                      rectangle.offset.y + static_cast<std::int32_t>(rectangle.extent.height), 1};
+    };
+    VkImageBlit region{};
+    region.srcSubresource = from_layer;
+    set_corners(region.srcOffsets, part);
+    region.dstSubresource = to_layer;
+    set_corners(region.dstOffsets, place);
+    vkCmdBlitImage(commands, picture.picture->get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to,
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                   same_size ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
+}
+
+// The part of `place` inside a picture of this size; a place may be older than the size of its window.
+VkRect2D clipped(const VkRect2D& place, VkExtent2D size) {
+    const auto clip = [](std::int32_t from, std::uint32_t length, std::uint32_t limit) {
+        const std::int64_t low = std::clamp<std::int64_t>(from, 0, limit),
+                           high = std::clamp<std::int64_t>(std::int64_t{from} + length, low, limit);
+        return std::pair(static_cast<std::int32_t>(low), static_cast<std::uint32_t>(high - low));
+    };
+    const auto [x, width] = clip(place.offset.x, place.extent.width, size.width);
+    const auto [y, height] = clip(place.offset.y, place.extent.height, size.height);
+    return {{x, y}, {width, height}};
+}
+
+}  // namespace
+
+void Swapchain::copy(VkCommandBuffer commands, VkImage to, std::span<const ShownPicture> pictures) const {
+    image_barrier(commands, to, ResourceUse::acquired, ResourceUse::transfer_to);
+    const bool fills = std::any_of(pictures.begin(), pictures.end(),
+                                   [](const ShownPicture& picture) { return !picture.place; });
+    if (!fills) {
+        const VkClearColorValue black{{0.0F, 0.0F, 0.0F, 1.0F}};
+        const VkImageSubresourceRange whole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+        vkCmdClearColorImage(commands, to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &black, 1, &whole);
+        image_barrier(commands, to, ResourceUse::transfer_to, ResourceUse::transfer_to);
+    }
+    for (const ShownPicture& picture : pictures) {
+        const VkRect2D place = clipped(picture.place.value_or(VkRect2D{{0, 0}, plan_.extent}), plan_.extent);
+        if (!empty(place.extent)) copy_part(commands, picture, place, to, plan_.format.format);
     }
     image_barrier(commands, to, ResourceUse::transfer_to, ResourceUse::present);
 }
 
-Result<bool> Swapchain::present(Frames& frames, FrameContext& frame, const Image& picture,
-                                const PresentOptions& options) {
-    if (!swapchain_ || stale_ || lost_ || empty(plan_.extent)) {
-        BOLT_TRY(frames.submit(frame));
-        return false;
-    }
-    const VkSemaphore acquire = acquire_semaphores_[next_acquire_].get();
-    std::uint32_t index = 0;
-    BOLT_TRY_ASSIGN(const auto got, handle(vkAcquireNextImageKHR(device_->get(), swapchain_.get(),
-                                                                 options.waits ? acquire_timeout : 0, acquire,
-                                                                 VK_NULL_HANDLE, &index),
+// None: nothing can be presented now.
+Result<std::optional<Swapchain::Acquired>> Swapchain::acquire(bool waits) {
+    if (!swapchain_ || stale_ || lost_ || empty(plan_.extent)) return std::optional<Acquired>();
+    Acquired acquired{0, acquire_semaphores_[next_acquire_].get(), VK_NULL_HANDLE};
+    BOLT_TRY_ASSIGN(const auto got, handle(vkAcquireNextImageKHR(
+                                               device_->get(), swapchain_.get(), waits ? acquire_timeout : 0,
+                                               acquired.acquired, VK_NULL_HANDLE, &acquired.index),
                                            "acquiring a swapchain image"));
-    if (!got) {
-        BOLT_TRY(frames.submit(frame));
-        return false;
-    }
+    if (!got) return std::optional<Acquired>();
     next_acquire_ = (next_acquire_ + 1) % frames_in_flight;
-    copy(frame.commands(), images_[index], picture, options);
-    const VkSemaphore present = present_semaphores_[index].get();
-    BOLT_TRY(frames.submit(frame, {acquire, present}));
+    acquired.presentable = present_semaphores_[acquired.index].get();
+    return std::optional(acquired);
+}
 
-    const VkSwapchainKHR swapchain = swapchain_.get();
+Result<bool> Swapchain::present(Frames& frames, FrameContext& frame, const ShownPicture& picture,
+                                bool waits) {
+    const WindowPictures window{this, {picture}, waits};
+    BOLT_TRY_ASSIGN(const auto presented, gpu::present(frames, frame, {&window, 1}));
+    return presented == 1;
+}
+
+Result<std::uint32_t> present(Frames& frames, FrameContext& frame, std::span<const WindowPictures> windows) {
+    std::vector<Swapchain*> shown;
+    std::vector<VkSemaphore> acquired, presentable;
+    std::vector<VkSwapchainKHR> swapchains;
+    std::vector<std::uint32_t> indices;
+    for (const WindowPictures& window : windows) {
+        BOLT_TRY_ASSIGN(const auto image, window.swapchain->acquire(window.waits));
+        if (!image) continue;
+        window.swapchain->copy(frame.commands(), window.swapchain->images_[image->index], window.pictures);
+        shown.push_back(window.swapchain);
+        acquired.push_back(image->acquired);
+        presentable.push_back(image->presentable);
+        swapchains.push_back(window.swapchain->swapchain_.get());
+        indices.push_back(image->index);
+    }
+    BOLT_TRY(frames.submit(frame, {acquired, presentable}));
+    if (shown.empty()) return 0;
+    std::vector<VkResult> results(shown.size(), VK_SUCCESS);
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
-    info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &present;
-    info.swapchainCount = 1;
-    info.pSwapchains = &swapchain;
-    info.pImageIndices = &index;
-    const Result<bool> presented = handle(vkQueuePresentKHR(device_->queue(), &info), "presenting a picture");
-    if (presented && *presented) losses_ = 0;
+    info.waitSemaphoreCount = static_cast<std::uint32_t>(presentable.size());
+    info.pWaitSemaphores = presentable.data();
+    info.swapchainCount = static_cast<std::uint32_t>(swapchains.size());
+    info.pSwapchains = swapchains.data();
+    info.pImageIndices = indices.data();
+    info.pResults = results.data();
+    const VkResult all = vkQueuePresentKHR(shown.front()->device_->queue(), &info);
+    std::uint32_t presented = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        // A failure that concerns no single window, such as a lost device, is reported by the call only.
+        const bool of_window = all == VK_SUBOPTIMAL_KHR || all == VK_ERROR_OUT_OF_DATE_KHR ||
+                               all == VK_ERROR_SURFACE_LOST_KHR || all == VK_SUCCESS;
+        BOLT_TRY_ASSIGN(const auto done,
+                        shown[i]->handle(of_window ? results[i] : all, "presenting a picture"));
+        if (!done) continue;
+        shown[i]->losses_ = 0;
+        ++presented;
+    }
     return presented;
 }
 

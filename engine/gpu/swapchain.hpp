@@ -45,6 +45,29 @@ Result<SwapchainPlan> plan_swapchain(const SurfaceSupport& support, const Swapch
 // Creates the window's surface, at the start and after a loss.
 using MakeSurface = std::function<Result<Surface>()>;
 
+// A picture for a window, or for a part of it.
+struct ShownPicture {
+    const Image* picture = nullptr;  // in use `transfer_from`, of any size
+    std::uint32_t layer = 0;
+    std::optional<VkRect2D> part;   // of the picture; none: all of it
+    std::optional<VkRect2D> place;  // in the window, px; none: all of it
+};
+
+class Swapchain;
+
+// The pictures of one window in a frame. Where none is, the window is black.
+struct WindowPictures {
+    Swapchain* swapchain = nullptr;
+    std::vector<ShownPicture> pictures;
+    // false: rather present nothing than wait for the window. True waits 0.2 s at most.
+    bool waits = true;
+};
+
+// Copies the pictures to their windows, ends the frame, submits it, and presents all windows together, so
+// that they change in the same refresh of synchronised displays. Returns how many windows were presented;
+// the pictures of the others were drawn but dropped.
+Result<std::uint32_t> present(Frames& frames, FrameContext& frame, std::span<const WindowPictures> windows);
+
 // Handles the window's changes: a new size, no area (minimised), a lost surface. A picture that cannot be
 // presented is dropped, and the swapchain is recreated for the next one. After a lost device the caller must
 // recreate everything created from the device. The device must have been created for a surface of the same
@@ -61,18 +84,8 @@ class Swapchain {
     // means that nothing can be presented now. `window`: the window's size in pixels. Call it between frames.
     Result<VkExtent2D> prepare(VkExtent2D window);
 
-    // Copies a layer of `picture` (in use `transfer_from`, of any size) to the window, ends the frame and
-    // submits it. Returns false if the picture was drawn but not presented.
-    struct PresentOptions {
-        std::uint32_t layer = 0;
-        std::optional<VkRect2D> part;  // of the picture; none: all of it
-        bool waits = true;             // false: do not wait for the window; rather present nothing
-    };
-    Result<bool> present(Frames& frames, FrameContext& frame, const Image& picture,
-                         const PresentOptions& options);
-    Result<bool> present(Frames& frames, FrameContext& frame, const Image& picture, std::uint32_t layer = 0) {
-        return present(frames, frame, picture, PresentOptions{layer, {}, true});
-    }
+    // Presents one picture that fills the window; see present() below.
+    Result<bool> present(Frames& frames, FrameContext& frame, const ShownPicture& picture, bool waits = true);
 
     // The choices for the current window, with reasons.
     [[nodiscard]] const SwapchainPlan& plan() const { return plan_; }
@@ -80,12 +93,19 @@ class Swapchain {
     [[nodiscard]] std::uint32_t creations() const { return creations_; }
 
   private:
+    friend Result<std::uint32_t> present(Frames& frames, FrameContext& frame,
+                                         std::span<const WindowPictures> windows);
+    // An image of the swapchain that was acquired, and its semaphores.
+    struct Acquired {
+        std::uint32_t index = 0;
+        VkSemaphore acquired = VK_NULL_HANDLE, presentable = VK_NULL_HANDLE;
+    };
     Swapchain() = default;
 
     Status replace_surface();
     Result<bool> recreate(VkExtent2D window);
-    void copy(VkCommandBuffer commands, VkImage to, const Image& picture,
-              const PresentOptions& options) const;
+    Result<std::optional<Acquired>> acquire(bool waits);
+    void copy(VkCommandBuffer commands, VkImage to, std::span<const ShownPicture> pictures) const;
     Result<bool> handle(VkResult result, std::string_view what);
 
     Device* device_ = nullptr;

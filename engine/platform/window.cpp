@@ -271,19 +271,32 @@ std::vector<Monitor> monitors(const Desktop&) {
 }
 
 Result<Window> Window::open(const Desktop& desktop, const WindowOptions& options) {
+    const bool covers = options.covers.has_value();
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    glfwWindowHint(GLFW_VISIBLE, options.hidden ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, covers ? GLFW_FALSE : GLFW_TRUE);
+    // A window that covers an area is shown when it is there.
+    glfwWindowHint(GLFW_VISIBLE, options.hidden || covers ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_DECORATED, covers ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_RESIZABLE, covers ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_FOCUS_ON_SHOW, covers ? GLFW_FALSE : GLFW_TRUE);
+    glfwWindowHint(GLFW_AUTO_ICONIFY, covers ? GLFW_FALSE : GLFW_TRUE);
+    const int width = covers ? options.covers->width : static_cast<int>(options.width),
+              height = covers ? options.covers->height : static_cast<int>(options.height);
     auto state = std::make_unique<State>();
-    state->window = glfwCreateWindow(static_cast<int>(options.width), static_cast<int>(options.height),
-                                     options.title.c_str(), nullptr, nullptr);
+    state->window = glfwCreateWindow(width, height, options.title.c_str(), nullptr, nullptr);
     if (state->window == nullptr) return desktop_error("the window cannot be opened", "");
-    fit_into_work_area(state->window);
+    if (covers) {
+        glfwSetWindowPos(state->window, options.covers->x, options.covers->y);
+        if (!options.hidden) glfwShowWindow(state->window);
+        glfwSetWindowPos(state->window, options.covers->x, options.covers->y);  // window managers may move it
+    } else {
+        fit_into_work_area(state->window);
+    }
     state->lost = desktop.lost_;
     state->register_callbacks();
     Window window(std::move(state));
-    if (options.full_screen) window.set_full_screen(true);
+    if (options.full_screen && !covers) window.set_full_screen(true);
     return window;
 }
 

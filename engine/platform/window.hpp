@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -59,6 +60,9 @@ struct WindowOptions {
     std::uint32_t width = 1280, height = 720;
     bool full_screen = false;
     bool hidden = false;  // to query the display without showing a window
+    // Covers exactly this area, without a frame, and stays there when another window has the focus: for
+    // projection walls. Replaces width, height and full_screen.
+    std::optional<DesktopArea> covers;
 };
 
 struct Size {

@@ -1,5 +1,5 @@
 // boltwright displays: makes, checks and imports the file that describes projection walls, and shows what the
-// tracker of the head sends.
+// tracker of the head sends. The test pattern is in displays_test.cpp.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -22,6 +22,7 @@
 #include "engine/tracking/recorded_poses.hpp"
 #include "game/cli/commands.hpp"
 #include "game/displays/head_source.hpp"
+#include "game/view/walls.hpp"
 
 namespace bolt::cli {
 
@@ -72,15 +73,6 @@ Status make_displays(const DisplaysArguments& options) {
                  options.file + "\n");
 }
 
-Result<std::vector<content::Monitor>> connected_monitors() {
-    BOLT_TRY_ASSIGN(const auto desktop, platform::Desktop::open());
-    std::vector<content::Monitor> all;
-    for (const platform::Monitor& monitor : platform::monitors(desktop))
-        all.push_back(
-            {monitor.name, monitor.area.x, monitor.area.y, monitor.area.width, monitor.area.height});
-    return all;
-}
-
 bool any_prevents_use(const std::vector<content::DisplayFinding>& findings) {
     return std::any_of(findings.begin(), findings.end(),
                        [](const content::DisplayFinding& finding) { return finding.prevents_use; });
@@ -109,15 +101,15 @@ int check_display_file(const DisplaysArguments& options) {
     computer.rank = options.rank;
     std::string compared = "The outputs were not compared with monitors";
     if (!options.without_monitors) {
-        auto connected = connected_monitors();
-        if (connected) {
-            computer.monitors = std::move(*connected);
-            if (const char* display = std::getenv("DISPLAY")) computer.display = display;
+        const auto desktop = platform::Desktop::open();
+        if (desktop) {
+            computer = view::this_computer(*desktop);
+            computer.rank = options.rank;
             const std::size_t count = computer.monitors.size();
             compared = fmt::format("The outputs were compared with {} of this computer",
                                    count == 1 ? "the monitor" : fmt::format("the {} monitors", count));
         } else {
-            compared += ": " + connected.error().message();
+            compared += ": " + desktop.error().message();
         }
     }
     const Status listed = print(content::list_walls(loaded.displays, computer) + compared + "\n");
@@ -289,11 +281,12 @@ void add_displays(CLI::App& app, int& exit_code) {
     auto options = std::make_shared<DisplaysArguments>();
     CLI::App* displays = app.add_subcommand(
         "displays",
-        "Make, check or import the file that describes projection walls and the tracker of the head");
+        "Make, check, import or try the file that describes projection walls and the tracker of the head");
     displays->require_subcommand(1);
     add_displays_new(*displays, options, exit_code);
     add_displays_check(*displays, options, exit_code);
     add_displays_import(*displays, options, exit_code);
+    add_displays_test(*displays, exit_code);
     add_displays_track(*displays, options, exit_code);
 }
 

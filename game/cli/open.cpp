@@ -59,7 +59,7 @@ Status run_open(const OpenArguments& options) {
     BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create(instance_options));
     catch_interruption();
     BOLT_TRY(view::run_in_window(*viewer, window, instance,
-                                 {options.gpu, [] { return interrupted(); }, nullptr, false, {}}));
+                                 {.gpu = options.gpu, .stop = [] { return interrupted(); }}));
     return instance.log().messages.empty() ? Status()
                                            : fail(ErrorCode::failed, instance.log().messages.front());
 }

@@ -18,6 +18,7 @@
 #include "game/session/export.hpp"
 #include "game/trainer/app.hpp"
 #include "game/view/pictures.hpp"
+#include "game/view/walls.hpp"
 #include "game/view/window.hpp"
 
 namespace bolt::cli {
@@ -153,8 +154,16 @@ Result<std::unique_ptr<xr::Headset>> open_headset(HeadsetUse use, bool quiet) {
     return headset;
 }
 
+// What surrounds the user; at most one.
+struct Surroundings {
+    xr::Headset* headset = nullptr;
+    view::Walls* walls = nullptr;
+};
+
 Status run_window(const TrainArguments& options, const trainees::TrainOptions& train,
-                  const trainer::Equipment& equipment, xr::Headset* headset, platform::Desktop& desktop) {
+                  const trainer::Equipment& equipment, const Surroundings& surroundings,
+                  platform::Desktop& desktop) {
+    xr::Headset* headset = surroundings.headset;
     const std::filesystem::path out(options.out);
     if (Status made = make_folder(out); !made) return made;
     trainer::AppOptions app_options;
@@ -189,8 +198,12 @@ Status run_window(const TrainArguments& options, const trainees::TrainOptions& t
     instance_options.validation = options.validate;
     instance_options.extensions = *extensions;
     instance_options.log = std::make_shared<gpu::ValidationLog>();
-    view::WindowRunOptions run_options{options.gpu, [] { return interrupted(); }, headset,
-                                       !options.full_resolution, instance_options};
+    const view::WindowRunOptions run_options{.gpu = options.gpu,
+                                             .stop = [] { return interrupted(); },
+                                             .headset = headset,
+                                             .walls = surroundings.walls,
+                                             .adapts_resolution = !options.full_resolution,
+                                             .instance = instance_options};
     if (headset != nullptr) instance_options.creator = headset->creator();
     BOLT_TRY_ASSIGN(auto instance, gpu::Instance::create(instance_options));
     trainer::App app(std::move(app_options));
@@ -206,6 +219,9 @@ int run_train(TrainArguments options) {
     if (*headset_use != HeadsetUse::none && options.headless)
         return print_error(
             {ErrorCode::usage, "a simulated trainee wears no headset", "--headless without --hmd"});
+    if (!options.displays.empty() && (options.headless || *headset_use != HeadsetUse::none))
+        return print_error({ErrorCode::usage, "walls are shown in windows, to a viewer without a headset",
+                            "--displays without --headless and --hmd"});
     Result<trainer::Equipment> equipment = equipment_of(options);
     if (!equipment) return print_error(equipment.error());
     const bool free_hand = equipment->hand == trainer::HandMode::free;
@@ -234,7 +250,8 @@ int run_train(TrainArguments options) {
     const auto headset = open_headset(*headset_use, options.quiet);
     if (!headset) return print_error(headset.error());
     Result<platform::Desktop> desktop = platform::Desktop::open();
-    if (!desktop && *headset_use == HeadsetUse::required) return print_error(desktop.error());
+    if (!desktop && (*headset_use == HeadsetUse::required || !options.displays.empty()))
+        return print_error(desktop.error());
     if (!desktop) {
         if (!options.quiet)
             (void)std::fputs((desktop.error().what + ": a simulated trainee plays.\n").c_str(), stderr);
@@ -249,7 +266,10 @@ int run_train(TrainArguments options) {
     std::error_code ignored;
     if (std::filesystem::exists(options.assembly, ignored))
         named.assembly = std::filesystem::absolute(options.assembly).lexically_normal().string();
-    const Status done = run_window(named, *train, *equipment, headset->get(), *desktop);
+    Result<std::unique_ptr<view::Walls>> walls = std::unique_ptr<view::Walls>();
+    if (!options.displays.empty()) walls = open_walls(options.displays, *desktop, options.quiet);
+    if (!walls) return print_error(walls.error());
+    const Status done = run_window(named, *train, *equipment, {headset->get(), walls->get()}, *desktop);
     return done ? 0 : print_error(done.error());
 }
 
@@ -266,7 +286,7 @@ Status train_from_desktop() {
     if (!loaded.ok()) return fail(loaded.errors.front());
     BOLT_TRY_ASSIGN(const auto train, train_options(options, loaded.assembly));
     BOLT_TRY_ASSIGN(auto desktop, platform::Desktop::open());
-    return run_window(options, train, equipment, nullptr, desktop);
+    return run_window(options, train, equipment, {}, desktop);
 }
 
 void add_train(CLI::App& app, int& exit_code) {

@@ -93,6 +93,9 @@ void add_device_options(CLI::App& train, TrainArguments& options) {
             "and until then the window")
         ->expected(0, 1)
         ->type_name("[optional]");
+    train.add_option(
+        "--displays", options.displays,
+        "Display file: shows the lesson on projection walls. `boltwright displays new` makes one");
     train.add_flag("--full-resolution", options.full_resolution,
                    "Keep the headset's resolution although the GPU is too slow for its frame rate");
     train.add_flag("--headless", options.headless,

@@ -28,6 +28,7 @@ struct TrainArguments {
     std::string station_file, wheel_config_file;
     // The word after --hmd: "required" (or nothing), "optional", or the assembly; none: no headset is used.
     std::optional<std::string> hmd;
+    std::string displays;          // display file of projection walls; empty: there are none
     bool full_resolution = false;  // of the headset, also if the GPU is too slow for it
     bool headless = false;
     bool start = false, full_screen = false, validate = false, silent = false;

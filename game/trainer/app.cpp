@@ -340,6 +340,7 @@ Status App::update(const view::WindowFrame& window) {
         starter_.reset();
         BOLT_TRY(report_start(enter_lesson(std::move(*started), aspect)));
     }
+    if (window.immersion != nullptr) place_in_room(*window.immersion);  // a lesson that has just begun
     if (screen_ == ShownScreen::menu && active_) BOLT_TRY(close_lesson());
     const bool chooses = screen_ == ShownScreen::menu || screen_ == ShownScreen::result;
     const bool can_start = chooses && !settings_ && menu_.page == MenuPage::choices;
@@ -363,9 +364,8 @@ Status App::update(const view::WindowFrame& window) {
     return {};
 }
 
-// The interface first, because the eyes see its panel.
-Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion) {
-    static const render::Scene empty_scene;
+// Draws the interface, before the eyes that see its panel.
+Status App::draw_panel(gpu::FrameContext& frame) {
     render::Renderer& renderer = *gpu_->context->renderer;
     if (!gpu_->panel) {
         BOLT_TRY_ASSIGN(auto panel, render::PanelPicture::create(*gpu_->context->device, panel_extent));
@@ -375,28 +375,35 @@ Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion
         BOLT_TRY(pictures_.draw(*gpu_->context->device, renderer, frame,
                                 picture_request(menu_, options_.choice.assembly, panel_extent, panel_scale)));
     gpu_->panel->clear(frame);
-    BOLT_TRY(draw_interface(frame, gpu_->panel->layer()));
+    return draw_interface(frame, gpu_->panel->layer());
+}
+
+Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion) {
+    static const render::Scene empty_scene;
     const Pose place = scene_in_room();
     render::Scene scene = active_ ? active_->scene : empty_scene;
     if (!active_) scene.background = surroundings;
-    if (room_->panel) scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
+    if (in_room() && room_->panel)
+        scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
     for (std::uint32_t i = 0; i < immersion.groups.size(); ++i) {
         const view::EyeGroup& group = immersion.groups[i];
         std::vector<render::Eye> eyes;
         for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, place));
         if (!eyes.empty())
-            BOLT_TRY(renderer.render(frame, scene, eyes, group.size, view::immersive_group + i));
+            BOLT_TRY(
+                gpu_->context->renderer->render(frame, scene, eyes, group.size, view::immersive_group + i));
     }
     return {};
 }
 
 Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
     if (in_room()) {
-        BOLT_TRY(draw_room(frame, *window.immersion));
-    } else {
+        BOLT_TRY(draw_panel(frame));
+    } else if (window.size.width > 0 && window.size.height > 0) {
         BOLT_TRY(draw_pictures(frame, window.size, window.scale));
         BOLT_TRY(draw_interface(frame, gpu_->context->renderer->picture(0)));
     }
+    if (window.immersion != nullptr) BOLT_TRY(draw_room(frame, *window.immersion));
     return std::exchange(end_requested_, false) ? end_lesson() : Status{};
 }
 

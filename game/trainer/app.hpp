@@ -68,6 +68,9 @@ class App : public view::WindowContent {
     Status end() override { return end_lesson(); }
 
     [[nodiscard]] bool closed() const override { return closed_; }
+    [[nodiscard]] render::ImageLayer window_picture(const render::Renderer& renderer) const override {
+        return in_room() ? gpu_->panel->layer() : renderer.picture(0);
+    }
     [[nodiscard]] bool take_full_screen_request() override {
         return std::exchange(full_screen_requested_, false);
     }
@@ -112,10 +115,12 @@ class App : public view::WindowContent {
     Status run_systems(const Picture& picture, const view::WindowFrame& window);
     [[nodiscard]] bool in_room() const { return room_ && room_->shown; }
     void pause_unseen(bool seen);
+    void place_in_room(const view::Immersion& immersion);
     void follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events);
     [[nodiscard]] Pose scene_in_room() const;
     Status draw_pictures(gpu::FrameContext& frame, VkExtent2D size, float scale);
     Status draw_interface(gpu::FrameContext& frame, const render::ImageLayer& picture);
+    Status draw_panel(gpu::FrameContext& frame);
     Status draw_room(gpu::FrameContext& frame, const view::Immersion& immersion);
     void draw_screen(const ScreenContext& context);
     void press_start();

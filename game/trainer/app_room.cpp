@@ -1,4 +1,5 @@
-// The part of App that follows a headset: where workpiece and panel stand, and the input of the hands.
+// The part of App that is played in a room, in a headset or before walls: where workpiece and panel stand,
+// and the input of the hands.
 #include <algorithm>
 #include <utility>
 
@@ -30,34 +31,46 @@ void App::pause_unseen(bool seen) {
     if (std::exchange(room_->paused, false)) paused = false;
 }
 
+// Places panel and workpiece if they have no place yet.
+void App::place_in_room(const view::Immersion& immersion) {
+    Room& room = *room_;
+    const Pose& viewer = immersion.expected_head ? *immersion.expected_head : immersion.head;
+    const bool placed = immersion.tracked || immersion.expected_head || room.panel;
+    if (placed && !room.panel) room.panel = place_panel(viewer);
+    if (!active_) room.workpiece.reset();
+    if (placed && active_ && !room.workpiece) {
+        const render::BoundingBox& machine = active_->workplace.machine;
+        room.workpiece = place_workpiece(
+            viewer, machine,
+            immersion.floor_known
+                ? std::nullopt
+                : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
+        if (immersion.shows)
+            room.workpiece = moved_into_view(*room.workpiece, machine, viewer, immersion.shows);
+    }
+}
+
 // Places workpiece and panel, and adds the input of the hands as events.
 void App::follow_room(const view::WindowFrame& window, std::vector<platform::InputEvent>& events) {
     const view::Immersion* immersion = window.immersion;
     pause_unseen(immersion != nullptr && immersion->attentive);
-    if (room_) room_->shown = immersion != nullptr;
+    if (room_) room_->shown = false;
     if (immersion == nullptr) return;
     if (!room_) room_.emplace();
     Room& room = *room_;
-    room.shown = true;
+    // On walls a lesson by mouse is played in the window, and the walls show it.
+    room.shown = immersion->tracks_hands || !active_ || options_.choice.equipment.has_hardware();
     room.seen = immersion->attentive;
     if (immersion->tracks_hands) offer_tracked_hand(menu_.devices);
     if (immersion->recentred) room.panel = room.workpiece = std::nullopt;
-    const bool placed = immersion->tracked || room.panel.has_value();
-    if (placed && !room.panel) room.panel = place_panel(immersion->head);
-    if (!active_) room.workpiece.reset();
-    if (placed && active_ && !room.workpiece)
-        room.workpiece = place_workpiece(
-            immersion->head, active_->workplace.machine,
-            immersion->floor_known
-                ? std::nullopt
-                : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));
-    // The window's pointer would compete with the hands'.
-    const auto of_pointer = [](const platform::InputEvent& event) {
-        return std::holds_alternative<platform::CursorEvent>(event) ||
-               std::holds_alternative<platform::ButtonEvent>(event) ||
-               std::holds_alternative<platform::WheelEvent>(event);
-    };
-    std::erase_if(events, of_pointer);
+    place_in_room(*immersion);
+    if (!room.shown) return;
+    if (immersion->tracks_hands) {
+        // The window's pointer would compete with the hands'.
+        std::erase_if(events, [](platform::InputEvent& event) { return pointer_position(event) != nullptr; });
+    } else {
+        move_to_panel(events, view::fitted(panel_extent, window.size));
+    }
     const HandKeys keys{platform::Key::escape, preferences_.keys.of(Action::tool)};
     const std::vector<platform::InputEvent> hands = hand_events(room, immersion->hands, keys, window.seconds);
     events.insert(events.end(), hands.begin(), hands.end());

@@ -55,6 +55,34 @@ Pose place_workpiece(const Pose& head, const render::BoundingBox& machine,
     return place;
 }
 
+Pose moved_into_view(const Pose& workpiece, const render::BoundingBox& machine, const Pose& head,
+                     const std::function<bool(const Vec3&)>& shows) {
+    constexpr double farthest = 2.5, step = 0.05,
+                     margin = 0.1;  // m; the margin around the machine is for the hand
+    const Vec3 low = Vec3(machine.low) - margin, high = Vec3(machine.high) + margin;
+    const Vec3 away = heading(head) * Vec3(0.0, 0.0, -1.0);
+    const auto seen_corners = [&](const Pose& place) {
+        int seen = 0;
+        for (unsigned corner = 0; corner < 8; ++corner)
+            seen +=
+                shows(place * Vec3((corner & 1U) != 0 ? high.x : low.x, (corner & 2U) != 0 ? high.y : low.y,
+                                   (corner & 4U) != 0 ? high.z : low.z))
+                    ? 1
+                    : 0;
+        return seen;
+    };
+    Pose best = workpiece;
+    int most = seen_corners(best);
+    for (double distance = step; distance <= farthest && most < 8; distance += step) {
+        const Pose place{workpiece.position + distance * away, workpiece.orientation};
+        if (const int seen = seen_corners(place); seen > most) {
+            most = seen;
+            best = place;
+        }
+    }
+    return best;
+}
+
 Pose place_panel(const Pose& head) {
     const Quat turn = heading(head);
     Vec3 centre = head.position + turn * Vec3(0.0, -panel_below_eyes, -panel_distance);
@@ -108,6 +136,21 @@ std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands
         events.emplace_back(platform::ButtonEvent{platform::Button::left, presses, pointer.at});
     pointer.pressed = presses;
     return events;
+}
+
+glm::dvec2* pointer_position(platform::InputEvent& event) {
+    if (auto* cursor = std::get_if<platform::CursorEvent>(&event)) return &cursor->at;
+    if (auto* button = std::get_if<platform::ButtonEvent>(&event)) return &button->at;
+    if (auto* wheel = std::get_if<platform::WheelEvent>(&event)) return &wheel->at;
+    return nullptr;
+}
+
+void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown) {
+    if (shown.extent.width == 0 || shown.extent.height == 0) return;
+    const glm::dvec2 offset(shown.offset.x, shown.offset.y), size(shown.extent.width, shown.extent.height);
+    const glm::dvec2 panel(panel_extent.width, panel_extent.height);
+    for (platform::InputEvent& event : events)
+        if (glm::dvec2* at = pointer_position(event)) *at = (*at - offset) / size * panel;
 }
 
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture) {

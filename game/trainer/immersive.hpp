@@ -3,7 +3,9 @@
 // (view::Immersion) unless a comment says otherwise.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/platform/input.hpp"
@@ -44,6 +46,11 @@ struct Room {
 // room's, or for a seated user at `seated_eyes` m below the eyes.
 Pose place_workpiece(const Pose& head, const render::BoundingBox& machine, std::optional<double> seated_eyes);
 
+// The workpiece, moved away from the head until a display shows as many corners of the machine as it can
+// within 2.5 m.
+Pose moved_into_view(const Pose& workpiece, const render::BoundingBox& machine, const Pose& head,
+                     const std::function<bool(const Vec3&)>& shows);
+
 // In front of the user, upright, a little below the eyes and behind the workpiece.
 Pose place_panel(const Pose& head);
 
@@ -62,6 +69,12 @@ struct HandKeys {
 // `seconds`: of the frame.
 std::vector<platform::InputEvent> hand_events(Room& room, const xr::Hands& hands, const HandKeys& keys,
                                               double seconds);
+
+// The position of an event of the pointer, px; null for other events.
+glm::dvec2* pointer_position(platform::InputEvent& event);
+
+// Changes the pointer's positions from a window, where the panel's picture covers `shown`, to the panel.
+void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown);
 
 // The panel in the scene whose frame is `scene_in_room`.
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture);

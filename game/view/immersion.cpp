@@ -11,17 +11,22 @@ EyeGroup eye_group(const xr::HeadView& view, VkExtent2D size) {
     return group;
 }
 
-VkRect2D filling_part(VkExtent2D picture, VkExtent2D window) {
-    const std::uint64_t width = picture.width, height = picture.height;
-    VkExtent2D part = picture;
-    if (window.width == 0 || window.height == 0) return {{0, 0}, part};
-    if (width * window.height > height * window.width)
-        part.width = static_cast<std::uint32_t>(height * window.width / window.height);
+// The largest rectangle of this shape in the middle of `whole`.
+static VkRect2D inscribed(VkExtent2D shape, VkExtent2D whole) {
+    const std::uint64_t width = whole.width, height = whole.height;
+    VkExtent2D part = whole;
+    if (shape.width == 0 || shape.height == 0) return {{0, 0}, part};
+    if (width * shape.height > height * shape.width)
+        part.width = static_cast<std::uint32_t>(height * shape.width / shape.height);
     else
-        part.height = static_cast<std::uint32_t>(width * window.height / window.width);
-    return {{static_cast<std::int32_t>((picture.width - part.width) / 2),
-             static_cast<std::int32_t>((picture.height - part.height) / 2)},
+        part.height = static_cast<std::uint32_t>(width * shape.height / shape.width);
+    return {{static_cast<std::int32_t>((whole.width - part.width) / 2),
+             static_cast<std::int32_t>((whole.height - part.height) / 2)},
             part};
 }
+
+VkRect2D filling_part(VkExtent2D picture, VkExtent2D window) { return inscribed(window, picture); }
+
+VkRect2D fitted(VkExtent2D picture, VkExtent2D window) { return inscribed(picture, window); }
 
 }  // namespace bolt::view

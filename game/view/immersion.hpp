@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "engine/base/math.hpp"
@@ -19,8 +20,13 @@ struct EyeGroup {
 
 struct Immersion {
     Pose head;
-    bool tracked = false;     // false: the head's pose is held or estimated
-    bool attentive = false;   // false: the user does not see the picture; pause, and render no force
+    bool tracked = false;    // false: the head's pose is held or estimated
+    bool attentive = false;  // false: the user does not see the picture; pause, and render no force
+    // Where a viewer is expected, if the display is fixed in the room. Workpiece and panel are placed for it;
+    // none: for the head, once it is tracked.
+    std::optional<Pose> expected_head;
+    // Returns true if the display shows a point of the room to the expected head; empty: it shows all points.
+    std::function<bool(const Vec3&)> shows;
     bool recentred = false;   // the room's origin has moved since the last frame
     bool floor_known = true;  // y is 0 at the floor; false: at the eyes of a seated user
     // Group i is drawn as the renderer's group immersive_group + i. May be empty: nothing can be drawn.
@@ -39,5 +45,8 @@ EyeGroup eye_group(const xr::HeadView& view, VkExtent2D size);
 
 // The part of a picture of this size that fills a window of `window`'s shape, in the middle.
 VkRect2D filling_part(VkExtent2D picture, VkExtent2D window);
+
+// The largest rectangle with the picture's shape in the middle of a window of this size.
+VkRect2D fitted(VkExtent2D picture, VkExtent2D window);
 
 }  // namespace bolt::view

@@ -11,6 +11,7 @@
 #include "engine/gpu/swapchain.hpp"
 #include "engine/platform/pace.hpp"
 #include "game/view/resolution.hpp"
+#include "game/view/walls.hpp"
 
 namespace bolt::view {
 
@@ -66,7 +67,8 @@ Status draw_window(WindowContent& content, Canvas& canvas, const WindowFrame& wi
     BOLT_TRY_ASSIGN(const auto frame, canvas.gpu_context.frames->begin());
     BOLT_TRY(content.draw(*frame, window));
     const render::ImageLayer picture = canvas.gpu_context.renderer->picture(0);
-    BOLT_TRY(canvas.swapchain->present(*canvas.gpu_context.frames, *frame, *picture.image, picture.layer));
+    BOLT_TRY(canvas.swapchain->present(*canvas.gpu_context.frames, *frame,
+                                       {picture.image, picture.layer, {}, {}}));
     return {};
 }
 
@@ -127,8 +129,8 @@ Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset
         headset.record(recorded->commands(), eye_pictures(*gpu.renderer, immersion.groups.front()));
         const render::ImageLayer picture = gpu.renderer->picture(0, immersive_group);
         BOLT_TRY(canvas.swapchain->present(
-            *gpu.frames, *recorded, *picture.image,
-            {picture.layer, filling_part(size, canvas.swapchain->plan().extent), false}));
+            *gpu.frames, *recorded,
+            {picture.image, picture.layer, filling_part(size, canvas.swapchain->plan().extent), {}}, false));
     }
     headset.end_frame(frame, drawn, immersive_range);
     if (canvas.old_frames > 0) {
@@ -136,6 +138,26 @@ Status draw_headset(WindowContent& content, Canvas& canvas, xr::Headset& headset
     } else if (update(canvas.resolution, gpu_time(gpu), adapts ? frame.timing.period : 0.0)) {
         canvas.old_frames = gpu::frames_in_flight + 1;
     }
+    return {};
+}
+
+// A frame on projection walls. The content's picture for the control window is shown whole; all windows are
+// presented together.
+Status draw_walls(WindowContent& content, Canvas& canvas, Walls& walls, WindowFrame window) {
+    GpuContext& gpu = canvas.gpu_context;
+    BOLT_TRY_ASSIGN(const Immersion immersion, walls.begin_frame(canvas.last_frame));
+    window.immersion = &immersion;
+    BOLT_TRY(content.update(window));
+    BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
+    BOLT_TRY(content.draw(*recorded, window));
+    std::vector<gpu::WindowPictures> windows;
+    if (window.size.width > 0 && window.size.height > 0) {
+        const render::ImageLayer picture = content.window_picture(*gpu.renderer);
+        const VkRect2D place = fitted(picture.image->info().extent, window.size);
+        windows.push_back({canvas.swapchain.get(), {{picture.image, picture.layer, {}, place}}, false});
+    }
+    walls.add_pictures(*gpu.renderer, immersion, windows);
+    BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows));
     return {};
 }
 
@@ -161,6 +183,7 @@ Status draw(WindowContent& content, Canvas& canvas, platform::Window& window,
         return draw_headset(content, canvas, *options.headset, *headset_frame, frame,
                             options.adapts_resolution);
     if (headset_frame) options.headset->end_frame(*headset_frame, false, immersive_range);
+    if (options.walls != nullptr) return draw_walls(content, canvas, *options.walls, frame);
     if (size.width == 0 || size.height == 0) return content.frame_while_hidden();
     return draw_window(content, canvas, frame);
 }
@@ -172,17 +195,23 @@ enum class Ending : std::uint8_t {
 
 Result<Ending> run_until_closed(WindowContent& content, Canvas& canvas, platform::Window& window,
                                 const WindowRunOptions& options) {
-    platform::Pace pace{platform::Clock::now(), platform::period_of(window.refresh_rate()), 0};
+    Walls* walls = options.walls;
+    const double refresh_rate = walls != nullptr ? walls->refresh_rate() : window.refresh_rate();
+    platform::Pace pace{platform::Clock::now(), platform::period_of(refresh_rate), 0};
     canvas.last_frame = seconds();
     while (!content.closed() && !(options.stop && options.stop())) {
         xr::Headset* headset = options.headset;
         if (headset != nullptr && headset->find(seconds())) return Ending::headset_found;
         if (headset != nullptr && headset->exit_requested()) return Ending::closed;
         const bool paced = headset != nullptr && headset->running();
-        const bool minimised = canvas.swapchain->plan().extent.width == 0 && !paced;
+        const bool minimised = canvas.swapchain->plan().extent.width == 0 && !paced && walls == nullptr;
         const std::vector<platform::InputEvent> polled =
             minimised ? window.wait_for_events(0.1) : window.poll_events();
         canvas.events.insert(canvas.events.end(), polled.begin(), polled.end());
+        if (walls != nullptr) {
+            const std::vector<platform::InputEvent> more = walls->poll_events();
+            canvas.events.insert(canvas.events.end(), more.begin(), more.end());
+        }
         BOLT_TRY(window.display_status());
         for (const platform::InputEvent& event : polled)
             if (minimised && std::holds_alternative<platform::CloseEvent>(event)) return Ending::closed;
@@ -222,13 +251,17 @@ Result<Ending> run_on_canvas(WindowContent& content, platform::Window& window, c
     if (options.headset != nullptr && options.headset->creator() != nullptr)
         options.headset->begin(*canvas.gpu_context.device);
     Result<Ending> ending = Ending::closed;
-    if (const Status started = content.start(canvas.gpu_context); started)
+    Status started =
+        options.walls != nullptr ? options.walls->start(*canvas.gpu_context.device, instance) : Status{};
+    if (started) started = content.start(canvas.gpu_context);
+    if (started)
         ending = run_until_closed(content, canvas, window, options);
     else
         ending = fail(started.error());
     // A runtime that was just found has no session yet.
     if (options.headset != nullptr && (!ending || *ending == Ending::closed)) options.headset->end();
     content.release();
+    if (options.walls != nullptr) options.walls->release();
     // Without the saved pipelines the next start is only slower.
     (void)canvas.gpu_context.renderer->save_pipelines();
     return ending;

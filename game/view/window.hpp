@@ -1,5 +1,5 @@
-// Runs the content of a desktop window, and of a headset if there is one: calls it for every frame, and
-// restarts it after the loss of the GPU, and when a headset was found.
+// Runs the content of a desktop window, and of a headset or of projection walls if there are any: calls it
+// for every frame, and restarts it after the loss of the GPU, and when a headset was found.
 #pragma once
 
 #include <functional>
@@ -10,6 +10,8 @@
 #include "game/view/pictures.hpp"
 
 namespace bolt::view {
+
+class Walls;
 
 // A frame of a window.
 struct WindowFrame {
@@ -37,6 +39,10 @@ class WindowContent {
     // Records the frame. Without an immersion its picture is the renderer's picture 0; with one, each group
     // of eyes is drawn as a group of the renderer. The poses of the eyes may be newer than those of update().
     virtual Status draw(gpu::FrameContext& frame, const WindowFrame& window) = 0;
+    // With an immersion: the picture for the window, when drawn. The window shows all of it.
+    [[nodiscard]] virtual render::ImageLayer window_picture(const render::Renderer& renderer) const {
+        return renderer.picture(0);
+    }
     // Replaces both while the window is minimised and no headset is used.
     virtual Status frame_while_hidden() { return {}; }
     // The window closes, or drawing has failed for good.
@@ -69,9 +75,10 @@ class OrbitControl {
 
 // How run_in_window() runs the content.
 struct WindowRunOptions {
-    std::string gpu;                 // part of the name of the GPU to use; empty: the best
-    std::function<bool()> stop;      // polled every frame; true closes the window
+    std::string gpu{};               // part of the name of the GPU to use; empty: the best
+    std::function<bool()> stop{};    // polled every frame; true closes the window
     xr::Headset* headset = nullptr;  // null: none is used
+    Walls* walls = nullptr;          // null: there are none; not together with a headset
     // With a headset: lower its resolution if the GPU cannot keep its frame rate.
     bool adapts_resolution = true;
     // With a headset: how `instance` was created. It is created again by the headset's runtime when that is

@@ -42,7 +42,7 @@ Pose standing_head() {
 view::Immersion standing_user(VkExtent2D size) {
     view::Immersion immersion;
     immersion.head = standing_head();
-    immersion.tracked = immersion.attentive = true;
+    immersion.tracked = immersion.attentive = immersion.tracks_hands = true;
     immersion.groups = {two_eyes(immersion.head, size)};
     return immersion;
 }

@@ -270,7 +270,8 @@ Result<bool> PreviewSession::draw() {
     render::Renderer& renderer = *gpu_->gpu_context.renderer;
     BOLT_TRY(renderer.render(*frame, gpu_->shown_model->scene, std::span(&eye, 1), size));
     const render::ImageLayer picture = renderer.picture(0);
-    return gpu_->swapchain->present(*gpu_->gpu_context.frames, *frame, *picture.image, picture.layer);
+    return gpu_->swapchain->present(*gpu_->gpu_context.frames, *frame,
+                                    {picture.image, picture.layer, {}, {}});
 }
 
 Status PreviewSession::run_until_closed() {

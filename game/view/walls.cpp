@@ -1,0 +1,261 @@
+#include "game/view/walls.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "content/displays/wall_geometry.hpp"
+
+namespace bolt::view {
+
+namespace {
+
+constexpr float wall_near = 0.05F, wall_far = 100.0F;  // m
+
+std::uint32_t eye_count(const content::Wall& wall) {
+    return wall.stereo == content::StereoMode::mono ? 1 : 2;
+}
+
+Error output_error(const content::Wall& wall, std::string what, std::string expected) {
+    return {ErrorCode::no_device, fmt::format("wall \"{}\": {}", wall.name, std::move(what)),
+            std::move(expected)};
+}
+
+std::string monitor_names(std::span<const content::Monitor> monitors) {
+    std::string all;
+    for (const content::Monitor& monitor : monitors)
+        all += (all.empty() ? "" : ", ") + fmt::format("\"{}\"", monitor.name);
+    return all.empty() ? "a connected monitor" : all;
+}
+
+Result<platform::DesktopArea> area_of(const content::Wall& wall, const content::DisplayOutput& output,
+                                      const content::Computer& computer) {
+    if (output.rank != computer.rank)
+        return fail(output_error(
+            wall, fmt::format("its output is on computer {}", output.rank),
+            fmt::format("rank {}: this program shows the walls of one computer", computer.rank)));
+    if (!output.display.empty() && !content::is_same_display(output.display, computer.display))
+        return fail(output_error(wall, fmt::format("its output is on X display \"{}\"", output.display),
+                                 fmt::format("\"{}\", which DISPLAY names", computer.display)));
+    if (output.position) {
+        const content::PixelSize size = output.resolution.value_or(content::PixelSize{});
+        return platform::DesktopArea{output.position->x, output.position->y, size.width, size.height};
+    }
+    const content::Monitor* named = content::find_monitor(output, computer.monitors);
+    if (named == nullptr)
+        return fail(output_error(wall,
+                                 output.monitor_index
+                                     ? fmt::format("there is no monitor {}", *output.monitor_index)
+                                     : fmt::format("there is no monitor \"{}\"", output.monitor),
+                                 monitor_names(computer.monitors)));
+    return platform::DesktopArea{named->x, named->y, named->width, named->height};
+}
+
+}  // namespace
+
+EyeGroup wall_eyes(const content::Wall& wall, const Pose& head, double eye_separation, VkExtent2D size) {
+    EyeGroup group{size, {}};
+    const std::uint32_t eyes = eye_count(wall);
+    const Vec3 normal = glm::cross(wall.lower_right - wall.lower_left, wall.upper_right - wall.lower_right);
+    for (std::uint32_t eye = 0; eye < eyes; ++eye) {
+        const double side = eyes == 1 ? 0.0 : (eye == 0 ? -0.5 : 0.5);
+        const Vec3 position = head * Vec3(side * eye_separation, 0.0, 0.0);
+        if (glm::dot(position - wall.lower_left, normal) <=
+            static_cast<double>(wall_near) * glm::length(normal))
+            return {size, {}};
+        group.eyes.push_back(render::make_wall_eye(
+            glm::vec3(position), glm::vec3(wall.lower_left), glm::vec3(wall.lower_right),
+            glm::vec3(content::upper_left(wall)), wall_near, wall_far));
+    }
+    return group;
+}
+
+bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3& point) {
+    return std::any_of(walls.begin(), walls.end(), [&](const content::Wall& wall) {
+        const content::WallFrame frame = content::frame_of(wall);
+        const double from = content::distance_in_front(frame, eye),
+                     towards = from - content::distance_in_front(frame, point);
+        if (from <= 0.0 || towards <= 0.0) return false;
+        const Vec3 seen = eye + from / towards * (point - eye) - frame.origin;
+        const double x = glm::dot(seen, frame.right), y = glm::dot(seen, frame.up);
+        return x >= 0.0 && x <= frame.width && y >= 0.0 && y <= frame.height;
+    });
+}
+
+content::Computer this_computer(const platform::Desktop& desktop) {
+    content::Computer computer;
+    for (const platform::Monitor& monitor : platform::monitors(desktop))
+        computer.monitors.push_back(
+            {monitor.name, monitor.area.x, monitor.area.y, monitor.area.width, monitor.area.height});
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): before any thread
+    if (const char* display = std::getenv("DISPLAY")) computer.display = display;
+    return computer;
+}
+
+Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
+                                                  const content::Computer& computer) {
+    std::vector<WallWindow> windows;
+    for (std::size_t i = 0; i < displays.walls.size(); ++i) {
+        const content::Wall& wall = displays.walls[i];
+        const bool two = wall.right_output.has_value();
+        BOLT_TRY_ASSIGN(const auto area, area_of(wall, wall.output, computer));
+        windows.push_back({"Boltwright: " + wall.name, area, i,
+                           two ? WallWindow::Shows::left_output : WallWindow::Shows::all});
+        if (!two) continue;
+        BOLT_TRY_ASSIGN(const auto right, area_of(wall, *wall.right_output, computer));
+        windows.push_back({"Boltwright: " + wall.name, right, i, WallWindow::Shows::right_output});
+    }
+    return windows;
+}
+
+std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows shows, VkExtent2D window) {
+    const std::uint32_t first = wall.swap_eyes ? 1 : 0, second = 1 - first;
+    const auto offset = [](std::uint32_t x, std::uint32_t y) {
+        return VkOffset2D{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)};
+    };
+    const std::uint32_t half_width = window.width / 2, half_height = window.height / 2;
+    switch (wall.stereo) {
+        case content::StereoMode::mono:
+            return {{0, {{0, 0}, window}}};
+        case content::StereoMode::side_by_side:
+            return {{first, {{0, 0}, {half_width, window.height}}},
+                    {second, {offset(half_width, 0), {window.width - half_width, window.height}}}};
+        case content::StereoMode::top_bottom:
+            return {{first, {{0, 0}, {window.width, half_height}}},
+                    {second, {offset(0, half_height), {window.width, window.height - half_height}}}};
+        case content::StereoMode::two_outputs:
+            return {{shows == WallWindow::Shows::right_output ? second : first, {{0, 0}, window}}};
+    }
+    return {};
+}
+
+Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, content::DisplayFile displays,
+                                           displays::HeadSource head,
+                                           std::function<void(const std::string&)> log) {
+    BOLT_TRY_ASSIGN(const auto plan, plan_wall_windows(displays, this_computer(desktop)));
+    std::unique_ptr<Walls> walls(new Walls(std::move(head)));
+    for (const WallWindow& wanted : plan) {
+        platform::WindowOptions options;
+        options.title = wanted.title;
+        options.covers = wanted.area;
+        BOLT_TRY_ASSIGN(auto window, platform::Window::open(desktop, options));
+        walls->outputs_.push_back({wanted, std::move(window), nullptr, {}});
+    }
+    walls->displays_ = std::move(displays);
+    walls->log_ = std::move(log);
+    return walls;
+}
+
+Status Walls::start(gpu::Device& device, const gpu::Instance& instance) {
+    for (Output& output : outputs_) {
+        const gpu::MakeSurface make_surface = [&output, &instance] {
+            return output.window.make_surface(instance);
+        };
+        BOLT_TRY_ASSIGN(auto surface, make_surface());
+        VkBool32 presents = VK_FALSE;
+        BOLT_TRY(gpu::check(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.queue_family(),
+                                                                 surface.get(), &presents),
+                            "querying the window of a wall"));
+        if (presents != VK_TRUE)
+            return fail(output_error(displays_.walls[output.plan.wall],
+                                     "the GPU cannot present to the window's display",
+                                     "walls and control window on one GPU"));
+        BOLT_TRY_ASSIGN(auto swapchain, gpu::Swapchain::create(device, std::move(surface), make_surface));
+        output.swapchain = std::move(swapchain);
+    }
+    return {};
+}
+
+void Walls::release() {
+    for (Output& output : outputs_) output.swapchain.reset();
+}
+
+std::vector<platform::InputEvent> Walls::poll_events() {
+    std::vector<platform::InputEvent> events;
+    for (Output& output : outputs_)
+        for (const platform::InputEvent& event : output.window.poll_events())
+            if (std::holds_alternative<platform::KeyEvent>(event) ||
+                std::holds_alternative<platform::TextEvent>(event) ||
+                std::holds_alternative<platform::CloseEvent>(event))
+                events.push_back(event);
+    return events;
+}
+
+// Logs a change of the tracker's state.
+void Walls::tell(tracking::HeadStatus status) {
+    const bool first = !told_;
+    if (told_ == status) return;
+    told_ = status;
+    if (!log_) return;
+    switch (status) {
+        case tracking::HeadStatus::tracked:
+            log_(first ? "head: tracked" : "head: tracked again");
+            break;
+        case tracking::HeadStatus::held:
+            log_("head: not tracked; its last pose is used");
+            break;
+        case tracking::HeadStatus::faded:
+            log_("head: not tracked; the fixed pose of the display file is used");
+            break;
+    }
+}
+
+Result<Immersion> Walls::begin_frame(double seconds) {
+    const tracking::FilteredHead head = head_.at(seconds);
+    const bool fixed = displays_.head.tracker == content::HeadTracker::fixed;
+    if (!fixed) tell(head.status);
+    Immersion immersion;
+    immersion.head = head.pose;
+    immersion.tracked = fixed || head.status == tracking::HeadStatus::tracked;
+    immersion.expected_head = displays_.head.fixed_head;
+    immersion.shows = [this](const Vec3& point) {
+        return on_a_wall(displays_.walls, displays_.head.fixed_head.position, point);
+    };
+    immersion.attentive = true;
+    for (const content::Wall& wall : displays_.walls) {
+        VkExtent2D size{};
+        for (Output& output : outputs_) {
+            if (&displays_.walls[output.plan.wall] != &wall) continue;
+            const platform::Size pixels = output.window.pixels();
+            BOLT_TRY_ASSIGN(output.size, output.swapchain->prepare({pixels.width, pixels.height}));
+            for (const EyePlace& place : eye_places(wall, output.plan.shows, output.size)) {
+                size.width = std::max(size.width, place.place.extent.width);
+                size.height = std::max(size.height, place.place.extent.height);
+            }
+        }
+        const bool visible = size.width > 0 && size.height > 0;
+        immersion.groups.push_back(visible ? wall_eyes(wall, head.pose, displays_.eye_separation, size)
+                                           : EyeGroup{});
+    }
+    return immersion;
+}
+
+void Walls::add_pictures(const render::Renderer& renderer, const Immersion& immersion,
+                         std::vector<gpu::WindowPictures>& windows) const {
+    for (const Output& output : outputs_) {
+        gpu::WindowPictures window{output.swapchain.get(), {}, true};
+        const std::size_t wall = output.plan.wall;
+        const bool drawn = !immersion.groups[wall].eyes.empty();
+        if (drawn) {
+            for (const EyePlace& place : eye_places(displays_.walls[wall], output.plan.shows, output.size)) {
+                const render::ImageLayer picture =
+                    renderer.picture(place.eye, immersive_group + static_cast<std::uint32_t>(wall));
+                window.pictures.push_back({picture.image, picture.layer, {}, place.place});
+            }
+        }
+        windows.push_back(std::move(window));
+    }
+}
+
+double Walls::refresh_rate() const {
+    double lowest = 0.0;
+    for (const Output& output : outputs_) {
+        const double rate = output.window.refresh_rate();
+        if (rate > 0.0 && (lowest == 0.0 || rate < lowest)) lowest = rate;
+    }
+    return lowest;
+}
+
+}  // namespace bolt::view

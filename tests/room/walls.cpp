@@ -1,0 +1,70 @@
+// The trainer between projection walls, without windows: what stands where, and who moves the pointer.
+#include <doctest/doctest.h>
+
+#include "tests/room/immersion_driver.hpp"
+
+using namespace bolt;
+using namespace bolt::trainer;
+using test::HeadlessTrainer;
+
+namespace {
+
+constexpr VkExtent2D wall_size{160, 120};
+
+// A viewer who is expected 2 m in front of a wall that shows only what is above a line of sight.
+view::Immersion in_front_of_wall(double lowest_sight) {
+    view::Immersion immersion = test::standing_user(wall_size);
+    immersion.tracked = false;
+    immersion.head.position += Vec3(0.5, 0.1, -0.3);
+    immersion.expected_head = test::standing_head();
+    immersion.tracks_hands = false;
+    const Vec3 eye = immersion.expected_head->position;
+    immersion.shows = [eye, lowest_sight](const Vec3& point) {
+        const Vec3 along = point - eye;
+        return along.z < 0.0 && along.y / -along.z > lowest_sight;
+    };
+    return immersion;
+}
+
+double distance_of_workpiece(double lowest_sight) {
+    HeadlessTrainer driver(test::options("cover-m8", false), {wall_size, 0.3F, 0.02});
+    driver.immersion = in_front_of_wall(lowest_sight);
+    driver.frame();
+    // Already in the first frame of the lesson, which is shown.
+    REQUIRE(driver.app().lesson() != nullptr);
+    REQUIRE(driver.app().room()->workpiece);
+    const Vec3 position = driver.app().room()->workpiece->position;
+    driver.immersion->head.position += Vec3(0.1, 0.0, 0.2);
+    driver.frame();
+    CHECK(driver.app().room()->workpiece->position == position);
+    return -position.z;
+}
+
+}  // namespace
+
+TEST_CASE("Walls: the workpiece stands where the walls show it to the expected head, wherever the head is") {
+    const double all = distance_of_workpiece(-100.0), some = distance_of_workpiece(-0.6);
+    CHECK(some > all + 0.3);
+    // A wall that never shows it changes nothing.
+    CHECK(distance_of_workpiece(100.0) == doctest::Approx(all));
+}
+
+TEST_CASE("Walls: the menu is a panel on the walls, and the window's pointer presses its buttons") {
+    HeadlessTrainer driver(test::options("first-nut", true), {panel_extent, 1.0F, 0.02});
+    driver.immersion = in_front_of_wall(-100.0);
+    driver.draws = true;
+    for (int i = 0; i < 3; ++i) driver.frame();
+    REQUIRE(driver.app().room()->shown);
+    REQUIRE(driver.app().room()->panel);  // without a tracker that sees the head
+    glm::dvec2 start(0.0);
+    for (const DrawnWidget& widget : driver.app().drawn_widgets())
+        if (widget.label == words::TextKey("menu.start")) start = widget.middle;
+    REQUIRE(start.x > 0.0);
+    driver.press(start);
+    driver.release(start);
+    for (int i = 0; i < 3; ++i) driver.frame();
+    REQUIRE(driver.app().screen() == ShownScreen::lesson);
+    // The lesson is played by mouse in the window; the walls show it.
+    CHECK_FALSE(driver.app().room()->shown);
+    CHECK(driver.app().room()->workpiece);
+}
