@@ -75,7 +75,7 @@ Result<bool> ShowCase::show(std::array<int, 3> color) {
     vkCmdClearColorImage(commands, picture_.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &clear, 1, &all);
     gpu::image_barrier(commands, picture_.get(), gpu::ResourceUse::transfer_to,
                        gpu::ResourceUse::transfer_from);
-    return swapchain_->present(*frames_, **frame, picture_);
+    return swapchain_->present(*frames_, **frame, {&picture_, 0, {}, {}});
 }
 
 void ShowCase::show_surely(std::array<int, 3> color) {
