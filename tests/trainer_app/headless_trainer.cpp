@@ -1,5 +1,7 @@
 #include "tests/trainer_app/headless_trainer.hpp"
 
+#include <algorithm>
+
 #include "engine/gpu/resources.hpp"
 #include "tests/support/need.hpp"
 
@@ -52,11 +54,29 @@ HeadlessTrainer::~HeadlessTrainer() {
     for (const std::string& message : instance_->log().messages) FAIL_CHECK(message);
 }
 
-Status HeadlessTrainer::draw(const std::vector<platform::InputEvent>& events, double seconds) {
+// Input but for movements of the pointer and the wheel is shown and answered in its frame and the two after
+// it.
+bool HeadlessTrainer::is_due(const std::vector<platform::InputEvent>& events) {
+    constexpr int answers = 3;  // frames
+    const bool moves_only = std::all_of(events.begin(), events.end(), [](const platform::InputEvent& event) {
+        return std::holds_alternative<platform::CursorEvent>(event) ||
+               std::holds_alternative<platform::WheelEvent>(event);
+    });
+    since_input_ = moves_only ? since_input_ + 1 : 0;
+    return app_->screen() != trainer::ShownScreen::lesson || since_input_ < answers ||
+           since_input_ % draw_interval == 0;
+}
+
+Status HeadlessTrainer::run_frame(const std::vector<platform::InputEvent>& events, double seconds) {
     const view::WindowFrame window{events, display_.size, display_.scale, seconds,
                                    immersion ? &*immersion : nullptr};
-    if (Status updated = app_->update(window); !updated || !draws) return updated;
-    auto frame = gpu_context_.frames->begin();
+    BOLT_TRY(app_->update(window));
+    drawn_ = draws && is_due(events);
+    return drawn_ ? draw(window) : Status{};
+}
+
+Status HeadlessTrainer::draw(const view::WindowFrame& window) {
+    const auto frame = gpu_context_.frames->begin();
     if (!frame) FAIL(frame.error().message());
     Status drawn = app_->draw(**frame, window);
     need(gpu_context_.frames->submit(**frame));
@@ -64,9 +84,9 @@ Status HeadlessTrainer::draw(const std::vector<platform::InputEvent>& events, do
 }
 
 void HeadlessTrainer::frame(const std::vector<platform::InputEvent>& events, double seconds) {
-    need(draw(events, seconds));
+    need(run_frame(events, seconds));
 }
-Status HeadlessTrainer::try_frame() { return draw({}, display_.step); }
+Status HeadlessTrainer::try_frame() { return run_frame({}, display_.step); }
 
 void HeadlessTrainer::wait(double seconds) {
     for (double t = 0.0; t < seconds; t += display_.step) frame();
@@ -113,6 +133,8 @@ glm::dvec2 HeadlessTrainer::hold(std::size_t joint) {
 }
 
 render::Picture HeadlessTrainer::picture() {
+    if (!std::exchange(drawn_, true))
+        need(draw({{}, display_.size, display_.scale, 0.0, immersion ? &*immersion : nullptr}));
     need(gpu_context_.frames->finish());
     const render::ImageLayer made = gpu_context_.renderer->picture(0);
     const auto texels = gpu::download_image(*gpu_context_.device, *made.image,

@@ -55,6 +55,8 @@ class HeadlessTrainer : public TrainerDriver {
     // The display that surrounds the user in the next frames; none: the window alone.
     std::optional<view::Immersion> immersion;
     bool draws = true;  // false: the next frames are not drawn, which is faster
+    // While a lesson runs without input, one of this many frames is drawn: drawing takes most of the time.
+    int draw_interval = 5;
     // A picture of a view of the last immersive frame.
     [[nodiscard]] render::Picture room_picture(std::uint32_t view);
 
@@ -62,6 +64,7 @@ class HeadlessTrainer : public TrainerDriver {
     [[nodiscard]] const trainer::App& app() const override { return *app_; }
     [[nodiscard]] double step() const { return display_.step; }  // s per frame
     [[nodiscard]] glm::dvec2 size() const override { return {display_.size.width, display_.size.height}; }
+    // The picture of the last frame, which is drawn for it if it was not.
     [[nodiscard]] render::Picture picture();
     [[nodiscard]] const std::vector<std::string>& log() const { return log_; }
     [[nodiscard]] const std::optional<session::LessonOutcome>& outcome() const { return outcome_; }
@@ -69,13 +72,17 @@ class HeadlessTrainer : public TrainerDriver {
 
   private:
     void make_gpu();
-    Status draw(const std::vector<platform::InputEvent>& events, double seconds);
+    Status run_frame(const std::vector<platform::InputEvent>& events, double seconds);
+    Status draw(const view::WindowFrame& window);
+    [[nodiscard]] bool is_due(const std::vector<platform::InputEvent>& events);
 
     std::optional<gpu::Instance> instance_;
     std::filesystem::path folder_;
     Display display_;
     view::GpuContext gpu_context_;
     std::unique_ptr<trainer::App> app_;
+    int since_input_ = 0;  // frames
+    bool drawn_ = false;   // the last frame was drawn
     std::vector<std::string> log_;
     std::optional<session::LessonOutcome> outcome_;
 };
