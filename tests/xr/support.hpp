@@ -1,4 +1,4 @@
-// The mock headset for a test, and a small program that uses a headset as the trainer does.
+// A small program that uses a headset as the trainer does.
 #pragma once
 
 #include <deque>
@@ -8,27 +8,9 @@
 #include <vector>
 
 #include "engine/xr/headset.hpp"
-#include "tests/mock_openxr/mock_openxr.hpp"
-#include "tests/support/environment.hpp"
+#include "tests/mock_openxr/mock_runtime.hpp"
 
 namespace bolt::test {
-
-const mock::Control& mock_control();
-
-// The mock is the active runtime during the test, with its defaults. At the end, every violation of OpenXR's
-// rules fails the test.
-class MockRuntime {
-  public:
-    explicit MockRuntime(const mock::Config& config = {});
-    MockRuntime(const MockRuntime&) = delete;
-    MockRuntime& operator=(const MockRuntime&) = delete;
-    ~MockRuntime();
-
-    const mock::Control* operator->() const { return &mock_control(); }
-
-  private:
-    EnvironmentVariable active_;
-};
 
 // Has a headset and Vulkan objects of it, and draws a frame when it is told to. As in the trainer, the CPU
 // never waits for the GPU in a frame. Any message of the validation layers fails the test.

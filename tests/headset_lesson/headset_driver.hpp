@@ -1,20 +1,22 @@
-// Plays a trainer in a headset of Monado: the trainee's poses go to the runtime as messages, and come back
-// through OpenXR, with the frames of view::run_in_window.
+// Plays a trainer in a headset: the trainee's poses go to a runtime that can be told them (the mock, Monado's
+// remote driver), and come back through OpenXR, with the frames of view::run_in_window.
 #pragma once
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "game/trainer/app.hpp"
-#include "tests/monado/remote_headset.hpp"
 #include "tests/room/trainee_in_room.hpp"
 #include "tests/support/turns.hpp"
+#include "tests/trainer_window/program.hpp"
 
 namespace bolt::test {
 
 struct HeadsetDriverOptions {
-    // s of the lesson per frame of the headset: the lesson runs slower than the clock where drawing is slow.
+    // s of the lesson per frame of the headset, whatever the clock says: a lesson takes as many frames on
+    // every computer.
     double step = 0.02;
     // s of the lesson between frames that are drawn; 0: every frame is. The frames between them show the last
     // picture again, which saves most of the time on a computer without a GPU.
@@ -32,10 +34,13 @@ struct HeadsetFrames {
     bool unlike_trigger = false;  // a value of the trigger or squeeze was not the one last sent
 };
 
+// Tells the runtime where head and hands are, poses in the room's frame.
+using SendPoses = std::function<Status(const Pose& head, const xr::Hands& hands)>;
+
 class HeadsetDriver final : public view::WindowContent, public RoomDriver {
   public:
-    HeadsetDriver(trainer::App& app, RemoteHeadset remote, HeadsetDriverOptions options)
-        : app_(app), remote_(std::move(remote)), options_(std::move(options)) {}
+    HeadsetDriver(trainer::App& app, SendPoses send, HeadsetDriverOptions options)
+        : app_(app), send_(std::move(send)), options_(std::move(options)) {}
 
     // As the content of the window: the app, whose user acts after each frame that was drawn in the headset.
     Status start(view::GpuContext& gpu_context) override;
@@ -61,7 +66,7 @@ class HeadsetDriver final : public view::WindowContent, public RoomDriver {
     Status take_picture();
 
     trainer::App& app_;
-    RemoteHeadset remote_;
+    SendPoses send_;
     HeadsetDriverOptions options_;
     Turns turns_;
     bool user_done_ = false;
@@ -74,5 +79,18 @@ class HeadsetDriver final : public view::WindowContent, public RoomDriver {
     double drawn_at_ = 0.0;            // s of the lesson
     int pictures_ = 0;
 };
+
+// Plays in the headset until `act` is done. The lesson's outcome and log stay in `program`; `log` gets the
+// headset's lines.
+Status play_in_headset(Program& program, HeadsetDriver& driver, std::vector<std::string>& log,
+                       const std::function<void()>& act);
+
+// Plays a guided lesson with a driven hand, and checks that it is finished, good and recorded. `before` is
+// called when the lesson has begun; it may be empty.
+void play_lesson_in_headset(Program& program, HeadsetDriver& driver,
+                            const std::function<void(const Pose& head)>& before = {});
+
+// The options of such a lesson. `out`: the folder for its session.
+trainer::AppOptions headset_lesson_options(const std::string& assembly, const std::filesystem::path& out);
 
 }  // namespace bolt::test

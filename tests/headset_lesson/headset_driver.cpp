@@ -1,10 +1,12 @@
-#include "tests/monado/headset_driver.hpp"
+#include "tests/headset_lesson/headset_driver.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 
 #include "engine/gpu/resources.hpp"
+#include "game/session/session_file.hpp"
 #include "tests/support/need.hpp"
 
 namespace bolt::test {
@@ -37,8 +39,8 @@ void HeadsetDriver::compare(const view::Immersion& immersion) {
 }
 
 Status HeadsetDriver::update(const view::WindowFrame& window) {
-    view::WindowFrame slow = window;
-    slow.seconds = std::min(window.seconds, options_.step);
+    view::WindowFrame stepped = window;
+    stepped.seconds = options_.step;
     const auto now = std::chrono::steady_clock::now();
     const bool seen = window.immersion != nullptr && window.immersion->attentive;
     if (seen) {
@@ -49,7 +51,7 @@ Status HeadsetDriver::update(const view::WindowFrame& window) {
     }
     last_frame_ = seen ? std::optional(now) : std::nullopt;
     BOLT_TRY(take_picture());
-    return app_.update(slow);
+    return app_.update(stepped);
 }
 
 Status HeadsetDriver::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
@@ -85,8 +87,75 @@ Status HeadsetDriver::take_picture() {
 
 void HeadsetDriver::frame(const Pose& head, const xr::Hands& hands) {
     sent_ = hands;
-    need(remote_.send(head, hands));
+    need(send_(head, hands));
     turns_.take();
+}
+
+Status play_in_headset(Program& program, HeadsetDriver& driver, std::vector<std::string>& log,
+                       const std::function<void()>& act) {
+    xr::HeadsetOptions options;
+    options.log = [&](const std::string& line) { log.push_back(line); };
+    xr::Headset headset(std::move(options));
+    std::exception_ptr thrown;
+    std::thread user_thread([&] {
+        try {
+            driver.turns().run(act);
+        } catch (...) {
+            thrown = std::current_exception();
+        }
+    });
+    view::WindowRunOptions run;
+    run.headset = &headset;
+    run.adapts_resolution = false;
+    const std::vector<const char*> extensions = need(program.desktop.vulkan_extensions());
+    run.instance.validation = true;
+    run.instance.extensions = extensions;
+    const Status done = view::run_in_window(driver, program.window, *program.instance, run);
+    driver.turns().end_program();
+    user_thread.join();
+    if (thrown) std::rethrow_exception(thrown);
+    return done;
+}
+
+trainer::AppOptions headset_lesson_options(const std::string& assembly, const std::filesystem::path& out) {
+    trainer::AppOptions options;
+    options.choice.assembly = assembly;
+    options.choice.equipment.hand = trainer::HandMode::tracked;
+    options.menu = false;
+    options.lesson.obstacles = session::Obstacles::if_any;
+    options.out = out / assembly;
+    return options;
+}
+
+void play_lesson_in_headset(Program& program, HeadsetDriver& driver,
+                            const std::function<void(const Pose& head)>& before) {
+    constexpr double longest_lesson = 900.0;  // s
+    TraineeInRoom trainee(driver);
+    std::vector<std::string> log;
+    double lesson_time = 0.0;  // s
+    const Status run = play_in_headset(program, driver, log, [&] {
+        while (driver.app().screen() != trainer::ShownScreen::lesson) driver.frame(trainee.head, {});
+        if (before) before(trainee.head);
+        trainee.play(longest_lesson);
+        lesson_time = driver.app().lesson()->session->time();
+        for (int i = 0; i < 10; ++i) driver.frame(trainee.head, {});  // the result
+    });
+    for (const std::string& line : log) MESSAGE(line);
+    CHECK_MESSAGE(run.has_value(), (run ? "" : run.error().message()));
+    const HeadsetFrames& frames = driver.frames();
+    MESSAGE(frames.count << " frames in " << frames.seconds << " s, lesson time " << lesson_time << " s, "
+                         << trainee.approaches << " approaches, largest distance of the hand "
+                         << frames.grip_error << " m");
+    CHECK(frames.without_hand < 10);
+    REQUIRE(program.played);
+    const lesson::LessonResult& result = program.played->result;
+    MESSAGE("score " << result.score);
+    CHECK(result.finished);
+    CHECK(result.score >= 80.0);
+    for (const lesson::JointResult& joint : result.joints) CHECK(joint.overall == lesson::Verdict::ok);
+    const auto reader = session::SessionReader::open(program.out / "session.boltwright");
+    REQUIRE(reader);
+    CHECK(reader->complete());
 }
 
 }  // namespace bolt::test
