@@ -63,8 +63,8 @@ bool HeadlessTrainer::is_due(const std::vector<platform::InputEvent>& events) {
                std::holds_alternative<platform::WheelEvent>(event);
     });
     since_input_ = moves_only ? since_input_ + 1 : 0;
-    return app_->screen() != trainer::ShownScreen::lesson || since_input_ < answers ||
-           since_input_ % draw_interval == 0;
+    const bool runs = app_->screen() == trainer::ShownScreen::lesson && !app_->lesson()->clock.paused;
+    return !runs || since_input_ < answers || since_input_ % draw_interval == 0;
 }
 
 Status HeadlessTrainer::run_frame(const std::vector<platform::InputEvent>& events, double seconds) {
