@@ -1,4 +1,4 @@
-// The trainee's hands in a headset's session: controllers as intents (OpenXR actions), tracked hands, and the
+// The trainee's hands in a headset's session: controllers as OpenXR actions, tracked hands, and the
 // vibration of controllers.
 #pragma once
 
@@ -29,7 +29,7 @@ struct HandJoint {
 };
 using HandJoints = std::array<HandJoint, hand_joint_count>;
 
-// One hand in one frame. Without focus, or without a controller or tracked hand, nothing of it is active.
+// One hand in one frame. Without focus, or without a controller or tracked hand, `active` is false.
 struct HandInput {
     bool active = false;
     std::optional<TrackedPose> grip;  // origin in the palm; −Z to the thumb's side of a closed fist, X out of

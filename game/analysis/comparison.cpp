@@ -146,7 +146,8 @@ std::size_t breakaway_index(const TorqueCurve& curve) {
 }  // namespace
 
 Result<Alignment> align(const TorqueCurve& ours, const TorqueCurve& measured, double share) {
-    if (ours.empty() || measured.empty()) return fail(ErrorCode::failed, "there is no curve to align");
+    if (ours.empty() || measured.empty())
+        return fail(ErrorCode::failed, "there is no curve to align", "two curves with samples");
     Alignment a;
     if (measured.direction == joint::Direction::loosen) {
         const std::size_t our = breakaway_index(ours), their = breakaway_index(measured);
@@ -266,8 +267,9 @@ std::vector<std::string> ids_of(const content::Assembly& assembly) {
 
 tl::unexpected<Error> unknown_joint(std::string_view joint, const std::vector<std::string>& ids) {
     const std::string near = nearest(joint, ids);
-    return fail(ErrorCode::usage, fmt::format("there is no joint '{}' in the session", joint),
-                near.empty() ? fmt::format("one of {}", fmt::join(ids, ", ")) : fmt::format("'{}'", near));
+    return fail(ErrorCode::usage, fmt::format("there is no joint \"{}\" in the session", joint),
+                near.empty() ? fmt::format("one of {}", fmt::join(ids, ", "))
+                             : fmt::format("did you mean \"{}\"?", near));
 }
 
 std::string_view verb(joint::Direction direction) {

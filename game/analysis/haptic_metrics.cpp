@@ -54,7 +54,7 @@ HapticMetricsBuilder::HapticMetricsBuilder(const session::Header& header,
     metrics_.obstacles = !header.contact_models.value_or("").empty();
     metrics_.guided = header.guide.value_or(header.mode == lesson::Mode::guided);
     metrics_.device = header.device;
-    if (header.servo_rate) metrics_.servo = session::servo_text(*header.servo_rate);
+    if (header.servo_rate) metrics_.servo_text = session::servo_text(*header.servo_rate);
     for (const lesson::LessonEvent& event : events)
         if (event.kind == lesson::EventKind::step_begin)
             steps_.push_back({event.tick, event.joint});
@@ -220,7 +220,7 @@ std::string describe(const ForceJump& jump, const std::vector<lesson::JointResul
             text = fmt::format("the hand lets go of {}", joint(jump.last_joint));
             break;
         case ToolActivity::engaging:
-            text = fmt::format("{} taking hold of {}", tool, joint(jump.tick.joint));
+            text = fmt::format("{} engages {}", tool, joint(jump.tick.joint));
             break;
         case ToolActivity::on_nut:
             text = fmt::format("{} on {}, {}, {:.1f} N·m", tool, joint(jump.tick.joint),
@@ -233,9 +233,9 @@ std::string describe(const ForceJump& jump, const std::vector<lesson::JointResul
             break;
     }
     if (jump.since_touched <= recent && touches)
-        text += ", meeting " + obstacle_text(jump.tick.touched, obstacles);
+        text += ", contact with " + obstacle_text(jump.tick.touched, obstacles) + " begins";
     else if (jump.since_untouched <= recent && !touches)
-        text += ", coming off " + obstacle_text(jump.last_touched, obstacles);
+        text += ", contact with " + obstacle_text(jump.last_touched, obstacles) + " ends";
     else if (touches)
         text += ", against " + obstacle_text(jump.tick.touched, obstacles);
     return text;

@@ -70,7 +70,7 @@ struct HapticMetrics {
     std::vector<ForceJump> force_jumps;  // the largest ones, largest first
     std::vector<Arrival> arrivals;
     std::array<double, force::fault_kinds> faults{};  // s for which each fault released the output
-    std::string servo;                                // session::Header::servo
+    std::string servo_text;                           // session::servo_text(Header::servo_rate)
     std::optional<servo::Timing> timing;
 };
 
@@ -124,7 +124,7 @@ class HapticMetricsBuilder {
 
 ToolActivity activity_of(const ForceJump& jump);
 
-// English description of the circumstances: "wrench taking hold of B3", "led to B3, against casing_upper".
+// English description of the circumstances: "wrench engages B3", "led to B3, against casing_upper".
 std::string describe(const ForceJump& jump, const std::vector<lesson::JointResult>& joints,
                      const std::vector<session::ObstacleName>& obstacles);
 std::string obstacle_text(collision::ObstacleId id, const std::vector<session::ObstacleName>& obstacles);

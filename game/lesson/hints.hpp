@@ -15,19 +15,19 @@ namespace bolt::lesson {
 // The hand motion that a hint requests. It selects the arrow and the control to name.
 enum class HintMotion : std::uint8_t {
     none,
-    take,
-    put_away,
+    take,      // the wrench
+    put_away,  // lay the wrench down
     approach,  // with the wrench
     reach,     // with the fingers
-    set_on,
+    set_on,    // put the wrench on the nut
     grip_nut,
-    spin,
-    twist_back,
+    spin,        // turn the nut with the fingers
+    twist_back,  // turn the empty hand back
     let_go,
-    pull_on,
-    pull_off,
-    lift,
-    set_back,
+    pull_on,   // pull the wrench in the tightening direction
+    pull_off,  // pull the wrench in the loosening direction
+    lift,      // take the wrench off the nut
+    set_back,  // move the handle back for another stroke
 };
 inline constexpr std::size_t motion_count = 14;
 
@@ -35,7 +35,9 @@ enum class GhostKind : std::uint8_t { none, hand, hand_and_wrench };
 
 struct Hint {
     Situation situation = Situation::all_done;
-    int level = 0;   // 0: text; 1: outline and arrow; 2: ghost; 3: animated motion and its control
+    // 0: text; 1: outline and arrow; 2: ghost, a translucent hand or wrench at the target pose; 3: animated
+    // motion and its control.
+    int level = 0;
     int joint = -1;  // the due joint; −1: none
     HintMotion motion = HintMotion::none;
     words::TextKey text = "hint.all_done";
@@ -46,8 +48,9 @@ struct Hint {
     [[nodiscard]] GhostKind ghost() const;
 };
 
-// `situation` selects the text and `underlying` the motion. They differ while the text announces a new step
-// and the arrow already shows its work.
+// `situation` selects the text and `underlying` the motion. They differ in the first 3 s of a step:
+// `situation` is then the announcement, and `underlying` is what to do, which gives the motion and its
+// arrow.
 Hint make_hint(Situation situation, Situation underlying, int level, const WorkState& work);
 
 // The control for each motion as text ("hold F and drag").

@@ -109,7 +109,7 @@ enum class EventKind : std::uint8_t {
     note
 };
 
-// As session files store it.
+// As session files store it; the names of `undo` and `visibility` are older.
 constexpr std::string_view name(EventKind kind) {
     constexpr std::string_view names[] = {"pass_begin", "step_begin", "step_end", "engage",
                                           "release",    "stage",      "click",    "mistake",

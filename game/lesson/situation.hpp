@@ -29,26 +29,26 @@ enum class Situation : std::uint8_t {
     pull,
     pull_to_yield,
     pull_to_click,
-    set_back,  // the handle has no room left to swing
-    ease,
-    ease_to_yield,
+    set_back,       // the handle has no room left to swing
+    ease,           // the target is near: pull gently
+    ease_to_yield,  // yield is near: pull gently
     stop,
     stop_at_yield,
     stop_at_click,
     stop_too_much,
     take_off,
-    check,
+    check,  // re-check: pull until the nut moves or the torque is reached
     checked,
     break_loose,
     turn_off,
-    free,
+    free,  // the nut is loose
     wrong_joint,
     other_way_on,
     other_way_off,
     wrench_needed,  // fingers hold a nut that needs the wrench
     leave_broken,
     leave_stripped,
-    next,  // this and the following four announce a step
+    next,  // the next joint; this and the following four announce a step
     round_run_down,
     round_tighten,
     round_recheck,

@@ -113,7 +113,7 @@ struct FreeSpace {
     }
 };
 
-// For a gap that is closed above: over the top to a pose beside it, then straight in from the side.
+// Plans a path into a gap that is closed above: over the top to a pose beside the gap, then straight in.
 std::optional<ReachPath> side_approach(const FreeSpace& space, const Pose& from, const Pose& to,
                                        const Vec3& up, const std::function<Vec3(int)>& aside) {
     for (const double far : {0.25, 0.4, 0.6})

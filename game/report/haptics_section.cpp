@@ -52,8 +52,8 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
         put(out, " The output stage limited the change {}, to {}\u00a0N in a millisecond.",
             times_text(f.force.at_limit), plot::number(f.device->force_rate * 1e-3, 1));
     constexpr const char* names[analysis::activity_count] = {"while the output was switched off",
-                                                             "letting go of a nut",
-                                                             "taking hold of a nut",
+                                                             "releasing a nut",
+                                                             "engaging a nut",
                                                              "on a nut",
                                                              "against something",
                                                              "in the air"};
@@ -185,9 +185,9 @@ void put_servo(std::string& out, const analysis::SessionData& s) {
     put(out, "<p>{} {}</p>\n",
         faults.empty() ? "The output was never switched off."
                        : "The output was switched off: " + plot::escape(faults) + ".",
-        f.timing ? "The servo ran on a thread: " + plot::escape(f.servo) + "."
+        f.timing ? "The servo ran on a thread: " + plot::escape(f.servo_text) + "."
                  : "There are no wake-up, compute and period times: the servo ran in " +
-                       plot::escape(f.servo) + ".");
+                       plot::escape(f.servo_text) + ".");
     if (!f.timing) return;
     out +=
         "<div class=\"scroll\"><table><thead><tr><th>µs</th><th class=\"n\">median</th><th class=\"n\">99 "

@@ -36,10 +36,11 @@ struct MeshNode {
     std::vector<glm::dvec3> points;  // three a triangle, in the model's frame
 };
 
-Error content_error(const std::filesystem::path& file, std::string what) {
+Error content_error(const std::filesystem::path& file, std::string what, std::string expected = {}) {
     Error error;
     error.code = ErrorCode::bad_content;
     error.what = std::move(what);
+    error.expected = std::move(expected);
     error.file = file.string();
     return error;
 }
@@ -161,7 +162,7 @@ Result<WrenchModel> read_wrench(const content::WrenchDesign& design) {
                                                          to_tool_frame(low, high, side, Vec3(0, 1, 0)),
                                                          to_tool_frame(low, high, side, Vec3(0, 0, 1))))};
     }
-    return fail(content_error(file, "the wrench has no triangles"));
+    return fail(content_error(file, "the wrench has no triangles", "a closed mesh"));
 }
 
 }  // namespace
@@ -229,7 +230,8 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
 
 Result<collision::ToolShape> load_wrench(const content::Assembly& assembly) {
     if (assembly.wrench.model.empty())
-        return fail(content_error(assembly.file, "the assembly's wrench has no model"));
+        return fail(content_error(assembly.file, "the assembly's wrench has no model",
+                                  "\"model\": a .glb of the wrench"));
     BOLT_TRY_ASSIGN(const auto parts, read_wrench(assembly.wrench));
     Result<collision::ToolShape> tool = collision::make_tool(parts.meshes);
     if (!tool) return fail(content_error(wrench_file(assembly.wrench), tool.error().what));

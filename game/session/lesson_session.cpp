@@ -63,7 +63,8 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
         if (!tightened())
             return fail(ErrorCode::bad_content,
                         fmt::format("joint {} cannot be tightened to {:.1f} N·m: it is {}",
-                                    assembly.joints[i].design.id, target, joint::name(joint.condition)));
+                                    assembly.joints[i].design.id, target, joint::name(joint.condition)),
+                        "a target torque that the joint bears");
         joint.nut.speed = 0.0;
     }
     for (double rest = 0.0; rest < 10.0; rest += setup.dt)

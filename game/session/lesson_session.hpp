@@ -64,16 +64,15 @@ struct SessionSetup {
 // Fails if the contact models are required but missing or invalid, or if a joint cannot be pretightened.
 Result<SessionSetup> prepare(const content::Assembly& given, const LessonOptions& options);
 
-// Changes the device to `options.device`. All other options must equal those of prepare().
+// Replaces the device limits by those of the options. All other options must equal those of prepare().
 void set_device_limits(const LessonOptions& options, SessionSetup& start);
 
 // A lesson that follows the ticks of the session's own servo, or of a station's.
 struct LessonTracker {
     lesson::Lesson lesson;
-    // The number of steps begun, less those that undo took back. The servo saves one checkpoint at the begin
-    // of each step, so this equals servo::State::checkpoint_count once the last one is saved. A station's
-    // servo saves it some ticks late. Until then the newest checkpoint is that of the previous step, and
-    // restoring it begins the previous step again.
+    // Steps begun, minus steps taken back by undo. The servo saves one checkpoint when a step begins, so
+    // this equals servo::State::checkpoint_count, except for the few ticks in which a station has not saved
+    // the newest one; a restore in that time returns to the previous step.
     std::uint32_t steps_begun = 0;
 };
 
@@ -122,9 +121,9 @@ class LessonSession {
     // Repeats a tick that a station's servo has computed from the same initial state, and compares the
     // outputs. Fails also if they differ, which means that one of the two missed an input.
     Status repeat(const world::WriteHaptics& world, const servo::Input& input, const servo::Output& output);
-    // The number of times that the servo must have saved a checkpoint by now: the times that it did, plus one
-    // for each step whose checkpoint is not saved yet. Undo does not reduce it. A caller of repeat() sends
-    // the station one station::SaveCheckpoint each time that this number rises by one; step() does it itself.
+    // Number of SaveCheckpoint commands due so far: checkpoints saved plus steps begun whose checkpoint is
+    // still pending. Undo does not reduce it. A caller of repeat() sends one station::SaveCheckpoint
+    // whenever the number rises by one; step() does it itself.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - current_.state.checkpoint_count;
     }

@@ -212,7 +212,8 @@ void from_columns(std::byte chunk_version, const std::byte* in, std::span<TickRe
 }
 
 tl::unexpected<Error> damaged(std::uint64_t first_tick, const std::string& why) {
-    return fail(ErrorCode::failed, fmt::format("the ticks from {} on are damaged: {}", first_tick, why));
+    return fail(ErrorCode::failed, fmt::format("the ticks from {} on are damaged: {}", first_tick, why),
+                "an unmodified session file");
 }
 
 struct FreeCompressor {

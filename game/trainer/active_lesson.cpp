@@ -243,10 +243,12 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
         if (frame.status) after_tick(world, active, tick.output);
     }
     if (client.link->lost_ticks() > 0 && continues(active) && frame.status)
-        frame.status =
-            fail(ErrorCode::failed, fmt::format("{} ticks of the servo were dropped because frames took too "
-                                                "long; the session up to there is complete",
-                                                client.link->lost_ticks()));
+        frame.status = fail(ErrorCode::failed,
+                            fmt::format("{} ticks of the servo were dropped because frames took too "
+                                        "long; the session up to there is complete",
+                                        client.link->lost_ticks()),
+                            "frames that are short enough for the queue of ticks: close other programs or "
+                            "lower the resolution");
     const Status sent =
         send_intent(client, *active.session,
                     {active.clock.paused || active.clock.finished || !continues(active),

@@ -12,8 +12,8 @@ namespace {
 constexpr double wheel_step = 0.02;              // m along the view for a notch
 constexpr double wheel_step_on_bolt = 0.01;      // m along the bolt
 constexpr double wheel_turn = to_radians(30.0);  // of the fingers for a notch: within the lead of the arm
-// s in which the hand follows a notch of the wheel. At once, it would hit the work at 1 m/s, and fingers
-// would slip off the nut.
+// s in which the hand follows a notch of the mouse wheel. An immediate step would move the tool into the
+// workpiece at 1 m/s and make the fingers slip off the nut.
 constexpr double wheel_time = 0.1, least_notch = 1e-3;
 constexpr double finger_turn = to_radians(2.5);  // of the fingers for a pixel of drag
 constexpr double key_speed = 0.25;               // m/s
@@ -162,7 +162,8 @@ void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene
     hand.motion.yielding = eases ? ease_yielding : scene.engaged ? 0.0 : air_yielding;
     DragInput smooth = input;
     smooth.mouse.wheel = smooth_wheel(hand, input);
-    // Only a pull at the handle needs all the strength: a mouse may pull a bolt too tight.
+    // The intention may lead far only while the hand pulls the handle, because only this needs the arm's
+    // full force. Overtightening must stay possible.
     const bool pulls = scene.engaged && smooth.mouse.wheel == 0.0;
     hand.motion.lead = pulls ? device::HandMotion{}.lead : air_lead;
     HandShift motion = mouse_motion(hand, smooth, scene);

@@ -12,7 +12,7 @@ LessonStarter::LessonStarter(LessonStart start, std::unique_ptr<LessonStarter> b
     };
     thread_ = std::jthread([this, begun = std::move(start)] {
         before_.reset();
-        result_.emplace(given_up_ ? fail(ErrorCode::failed, "the start was given up") : start_lesson(begun));
+        result_.emplace(given_up_ ? fail(ErrorCode::failed, "the start was cancelled") : start_lesson(begun));
         done_ = true;
     });
 }

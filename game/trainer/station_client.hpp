@@ -88,8 +88,9 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
 // lesson repeats every tick with its own servo, and sends its controls with every frame.
 //
 // The hand closes by a device's button or gripper, the space bar or a glove. If it closes beside the wrench,
-// it takes the wrench; if it closes beside a nut, it holds the nut with the fingers. Of a wrench and a nut
-// the nearer one counts. A key lays the wrench down; a gloved hand and a gripper lay it down by opening.
+// it takes the wrench; if it closes beside a nut, it holds the nut with the fingers. If both are
+// within reach, the nearer one counts. A key lays the wrench down; a gloved hand and a gripper lay it down by
+// opening.
 struct StationClient {
     std::unique_ptr<station_setup::LessonStation> link;
     Pose home, rest;                 // initial pose of the tool, and where the wrench lies

@@ -43,8 +43,9 @@ struct EdgeGathering {
     }
 };
 
-// The cosine by which the common perpendicular fails to point out of both solids. At most 0: it points out of
-// both, so the edges face each other; otherwise a face, vertex or other edge is nearer.
+// Largest cosine between the common perpendicular, taken away from each of the two solids, and the inward
+// directions of that solid's edge. At most 0: the perpendicular points out of both solids, so the edges face
+// each other. Above 0: a face, a vertex or another edge is nearer.
 double facing_excess(const Ridge& edge, const EdgePiece& piece, const Vec3& normal) {
     double excess = -1.0;
     for (std::size_t i = 0; i < 2; ++i)

@@ -285,7 +285,7 @@ Error calibration_error(const ArmProcess& process, const PluginReply& reply, con
                 return process.error(
                     fmt::format("the arm has not found its position in {:g} s", calibration_time),
                     "an arm that can move freely");
-            error = process.error("the arm is calibrating", "patience");
+            error = process.error("the arm is calibrating", "a calibrated arm: wait until it has finished");
             set_preparation(error, {DeviceNeed::patience, {}});
             return error;
         default:

@@ -24,7 +24,8 @@ std::string plugin_arm_id(const std::filesystem::path& plugin, int index);
 // How many arms the plug-in has now, at most 16. Starts the plug-in for that.
 Result<int> count_plugin_arms(const std::filesystem::path& plugin);
 
-// The processes of arms that wait for their user, by id. Closed arms would begin their calibration again.
+// Plug-in processes that stay open between two attempts to open an arm, by arm id, so that a calibration
+// continues instead of starting again.
 class WaitingArms;
 std::shared_ptr<WaitingArms> make_waiting_arms();
 

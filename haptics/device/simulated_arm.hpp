@@ -84,7 +84,7 @@ class SimulatedArm {
 };
 
 // The arm of `train --device simulated-arm`: the force of an omega.7 (12 N), a lower stiffness, because the
-// hand is a spring of 300 N/m, no torque, and no edge of its reach.
+// hand is a spring of 300 N/m, no torque, and an unlimited workspace.
 Description simulated_arm_description();
 ArmParameters simulated_arm_parameters();
 

@@ -56,18 +56,18 @@ struct DigitStop {
     std::array<double, 3> share{1.0, 1.0, 1.0};
     bool touches = false;
     // Nearest point of the tool to the digit's last two bones.
-    hand::FingertipContact nearest;
+    FingertipContact nearest;
     int steps = 0;
 };
 
 struct FingerClosure {
-    hand::Angles angles;
-    std::array<DigitStop, hand::digit_count> digits;
+    Angles angles;
+    std::array<DigitStop, digit_count> digits;
 };
 
 // `wrist` is in the tool frame. Penetration that exists while the digit is open is tolerated; only deeper
 // penetration stops the digit.
-FingerClosure close_fingers(const collision::ToolShape& tool, const hand::Hand& hand,
-                            const hand::Angles& measured, const Pose& wrist);
+FingerClosure close_fingers(const collision::ToolShape& tool, const Hand& hand, const Angles& measured,
+                            const Pose& wrist);
 
 }  // namespace bolt::hand

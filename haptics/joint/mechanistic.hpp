@@ -1,5 +1,5 @@
 // The mechanistic law: one continuous state per joint for tightening and loosening, re-use, yield, stripping
-// and breaking. Sources stand beside each part; what is ours is marked so. All SI.
+// and breaking. Sources stand beside each part; our own assumptions are marked (ours). All SI.
 //
 //   x   closure, m: how far the elastic parts are pressed together; negative while there is a gap.
 //       x = P θ/2π − gap − plastic − stripped − embedding − neighbour closure
@@ -30,7 +30,7 @@ namespace bolt::joint {
 //
 // Voce hardening with an exponent below one, so that the slope is infinite at u = 0 and the torque curve
 // bends into yield without a kink. The scale u_c is fitted so that the load at 0.2 % plastic strain is R_p0.2
-// A_s. The form is ours; it is fitted to the three strengths of ISO 898-1, with half the elongation after
+// A_s. The form (ours) is fitted to the three strengths of ISO 898-1, with half the elongation after
 // fracture as uniform elongation.
 struct PlasticCurve {
     double elastic_load = 0.0;   // L_e, N of equivalent stress × A_s

@@ -3,7 +3,8 @@
 // defaults.
 //
 // The parameters keep the paper's units (mm, N, GPa, rad, N·m), because tests compare with its printed
-// figures; the functions return SI. What the paper leaves open is ours and marked so.
+// figures; the functions return SI. Values that the
+// paper does not give are chosen here and marked (ours).
 #pragma once
 
 #include "engine/base/math.hpp"

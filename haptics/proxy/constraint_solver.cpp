@@ -14,10 +14,10 @@ namespace bolt::proxy {
 //
 // Coulomb's law is not the optimum of a convex problem: with the cone alone a slipping contact would lift off
 // by friction × slip. De Saxcé's correction (de Saxcé and Feng, Math. Comput. Modelling 28, 1998) compensates
-// this lift as slack, computed from the slip of the last round. This fixed-point iteration diverges between
-// two jaws, where the lift of one side causes slip of the other times a lever; Irons and Tuck's relaxation
-// (Int. J. Numer. Methods Eng. 1, 1969; "Aitken" in Küttler and Wall, Comput. Mech. 43, 2008) makes it
-// converge.
+// this lift as slack, computed from the slip of the last round. This fixed-point iteration diverges for
+// a part between two jaws: the lift at one side, amplified by a lever arm, is slip at the other. Irons and
+// Tuck's relaxation (Int. J. Numer. Methods Eng. 1, 1969; "Aitken" in Küttler and Wall, Comput. Mech. 43,
+// 2008) makes it converge.
 //
 // The forces of contradicting rows grow without bound while the motion converges, so convergence is judged by
 // the motion and not by the forces.

@@ -192,10 +192,12 @@ class Stepper {
         }
     }
 
-    // Limits of the change of the rendered force or torque in this tick. Permitted are the change due to the
-    // hand's motion and its projections (contacts constrain some directions only; by Thales the projections
-    // lie in the ball whose diameter is that change), plus `any_direction`, plus a part along the
-    // trend of the last tick.
+    // Limits of the change of the rendered force or torque in this tick. The permitted change is the sum of
+    // three parts:
+    //   - the change due to the hand's motion, or a projection of it, because contacts constrain some
+    //     directions only. By Thales the projections lie in the ball whose diameter is that change;
+    //   - up to `any_direction` in every direction;
+    //   - a part along the trend of the last tick.
     struct ForceChangeLimit {
         Vec3 hand{0.0};              // change due to the hand's motion with the tool held
         Vec3 trend{0.0};             // permitted change along the direction of the last tick's own change

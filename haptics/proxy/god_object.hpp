@@ -22,7 +22,7 @@ namespace bolt::proxy {
 using ContactFinder =
     FunctionRef<collision::ContactQueryResult(const Pose&, double band, std::span<collision::Contact>)>;
 
-inline constexpr std::size_t max_contacts = 32;  // room that the finder gets
+inline constexpr std::size_t max_contacts = 32;  // capacity of the finder's output
 
 // Limits on the change of the rendered force in a millisecond. The change has two parts:
 //

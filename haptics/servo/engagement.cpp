@@ -123,8 +123,9 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
 
 namespace {
 
-constexpr double tolerance = 1e-3;  // rad; the god-object's tolerance of micrometres at half a flat's length
-constexpr double near = 0.1;        // m from jaw to nut beyond which a nut is skipped
+// rad; angle that corresponds to a few micrometres (the god-object's tolerance) at half a flat's length.
+constexpr double tolerance = 1e-3;
+constexpr double near = 0.1;          // m from jaw to nut beyond which a nut is skipped
 constexpr double least_limit = 1e-9;  // N·m; NutDrive::torque_limit 0 means unlimited
 
 // Modelling assumptions: a jaw slips off a corner once it has turned by its whole backlash beyond the

@@ -45,8 +45,8 @@ struct Input {
     bool stop = false;   // emergency stop pressed; latches until `reset`
     bool reset = false;  // releases the stop if neither dead-man switch nor stop is pressed
     std::uint8_t missed = 0;  // deadlines without a tick since the last tick, at most 15
-    // A value from above; 0: none. A restore is ignored while a nut is held or the tool is within 12 cm of a
-    // nut.
+    // One of the values above `Input`; 0: none. A restore is ignored while a nut is held or the tool is
+    // within 12 cm of a nut.
     std::uint8_t checkpoint_action = 0;
     // N·m on the scale of a click-type torque wrench; 0: it does not click. Ignored from the click until the
     // wrench leaves the nut.

@@ -111,8 +111,8 @@ force::ForceRequest release_request(const Setup& setup, ReleaseFade& release_fad
 }
 
 // The work (J) of the guiding force on the motion of the commanded tool relative to the constrained one. The
-// guiding force acts on the hand but is a potential of the constrained pose; where contacts hold the tool
-// back the two differ, and the difference counts as injected energy.
+// guiding force acts on the hand, but derives from a potential of the constrained pose; where contacts hold
+// the tool back the two differ, and the difference counts as injected energy.
 double relative_work(const force::OutputCommand& help, const Pose& commanded_before,
                      const Pose& commanded_now, const Pose& constrained_before, const Pose& constrained_now) {
     const Vec3 relative = (commanded_now.position - commanded_before.position) -

@@ -62,9 +62,9 @@ void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const 
     }
 }
 
-// The pose of a in_jaw nut as the jaw meets it: turned with the jaw beyond the play, less a margin that
-// leaves both flanks their skin. Two flanks pressed at once would be contradictory constraints with unlimited
-// friction.
+// The pose of the nut in the jaw that contact queries use: beyond the play it turns with the jaw, less a
+// margin that leaves a skin on each flank. Two flanks pressed at once would be contradictory constraints with
+// unlimited friction.
 Pose hexagon_pose_in_jaw(const Setup& setup, const NutGeometry& nut, const Pose& place, const Pose& wrench) {
     const double off =
         collision::jaw_fit(setup.wrench.jaw, prism_of(nut), inverse(place) * wrench).misalignment;

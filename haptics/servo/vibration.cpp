@@ -78,7 +78,8 @@ void engage(VibrationState& state, const VibrationOptions& options, const Vibrat
 void add_ticks(VibrationState& state, const VibrationOptions& options, const VibrationInput& input) {
     const double turned = input.angle - state.notch;
     if (std::abs(turned) < options.tick_angle) return;
-    // Turned back, the nut ticks only after a whole tick_angle, so it does not chatter.
+    // After a reversal the next detent comes after a whole detent_angle, so that the cue does not repeat at
+    // one angle.
     state.notch += options.tick_angle * std::trunc(turned / options.tick_angle);
     if (input.stage == joint::Stage::navigation) add_event(state, options, VibrationCue::tick);
 }
@@ -90,7 +91,7 @@ void add_stage_changes(VibrationState& state, const VibrationOptions& options, c
         state.seated_joint = input.joint;
         state.seat_angle = input.angle;
     }
-    // A nut that trembles at its seat reaches it once.
+    // The seat cue is repeated only after the nut has been turned back by half a detent angle.
     if (!seated && state.seated_joint == input.joint &&
         input.angle < state.seat_angle - 0.5 * options.tick_angle)
         state.seated_joint = -1;

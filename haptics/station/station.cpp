@@ -82,7 +82,6 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
     return {};
 }
 
-// With the power 1/scale a force on the tool is as large on the hand.
 // A wrench that is grasped comes into the palm in this time. Chosen: as fast as a hand regrasps.
 constexpr double absolute_return_time = 0.1;  // s
 
@@ -93,6 +92,7 @@ force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& o
     const Vec3 reach = force::rotated_reach(map.rotation, layout.mover->reach);
     map.scale = options.workspace.scale.value_or(force::fitted_scale(reach, options.handle_length));
     if (options.workspace.absolute) map.return_time = absolute_return_time;
+    // With the power 1/scale a force on the tool is as large on the hand.
     map.power_ratio = options.workspace.power_ratio.value_or(1.0 / map.scale);
     return map;
 }
@@ -173,7 +173,9 @@ std::vector<std::string> Station::fault_messages() {
         const device::DeviceReport& report = (*thread)->report();
         if (!report.fault_message.empty()) messages.push_back(report.fault_message);
         if (report.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
-            messages.push_back(report.description->name + " hangs: unplug it and plug it in again");
+            messages.push_back(report.description->name +
+                               ": has not answered for 0.5 s; expected a device that answers: "
+                               "unplug it and plug it in again");
     }
     const StationTick& tick = latest_tick();
     // The device's own report describes its silence better.

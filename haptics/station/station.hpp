@@ -42,7 +42,8 @@ struct WorkspaceOptions {
     Quat rotation{1.0, 0.0, 0.0, 0.0};
     std::optional<double> scale;        // none: fitted to the mover's reach
     std::optional<double> power_ratio;  // none: 1/scale, so that forces keep their magnitude
-    // The device's frame is the assembly's, and the tool is where the hand is (WorkspaceMap::return_time).
+    // The device's frame is the assembly's, and the tool returns to the pose of the hand
+    // (WorkspaceMap::return_time).
     bool absolute = false;
 };
 

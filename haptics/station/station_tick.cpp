@@ -337,7 +337,7 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
     input.stop = controls.stop;
     input.reset = controls.reset;
     input.missed = static_cast<std::uint8_t>(std::min<std::uint64_t>(inputs.missed, 15));
-    // The device that renders the force now must be alive.
+    // The device that renders the force must have sent a sample.
     const bool by_wheel = layout.wheel && (on_bolt(s) || !layout.mover);
     input.fresh =
         by_wheel ? has_current_data(*layout.wheel, s.wheel) : has_current_data(*layout.mover, s.mover);

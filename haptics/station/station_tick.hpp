@@ -87,8 +87,8 @@ struct StationControls {
     std::int16_t approach_joint = -1;
 };
 
-// Moves the tool to a pose in the assembly's frame; the hand stays where it is, and the tool follows it from
-// there.
+// Moves the tool to a pose in the assembly's frame. The mapping is realigned: device and tool keep their
+// poses, and later motion of the device moves the tool relative to them.
 struct PlaceTool {
     Pose tool{};
 };
@@ -173,7 +173,7 @@ StationState initial_state(const Layout& layout);
 
 // One tick. Forces come from the servo's output stage; this code maps them and may only reduce them. A device
 // that is lost or silent for too long moves nothing and renders no force. When it returns, the hand may be
-// anywhere, so the tool stays in place and follows from there, as after a clutch.
+// anywhere, so the mapping is realigned, as after a clutch.
 DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
                     const StationInputs& inputs);
 

@@ -107,7 +107,7 @@ TEST_CASE(
     REQUIRE(metrics.force_jumps.size() >= 3);
     CHECK(metrics.force_jumps[0].change == 2.0);
     CHECK(metrics.force_jumps[2].change == 1.5);
-    CHECK(describe(metrics.force_jumps[0], {{"J01"}}, {}) == "wrench taking hold of J01");
+    CHECK(describe(metrics.force_jumps[0], {{"J01"}}, {}) == "wrench engages J01");
     script.push(700, 800, 2.5F);
     script.push(701, 702, 4.8F);  // 2.3 N: no device does this, but the page must report it
     CHECK(script.metrics().force.above == 2);

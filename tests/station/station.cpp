@@ -173,7 +173,8 @@ TEST_CASE("Station: a driver that hangs is reported, although its thread is bloc
     REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
     cable->hangs = true;
     REQUIRE(eventually([&] {
-        return joined_lines(station->fault_messages()).find("hangs: unplug it") != std::string::npos;
+        return joined_lines(station->fault_messages()).find("has not answered for 0.5 s") !=
+               std::string::npos;
     }));
     cable->hangs = false;
     REQUIRE(eventually([&] { return station->fault_messages().empty(); }));

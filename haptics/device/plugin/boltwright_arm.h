@@ -88,7 +88,7 @@ extern "C" {
 /* An open arm. The plug-in defines this structure as it likes. */
 struct bw_arm;
 
-/* What an arm is. A number that is not finite or is negative is an error. Larger values than those in
+/* Properties of an arm. A number that is not finite or is negative is an error. Larger values than those in
    brackets are reduced to them. */
 struct bw_arm_info_v1 {
     uint32_t size;   /* bytes, set by Boltwright */
@@ -96,7 +96,8 @@ struct bw_arm_info_v1 {
     uint32_t flags;  /* BW_ARM_SENSES_ROTATION | ... */
     int32_t buttons; /* 0 to 32 */
     /* Time from exchange() until its wrench acts on the hand and the state shows it, in ms, rounded up: 0 or
-       1, at a rate of 1000 also 2. Boltwright adds its own. If it is too small, forces may oscillate. */
+       1, at a rate of 1000 also 2. Boltwright adds the
+       delay of its own threads. If it is too small, forces may oscillate. */
     int32_t delay;
     uint32_t reserved;    /* 0 */
     char name[64];        /* of the arm, for the user; empty: the name of the plug-in */
@@ -129,7 +130,7 @@ struct bw_arm_state_v1 {
     double gripper; /* 0 closed to 1 fully open; other values are clamped. With BW_ARM_SENSES_GRIPPER */
 };
 
-/* The functions of a plug-in; each must be there. The table must stay unchanged until the process ends. */
+/* The functions of a plug-in; none may be null. The table must stay unchanged until the process ends. */
 struct bw_arm_v1 {
     uint32_t size;     /* sizeof(struct bw_arm_v1) */
     uint32_t reserved; /* 0 */
