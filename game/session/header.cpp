@@ -1,7 +1,8 @@
-#include "game/session/session_file.hpp"
+#include "game/session/header.hpp"
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstddef>
 
 #include "game/session/tables.hpp"

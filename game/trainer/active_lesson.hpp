@@ -46,16 +46,6 @@ struct LessonClock {
     bool paused = false, finished = false;
 };
 
-struct LessonView {
-    view::CameraGlide camera;
-    motion::VisibilityModel visibility;
-    double out_of_view = 0.0;  // s since the due joint was last visible
-    CloseUp close_up;
-    bool clamp_map = false;                   // show the clamp force of every joint
-    std::vector<render::Rectangle> occupied;  // px, areas of the interface in the previous picture
-    std::optional<Pose> head;  // of the user in a room, assembly frame; none: the camera shows the lesson
-};
-
 // Help for the trainee.
 struct Coaching {
     lesson::HintState hints;
