@@ -65,7 +65,7 @@ void Headset::begin(gpu::Device& device) {
         return;
     }
     session_ = std::move(*session);
-    Result<std::unique_ptr<Input>> input = Input::create(*session_, options_.names);
+    Result<std::unique_ptr<XrInput>> input = XrInput::create(*session_, options_.names);
     if (!input) {
         (void)keep(fail(input.error()));
         return;

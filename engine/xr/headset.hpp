@@ -73,7 +73,7 @@ class Headset {
     // Valid while connected.
     [[nodiscard]] const Session& session() const { return *session_; }
     [[nodiscard]] const Runtime& runtime() const { return *runtime_; }
-    [[nodiscard]] const Input& input() const { return *input_; }
+    [[nodiscard]] const XrInput& input() const { return *input_; }
 
   private:
     void log(const std::string& line) const;
@@ -85,7 +85,7 @@ class Headset {
     HeadsetOptions options_;
     std::unique_ptr<Runtime> runtime_;
     std::unique_ptr<Session> session_;
-    std::unique_ptr<Input> input_;
+    std::unique_ptr<XrInput> input_;
     std::vector<SessionEvent> events_;
     std::optional<Error> absence_;
     // Error of vibrate(). The session is dropped at the end of the frame, because commands that are recorded

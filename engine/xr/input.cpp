@@ -87,8 +87,8 @@ Result<XrPath> path_of(XrInstance instance, const std::string& text) {
 
 }  // namespace
 
-Result<std::unique_ptr<Input>> Input::create(Session& session, const ActionNames& names) {
-    std::unique_ptr<Input> input(new Input());
+Result<std::unique_ptr<XrInput>> XrInput::create(Session& session, const ActionNames& names) {
+    std::unique_ptr<XrInput> input(new XrInput());
     input->session_ = &session;
     BOLT_TRY(input->create_actions(names));
     BOLT_TRY(input->suggest_bindings());
@@ -96,13 +96,13 @@ Result<std::unique_ptr<Input>> Input::create(Session& session, const ActionNames
     return input;
 }
 
-Input::~Input() {
+XrInput::~XrInput() {
     const PFN_xrDestroyHandTrackerEXT destroy = session_->runtime().functions().destroy_hand_tracker;
     for (const XrHandTrackerEXT tracker : trackers_)
         if (tracker != XR_NULL_HANDLE) (void)destroy(tracker);
 }
 
-Status Input::create_actions(const ActionNames& names) {
+Status XrInput::create_actions(const ActionNames& names) {
     const XrInstance instance = session_->runtime().instance();
     for (std::size_t side = 0; side < 2; ++side) {
         BOLT_TRY_ASSIGN(hands_[side], path_of(instance, hand_paths[side]));
@@ -132,7 +132,7 @@ Status Input::create_actions(const ActionNames& names) {
     return make(vibrate_, "vibrate", names.vibrate, XR_ACTION_TYPE_VIBRATION_OUTPUT);
 }
 
-Status Input::suggest_bindings() {
+Status XrInput::suggest_bindings() {
     const XrInstance instance = session_->runtime().instance();
     for (const Profile& profile : controller_profiles) {
         if (profile.needs_hand_interaction && !session_->runtime().extensions().hand_interaction) continue;
@@ -169,7 +169,7 @@ Status Input::suggest_bindings() {
     return {};
 }
 
-Status Input::attach() {
+Status XrInput::attach() {
     const XrActionSet raw = set_.get();
     XrSessionActionSetsAttachInfo info{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO};
     info.countActionSets = 1;
@@ -202,14 +202,14 @@ Status Input::attach() {
     return {};
 }
 
-Result<std::optional<TrackedPose>> Input::locate(XrSpace space, XrTime time) const {
+Result<std::optional<TrackedPose>> XrInput::locate(XrSpace space, XrTime time) const {
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
     BOLT_TRY(check(xrLocateSpace(space, session_->space(), time, &location), "xrLocateSpace"));
     if ((location.locationFlags & pose_valid) != pose_valid) return std::nullopt;
     return TrackedPose{to_pose(location.pose), (location.locationFlags & pose_tracked) == pose_tracked};
 }
 
-Result<float> Input::value(XrAction action, Side side) const {
+Result<float> XrInput::value(XrAction action, Side side) const {
     XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
     info.action = action;
     info.subactionPath = hands_[static_cast<std::size_t>(side)];
@@ -218,7 +218,7 @@ Result<float> Input::value(XrAction action, Side side) const {
     return state.isActive == XR_TRUE ? state.currentState : 0.0F;
 }
 
-Result<bool> Input::pressed(XrAction action, Side side) const {
+Result<bool> XrInput::pressed(XrAction action, Side side) const {
     XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
     info.action = action;
     info.subactionPath = hands_[static_cast<std::size_t>(side)];
@@ -227,7 +227,7 @@ Result<bool> Input::pressed(XrAction action, Side side) const {
     return state.isActive == XR_TRUE && state.currentState == XR_TRUE;
 }
 
-Status Input::read_joints(const FrameTiming& frame, Side side, HandInput& hand) {
+Status XrInput::read_joints(const FrameTiming& frame, Side side, HandInput& hand) {
     const XrHandTrackerEXT tracker = trackers_[static_cast<std::size_t>(side)];
     if (tracker == XR_NULL_HANDLE) return {};
     std::array<XrHandJointLocationEXT, hand_joint_count> located{};
@@ -254,7 +254,7 @@ Status Input::read_joints(const FrameTiming& frame, Side side, HandInput& hand) 
     return {};
 }
 
-Status Input::read_hand(const FrameTiming& frame, Side side, HandInput& hand) {
+Status XrInput::read_hand(const FrameTiming& frame, Side side, HandInput& hand) {
     const auto index = static_cast<std::size_t>(side);
     XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
     info.action = grip_;
@@ -277,7 +277,7 @@ Status Input::read_hand(const FrameTiming& frame, Side side, HandInput& hand) {
     return {};
 }
 
-Result<Hands> Input::read(const FrameTiming& frame) {
+Result<Hands> XrInput::read(const FrameTiming& frame) {
     Hands hands;
     const XrActiveActionSet active{set_.get(), XR_NULL_PATH};
     XrActionsSyncInfo sync{XR_TYPE_ACTIONS_SYNC_INFO};
@@ -290,7 +290,7 @@ Result<Hands> Input::read(const FrameTiming& frame) {
     return hands;
 }
 
-Status Input::vibrate(Side side, const Vibration& vibration) {
+Status XrInput::vibrate(Side side, const Vibration& vibration) {
     XrHapticActionInfo info{XR_TYPE_HAPTIC_ACTION_INFO};
     info.action = vibrate_;
     info.subactionPath = hands_[static_cast<std::size_t>(side)];
@@ -306,7 +306,7 @@ Status Input::vibrate(Side side, const Vibration& vibration) {
         "xrApplyHapticFeedback");
 }
 
-Result<std::string> Input::profile(Side side) const {
+Result<std::string> XrInput::profile(Side side) const {
     XrInteractionProfileState state{XR_TYPE_INTERACTION_PROFILE_STATE};
     BOLT_TRY(
         check(xrGetCurrentInteractionProfile(session_->get(), hands_[static_cast<std::size_t>(side)], &state),

@@ -166,7 +166,7 @@ class Session {
     Status request_exit();
     // Ends the thread that waits for frames; afterwards the session can only be destroyed. Returns false if
     // the thread never returned from the runtime: the session's objects and the runtime are then abandoned,
-    // and its Input must be too.
+    // and its XrInput must be too.
     bool stop();
 
   private:

@@ -250,7 +250,7 @@ namespace {
 constexpr std::size_t nut_samples = 400;  // visibility within 5 %, enough to choose a view
 constexpr double narrowest = 4.0 / 3.0;   // aspect ratio of a picture
 
-bool in_picture(const content::Viewpoint& view, const Vec3& point) {
+bool in_picture(const content::NamedView& view, const Vec3& point) {
     const Vec3 ahead = glm::normalize(view.target - view.eye);
     const Vec3 right = glm::normalize(glm::cross(ahead, Vec3(0.0, 1.0, 0.0)));
     const Vec3 to = point - view.eye;
@@ -275,7 +275,7 @@ std::vector<NutView> nut_views(const content::Assembly& assembly, const servo::T
     const std::size_t body = *contact.nut_bodies[joint];
     const std::vector<collision::SurfacePoint> samples = collision::sample_outer_surface(
         contact.world.shapes[contact.world.bodies[body].shape].solid, nut_samples);
-    for (const content::Viewpoint& view : assembly.views) {
+    for (const content::NamedView& view : assembly.views) {
         const collision::Visibility seen = collision::visibility_of(contact.world, body, samples, view.eye);
         views.push_back({seen.share, seen.angle / square(2.0 * std::tan(0.5 * view.field_of_view)),
                          in_picture(view, contact.world.bodies[body].pose.position)});

@@ -44,7 +44,7 @@ struct Header {
     // Further inputs of the ticks; none in format 1, which does not store them.
     std::optional<bool> guide;                  // the guiding force towards the due joint
     std::optional<std::string> contact_models;  // their files with size and checksum; empty: no obstacles
-    std::optional<force::OutputLimits> device;
+    std::optional<force::OutputLimits> device_limits;
     std::optional<double> servo_rate;  // Hz, of the servo's thread; 0: virtual time
     std::vector<ObstacleName> obstacle_names;
 

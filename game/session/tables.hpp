@@ -109,7 +109,7 @@ std::uint64_t row_hash(const ObstacleName& obstacle);
 std::uint64_t row_hash(const TimingRow& row);
 std::uint64_t row_hash(std::uint64_t ordinal, const lesson::LessonEvent& event);
 std::uint64_t row_hash(std::uint64_t ordinal, const lesson::JointResult& result);
-std::uint64_t row_hash(std::uint64_t ordinal, const lesson::ScoreReason& reason);
+std::uint64_t row_hash(std::uint64_t ordinal, const lesson::Deduction& reason);
 
 struct TableChecksums {
     TableChecksum meta, chunk, event, joint, reason, obstacle, servo_time;

@@ -15,7 +15,7 @@ constexpr double default_seated_eyes = 1.2;  // m above the floor, about the mea
 // The pose of the assembly's frame in the room; that of the room without a lesson.
 Pose App::scene_in_room() const {
     if (!active_ || !room_->workpiece) return {};
-    return adjusted(*room_->workpiece, active_->workplace.machine, room_->turns, room_->height);
+    return adjusted(*room_->workpiece, active_->workplace.workpiece, room_->turns, room_->height);
 }
 
 // Pauses a lesson that its user suddenly does not see: no device may push, and a tracked hand is gone. It
@@ -47,7 +47,7 @@ void App::follow_room(const view::WindowFrame& window, std::vector<platform::Inp
     if (!active_) room.workpiece.reset();
     if (placed && active_ && !room.workpiece)
         room.workpiece = place_workpiece(
-            immersion->head, active_->workplace.machine,
+            immersion->head, active_->workplace.workpiece,
             immersion->floor_known
                 ? std::nullopt
                 : std::optional(preferences_.settings.seated_eye_height.value_or(default_seated_eyes)));

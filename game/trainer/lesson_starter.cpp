@@ -35,7 +35,7 @@ device::ArmNeeds LessonStarter::needs() const {
     return {preparation_, permission_->active()};
 }
 
-void LessonStarter::permit_move() { permission_->give(); }
+void LessonStarter::permit_move() { permission_->grant(); }
 void LessonStarter::give_up() { given_up_ = true; }
 
 }  // namespace bolt::trainer

@@ -1,6 +1,6 @@
-// Camera, close-up and labels of a lesson; view_system() and label_system() of active_lesson.hpp are implemented
-// beside them. The close-up is a small picture in a corner that shows jaw and nut
-// from an eye on the wrench while they are near each other.
+// Camera, close-up and labels of a lesson; view_system() and label_system() of active_lesson.hpp are
+// implemented beside them. The close-up is a small picture in a corner that shows jaw and nut from an eye on
+// the wrench while they are near each other.
 #pragma once
 
 #include <optional>

@@ -188,7 +188,7 @@ bool pinches(const hand::Skeleton& hand) {
 
 // Grip of a hand without a glove, or of the fingers of a gloved hand; the station determines when a gloved
 // hand holds the wrench.
-servo::Grip grip_of(const StationClient& client, bool closes, const StationIntent& intent) {
+servo::Grip grip_of(const StationClient& client, bool closes, const StationRequest& intent) {
     const bool has_wrench =
         (client.gloved ? client.latest.input.grip : client.controls.grip) == servo::Grip::wrench;
     const bool engaged = client.latest.output.joint >= 0;
@@ -226,7 +226,7 @@ void update_client(StationClient& client, const session::LessonSession& session)
 
 // Sends one-time commands: checkpoints, undo, and moves of the tool to its initial pose.
 Status send_commands(StationClient& client, const session::LessonSession& session,
-                     const StationIntent& intent) {
+                     const StationRequest& intent) {
     for (; client.checkpoints_sent < session.target_checkpoints(); ++client.checkpoints_sent)
         BOLT_TRY(client.link->send(station::SaveCheckpoint{}));
     const bool engaged = client.latest.output.joint >= 0;
@@ -258,7 +258,7 @@ WorkingHand hand_of(const StationClient& client) {
     hand.rest = client.latest.resting_wrench.value_or(client.rest);
     if (client.has_gripper) hand.closing = 1.0 - client.latest.gripper.opening;
     if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
-        hand.room = std::max(
+        hand.free_swing = std::max(
             0.0, forearm_range - std::abs(client.latest.output.nut_angle - client.nut_angle_at_grip));
     return hand;
 }
@@ -270,8 +270,8 @@ bool needs_dead_man(const station::Layout& layout) {
     return renders(layout.mover) || renders(layout.wheel);
 }
 
-Status send_intent(StationClient& client, const session::LessonSession& session,
-                   const StationIntent& intent) {
+Status send_request(StationClient& client, const session::LessonSession& session,
+                    const StationRequest& intent) {
     update_client(client, session);
     client.link->set_puck_input(client.keyboard.input());
     if (client.dragged) client.link->set_hand_motion(client.dragged->motion);

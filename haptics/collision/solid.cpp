@@ -105,7 +105,7 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
     solid.middle = 0.5 * (solid.box.low + solid.box.high);
     for (const glm::vec3& v : solid.mesh.vertices) {
         solid.radius = std::max(solid.radius, glm::length(Vec3(v) - solid.middle));
-        solid.reach = std::max(solid.reach, glm::length(Vec3(v)));
+        solid.origin_radius = std::max(solid.origin_radius, glm::length(Vec3(v)));
     }
     BOLT_TRY(build_scenes(solid));
     return solid;

@@ -77,7 +77,7 @@ double fitted_scale(const Vec3& reach, double handle_length);
 
 // The reach (m, half the workspace) along the axes to which `rotation` rotates those of the device, through
 // its middle. 0 if the reach along a device axis that contributes is unknown.
-Vec3 rotated_reach(const Quat& rotation, const Vec3& reach);
+Vec3 rotated_half_workspace(const Quat& rotation, const Vec3& reach);
 
 OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& state,
                         const OutputCommand& on_tool);

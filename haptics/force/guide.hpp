@@ -21,7 +21,7 @@ struct GuidingParameters {
     double max_force = 3.0;            // N
     double max_torque = 0.2;           // N·m, of the aligning torque
     double alignment_distance = 0.08;  // m to the target within which the torque acts
-    double share = 1.0;                // 0 … 1, of the force, that the lesson's mode allows
+    double mode_share = 1.0;           // 0 … 1, of the force, that the lesson's mode allows
     double fade_rate = 4.0;            // 1/s, at which the force fades in and out
 };
 

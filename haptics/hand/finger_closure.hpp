@@ -47,7 +47,7 @@ FingertipGrasp fingertip_grasp(const collision::ToolShape& tool, const Fingertip
 
 // Distances are measured from spheres along the bones; this (m) is their greatest spacing. Between two
 // spheres the penetration can be 0.6 mm deeper in the narrowest finger.
-inline constexpr double ball_spacing = 6e-3;
+inline constexpr double sphere_spacing = 6e-3;
 inline constexpr double stop_tolerance = 50e-6;  // m, penetration tolerated where a digit stops
 inline constexpr int max_steps = 200;            // per digit; it then stays where it is
 

@@ -342,7 +342,7 @@ void update(CalibrationSession& session, const GloveFrame* frame, double now) {
         session.rest = frame->raw;
     }
     if (session.phase == CalibrationPhase::moving) {
-        if (now - session.requested_since > session.options.patience)
+        if (now - session.requested_since > session.options.problem_delay)
             session.problem = CalibrationProblem::restless;
         const bool left =
             session.taken.empty() ||

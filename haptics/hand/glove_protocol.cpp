@@ -224,7 +224,7 @@ bool GloveHandshake::store_value(std::uint8_t value) {
             samples_ = value;
             return true;
         case HandshakeStep::hand:
-            identity_.hand = value != 0 ? Side::right : Side::left;
+            identity_.side = value != 0 ? Side::right : Side::left;
             return true;
         case HandshakeStep::plugged:
             identity_.plugged = (value & 1U) != 0;
@@ -255,7 +255,7 @@ std::vector<std::uint8_t> GloveHandshake::update(std::span<const std::uint8_t> r
         return start_step(next, now);
     }
     if (failed_) return {};
-    if (now - since_ < options_.patience) return {};
+    if (now - since_ < options_.reply_timeout) return {};
     if (attempts_ < options_.tries) return start_step(step_, now);
     if (step_ >= HandshakeStep::hand)
         return start_step(static_cast<HandshakeStep>(static_cast<int>(step_) + 1), now);

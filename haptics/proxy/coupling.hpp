@@ -13,14 +13,14 @@ struct Coupling {
     double damping = 0.0;          // N·s/m
     double torsion_damping = 0.0;  // N·m·s/rad
     // N and N·m at which the output saturates smoothly. 0: none is rendered.
-    double force = 20.0;
-    double torque = 2.0;
+    double max_force = 20.0;
+    double max_torque = 2.0;
 };
 
 // Capability of a device with a hand on it.
 struct CouplingRange {
-    double force = 20.0;            // N
-    double torque = 2.0;            // N·m; 0: renders none
+    double max_force = 20.0;        // N
+    double max_torque = 2.0;        // N·m; 0: renders none
     double stiffness = 3000.0;      // N/m, greatest stiffness that it may render
     double torsion = 30.0;          // N·m/rad
     double damping = 2.0;           // N·s/m, of device and hand together

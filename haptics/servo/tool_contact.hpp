@@ -20,7 +20,7 @@ namespace bolt::servo {
 
 // Fixed obstacles are in the assembly's frame, nuts in their own (nut_pose in setup.hpp).
 struct ToolContactDescription {
-    std::span<const collision::ContactMesh> still;
+    std::span<const collision::ContactMesh> fixed;
     // By joint. An empty mesh: this nut is tested against the jaw only.
     std::span<const collision::ContactMesh> nuts;
     std::span<const collision::ContactMesh> wrench;  // in the tool's frame

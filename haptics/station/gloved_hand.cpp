@@ -34,7 +34,7 @@ std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const
     std::vector<std::string> messages;
     if (hand.lost) messages.emplace_back(hand::message_for(hand::GraspEvent::glove_lost, hand.held));
     if (report.fault_message[0] != '\0') messages.emplace_back(report.fault_message.data());
-    if (report.handshakes > 0 && report.identity.hand != worn)
+    if (report.handshakes > 0 && report.identity.side != worn)
         messages.emplace_back(worn == hand::Side::left ? "glove: it is a right glove; expected the left "
                                                          "glove of the calibration, or a calibration of "
                                                          "this one"

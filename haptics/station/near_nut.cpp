@@ -14,8 +14,8 @@ using force::Pivot;
 
 // m. The wrench pivots about a bolt while its jaw is within pivot_radius of the axis and between pivot_below
 // under and pivot_above over the nut's range of travel; it stops at 1.5 times these distances. Further down
-// the jaw is beside the workpiece, and a rotation would push it under the workpiece's edge.
-// The guiding force aligns the jaw from the same distance (GuidingParameters::alignment_distance).
+// the jaw is beside the workpiece, and a rotation would push it under the workpiece's edge. The guiding
+// force aligns the jaw from the same distance (GuidingParameters::alignment_distance).
 constexpr double pivot_radius = 0.08, pivot_above = 0.06, pivot_below = 0.002;
 constexpr double pivot_alignment = 0.7;  // cosine of the largest angle between the tool's normal and the bolt
 constexpr double pivot_rate = 1.0;  // rad/s, at most, at which the wrench turns to a bolt that it comes near
@@ -62,7 +62,8 @@ bool is_held_back(const Pose& commanded, const servo::Output& output) {
 }
 
 // The pose `last`, square to the bolt, except that it turns by `max_turn` rad at most.
-Pose squared(const Pose& last, const Pivot& pivot, double lever_arm, const Vec3& lever_end, double max_turn) {
+Pose turned_square_to_bolt(const Pose& last, const Pivot& pivot, double lever_arm, const Vec3& lever_end,
+                           double max_turn) {
     const Vec3 normal = last.orientation * Vec3(0.0, 0.0, 1.0);
     const Vec3 axis = glm::dot(normal, pivot.axis) < 0.0 ? -pivot.axis : pivot.axis;
     const Quat to_axis =
@@ -93,7 +94,7 @@ void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationSt
     force::realign(layout.workspace, s.workspace, s.mover_pose,
                    s.output.joint >= 0
                        ? force::pivoted(pivot, s.output.constrained_tool, lever_arm, lever_end)
-                       : squared(last, pivot, lever_arm, lever_end, max_turn));
+                       : turned_square_to_bolt(last, pivot, lever_arm, lever_end, max_turn));
 }
 
 namespace {
@@ -107,7 +108,7 @@ constexpr double approach_angular_speed = 3.0;  // rad/s per N·m; slower than a
 }  // namespace
 
 void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
-                 const StationInputs& inputs, servo::Input& input) {
+                 const StationInputs& inputs, servo::TickInput& input) {
     if (!layout.mover || layout.mover->sensing != device::Sensing::velocity || renders_force(*layout.mover))
         return;
     Pose& tool = s.workspace.commanded_tool;

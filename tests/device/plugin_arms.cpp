@@ -206,7 +206,7 @@ TEST_CASE("Plug-in: an arm that calibrates for long says so, and goes on in the 
     const Bench bench;
     const OpenedArm first = bench.open_with("busy for long");
     REQUIRE_FALSE(first);
-    CHECK(preparation_of(first.error()) == Preparation{DeviceNeed::patience, {}});
+    CHECK(preparation_of(first.error()) == Preparation{DeviceNeed::wait, {}});
     CHECK(eventually([&] { return bench.open().has_value(); }));
 }
 
@@ -229,11 +229,11 @@ TEST_CASE("Plug-in: an arm without calls of the program for 50 ms renders no for
     REQUIRE(opened);
     REQUIRE((*opened)->write({Vec3(3, 0, 0), {}}));
     REQUIRE(read_many(**opened));
-    bench.show("released");  // now a zero wrench creates the file `released`
+    bench.show("released");  // now a zero command creates the file `released`
     CHECK(eventually([&] { return fs::exists(bench.folder / "released"); }));
 }
 
-TEST_CASE("Plug-in: closing it sends a zero wrench and switches the motors off") {
+TEST_CASE("Plug-in: closing it sends a zero command and switches the motors off") {
     const Bench bench;
     auto opened = bench.open();
     REQUIRE(opened);

@@ -61,7 +61,7 @@ TEST_CASE(
             Result<servo::State> state = planned->options.state(setup);
             REQUIRE(state);
             CHECK(state->tool_contact.has_value());
-            servo::Input input;
+            servo::TickInput input;
             input.commanded_tool = servo::to_commanded_tool(planned->options.home);
             input.dead_man = true;
             input.grip = servo::Grip::wrench;
@@ -85,7 +85,7 @@ TEST_CASE("Planned station: without obstacles, and on another nut") {
     const servo::Setup setup = planned->options.setup({}, 1e-3);
     Result<servo::State> state = planned->options.state(setup);
     REQUIRE(state);
-    servo::Input input;
+    servo::TickInput input;
     input.commanded_tool = servo::to_commanded_tool(planned->options.home);
     input.grip = servo::Grip::wrench;
     input.dead_man = true;

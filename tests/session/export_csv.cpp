@@ -131,7 +131,7 @@ TEST_CASE("CSV export: an exported session reads back to the same ticks") {
         const char* const obstacles[] = {"", "housing", "a \"lid\", 盖", "#2"};
         CHECK(row[22] == std::to_string(tick.contacts));
         CHECK(row[23] == obstacles[*file_number(tick.touched) + 1]);
-        CHECK(row[24] == force::name(static_cast<force::Fault>(tick.fault)));
+        CHECK(row[24] == force::message_for(static_cast<force::Fault>(tick.fault)));
         CHECK(row[12] == name(static_cast<joint::Stage>(tick.stage)));
     }
 }

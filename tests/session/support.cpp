@@ -126,7 +126,7 @@ Header sample_header(double dt) {
     header.program = "boltwright 0.1.0";
     header.guide = true;
     header.contact_models = "cover.contact.glb 12 bytes, fnv1a 00000000075bcd15";
-    header.device = force::OutputLimits{};
+    header.device_limits = force::OutputLimits{};
     header.servo_rate = 4000.0;
     header.tool = "torque_wrench";
     header.view_help = true;

@@ -91,7 +91,7 @@ GodObjectParameters coupled(double dt) {
 
 // The hand descends, presses, shakes mainly sideways for half a second at 6 Hz, and then rests.
 Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputLimits& limits, double dt) {
-    test::Arm arm;
+    test::ArmModel arm;
     arm.parameters = t.arm;
     arm.parameters.delay = limits.delay;
     arm.pose.position = arm.intention.position = t.from;
@@ -107,7 +107,7 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
         const double shake = time > 2.0 && time < 2.5 ? std::sin(2.0 * pi * 6.0 * (time - 2.0)) : 0.0;
         at += Vec3(0.01, 0.006, 0.004) * shake;
         arm.intention.position = at;
-        PortInput input;
+        DeviceInput input;
         input.pose = test::encoder_pose(arm);
         input.dead_man = true;
         step_god_object(parameters, tool, input.pose, t.scene, dt);

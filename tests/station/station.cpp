@@ -63,7 +63,7 @@ StationOptions plan_of(device::DeviceFactory mover) {
     plan.open_timeout = 60.0;
     plan.device_threads.priority = plan.servo.priority = 0;
     plan.servo.lock_memory = false;
-    plan.setup = [](const force::OutputLimits& limits, double) { return test::two_joints(limits); };
+    plan.make_setup = [](const force::OutputLimits& limits, double) { return test::two_joints(limits); };
     return plan;
 }
 

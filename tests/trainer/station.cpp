@@ -38,7 +38,7 @@ struct StationLesson {
     world::World world;
     StationClient client;
     test::VirtualBench* bench = nullptr;
-    StationIntent intent;
+    StationRequest intent;
     StepUndo undo;
     std::set<Key> down;
     fs::path file;
@@ -53,7 +53,8 @@ struct StationLesson {
         options.mode = mode;
         options.obstacles = session::Obstacles::if_any;
         file = fs::path(BOLT_TRAINER_OUT) / "station.boltwright";
-        auto one = session::prepare(assembly, options), other = session::prepare(assembly, options);
+        auto one = session::prepare_session(assembly, options),
+             other = session::prepare_session(assembly, options);
         REQUIRE(one);
         REQUIRE(other);
         auto made = std::make_unique<test::VirtualBench>(std::move(*one), options);
@@ -68,7 +69,7 @@ struct StationLesson {
             pinch(false);
         }
 
-        options.device = bench->setup().limits;
+        options.device_limits = bench->setup().limits;
         session::set_device_limits(options, *other);
         auto begun = session::LessonSession::begin(std::move(*other), options, file);
         REQUIRE(begun);
@@ -103,10 +104,10 @@ struct StationLesson {
                 observe(undo, session->lesson(), event);
             }
         }
-        StationIntent now = intent;
+        StationRequest now = intent;
         now.paused = now.paused || !continues(undo, *session);
         now.undo = steps_to_undo(undo, session->lesson());
-        const Status sent = send_intent(client, *session, now);
+        const Status sent = send_request(client, *session, now);
         CHECK(sent);
         intent.toggle_wrench = intent.recentre = false;
     }
@@ -405,17 +406,17 @@ TEST_CASE("Station client: only a gloved hand has a limited twist") {
     client.latest.input.grip = servo::Grip::fingers;
     client.nut_angle_at_grip = 40.0;
     client.latest.output.nut_angle = 40.0;
-    CHECK(hand_of(client).room == doctest::Approx(forearm_range));
+    CHECK(hand_of(client).free_swing == doctest::Approx(forearm_range));
     client.latest.output.nut_angle = 40.0 + to_radians(119.0);
-    CHECK(hand_of(client).room == doctest::Approx(to_radians(1.0)));
+    CHECK(hand_of(client).free_swing == doctest::Approx(to_radians(1.0)));
     client.latest.output.nut_angle = 40.0 - to_radians(150.0);
-    CHECK(hand_of(client).room == 0.0);
+    CHECK(hand_of(client).free_swing == 0.0);
     client.latest.input.grip = servo::Grip::wrench;
-    CHECK(std::isinf(hand_of(client).room));
+    CHECK(std::isinf(hand_of(client).free_swing));
     client.latest.input.grip = servo::Grip::fingers;
     client.gloved = false;
-    CHECK(std::isinf(hand_of(client).room));
+    CHECK(std::isinf(hand_of(client).free_swing));
     client.gloved = true;
     client.latest.output.joint = -1;
-    CHECK(std::isinf(hand_of(client).room));
+    CHECK(std::isinf(hand_of(client).free_swing));
 }

@@ -86,8 +86,8 @@ Result<PluginReply> ArmProcess::call(PluginCall function, int argument) {
     return *replied;
 }
 
-Status ArmProcess::begin_exchange(const bw_arm_wrench_v1& wrench) {
-    return request(PluginCall::exchange, 0, wrench);
+Status ArmProcess::begin_exchange(const bw_arm_command_v1& command) {
+    return request(PluginCall::exchange, 0, command);
 }
 
 Result<std::optional<PluginReply>> ArmProcess::finish_exchange(double timeout) {
@@ -96,8 +96,8 @@ Result<std::optional<PluginReply>> ArmProcess::finish_exchange(double timeout) {
     return replied;
 }
 
-Status ArmProcess::request(PluginCall function, int argument, const bw_arm_wrench_v1& wrench) {
-    const PluginRequest request{function, argument, wrench};
+Status ArmProcess::request(PluginCall function, int argument, const bw_arm_command_v1& command) {
+    const PluginRequest request{function, argument, command};
     function_ = function;
     if (!child_ || !child_->send(std::as_bytes(std::span(&request, 1)))) return fail(ended());
     waiting_ = true;

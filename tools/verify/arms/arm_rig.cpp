@@ -116,7 +116,7 @@ Pose ArmRig::device_pose(const Pose& tool) const {
             glm::normalize(back * tool.orientation * glm::conjugate(w.tool_to_device))};
 }
 
-double ArmRig::contact_force() const { return glm::length(servo.tool_contact->god_object.felt.force); }
+double ArmRig::contact_force() const { return glm::length(servo.tool_contact->god_object.rendered.force); }
 
 double ArmRig::coupling_stiffness() const {
     const force::WorkspaceMap& w = layout.workspace;
