@@ -138,7 +138,7 @@ tl::unexpected<Error> write_error(const std::string& out_name, int reason) {
     Error error;
     error.file = out_name;
     error.what = std::string("cannot be written: ") + std::strerror(reason);
-    error.expected = "a folder with write permission and free space";
+    error.expected = "a destination that accepts more data";
     return fail(std::move(error));
 }
 

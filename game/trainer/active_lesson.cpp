@@ -250,7 +250,7 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
                             "frames that are short enough for the queue of ticks: close other programs or "
                             "lower the resolution");
     const Status sent =
-        send_request(client, *active.session,
+        send_actions(client, *active.session,
                      {active.clock.paused || active.clock.finished || !continues(active),
                       frame.input.triggered(Action::tool), frame.input.triggered(Action::recentre),
                       steps_to_undo(active.undo, active.session->lesson()), viewer_heading(active)});

@@ -132,7 +132,7 @@ lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys
                                    const StationClient* client);
 
 // The user's input for the station in one frame.
-struct StationRequest {
+struct UserActions {
     bool paused = false;
     bool toggle_wrench = false;       // the key that takes the wrench or lays it down
     bool recentre = false;            // move the tool to its initial pose
@@ -141,8 +141,8 @@ struct StationRequest {
 };
 // Call once a frame: reads the latest tick and sends controls and commands. Fails if the station's command
 // queue is full.
-[[nodiscard]] Status send_request(StationClient& client, const session::LessonSession& session,
-                                  const StationRequest& intent);
+[[nodiscard]] Status send_actions(StationClient& client, const session::LessonSession& session,
+                                  const UserActions& actions);
 
 // Returns true if a device renders forces, which then requires a dead-man switch: a button, or the tool in a
 // gloved hand.

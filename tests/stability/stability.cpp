@@ -111,11 +111,11 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
         input.pose = test::encoder_pose(arm);
         input.dead_man = true;
         step_god_object(parameters, tool, input.pose, t.scene, dt);
-        const ForceRequest request{tool.felt, stored_energy(parameters.coupling, tool.offset)};
+        const ForceRequest request{tool.rendered, stored_energy(parameters.coupling, tool.offset)};
         test::step(arm, render(limits, stage, input, request, dt), dt);
         outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_out);
         outcome.deepest = std::min(outcome.deepest, clearance(t.scene, tool.constrained_tool));
-        outcome.touched = outcome.touched || glm::length(tool.felt.force) > 0.2;
+        outcome.touched = outcome.touched || glm::length(tool.rendered.force) > 0.2;
         const double places[] = {arm.pose.position.z, (arm.pose * Vec3(-0.23, 0, 0)).z};
         for (int i = 0; i < 2; ++i) {
             if (time >= 2.6 && time < 3.1) early[i].add(places[i]);

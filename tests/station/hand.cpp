@@ -130,7 +130,7 @@ TEST_CASE("Gloved hand: messages name its problems, worst first") {
     report.fault_message[0] = '\0';
     report.identity.side = hand::Side::left;
     REQUIRE(messages({}, hand::Side::right, report).size() == 1);
-    CHECK(messages({}, hand::Side::right, report)[0].find("is a left one") != std::string::npos);
+    CHECK(messages({}, hand::Side::right, report)[0].find("it is a left glove") != std::string::npos);
     CHECK(messages({}, hand::Side::left, report).empty());
 }
 

@@ -260,8 +260,9 @@ TEST_CASE("Station: a glove of the wrong side is reported; a gloved hand without
     plan.glove = line->port();
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
-    REQUIRE(eventually(
-        [&] { return joined_lines(station->fault_messages()).find("is a left one") != std::string::npos; }));
+    REQUIRE(eventually([&] {
+        return joined_lines(station->fault_messages()).find("it is a left glove") != std::string::npos;
+    }));
     StationOptions bare = plan_of(puck.factory());
     bare.hand = test::hand_at_bar();
     CHECK_FALSE(Station::start(std::move(bare)));

@@ -38,7 +38,7 @@ struct StationLesson {
     world::World world;
     StationClient client;
     test::VirtualBench* bench = nullptr;
-    StationRequest intent;
+    UserActions actions;
     StepUndo undo;
     std::set<Key> down;
     fs::path file;
@@ -104,12 +104,12 @@ struct StationLesson {
                 observe(undo, session->lesson(), event);
             }
         }
-        StationRequest now = intent;
+        UserActions now = actions;
         now.paused = now.paused || !continues(undo, *session);
         now.undo = steps_to_undo(undo, session->lesson());
-        const Status sent = send_request(client, *session, now);
+        const Status sent = send_actions(client, *session, now);
         CHECK(sent);
-        intent.toggle_wrench = intent.recentre = false;
+        actions.toggle_wrench = actions.recentre = false;
     }
     void frames(double seconds) {
         for (double t = 0.0; t < seconds; t += frame_time) next_frame();
@@ -184,7 +184,7 @@ class KeyboardTrainee {
     }
     [[nodiscard]] bool with_gripper() const { return lesson_.bench->layout().mover->senses_gripper; }
     void lay_down() {
-        lesson_.intent.toggle_wrench = !with_gripper();
+        lesson_.actions.toggle_wrench = !with_gripper();
         holds_wrench_ = false;
         if (with_gripper()) hold_for_frame({});
         if (lesson_.client.gloved) lesson_.bench->hand_->held = false;
@@ -348,13 +348,13 @@ TEST_CASE("Station client: a pause stops the lesson, and undo works as with the 
     REQUIRE(lesson_run.session->lesson().current == 1);
     const std::size_t first = lesson_run.session->lesson().steps[0].joint;
     REQUIRE(lesson_run.session->state().joints[first].nut.angle > 6.0);
-    lesson_run.intent.paused = true;
+    lesson_run.actions.paused = true;
     lesson_run.frames(0.1);
     const double before = lesson_run.session->time();
     lesson_run.hold({Key::d});
     lesson_run.frames(1.0);
     CHECK(lesson_run.session->time() == before);
-    lesson_run.intent.paused = false;
+    lesson_run.actions.paused = false;
     lesson_run.hold({});
     request_undo(lesson_run.undo, lesson_run.session->lesson(), 1);
     lesson_run.frames(0.5);

@@ -79,7 +79,7 @@ ArmRig::ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options)
     stiffen(servo.tool_contact->parameters.coupling, options.coupling_factor);
     station = station::initial_state(layout);
     inputs.mover.usable = true;
-    inputs.mover.opening = 1;
+    inputs.mover.connection_number = 1;
     inputs.controls.dead_man = true;
     inputs.controls.grip = servo::Grip::wrench;
     inputs.controls.guide = static_cast<std::int16_t>(options.guided_joint);
