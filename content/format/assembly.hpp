@@ -102,7 +102,7 @@ struct FlangeDesign {
 };
 
 // A named point of view.
-struct Viewpoint {
+struct NamedView {
     std::string name;
     Vec3 eye{0.0};               // m
     Vec3 target{0.0};            // m
@@ -134,7 +134,7 @@ struct Assembly {
     WrenchDesign wrench;      // of the chosen tool
     FlangeDesign flange;
     ModelFiles models;
-    std::vector<Viewpoint> views;
+    std::vector<NamedView> views;
 };
 
 // An assembly without errors, or all errors of the file in the order of the file. Each error has

@@ -115,10 +115,10 @@ FlangeDesign read_flange(JsonReader& reader) {
     return flange;
 }
 
-std::vector<Viewpoint> read_views(JsonReader& reader) {
-    std::vector<Viewpoint> views;
+std::vector<NamedView> read_views(JsonReader& reader) {
+    std::vector<NamedView> views;
     for (const JsonNode& node : reader.items(reader.member(reader.root(), "views"))) {
-        Viewpoint view;
+        NamedView view;
         const JsonNode name = reader.member(node, "name");
         view.name = reader.text(name).value_or("");
         view.eye = reader.vector(reader.member(node, "eye_mm")).value_or(Vec3{0.0}) * mm;
@@ -127,7 +127,7 @@ std::vector<Viewpoint> read_views(JsonReader& reader) {
         if (const auto angle = reader.number(reader.member(node, "field_of_view_deg")))
             view.field_of_view = to_radians(*angle);
         if (name &&
-            std::any_of(views.begin(), views.end(), [&](const Viewpoint& v) { return v.name == view.name; }))
+            std::any_of(views.begin(), views.end(), [&](const NamedView& v) { return v.name == view.name; }))
             reader.report(name.pointer, fmt::format("there are two views {}", in_quotes(view.name)),
                           "a name of its own");
         const Vec3 line_of_sight = view.target - view.eye;

@@ -154,7 +154,7 @@ joint::JointDesign read_design(const LayeredObject& layers, const YoungsModuli& 
     design.misfit = layers.number("misfit_um").value_or(design.misfit / um) * um;
     design.embedding_time = layers.number("embedding_time_s").value_or(design.embedding_time);
     design.prevailing_torque = layers.number("prevailing_torque_Nm").value_or(0.0);
-    design.running_torque = layers.number("running_torque_Nm").value_or(design.running_torque);
+    design.running_drag = layers.number("running_torque_Nm").value_or(design.running_drag);
     design.nut_mass = layers.number("nut_mass_g").value_or(0.0) * 1e-3;
     const double started =
         design.bolt_length - design.grip_length() - started_turns * design.thread.thread.pitch;

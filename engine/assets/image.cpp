@@ -28,14 +28,14 @@ void append(void* context, void* data, int size) {
                                                static_cast<std::size_t>(size));
 }
 
-tl::unexpected<Error> image_error(const Image& image, const std::string& why, std::string expected = {}) {
+tl::unexpected<Error> image_error(const Bitmap& image, const std::string& why, std::string expected = {}) {
     return fail(ErrorCode::bad_content, "the image " + (image.name.empty() ? "" : image.name + " ") + why,
                 std::move(expected));
 }
 
 }  // namespace
 
-Status decode(Image& image) {
+Status decode(Bitmap& image) {
     if (!image.pixels.empty()) return {};
     const auto* bytes = image.encoded.data();
     if (image.encoded.size() > (std::size_t{1} << 30U)) return image_error(image, "is larger than 1 GiB");

@@ -16,7 +16,7 @@ namespace bolt::assets {
 
 // Fills `pixels`, `width`, `height` and `channels` from `encoded`, which is kept. Does nothing if the image
 // is already decoded. Fails above 16384 pixels per side or 64 Mi pixels in total.
-Status decode(Image& image);
+Status decode(Bitmap& image);
 
 // Returns the bytes of a PNG file, the same for the same pixels. `pixels`: rows from the top, 1 to 4
 // channels.

@@ -106,7 +106,7 @@ struct Material {
 };
 
 // The bytes of a PNG or JPEG file, decoded pixels, or both. Empty `pixels`: not decoded.
-struct Image {
+struct Bitmap {
     std::string name = {}, mime_type = {};
     std::vector<std::uint8_t> encoded = {};
     int width = 0, height = 0, channels = 0;
@@ -169,7 +169,7 @@ struct Model {
     std::vector<Mesh> meshes = {};
     std::vector<Material> materials = {};
     std::vector<Texture> textures = {};
-    std::vector<Image> images = {};
+    std::vector<Bitmap> images = {};
     std::vector<Skin> skins = {};
     std::vector<Light> lights = {};
     std::vector<Camera> cameras = {};

@@ -156,7 +156,7 @@ VkSamplerAddressMode address_mode(assets::Wrap wrap) {
 }
 
 // Converts to eight bits and four channels.
-std::vector<std::uint8_t> four_channels(const assets::Image& image) {
+std::vector<std::uint8_t> four_channels(const assets::Bitmap& image) {
     const auto count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
     const auto channels = static_cast<std::size_t>(image.channels);
     std::vector<std::uint8_t> texels(4 * count, 255);
@@ -251,7 +251,7 @@ Result<std::vector<GpuTexture>> upload_textures(gpu::Device& device, const asset
             textures.push_back(std::move(white));
             continue;
         }
-        assets::Image image = model.images[static_cast<std::size_t>(texture.image)];
+        assets::Bitmap image = model.images[static_cast<std::size_t>(texture.image)];
         BOLT_TRY(assets::decode(image));
         BOLT_TRY_ASSIGN(auto uploaded, upload_texels(device, static_cast<std::uint32_t>(image.width),
                                                      static_cast<std::uint32_t>(image.height), color[i],

@@ -12,7 +12,7 @@ namespace bolt::xr {
 namespace {
 
 // s until the next search: short while no headset is found; longer after each session that cannot be started,
-// because each attempt makes all objects on the GPU anew.
+// because each attempt creates all objects on the GPU again.
 constexpr double short_interval = 1.0, longest_interval = 60.0;
 constexpr double exit_timeout = 2.0;  // s in which the session passes through its last states
 
@@ -65,7 +65,7 @@ void Headset::begin(gpu::Device& device) {
         return;
     }
     session_ = std::move(*session);
-    Result<std::unique_ptr<Input>> input = Input::create(*session_, options_.names);
+    Result<std::unique_ptr<XrInput>> input = XrInput::create(*session_, options_.names);
     if (!input) {
         (void)keep(fail(input.error()));
         return;

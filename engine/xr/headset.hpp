@@ -1,6 +1,6 @@
 // A headset that may be absent, appear, be lost and return while the program runs. After a loss the program
-// goes on without it, with the GPU objects that it has; the headset returns with a new runtime instance, for
-// which Vulkan's instance and device must be created anew.
+// continues without it, with the GPU objects that it has; the headset returns with a new runtime instance,
+// for which Vulkan's instance and device must be created again.
 #pragma once
 
 #include <functional>
@@ -58,10 +58,10 @@ class Headset {
     // The user has ended the program in the headset's own menu.
     [[nodiscard]] bool exit_requested() const { return exit_requested_; }
 
-    // Follows the runtime, and begins a frame if it is time; waits at most `timeout` s for that.
+    // Polls the runtime's events, and begins a frame if one is due; waits at most `timeout` s for that.
     std::optional<HeadsetFrame> begin_frame(double timeout);
-    // Call once, after the other work on the frame and before drawing: the later, the nearer is the picture
-    // to the pose of the head when it is seen. Updates `frame.view`.
+    // Updates `frame.view`. Call it once, as late as possible before drawing: the later the call, the smaller
+    // the error of the predicted head pose.
     void locate(HeadsetFrame& frame);
     // Copies the pictures of the eyes, which were drawn for `frame.view`, into the headset's.
     void record(VkCommandBuffer commands, std::span<const EyePicture> pictures);
@@ -73,11 +73,11 @@ class Headset {
     // Valid while connected.
     [[nodiscard]] const Session& session() const { return *session_; }
     [[nodiscard]] const Runtime& runtime() const { return *runtime_; }
-    [[nodiscard]] const Input& input() const { return *input_; }
+    [[nodiscard]] const XrInput& input() const { return *input_; }
 
   private:
     void log(const std::string& line) const;
-    // Drops the headset if the status is an error. Returns whether it succeeded.
+    // Drops the headset if the status is an error. Returns true if it succeeded.
     bool keep(const Status& status);
     void drop();
     std::vector<SessionEvent> take_events(XrTime time);
@@ -85,10 +85,12 @@ class Headset {
     HeadsetOptions options_;
     std::unique_ptr<Runtime> runtime_;
     std::unique_ptr<Session> session_;
-    std::unique_ptr<Input> input_;
+    std::unique_ptr<XrInput> input_;
     std::vector<SessionEvent> events_;
     std::optional<Error> absence_;
-    std::optional<Error> failed_;  // a call beside the frame; the frame that is drawn may use the session
+    // Error of vibrate(). The session is dropped at the end of the frame, because commands that are recorded
+    // may use its images.
+    std::optional<Error> failed_;
     std::optional<double> last_search_;
     double search_interval_ = 1.0;  // s
     bool exit_requested_ = false;

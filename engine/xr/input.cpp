@@ -80,14 +80,15 @@ void set_text(char (&target)[size], const std::string& text) {
 
 Result<XrPath> path_of(XrInstance instance, const std::string& text) {
     XrPath path = XR_NULL_PATH;
-    BOLT_TRY(check(xrStringToPath(instance, text.c_str(), &path), text));
+    BOLT_TRY(
+        check(xrStringToPath(instance, text.c_str(), &path), fmt::format("xrStringToPath(\"{}\")", text)));
     return path;
 }
 
 }  // namespace
 
-Result<std::unique_ptr<Input>> Input::create(Session& session, const ActionNames& names) {
-    std::unique_ptr<Input> input(new Input());
+Result<std::unique_ptr<XrInput>> XrInput::create(Session& session, const ActionNames& names) {
+    std::unique_ptr<XrInput> input(new XrInput());
     input->session_ = &session;
     BOLT_TRY(input->create_actions(names));
     BOLT_TRY(input->suggest_bindings());
@@ -95,13 +96,13 @@ Result<std::unique_ptr<Input>> Input::create(Session& session, const ActionNames
     return input;
 }
 
-Input::~Input() {
+XrInput::~XrInput() {
     const PFN_xrDestroyHandTrackerEXT destroy = session_->runtime().functions().destroy_hand_tracker;
     for (const XrHandTrackerEXT tracker : trackers_)
         if (tracker != XR_NULL_HANDLE) (void)destroy(tracker);
 }
 
-Status Input::create_actions(const ActionNames& names) {
+Status XrInput::create_actions(const ActionNames& names) {
     const XrInstance instance = session_->runtime().instance();
     for (std::size_t side = 0; side < 2; ++side) {
         BOLT_TRY_ASSIGN(hands_[side], path_of(instance, hand_paths[side]));
@@ -110,7 +111,7 @@ Status Input::create_actions(const ActionNames& names) {
     set_text(set.actionSetName, "assembly");
     set_text(set.localizedActionSetName, names.set);
     XrActionSet raw = XR_NULL_HANDLE;
-    BOLT_TRY(check(xrCreateActionSet(instance, &set, &raw), "creating the controllers' actions"));
+    BOLT_TRY(check(xrCreateActionSet(instance, &set, &raw), "xrCreateActionSet"));
     set_ = ActionSetHandle(raw);
     const auto make = [&](XrAction& action, const char* name, const std::string& shown, XrActionType type) {
         XrActionCreateInfo info{XR_TYPE_ACTION_CREATE_INFO};
@@ -119,7 +120,7 @@ Status Input::create_actions(const ActionNames& names) {
         info.actionType = type;
         info.countSubactionPaths = static_cast<std::uint32_t>(hands_.size());
         info.subactionPaths = hands_.data();
-        return check(xrCreateAction(set_.get(), &info, &action), "creating the controllers' actions");
+        return check(xrCreateAction(set_.get(), &info, &action), "xrCreateAction");
     };
     BOLT_TRY(make(grip_, "grip", names.grip, XR_ACTION_TYPE_POSE_INPUT));
     BOLT_TRY(make(aim_, "aim", names.aim, XR_ACTION_TYPE_POSE_INPUT));
@@ -131,7 +132,7 @@ Status Input::create_actions(const ActionNames& names) {
     return make(vibrate_, "vibrate", names.vibrate, XR_ACTION_TYPE_VIBRATION_OUTPUT);
 }
 
-Status Input::suggest_bindings() {
+Status XrInput::suggest_bindings() {
     const XrInstance instance = session_->runtime().instance();
     for (const Profile& profile : controller_profiles) {
         if (profile.needs_hand_interaction && !session_->runtime().extensions().hand_interaction) continue;
@@ -161,17 +162,19 @@ Status Input::suggest_bindings() {
         const XrResult accepted = xrSuggestInteractionProfileBindings(instance, &suggested);
         if (accepted == XR_SUCCESS) profiles_.emplace_back(profile.path);
         // A runtime rejects controllers that it does not know; the others still work.
-        if (accepted != XR_ERROR_PATH_UNSUPPORTED) BOLT_TRY(check(accepted, profile.path));
+        if (accepted != XR_ERROR_PATH_UNSUPPORTED)
+            BOLT_TRY(
+                check(accepted, fmt::format("xrSuggestInteractionProfileBindings(\"{}\")", profile.path)));
     }
     return {};
 }
 
-Status Input::attach() {
+Status XrInput::attach() {
     const XrActionSet raw = set_.get();
     XrSessionActionSetsAttachInfo info{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO};
     info.countActionSets = 1;
     info.actionSets = &raw;
-    BOLT_TRY(check(xrAttachSessionActionSets(session_->get(), &info), "attaching the controllers' actions"));
+    BOLT_TRY(check(xrAttachSessionActionSets(session_->get(), &info), "xrAttachSessionActionSets"));
     const ExtensionFunctions& functions = session_->runtime().functions();
     for (std::size_t side = 0; side < 2; ++side) {
         const auto make_space = [&](XrAction action, SpaceHandle& space) -> Status {
@@ -180,8 +183,7 @@ Status Input::attach() {
             create.subactionPath = hands_[side];
             create.poseInActionSpace = {{0, 0, 0, 1}, {0, 0, 0}};
             XrSpace created = XR_NULL_HANDLE;
-            BOLT_TRY(
-                check(xrCreateActionSpace(session_->get(), &create, &created), "creating a hand's space"));
+            BOLT_TRY(check(xrCreateActionSpace(session_->get(), &create, &created), "xrCreateActionSpace"));
             space = SpaceHandle(created);
             return {};
         };
@@ -194,37 +196,38 @@ Status Input::attach() {
         const XrResult tracked = functions.create_hand_tracker(session_->get(), &tracker, &trackers_[side]);
         if (XR_SUCCEEDED(tracked)) continue;
         trackers_[side] = XR_NULL_HANDLE;  // the controllers remain
-        if (const Status status = check(tracked, "tracking a hand"); status.error().lost) return status;
+        if (const Status status = check(tracked, "xrCreateHandTrackerEXT"); status.error().lost)
+            return status;
     }
     return {};
 }
 
-Result<std::optional<TrackedPose>> Input::locate(XrSpace space, XrTime time) const {
+Result<std::optional<TrackedPose>> XrInput::locate(XrSpace space, XrTime time) const {
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
-    BOLT_TRY(check(xrLocateSpace(space, session_->space(), time, &location), "locating a hand"));
+    BOLT_TRY(check(xrLocateSpace(space, session_->space(), time, &location), "xrLocateSpace"));
     if ((location.locationFlags & pose_valid) != pose_valid) return std::nullopt;
     return TrackedPose{to_pose(location.pose), (location.locationFlags & pose_tracked) == pose_tracked};
 }
 
-Result<float> Input::value(XrAction action, Side side) const {
+Result<float> XrInput::value(XrAction action, Side side) const {
     XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
     info.action = action;
     info.subactionPath = hands_[static_cast<std::size_t>(side)];
     XrActionStateFloat state{XR_TYPE_ACTION_STATE_FLOAT};
-    BOLT_TRY(check(xrGetActionStateFloat(session_->get(), &info, &state), "reading a controller"));
+    BOLT_TRY(check(xrGetActionStateFloat(session_->get(), &info, &state), "xrGetActionStateFloat"));
     return state.isActive == XR_TRUE ? state.currentState : 0.0F;
 }
 
-Result<bool> Input::pressed(XrAction action, Side side) const {
+Result<bool> XrInput::pressed(XrAction action, Side side) const {
     XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
     info.action = action;
     info.subactionPath = hands_[static_cast<std::size_t>(side)];
     XrActionStateBoolean state{XR_TYPE_ACTION_STATE_BOOLEAN};
-    BOLT_TRY(check(xrGetActionStateBoolean(session_->get(), &info, &state), "reading a controller"));
+    BOLT_TRY(check(xrGetActionStateBoolean(session_->get(), &info, &state), "xrGetActionStateBoolean"));
     return state.isActive == XR_TRUE && state.currentState == XR_TRUE;
 }
 
-Status Input::read_joints(const FrameTiming& frame, Side side, HandInput& hand) {
+Status XrInput::read_joints(const FrameTiming& frame, Side side, HandInput& hand) {
     const XrHandTrackerEXT tracker = trackers_[static_cast<std::size_t>(side)];
     if (tracker == XR_NULL_HANDLE) return {};
     std::array<XrHandJointLocationEXT, hand_joint_count> located{};
@@ -235,7 +238,7 @@ Status Input::read_joints(const FrameTiming& frame, Side side, HandInput& hand) 
     info.baseSpace = session_->space();
     info.time = frame.display_time;
     BOLT_TRY(check(session_->runtime().functions().locate_hand_joints(tracker, &info, &locations),
-                   "locating the joints of a hand"));
+                   "xrLocateHandJointsEXT"));
     if (locations.isActive != XR_TRUE) return {};
     HandJoints joints;
     bool any = false;
@@ -251,13 +254,13 @@ Status Input::read_joints(const FrameTiming& frame, Side side, HandInput& hand) 
     return {};
 }
 
-Status Input::read_hand(const FrameTiming& frame, Side side, HandInput& hand) {
+Status XrInput::read_hand(const FrameTiming& frame, Side side, HandInput& hand) {
     const auto index = static_cast<std::size_t>(side);
     XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
     info.action = grip_;
     info.subactionPath = hands_[index];
     XrActionStatePose state{XR_TYPE_ACTION_STATE_POSE};
-    BOLT_TRY(check(xrGetActionStatePose(session_->get(), &info, &state), "reading a controller"));
+    BOLT_TRY(check(xrGetActionStatePose(session_->get(), &info, &state), "xrGetActionStatePose"));
     BOLT_TRY(read_joints(frame, side, hand));
     hand.active = state.isActive == XR_TRUE || hand.joints.has_value();
     if (state.isActive != XR_TRUE) return {};
@@ -269,30 +272,30 @@ Status Input::read_hand(const FrameTiming& frame, Side side, HandInput& hand) {
     BOLT_TRY_ASSIGN(hand.secondary, pressed(secondary_, side));
     info.action = stick_;
     XrActionStateVector2f stick{XR_TYPE_ACTION_STATE_VECTOR2F};
-    BOLT_TRY(check(xrGetActionStateVector2f(session_->get(), &info, &stick), "reading a controller"));
+    BOLT_TRY(check(xrGetActionStateVector2f(session_->get(), &info, &stick), "xrGetActionStateVector2f"));
     if (stick.isActive == XR_TRUE) hand.stick = {stick.currentState.x, stick.currentState.y};
     return {};
 }
 
-Result<Hands> Input::read(const FrameTiming& frame) {
+Result<Hands> XrInput::read(const FrameTiming& frame) {
     Hands hands;
     const XrActiveActionSet active{set_.get(), XR_NULL_PATH};
     XrActionsSyncInfo sync{XR_TYPE_ACTIONS_SYNC_INFO};
     sync.countActiveActionSets = 1;
     sync.activeActionSets = &active;
     const XrResult synced = xrSyncActions(session_->get(), &sync);
-    BOLT_TRY(check(synced, "reading the controllers"));
+    BOLT_TRY(check(synced, "xrSyncActions"));
     if (synced == XR_SESSION_NOT_FOCUSED) return hands;
     for (const Side side : {Side::left, Side::right}) BOLT_TRY(read_hand(frame, side, hands[side]));
     return hands;
 }
 
-Status Input::vibrate(Side side, const Vibration& vibration) {
+Status XrInput::vibrate(Side side, const Vibration& vibration) {
     XrHapticActionInfo info{XR_TYPE_HAPTIC_ACTION_INFO};
     info.action = vibrate_;
     info.subactionPath = hands_[static_cast<std::size_t>(side)];
     if (!(vibration.amplitude > 0.0F))
-        return check(xrStopHapticFeedback(session_->get(), &info), "stopping a vibration");
+        return check(xrStopHapticFeedback(session_->get(), &info), "xrStopHapticFeedback");
     XrHapticVibration haptic{XR_TYPE_HAPTIC_VIBRATION};
     haptic.amplitude = std::min(vibration.amplitude, 1.0F);
     haptic.frequency = vibration.frequency > 0.0F ? vibration.frequency : XR_FREQUENCY_UNSPECIFIED;
@@ -300,20 +303,20 @@ Status Input::vibrate(Side side, const Vibration& vibration) {
         vibration.duration > 0.0 ? static_cast<XrDuration>(1e9 * vibration.duration) : XR_MIN_HAPTIC_DURATION;
     return check(
         xrApplyHapticFeedback(session_->get(), &info, reinterpret_cast<const XrHapticBaseHeader*>(&haptic)),
-        "vibrating a controller");
+        "xrApplyHapticFeedback");
 }
 
-Result<std::string> Input::profile(Side side) const {
+Result<std::string> XrInput::profile(Side side) const {
     XrInteractionProfileState state{XR_TYPE_INTERACTION_PROFILE_STATE};
     BOLT_TRY(
         check(xrGetCurrentInteractionProfile(session_->get(), hands_[static_cast<std::size_t>(side)], &state),
-              "querying a controller"));
+              "xrGetCurrentInteractionProfile"));
     if (state.interactionProfile == XR_NULL_PATH) return std::string();
     std::array<char, XR_MAX_PATH_LENGTH> text{};
     std::uint32_t length = 0;
     BOLT_TRY(check(xrPathToString(session_->runtime().instance(), state.interactionProfile,
                                   static_cast<std::uint32_t>(text.size()), &length, text.data()),
-                   "querying a controller"));
+                   "xrPathToString"));
     return std::string(text.data());
 }
 

@@ -1,4 +1,4 @@
-// The trainee's hands in a headset's session: controllers as intents (OpenXR actions), tracked hands, and the
+// The trainee's hands in a headset's session: controllers as OpenXR actions, tracked hands, and the
 // vibration of controllers.
 #pragma once
 
@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/side.hpp"
 #include "engine/xr/session.hpp"
 
 namespace bolt::xr {
 
-enum class Side : std::uint8_t { left, right };
+using bolt::Side;
 
 struct TrackedPose {
     Pose pose;             // in the session's base space
@@ -29,7 +30,7 @@ struct HandJoint {
 };
 using HandJoints = std::array<HandJoint, hand_joint_count>;
 
-// One hand in one frame. Without focus, or without a controller or tracked hand, nothing of it is active.
+// One hand in one frame. Without focus, or without a controller or tracked hand, `active` is false.
 struct HandInput {
     bool active = false;
     std::optional<TrackedPose> grip;  // origin in the palm; −Z to the thumb's side of a closed fist, X out of
@@ -64,14 +65,14 @@ struct ActionNames {
                 vibrate = "Vibration";
 };
 
-class Input {
+class XrInput {
   public:
     // Suggests bindings for the common controllers and attaches the actions to the session. A session can be
     // given an input once.
-    static Result<std::unique_ptr<Input>> create(Session& session, const ActionNames& names);
-    Input(const Input&) = delete;
-    Input& operator=(const Input&) = delete;
-    ~Input();
+    static Result<std::unique_ptr<XrInput>> create(Session& session, const ActionNames& names);
+    XrInput(const XrInput&) = delete;
+    XrInput& operator=(const XrInput&) = delete;
+    ~XrInput();
 
     // The hands at the time of a frame.
     Result<Hands> read(const FrameTiming& frame);
@@ -83,7 +84,7 @@ class Input {
     [[nodiscard]] Result<std::string> profile(Side side) const;
 
   private:
-    Input() = default;
+    XrInput() = default;
     Status create_actions(const ActionNames& names);
     Status suggest_bindings();
     Status attach();

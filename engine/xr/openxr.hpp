@@ -21,10 +21,10 @@ namespace bolt::xr {
 // Returns the name in the specification: "XR_ERROR_SESSION_LOST".
 std::string_view name(XrResult result);
 
-// Returns an Error for every negative result. `what`: the operation that failed. A missing runtime or headset
-// and a lost one have the code no_device; Error::lost is set if the instance or the session was lost, after
-// which only destroying it succeeds.
-Status check(XrResult result, std::string_view what);
+// Returns an Error for every negative result. `function`: its name, such as "xrBeginFrame". A missing runtime
+// or headset and a lost one have the code no_device; Error::lost is set if the instance or the session was
+// lost, after which only destroying it succeeds.
+Status check(XrResult result, std::string_view function);
 
 // A pose in metres. The orientation is normalised, because runtimes send it with rounding errors.
 inline Pose to_pose(const XrPosef& pose) {

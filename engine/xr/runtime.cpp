@@ -20,7 +20,7 @@ std::string_view name(XrResult result) {
     }
 }
 
-Status check(XrResult result, std::string_view what) {
+Status check(XrResult result, std::string_view function) {
     if (XR_SUCCEEDED(result)) return {};
     const bool lost = result == XR_ERROR_INSTANCE_LOST || result == XR_ERROR_SESSION_LOST;
     const bool missing = result == XR_ERROR_RUNTIME_UNAVAILABLE || result == XR_ERROR_RUNTIME_FAILURE ||
@@ -28,7 +28,8 @@ Status check(XrResult result, std::string_view what) {
                          result == XR_ERROR_FORM_FACTOR_UNSUPPORTED;
     Error error;
     error.code = lost || missing ? ErrorCode::no_device : ErrorCode::failed;
-    error.what = fmt::format("{}: {}", what, name(result));
+    error.what = fmt::format("OpenXR: {} returned {}", function, name(result));
+    error.expected = "XR_SUCCESS";
     error.lost = lost;
     return fail(std::move(error));
 }
@@ -130,7 +131,7 @@ Status Runtime::create_xr_instance() {
     instance_ = InstanceHandle(raw);
 
     XrInstanceProperties properties{XR_TYPE_INSTANCE_PROPERTIES};
-    BOLT_TRY(check(xrGetInstanceProperties(raw, &properties), "querying the OpenXR runtime"));
+    BOLT_TRY(check(xrGetInstanceProperties(raw, &properties), "xrGetInstanceProperties"));
     name_ =
         fmt::format("{} {}.{}.{}", properties.runtimeName, XR_VERSION_MAJOR(properties.runtimeVersion),
                     XR_VERSION_MINOR(properties.runtimeVersion), XR_VERSION_PATCH(properties.runtimeVersion));
@@ -148,10 +149,10 @@ Status Runtime::find_headset() {
         error.expected = "a headset that is switched on and connected";
         return fail(std::move(error));
     }
-    BOLT_TRY(check(found, "finding the headset"));
+    BOLT_TRY(check(found, "xrGetSystem"));
     XrSystemHandTrackingPropertiesEXT hands{XR_TYPE_SYSTEM_HAND_TRACKING_PROPERTIES_EXT};
     if (extensions_.hand_tracking) properties_.next = &hands;
-    BOLT_TRY(check(xrGetSystemProperties(instance_.get(), system_, &properties_), "querying the headset"));
+    BOLT_TRY(check(xrGetSystemProperties(instance_.get(), system_, &properties_), "xrGetSystemProperties"));
     properties_.next = nullptr;
     extensions_.hand_tracking = extensions_.hand_tracking && hands.supportsHandTracking == XR_TRUE;
     headset_ = properties_.systemName;
@@ -179,7 +180,7 @@ Status Runtime::choose_views() {
                   [&](std::uint32_t capacity, std::uint32_t* count, XrViewConfigurationType* values) {
                       return xrEnumerateViewConfigurations(instance_.get(), system_, capacity, count, values);
                   }),
-        "listing the headset's views"));
+        "xrEnumerateViewConfigurations"));
     // The runtime lists what it prefers first; every type that it has besides these two has more views than
     // there are eyes.
     const auto wanted = std::find_if(types.begin(), types.end(), [](XrViewConfigurationType type) {
@@ -187,7 +188,8 @@ Status Runtime::choose_views() {
                type == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_MONO;
     });
     if (wanted == types.end())
-        return fail(ErrorCode::no_device, fmt::format("{} offers neither mono nor stereo views", headset_));
+        return fail(ErrorCode::no_device, fmt::format("{} offers neither mono nor stereo views", headset_),
+                    "a headset with one or two views");
     view_configuration_ = *wanted;
     BOLT_TRY(
         check(enumerate(views_, XrViewConfigurationView{XR_TYPE_VIEW_CONFIGURATION_VIEW},
@@ -195,7 +197,7 @@ Status Runtime::choose_views() {
                             return xrEnumerateViewConfigurationViews(
                                 instance_.get(), system_, view_configuration_, capacity, count, values);
                         }),
-              "listing the headset's views"));
+              "xrEnumerateViewConfigurationViews"));
     if (views_.empty() || views_.size() > 2)
         return fail(ErrorCode::no_device, fmt::format("{} has {} views", headset_, views_.size()),
                     "one or two");
@@ -206,7 +208,7 @@ Status Runtime::choose_views() {
                             return xrEnumerateEnvironmentBlendModes(
                                 instance_.get(), system_, view_configuration_, capacity, count, values);
                         }),
-              "listing the headset's blend modes"));
+              "xrEnumerateEnvironmentBlendModes"));
     for (const XrEnvironmentBlendMode mode : modes)
         if (mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND) passthrough_ = mode;
     // Augmented-reality glasses may have no opaque mode; their first one is then as opaque as they can be.
@@ -219,7 +221,7 @@ Status Runtime::choose_views() {
 Result<VkInstance> Runtime::create_instance(const VkInstanceCreateInfo& info) {
     XrGraphicsRequirementsVulkan2KHR needs{XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR};
     BOLT_TRY(check(functions_.graphics_requirements(instance_.get(), system_, &needs),
-                   "querying the Vulkan version that the headset needs"));
+                   "xrGetVulkanGraphicsRequirements2KHR"));
     if (needs.minApiVersionSupported > XR_MAKE_VERSION(1, 3, 0))
         return fail(
             ErrorCode::no_device,
@@ -233,7 +235,7 @@ Result<VkInstance> Runtime::create_instance(const VkInstanceCreateInfo& info) {
     VkInstance created = VK_NULL_HANDLE;
     VkResult result = VK_SUCCESS;
     BOLT_TRY(check(functions_.create_vulkan_instance(instance_.get(), &create, &created, &result),
-                   "creating the headset's Vulkan instance"));
+                   "xrCreateVulkanInstanceKHR"));
     BOLT_TRY(gpu::check(result, "creating the headset's Vulkan instance"));
     return created;
 }
@@ -243,7 +245,8 @@ Result<VkPhysicalDevice> Runtime::choose_gpu(VkInstance instance) {
     info.systemId = system_;
     info.vulkanInstance = instance;
     VkPhysicalDevice gpu = VK_NULL_HANDLE;
-    BOLT_TRY(check(functions_.graphics_device(instance_.get(), &info, &gpu), "finding the headset's GPU"));
+    BOLT_TRY(
+        check(functions_.graphics_device(instance_.get(), &info, &gpu), "xrGetVulkanGraphicsDevice2KHR"));
     return gpu;
 }
 
@@ -256,7 +259,7 @@ Result<VkDevice> Runtime::create_device(VkPhysicalDevice gpu, const VkDeviceCrea
     VkDevice created = VK_NULL_HANDLE;
     VkResult result = VK_SUCCESS;
     BOLT_TRY(check(functions_.create_vulkan_device(instance_.get(), &create, &created, &result),
-                   "creating the headset's Vulkan device"));
+                   "xrCreateVulkanDeviceKHR"));
     BOLT_TRY(gpu::check(result, "creating the headset's Vulkan device"));
     return created;
 }

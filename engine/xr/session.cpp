@@ -15,6 +15,15 @@ constexpr auto local_floor = static_cast<XrReferenceSpaceType>(1000426000);
 constexpr double waiter_timeout = 2.0;
 const XrPosef identity{{0, 0, 0, 1}, {0, 0, 0}};
 
+Status lost(std::string what) {
+    Error error;
+    error.code = ErrorCode::no_device;
+    error.what = std::move(what);
+    error.expected = "a headset that stays connected";
+    error.lost = true;
+    return fail(std::move(error));
+}
+
 }  // namespace
 
 std::optional<VkFormat> choose_color_format(std::span<const std::int64_t> offered) {
@@ -56,8 +65,8 @@ bool Session::stop() {
     const bool finished = waiter_->stop(waiter_timeout);
     waiter_.reset();
     if (finished) return true;
-    // A thread of ours is still inside the runtime. All that it may use stays, and nothing else is asked of
-    // that runtime, because a call may never return either.
+    // A thread of ours is still inside the runtime. All that it may use stays, and no further function of
+    // that runtime is called, because it might not return.
     abandoned_ = true;
     runtime_->abandon();
     (void)new auto(std::move(color_));
@@ -78,7 +87,7 @@ Status Session::create_session() {
     info.next = &binding;
     info.systemId = runtime_->system();
     XrSession raw = XR_NULL_HANDLE;
-    BOLT_TRY(check(xrCreateSession(runtime_->instance(), &info, &raw), "creating the headset's session"));
+    BOLT_TRY(check(xrCreateSession(runtime_->instance(), &info, &raw), "xrCreateSession"));
     session_ = SessionHandle(raw);
     return {};
 }
@@ -89,7 +98,7 @@ Status Session::create_spaces() {
                              [&](std::uint32_t capacity, std::uint32_t* count, XrReferenceSpaceType* values) {
                                  return xrEnumerateReferenceSpaces(session_.get(), capacity, count, values);
                              }),
-                   "listing the headset's spaces"));
+                   "xrEnumerateReferenceSpaces"));
     const auto has = [&](XrReferenceSpaceType type) {
         return std::find(types.begin(), types.end(), type) != types.end();
     };
@@ -98,8 +107,7 @@ Status Session::create_spaces() {
         info.referenceSpaceType = type;
         info.poseInReferenceSpace = identity;
         XrSpace raw = XR_NULL_HANDLE;
-        BOLT_TRY(
-            check(xrCreateReferenceSpace(session_.get(), &info, &raw), "creating a space of the headset"));
+        BOLT_TRY(check(xrCreateReferenceSpace(session_.get(), &info, &raw), "xrCreateReferenceSpace"));
         return SpaceHandle(raw);
     };
     XrReferenceSpaceType type = XR_REFERENCE_SPACE_TYPE_LOCAL;
@@ -127,7 +135,7 @@ Result<Session::Swapchain> Session::make_swapchain(VkFormat format, std::uint32_
     info.faceCount = info.mipCount = 1;
     info.arraySize = layers;
     XrSwapchain raw = XR_NULL_HANDLE;
-    BOLT_TRY(check(xrCreateSwapchain(session_.get(), &info, &raw), "creating the headset's images"));
+    BOLT_TRY(check(xrCreateSwapchain(session_.get(), &info, &raw), "xrCreateSwapchain"));
     Swapchain swapchain;
     swapchain.handle = SwapchainHandle(raw);
     swapchain.extent = extent_;
@@ -139,7 +147,7 @@ Result<Session::Swapchain> Session::make_swapchain(VkFormat format, std::uint32_
             return xrEnumerateSwapchainImages(raw, capacity, count,
                                               reinterpret_cast<XrSwapchainImageBaseHeader*>(values));
         });
-    BOLT_TRY(check(listed, "listing the headset's images"));
+    BOLT_TRY(check(listed, "xrEnumerateSwapchainImages"));
     for (const XrSwapchainImageVulkan2KHR& image : images) swapchain.images.push_back(image.image);
     return swapchain;
 }
@@ -157,7 +165,7 @@ Status Session::create_swapchains() {
                              [&](std::uint32_t capacity, std::uint32_t* count, std::int64_t* values) {
                                  return xrEnumerateSwapchainFormats(session_.get(), capacity, count, values);
                              }),
-                   "listing the headset's image formats"));
+                   "xrEnumerateSwapchainFormats"));
     const std::optional<VkFormat> color = choose_color_format(formats), depth = choose_depth_format(formats);
     if (!color)
         return fail(ErrorCode::no_device, "the headset has no usable image format",
@@ -190,19 +198,19 @@ Status Session::follow(const XrEventDataSessionStateChanged& event) {
     if (event.state == XR_SESSION_STATE_READY) {
         XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO};
         info.primaryViewConfigurationType = runtime_->view_configuration();
-        BOLT_TRY(check(xrBeginSession(session_.get(), &info), "beginning the headset's session"));
+        BOLT_TRY(check(xrBeginSession(session_.get(), &info), "xrBeginSession"));
         running_ = true;
         last_display_time_.reset();
         waiter_->request();
     } else if (event.state == XR_SESSION_STATE_STOPPING) {
         running_ = false;
         (void)waiter_->take(waiter_timeout);  // the runtime releases a waiting thread
-        return check(xrEndSession(session_.get()), "ending the headset's session");
+        return check(xrEndSession(session_.get()), "xrEndSession");
     } else if (event.state == XR_SESSION_STATE_EXITING) {
         ended_ = true;
     } else if (event.state == XR_SESSION_STATE_LOSS_PENDING) {
         running_ = false;
-        return check(XR_ERROR_SESSION_LOST, "the headset's session ends");
+        return lost("the headset's session has ended");
     }
     return {};
 }
@@ -212,11 +220,11 @@ Status Session::poll(std::vector<SessionEvent>& events) {
         XrEventDataBuffer buffer{XR_TYPE_EVENT_DATA_BUFFER};
         const XrResult polled = xrPollEvent(runtime_->instance(), &buffer);
         if (polled == XR_EVENT_UNAVAILABLE) return {};
-        BOLT_TRY(check(polled, "polling the headset's events"));
+        BOLT_TRY(check(polled, "xrPollEvent"));
         // The event's type determines the structure, which begins with the members of the buffer.
         switch (buffer.type) {
             case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
-                return check(XR_ERROR_INSTANCE_LOST, "the OpenXR runtime ends");
+                return lost("the OpenXR runtime has ended");
             case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED: {
                 const auto& changed = reinterpret_cast<const XrEventDataSessionStateChanged&>(buffer);
                 if (changed.session != session_.get()) break;
@@ -250,8 +258,6 @@ Status Session::poll(std::vector<SessionEvent>& events) {
     }
 }
 
-Status Session::request_exit() {
-    return check(xrRequestExitSession(session_.get()), "requesting the end of the headset's session");
-}
+Status Session::request_exit() { return check(xrRequestExitSession(session_.get()), "xrRequestExitSession"); }
 
 }  // namespace bolt::xr

@@ -1,7 +1,7 @@
 // A session with a headset: its states, its frames, its pictures. One call sequence per frame:
 //
 //   poll()                        always, also while the session does not run
-//   begin_frame()                 only while running(); none yet: try again, the window goes on meanwhile
+//   begin_frame()                 only while running(); none yet: try again; the window continues meanwhile
 //   locate(), then draw           only if FrameTiming::should_render
 //   record()                      copies the pictures into the headset's, in the same command buffer
 //   (submit the command buffer)
@@ -146,11 +146,11 @@ class Session {
     Result<HeadView> locate(const FrameTiming& frame);
     // Copies the pictures, one for each eye, into images of the headset.
     Status record(VkCommandBuffer commands, std::span<const EyePicture> pictures);
-    // Ends the frame. `shown`: the views that were drawn and recorded; null: nothing was.
     struct Drawn {
-        const HeadView* view = nullptr;
+        const HeadView* view = nullptr;  // the views that were drawn and recorded; null: none
         DepthRange depth;
     };
+    // Ends the frame.
     Status end_frame(const FrameTiming& frame, const Drawn& drawn);
     [[nodiscard]] const FrameCounts& counts() const { return counts_; }
 
@@ -162,11 +162,11 @@ class Session {
     [[nodiscard]] XrSession get() const { return session_.get(); }
     [[nodiscard]] Runtime& runtime() const { return *runtime_; }
 
-    // Asks the runtime to end the session. It then passes through its remaining states.
+    // Requests the end of the session, which then passes through its remaining states.
     Status request_exit();
     // Ends the thread that waits for frames; afterwards the session can only be destroyed. Returns false if
     // the thread never returned from the runtime: the session's objects and the runtime are then abandoned,
-    // and its Input must be too.
+    // and its XrInput must be too.
     bool stop();
 
   private:

@@ -51,9 +51,9 @@ Result<std::optional<FrameTiming>> Session::begin_frame(double timeout) {
     const std::optional<FrameWaiter::Answer> answer = waiter_->take(timeout);
     counts_.waited += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!answer) return std::nullopt;
-    BOLT_TRY(check(answer->result, "waiting for the headset's frame"));
+    BOLT_TRY(check(answer->result, "xrWaitFrame"));
     const XrFrameBeginInfo info{XR_TYPE_FRAME_BEGIN_INFO, nullptr};
-    BOLT_TRY(check(xrBeginFrame(session_.get(), &info), "beginning the headset's frame"));
+    BOLT_TRY(check(xrBeginFrame(session_.get(), &info), "xrBeginFrame"));
     waiter_->request();  // for the next frame, while this one is drawn
     period_ = display_period(period_, answer->state.predictedDisplayPeriod);
     count(answer->state.predictedDisplayTime);
@@ -74,10 +74,9 @@ Result<HeadView> Session::locate(const FrameTiming& frame) {
     const auto eyes = static_cast<std::uint32_t>(runtime_->views().size());
     std::uint32_t count = 0;
     BOLT_TRY(
-        check(xrLocateViews(session_.get(), &info, &state, eyes, &count, views.data()), "locating the eyes"));
+        check(xrLocateViews(session_.get(), &info, &state, eyes, &count, views.data()), "xrLocateViews"));
     XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
-    BOLT_TRY(
-        check(xrLocateSpace(head_.get(), space_.get(), frame.display_time, &location), "locating the head"));
+    BOLT_TRY(check(xrLocateSpace(head_.get(), space_.get(), frame.display_time, &location), "xrLocateSpace"));
     constexpr XrSpaceLocationFlags valid =
         XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT;
     constexpr XrViewStateFlags views_valid =
@@ -109,8 +108,8 @@ Status Session::acquire(Swapchain& swapchain) {
     if (!swapchain.acquired) {
         const XrSwapchainImageAcquireInfo info{XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO, nullptr};
         std::uint32_t index = 0;
-        BOLT_TRY(check(xrAcquireSwapchainImage(swapchain.handle.get(), &info, &index),
-                       "acquiring an image of the headset"));
+        BOLT_TRY(
+            check(xrAcquireSwapchainImage(swapchain.handle.get(), &info, &index), "xrAcquireSwapchainImage"));
         swapchain.acquired = index;
         swapchain.ready = false;
     }
@@ -118,7 +117,7 @@ Status Session::acquire(Swapchain& swapchain) {
     XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};
     wait.timeout = image_timeout;
     const XrResult waited = xrWaitSwapchainImage(swapchain.handle.get(), &wait);
-    BOLT_TRY(check(waited, "waiting for an image of the headset"));
+    BOLT_TRY(check(waited, "xrWaitSwapchainImage"));
     swapchain.ready = waited != XR_TIMEOUT_EXPIRED;
     return {};
 }
@@ -126,8 +125,7 @@ Status Session::acquire(Swapchain& swapchain) {
 Status Session::release(Swapchain& swapchain) {
     if (!swapchain.acquired || !swapchain.ready) return {};
     const XrSwapchainImageReleaseInfo info{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO, nullptr};
-    BOLT_TRY(
-        check(xrReleaseSwapchainImage(swapchain.handle.get(), &info), "releasing an image of the headset"));
+    BOLT_TRY(check(xrReleaseSwapchainImage(swapchain.handle.get(), &info), "xrReleaseSwapchainImage"));
     swapchain.acquired.reset();
     return {};
 }
@@ -244,7 +242,7 @@ Status Session::end_frame(const FrameTiming& frame, const Drawn& drawn) {
     info.layers = layers;
     counts_.drawn += info.layerCount;
     drawn_.clear();
-    return check(xrEndFrame(session_.get(), &info), "ending the headset's frame");
+    return check(xrEndFrame(session_.get(), &info), "xrEndFrame");
 }
 
 }  // namespace bolt::xr

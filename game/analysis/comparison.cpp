@@ -145,24 +145,26 @@ std::size_t breakaway_index(const TorqueCurve& curve) {
 
 }  // namespace
 
-Result<Alignment> align(const TorqueCurve& ours, const TorqueCurve& measured, double share) {
-    if (ours.empty() || measured.empty()) return fail(ErrorCode::failed, "there is no curve to align");
+Result<Alignment> align(const TorqueCurve& simulated, const TorqueCurve& measured, double share) {
+    if (simulated.empty() || measured.empty())
+        return fail(ErrorCode::failed, "there is no curve to align", "two curves with samples");
     Alignment a;
     if (measured.direction == joint::Direction::loosen) {
-        const std::size_t our = breakaway_index(ours), their = breakaway_index(measured);
-        a.our_angle = ours.angle[our];
-        a.measured_angle = measured.angle[their];
-        a.torque = measured.torque[their];
+        const std::size_t simulated_index = breakaway_index(simulated),
+                          measured_index = breakaway_index(measured);
+        a.simulated_angle = simulated.angle[simulated_index];
+        a.measured_angle = measured.angle[measured_index];
+        a.torque = measured.torque[measured_index];
     } else {
-        const double end = std::min(highest_torque(ours), highest_torque(measured));
+        const double end = std::min(highest_torque(simulated), highest_torque(measured));
         if (!(end > 0.0))
             return fail(ErrorCode::failed, "the curves share no tightening torque to align them by",
                         "positive torque in both");
         a.torque = share * end;
-        a.our_angle = angle_at(ours, a.torque);
+        a.simulated_angle = angle_at(simulated, a.torque);
         a.measured_angle = angle_at(measured, a.torque);
     }
-    a.shift = a.our_angle - a.measured_angle;
+    a.shift = a.simulated_angle - a.measured_angle;
     return a;
 }
 
@@ -213,18 +215,19 @@ StageError pool(const StageError& a, const StageError& b) {
 
 }  // namespace
 
-TorqueErrors torque_errors(const TorqueCurve& ours, const TorqueCurve& measured, double shift, double floor) {
+TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& measured, double shift,
+                           double floor) {
     TorqueErrors errors;
     errors.floor = floor;
     for (std::size_t i = 0; i < measured.size(); ++i) {
         const double angle = measured.angle[i] + shift;
-        const bool inside = ours.size() > 1 && angle >= ours.angle.front() - angle_tolerance &&
-                            angle <= ours.angle.back() + angle_tolerance;
+        const bool inside = simulated.size() > 1 && angle >= simulated.angle.front() - angle_tolerance &&
+                            angle <= simulated.angle.back() + angle_tolerance;
         if (!inside) {
             ++errors.outside;
             continue;
         }
-        const CurveValue value = value_at(ours, angle);
+        const CurveValue value = value_at(simulated, angle);
         const double actual = measured.torque[i];
         StageError& stage = errors.stage[static_cast<std::size_t>(value.stage)];
         if (std::abs(actual) < floor || actual == 0.0) {
@@ -266,8 +269,9 @@ std::vector<std::string> ids_of(const content::Assembly& assembly) {
 
 tl::unexpected<Error> unknown_joint(std::string_view joint, const std::vector<std::string>& ids) {
     const std::string near = nearest(joint, ids);
-    return fail(ErrorCode::usage, fmt::format("there is no joint '{}' in the session", joint),
-                near.empty() ? fmt::format("one of {}", fmt::join(ids, ", ")) : fmt::format("'{}'", near));
+    return fail(ErrorCode::usage, fmt::format("there is no joint \"{}\" in the session", joint),
+                near.empty() ? fmt::format("one of {}", fmt::join(ids, ", "))
+                             : fmt::format("did you mean \"{}\"?", near));
 }
 
 std::string_view verb(joint::Direction direction) {
@@ -283,17 +287,17 @@ std::vector<MeasuredCurve> measured_curves(const MeasuredRecord& measured) {
     return curves;
 }
 
-Result<JointComparison> compare_joint(std::string joint, TorqueCurve ours,
+Result<JointComparison> compare_joint(std::string joint, TorqueCurve simulated,
                                       const std::vector<MeasuredCurve>& measured,
                                       const ComparisonOptions& options) {
     JointComparison result;
     result.joint = std::move(joint);
-    result.ours = std::move(ours);
+    result.simulated = std::move(simulated);
     for (const MeasuredCurve& cycle : measured) {
         CycleComparison one;
-        BOLT_TRY_ASSIGN(const auto alignment, align(result.ours, cycle.curve, options.share));
+        BOLT_TRY_ASSIGN(const auto alignment, align(result.simulated, cycle.curve, options.share));
         one.alignment = alignment;
-        one.errors = torque_errors(result.ours, cycle.curve, one.alignment.shift,
+        one.errors = torque_errors(result.simulated, cycle.curve, one.alignment.shift,
                                    torque_floor(cycle.curve, options.floor_share));
         result.errors = pool(result.errors, one.errors);
         result.cycles.push_back(one);
@@ -308,7 +312,7 @@ Result<Comparison> compare(const session::SessionReader& session, const Measured
     if (!joint.empty() && std::find(ids.begin(), ids.end(), joint) == ids.end())
         return unknown_joint(joint, ids);
 
-    BOLT_TRY_ASSIGN(auto ours, torque_curves(session, ids.size(), measured.direction));
+    BOLT_TRY_ASSIGN(auto simulated, torque_curves(session, ids.size(), measured.direction));
 
     Comparison result;
     result.session = session.file();
@@ -321,8 +325,8 @@ Result<Comparison> compare(const session::SessionReader& session, const Measured
     result.measured = measured_curves(measured);
     result.options = options;
     for (std::size_t j = 0; j < ids.size(); ++j) {
-        if (!ours[j] || (!joint.empty() && ids[j] != joint)) continue;
-        BOLT_TRY_ASSIGN(auto one, compare_joint(ids[j], std::move(*ours[j]), result.measured, options));
+        if (!simulated[j] || (!joint.empty() && ids[j] != joint)) continue;
+        BOLT_TRY_ASSIGN(auto one, compare_joint(ids[j], std::move(*simulated[j]), result.measured, options));
         result.errors = pool(result.errors, one.errors);
         result.joints.push_back(std::move(one));
     }

@@ -68,21 +68,21 @@ Result<std::vector<std::optional<TorqueCurve>>> torque_curves(const session::Ses
 // reach: half-way up the elastic line, where the angle is best defined.
 inline constexpr double default_alignment_share = 0.5;
 
-// The position of a measured curve on ours, because a rig may count its angle from any origin.
+// The position of a measured curve on simulated, because a rig may count its angle from any origin.
 struct Alignment {
-    double shift = 0.0;      // rad, added to the measured angle
-    double our_angle = 0.0;  // rad, of the common point
+    double shift = 0.0;            // rad, added to the measured angle
+    double simulated_angle = 0.0;  // rad, of the common point
     double measured_angle = 0.0;
     double torque = 0.0;  // N·m, of the common point on the measured curve
 };
 
 // Aligns curves from make_torque_curve(). Tightening: where the running maximum of the torque passes the
 // level, so that a ripple or a re-grip does not move the point. Loosening: at the breakaway peak.
-Result<Alignment> align(const TorqueCurve& ours, const TorqueCurve& measured,
+Result<Alignment> align(const TorqueCurve& simulated, const TorqueCurve& measured,
                         double share = default_alignment_share);
 
-// Error of our torque T_v against the measured torque T_a in one stage, as in the paper of 2018: relative
-// error |T_v − T_a| / T_a, MRE its maximum and MAPE its mean.
+// Error of the simulated torque T_v against the measured torque T_a in one stage, as in the paper of 2018:
+// relative error |T_v − T_a| / T_a, MRE its maximum and MAPE its mean.
 struct StageError {
     std::size_t count = 0;  // samples used
     std::size_t below = 0;  // samples excluded: |T_a| is below the floor, so a relative error is meaningless
@@ -93,7 +93,7 @@ struct StageError {
 struct TorqueErrors {
     std::array<StageError, joint::stage_count> stage;
     StageError all;
-    std::size_t outside = 0;  // samples excluded: angles outside our curve
+    std::size_t outside = 0;  // samples excluded: angles outside the simulated curve
     double floor = 0.0;       // N·m; pooled: the largest
 };
 
@@ -101,9 +101,10 @@ struct TorqueErrors {
 // sensor.
 inline constexpr double default_floor_share = 0.01;
 
-// Errors at the measured samples. Interpolates our torque and takes our stage from the sample before. Adds
-// `shift` in rad to the measured angles; `floor` in N·m.
-TorqueErrors torque_errors(const TorqueCurve& ours, const TorqueCurve& measured, double shift, double floor);
+// Errors at the measured samples. Interpolates the simulated torque and takes its stage from the sample
+// before. Adds `shift` in rad to the measured angles; `floor` in N·m.
+TorqueErrors torque_errors(const TorqueCurve& simulated, const TorqueCurve& measured, double shift,
+                           double floor);
 
 // Combines errors: maximum of the maxima, mean over all samples.
 TorqueErrors pool(const TorqueErrors& a, const TorqueErrors& b);
@@ -124,7 +125,7 @@ struct CycleComparison {
 
 struct JointComparison {
     std::string joint;
-    TorqueCurve ours;
+    TorqueCurve simulated;
     std::vector<CycleComparison> cycles;  // one for each measured curve
     TorqueErrors errors;                  // over all cycles
 };
@@ -146,7 +147,7 @@ struct Comparison {
 };
 
 // Compares a joint's curve with the measured curves.
-Result<JointComparison> compare_joint(std::string joint, TorqueCurve ours,
+Result<JointComparison> compare_joint(std::string joint, TorqueCurve simulated,
                                       const std::vector<MeasuredCurve>& measured,
                                       const ComparisonOptions& options = {});
 std::vector<MeasuredCurve> measured_curves(const MeasuredRecord& measured);

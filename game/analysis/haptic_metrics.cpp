@@ -13,7 +13,7 @@ namespace bolt::analysis {
 namespace {
 
 constexpr double millisecond = 1e-3;   // s
-constexpr double bump_gap = 0.1;       // s; contacts with a shorter gap are one bump
+constexpr double contact_gap = 0.1;    // s; contacts with a shorter gap are one contact
 constexpr double near_nut = 0.04;      // m from the seat to the tool
 constexpr double min_jump_gap = 0.05;  // s between two separate force jumps
 constexpr std::size_t max_force_jumps = 5;
@@ -53,8 +53,8 @@ HapticMetricsBuilder::HapticMetricsBuilder(const session::Header& header,
     metrics_.recorded = header.servo_rate.has_value();
     metrics_.obstacles = !header.contact_models.value_or("").empty();
     metrics_.guided = header.guide.value_or(header.mode == lesson::Mode::guided);
-    metrics_.device = header.device;
-    if (header.servo_rate) metrics_.servo = session::servo_text(*header.servo_rate);
+    metrics_.device_limits = header.device_limits;
+    if (header.servo_rate) metrics_.servo_text = session::servo_text(*header.servo_rate);
     for (const lesson::LessonEvent& event : events)
         if (event.kind == lesson::EventKind::step_begin)
             steps_.push_back({event.tick, event.joint});
@@ -99,16 +99,16 @@ void HapticMetricsBuilder::update_touch(double time, const session::TickRecord& 
     }
     if (!touches && touched_before) untouched_at_ = time;
     if (touches) state_.last_touched = tick.touched;
-    const bool bumps = free && touches && !touched_with_nut_ && !own_nut(tick.touched);
-    if (!bumps) {
-        in_bump_ = false;
+    const bool obstacle_contacts = free && touches && !touched_with_nut_ && !own_nut(tick.touched);
+    if (!obstacle_contacts) {
+        in_obstacle_contact_ = false;
         return;
     }
-    std::vector<Bump>& all = metrics_.bumps;
+    std::vector<ObstacleContact>& all = metrics_.obstacle_contacts;
     const bool continues =
-        in_bump_ || (!all.empty() && time - all.back().begin - all.back().length < bump_gap);
+        in_obstacle_contact_ || (!all.empty() && time - all.back().begin - all.back().length < contact_gap);
     if (!continues) all.push_back({time, 0.0, tick.touched, 0.0});
-    in_bump_ = true;
+    in_obstacle_contact_ = true;
     all.back().length = time + dt_ - all.back().begin;
     all.back().peak_force = std::max(all.back().peak_force, glm::length(vector_of(tick.force)));
 }
@@ -140,7 +140,7 @@ void HapticMetricsBuilder::update_change(double time, const session::TickRecord&
     (void)change(tick.torque, previous_->torque, torque_changes_);
     const double by = change(tick.force, previous_->force, force_changes_);
     const bool at_limit =
-        metrics_.device && by > metrics_.device->force_rate * millisecond * (1.0 - rounding);
+        metrics_.device_limits && by > metrics_.device_limits->force_rate * millisecond * (1.0 - rounding);
     const bool large =
         metrics_.force_jumps.size() < max_force_jumps || by > metrics_.force_jumps.back().change;
     if (by <= 0.0 || !(large || at_limit)) return;
@@ -150,8 +150,8 @@ void HapticMetricsBuilder::update_change(double time, const session::TickRecord&
     jump.tick = tick;
     jump.since_engaged = elapsed(time, engaged_at_);
     jump.since_released = elapsed(time, released_at_);
-    jump.since_touched = elapsed(time, touched_at_);
-    jump.since_untouched = elapsed(time, untouched_at_);
+    jump.since_contact_begin = elapsed(time, touched_at_);
+    jump.since_contact_end = elapsed(time, untouched_at_);
     if (at_limit) ++metrics_.at_limit[static_cast<std::size_t>(activity_of(jump))];
     if (large) keep_force_jump(jump);
 }
@@ -179,7 +179,7 @@ void HapticMetricsBuilder::add(std::uint64_t first_tick, std::span<const session
 
 HapticMetrics HapticMetricsBuilder::finish() {
     const force::OutputLimits none{.force = 0.0, .torque = 0.0, .force_rate = 0.0, .torque_rate = 0.0};
-    const force::OutputLimits limits = metrics_.device.value_or(none);
+    const force::OutputLimits limits = metrics_.device_limits.value_or(none);
     metrics_.force = statistics_of(force_changes_, limits.force, limits.force_rate * millisecond);
     metrics_.torque = statistics_of(torque_changes_, limits.torque, limits.torque_rate * millisecond);
     metrics_.faults[0] = 0.0;
@@ -198,8 +198,8 @@ ToolActivity activity_of(const ForceJump& jump) {
     if (jump.tick.joint < 0 && jump.since_released <= recent) return ToolActivity::releasing;
     if (jump.tick.joint >= 0)
         return jump.since_engaged <= recent ? ToolActivity::engaging : ToolActivity::on_nut;
-    return !jump.tick.touched.is_none() || jump.since_untouched <= recent ? ToolActivity::touching
-                                                                          : ToolActivity::free;
+    return !jump.tick.touched.is_none() || jump.since_contact_end <= recent ? ToolActivity::touching
+                                                                            : ToolActivity::free;
 }
 
 std::string describe(const ForceJump& jump, const std::vector<lesson::JointResult>& joints,
@@ -215,12 +215,12 @@ std::string describe(const ForceJump& jump, const std::vector<lesson::JointResul
     switch (activity_of(jump)) {
         case ToolActivity::output_off:
             return fmt::format("the output was switched off: {}",
-                               force::name(static_cast<force::Fault>(jump.tick.fault)));
+                               force::message_for(static_cast<force::Fault>(jump.tick.fault)));
         case ToolActivity::releasing:
             text = fmt::format("the hand lets go of {}", joint(jump.last_joint));
             break;
         case ToolActivity::engaging:
-            text = fmt::format("{} taking hold of {}", tool, joint(jump.tick.joint));
+            text = fmt::format("{} engages {}", tool, joint(jump.tick.joint));
             break;
         case ToolActivity::on_nut:
             text = fmt::format("{} on {}, {}, {:.1f} N·m", tool, joint(jump.tick.joint),
@@ -232,10 +232,10 @@ std::string describe(const ForceJump& jump, const std::vector<lesson::JointResul
             text = jump.tick.guide >= 0 ? fmt::format("led to {}", joint(jump.tick.guide)) : "in the air";
             break;
     }
-    if (jump.since_touched <= recent && touches)
-        text += ", meeting " + obstacle_text(jump.tick.touched, obstacles);
-    else if (jump.since_untouched <= recent && !touches)
-        text += ", coming off " + obstacle_text(jump.last_touched, obstacles);
+    if (jump.since_contact_begin <= recent && touches)
+        text += ", contact with " + obstacle_text(jump.tick.touched, obstacles) + " begins";
+    else if (jump.since_contact_end <= recent && !touches)
+        text += ", contact with " + obstacle_text(jump.last_touched, obstacles) + " ends";
     else if (touches)
         text += ", against " + obstacle_text(jump.tick.touched, obstacles);
     return text;

@@ -18,9 +18,9 @@ namespace bolt::analysis {
 
 // A contact of the wrench while it holds no nut. Contacts with the due nut or the nut held last belong to the
 // work and do not count, nor does a contact that began with a nut in the jaw.
-struct Bump {
+struct ObstacleContact {
     double begin = 0.0, length = 0.0;  // s
-    collision::ObstacleId obstacle;    // the first one of the bump
+    collision::ObstacleId obstacle;    // the first one of the contact
     double peak_force = 0.0;           // N
 };
 
@@ -31,7 +31,7 @@ struct ForceJump {
     session::TickRecord tick;
     // s since the last time that the tool engaged or released a nut, and since a contact began or ended; NaN:
     // never
-    double since_engaged = nan, since_released = nan, since_touched = nan, since_untouched = nan;
+    double since_engaged = nan, since_released = nan, since_contact_begin = nan, since_contact_end = nan;
     std::int16_t last_joint = -1;  // engaged joint, or the one engaged last
     collision::ObstacleId last_touched;
 };
@@ -62,15 +62,15 @@ struct Arrival {
 struct HapticMetrics {
     bool recorded = false;  // format 2 or later; format 1 has no contacts and faults
     bool obstacles = false, guided = false;
-    std::optional<force::OutputLimits> device;
-    std::vector<Bump> bumps;         // in order of time
-    ChangeStatistics force, torque;  // N, N·m
+    std::optional<force::OutputLimits> device_limits;
+    std::vector<ObstacleContact> obstacle_contacts;  // in order of time
+    ChangeStatistics force, torque;                  // N, N·m
     // Ticks with a change of the force at the rate limit of the output stage, by activity.
     std::array<std::uint64_t, activity_count> at_limit{};
     std::vector<ForceJump> force_jumps;  // the largest ones, largest first
     std::vector<Arrival> arrivals;
     std::array<double, force::fault_kinds> faults{};  // s for which each fault released the output
-    std::string servo;                                // session::Header::servo
+    std::string servo_text;                           // session::servo_text(Header::servo_rate)
     std::optional<servo::Timing> timing;
 };
 
@@ -118,13 +118,13 @@ class HapticMetricsBuilder {
     double engaged_at_ = nan, released_at_ = nan;
     double touched_at_ = nan, untouched_at_ = nan;
     bool touched_with_nut_ = false;  // the contact began with a nut in the jaw
-    bool in_bump_ = false;
+    bool in_obstacle_contact_ = false;
     std::vector<float> force_changes_, torque_changes_;
 };
 
 ToolActivity activity_of(const ForceJump& jump);
 
-// English description of the circumstances: "wrench taking hold of B3", "led to B3, against casing_upper".
+// English description of the circumstances: "wrench engages B3", "led to B3, against casing_upper".
 std::string describe(const ForceJump& jump, const std::vector<lesson::JointResult>& joints,
                      const std::vector<session::ObstacleName>& obstacles);
 std::string obstacle_text(collision::ObstacleId id, const std::vector<session::ObstacleName>& obstacles);

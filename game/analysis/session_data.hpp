@@ -36,7 +36,7 @@ struct SessionData {
     double duration = 0.0;                    // s
     double score = 0.0;
     bool finished = false;
-    std::vector<lesson::ScoreReason> reasons;
+    std::vector<lesson::Deduction> reasons;
     std::vector<std::string> pass_texts;  // texts of the pass_begin events, in order
     std::vector<JointCurve> curves;       // one for each of assembly.joints
     HapticMetrics metrics;

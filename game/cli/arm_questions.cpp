@@ -17,7 +17,7 @@ std::string request_text(const device::Preparation& needed) {
             return "Put the arm's handle into its inkwell, and wait until it is calibrated.";
         case device::DeviceNeed::user:
             return "The arm waits for you: " + needed.instruction;
-        case device::DeviceNeed::patience:
+        case device::DeviceNeed::wait:
             return "The arm is calibrating.";
         case device::DeviceNeed::none:
         case device::DeviceNeed::permission:
@@ -53,10 +53,10 @@ device::ArmDialog terminal_dialog(bool yes) {
                     "The arm moves by itself to find its position. Keep hands and things clear. May it move?",
                     yes))
                 return false;
-            permission->give();
+            permission->grant();
             return true;
         }
-        if (needed.need == device::DeviceNeed::patience) return true;
+        if (needed.need == device::DeviceNeed::wait) return true;
         if (!has_terminal()) return false;
         if (needed != shown) fmt::print(stderr, "{}\n", request_text(needed));
         shown = needed;

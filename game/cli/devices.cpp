@@ -138,7 +138,7 @@ Result<std::string> examine_glove(const std::string& port, double seconds) {
     const hand::GloveReport& report = driver.report();
     const hand::GloveIdentity& glove = report.identity;
     std::string text = fmt::format("{}\n  CyberGlove, {} hand, {} sensors{}\n", port,
-                                   glove.hand == hand::Side::left ? "left" : "right", glove.sensors,
+                                   glove.side == hand::Side::left ? "left" : "right", glove.sensors,
                                    glove.version.empty() ? "" : ", version " + glove.version);
     if (seconds > 0.0) text += fmt::format("  sent {:.0f} samples a second\n", received / seconds);
     if (report.lost_bytes > 0) text += fmt::format("  {} invalid bytes received\n", report.lost_bytes);

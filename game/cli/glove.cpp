@@ -124,7 +124,7 @@ Status calibrate(GloveArguments options) {
     const hand::GloveIdentity identity = reader.driver.report().identity;
     if (Status printed =
             print(fmt::format("A {} glove with {} sensors. Hold each posture still until the next prompt.\n",
-                              identity.hand == hand::Side::left ? "left" : "right", identity.sensors));
+                              identity.side == hand::Side::left ? "left" : "right", identity.sensors));
         !printed)
         return printed;
     BOLT_TRY_ASSIGN(const auto made, record_postures(reader));
@@ -135,7 +135,7 @@ Status calibrate(GloveArguments options) {
         return fail(ErrorCode::failed, "a sensor is unusable, so no calibration is saved",
                     "a new calibration");
     const Result<std::string> saved = save(
-        options, {{}, options.port, identity.hand, identity.sensors, {}, made.score, 0.0, made.calibration});
+        options, {{}, options.port, identity.side, identity.sensors, {}, made.score, 0.0, made.calibration});
     return saved ? print(*saved) : fail(saved.error());
 }
 
@@ -170,10 +170,10 @@ Status show(GloveArguments options) {
     BOLT_TRY_ASSIGN(const auto stored, content::load_glove_calibration(options.file));
     BOLT_TRY_ASSIGN(auto reader, open(options));
     const hand::GloveIdentity identity = reader.driver.report().identity;
-    if (identity.hand != stored.hand || identity.sensors != stored.sensors)
+    if (identity.side != stored.hand || identity.sensors != stored.sensors)
         return fail(ErrorCode::usage, "this calibration is for another glove",
                     fmt::format("one for a {} hand with {} sensors",
-                                identity.hand == hand::Side::left ? "left" : "right", identity.sensors));
+                                identity.side == hand::Side::left ? "left" : "right", identity.sensors));
     hand::GloveWearer wearer;
     wearer.calibration = stored.calibration;
     wearer.hand = hand::make_hand(stored.hand, stored.hand_length);

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 // A load for the servo: a hand that lowers the wrench onto the first nut and lifts it once a second. The
 // wrench is rotated by 8° from a fit and collides with the nut, so that contacts, god-object, guiding and
 // output stage all compute.
-servo::Input working_input(const servo::Setup& setup, const servo::State& state) {
+servo::TickInput working_input(const servo::Setup& setup, const servo::State& state) {
     const servo::NutGeometry& nut = setup.nuts.front();
     const double time = static_cast<double>(state.tick) * setup.dt;
     const Vec3 at = servo::nut_centre(nut, 0.0) + nut.axis * (0.014 + 0.012 * std::cos(2.0 * pi * time));
@@ -32,7 +32,7 @@ servo::Input working_input(const servo::Setup& setup, const servo::State& state)
         std::round(handle / (pi / 3.0)) * (pi / 3.0) + setup.wrench.head_angle + to_radians(8.0);
     const Vec3 x = std::cos(-nearest) * nut.e1 + std::sin(-nearest) * nut.e2;
     const Quat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(nut.axis, x), nut.axis)));
-    servo::Input input;
+    servo::TickInput input;
     input.commanded_tool = servo::to_commanded_tool({at, q});
     input.grip = servo::Grip::wrench;
     input.dead_man = true;

@@ -51,8 +51,8 @@ Result<ReplayScene> make_replay_scene(gpu::Device& device, const scene::LessonMo
         scene::make_postures(start.state.tool_contact ? &start.state.tool_contact->wrench : nullptr,
                              start.setup.wrench.handle_length, hand, scene::widest_nut(start.setup));
     replay.workplace.world.only<world::WorkingHand>().rest =
-        scene::wrench_rest_pose(replay.workplace.machine, start.assembly.wrench.head_thickness, hand);
-    replay.shoulder = scene::shoulder_position(replay.workplace.machine, {hand, std::nullopt});
+        scene::wrench_rest_pose(replay.workplace.workpiece, start.assembly.wrench.head_thickness, hand);
+    replay.shoulder = scene::shoulder_position(replay.workplace.workpiece, {hand, std::nullopt});
     return replay;
 }
 
@@ -118,11 +118,11 @@ Result<std::unique_ptr<Film>> Film::create(const session::SessionSetup& start, c
     if (!models) return fail(models.error());
     view::Viewpoint first = view::default_viewpoint({}, view::default_fov, 1.0F);
     if (!options.view.empty()) {
-        const Result<view::Viewpoint> named = view::named_view(models->machine, options.view);
+        const Result<view::Viewpoint> named = view::named_view(models->workpiece, options.view);
         if (!named) return fail(named.error());
         first = *named;
-    } else if (!models->machine.views.empty()) {
-        first = models->machine.views.front();
+    } else if (!models->workpiece.views.empty()) {
+        first = models->workpiece.views.front();
     }
     gpu::InstanceOptions instance_options;
     instance_options.validation = options.validate;
@@ -136,9 +136,9 @@ Result<std::unique_ptr<Film>> Film::create(const session::SessionSetup& start, c
     gpu.gpu_context = std::move(*gpu_context);
     BOLT_TRY_ASSIGN(auto replay, make_replay_scene(*gpu.gpu_context.device, *models, start, options.hand));
     gpu.replay.emplace(std::move(replay));
-    if (options.view.empty() && models->machine.views.empty())
+    if (options.view.empty() && models->workpiece.views.empty())
         first = view::default_viewpoint(
-            gpu.replay->workplace.machine, view::default_fov,
+            gpu.replay->workplace.workpiece, view::default_fov,
             static_cast<float>(options.size.width) / static_cast<float>(options.size.height));
     film->camera.jump(view::orbit_of(first));
     return std::unique_ptr<Film>(new Film(std::move(film)));

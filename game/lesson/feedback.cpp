@@ -148,8 +148,8 @@ void add(std::vector<AdviceCost>& costs, TextKey advice, double points) {
 Review review(const content::Assembly& assembly, const LessonResult& result) {
     Review review;
     std::vector<AdviceCost> costs;
-    for (const ScoreReason& reason : result.reasons) {
-        Remark remark{
+    for (const Deduction& reason : result.reasons) {
+        DeductionText deduction{
             reason.points, std::nullopt, {{"count", words::Number{1.0 * reason.count, 0}}}, reason.text};
         const bool once = reason.count == 1;
         std::optional<TextKey> advice;
@@ -160,40 +160,41 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
             case DeductionKind::not_ok: {
                 const auto joint = static_cast<std::size_t>(reason.joint);
                 const JointTexts how = joint_texts(result.joints[joint]);
-                remark.key = how.reason;
-                remark.arguments = joint_arguments(assembly.joints[joint].spec, result.joints[joint]);
+                deduction.key = how.reason;
+                deduction.arguments = joint_arguments(assembly.joints[joint].spec, result.joints[joint]);
                 advice = how.advice;
                 break;
             }
             case DeductionKind::out_of_turn:
-                remark.key = once ? TextKey("reason.out_of_turn.one") : TextKey("reason.out_of_turn.many");
+                deduction.key = once ? TextKey("reason.out_of_turn.one") : TextKey("reason.out_of_turn.many");
                 advice = TextKey("advice.out_of_turn");
                 break;
             case DeductionKind::done_already:
-                remark.key = once ? TextKey("reason.done_already.one") : TextKey("reason.done_already.many");
+                deduction.key =
+                    once ? TextKey("reason.done_already.one") : TextKey("reason.done_already.many");
                 advice = TextKey("advice.done_already");
                 break;
             case DeductionKind::wrong_way:
-                remark.key = once ? TextKey("reason.wrong_way.one") : TextKey("reason.wrong_way.many");
+                deduction.key = once ? TextKey("reason.wrong_way.one") : TextKey("reason.wrong_way.many");
                 advice = TextKey("advice.wrong_way");
                 break;
             case DeductionKind::over_torque:
-                remark.key = once ? TextKey("reason.overdone.one") : TextKey("reason.overdone.many");
+                deduction.key = once ? TextKey("reason.overdone.one") : TextKey("reason.overdone.many");
                 advice = TextKey("advice.torque_high");
                 break;
             case DeductionKind::slipped:
-                remark.key = once ? TextKey("reason.slipped.one") : TextKey("reason.slipped.many");
+                deduction.key = once ? TextKey("reason.slipped.one") : TextKey("reason.slipped.many");
                 advice = TextKey("mistake.slipped.do");
                 break;
             case DeductionKind::unfinished:
-                remark.key = TextKey("reason.unfinished");
-                remark.arguments = {{"step", words::Number{1.0 * reason.count, 0}},
-                                    {"of", words::Number{1.0 * reason.of, 0}}};
+                deduction.key = TextKey("reason.unfinished");
+                deduction.arguments = {{"step", words::Number{1.0 * reason.count, 0}},
+                                       {"of", words::Number{1.0 * reason.of, 0}}};
                 advice = TextKey("advice.unfinished");
                 break;
         }
         if (advice) add(costs, *advice, -reason.points);
-        review.reasons.push_back(std::move(remark));
+        review.reasons.push_back(std::move(deduction));
     }
     // Stable: equal costs stay in the order of the reasons.
     std::stable_sort(costs.begin(), costs.end(),
@@ -204,8 +205,8 @@ Review review(const content::Assembly& assembly, const LessonResult& result) {
     return review;
 }
 
-std::string remark_text(const words::Words& words, const Remark& remark) {
-    return remark.key ? words::format_text(words, *remark.key, remark.arguments) : remark.text;
+std::string deduction_text(const words::Words& words, const DeductionText& deduction) {
+    return deduction.key ? words::format_text(words, *deduction.key, deduction.arguments) : deduction.text;
 }
 
 }  // namespace bolt::lesson

@@ -85,8 +85,8 @@ const std::optional<Mistake>& update(MistakeState& mistakes, double dt);
 std::string mistake_text(const words::Words& words, const Mistake& mistake);
 std::string remedy_text(const words::Words& words, const Mistake& mistake);
 
-// A deduction from the score as text.
-struct Remark {
+// The text of a Deduction, in the language of the trainee.
+struct DeductionText {
     double points = 0.0;  // added to the score; negative for a deduction
     std::optional<words::TextKey> key;
     std::vector<words::TextArgument> arguments;
@@ -95,13 +95,13 @@ struct Remark {
 
 // The result of a lesson explained: why points were deducted and what to do better next time.
 struct Review {
-    std::vector<Remark> reasons;         // in the order of LessonResult::reasons
+    std::vector<DeductionText> reasons;  // in the order of LessonResult::reasons
     std::vector<words::TextKey> advice;  // one to three, the costliest first
 };
 
 // `assembly`: of the lesson, with its law applied (apply_law); it gives the torque and angle windows.
 Review review(const content::Assembly& assembly, const LessonResult& result);
 
-std::string remark_text(const words::Words& words, const Remark& remark);
+std::string deduction_text(const words::Words& words, const DeductionText& deduction);
 
 }  // namespace bolt::lesson

@@ -52,10 +52,10 @@ constexpr HintRow hint_rows[] = {
     {Situation::leave_broken, "hint.leave_broken", HintMotion::lift},
     {Situation::leave_stripped, "hint.leave_stripped", HintMotion::lift},
     {Situation::next, "hint.next", HintMotion::approach},
-    {Situation::round_run_down, "hint.round_run_down", HintMotion::reach},
-    {Situation::round_tighten, "hint.round_tighten", HintMotion::approach},
-    {Situation::round_recheck, "hint.round_recheck", HintMotion::approach},
-    {Situation::round_loosen, "hint.round_loosen", HintMotion::approach},
+    {Situation::pass_run_down, "hint.pass_run_down", HintMotion::reach},
+    {Situation::pass_tighten, "hint.pass_tighten", HintMotion::approach},
+    {Situation::pass_recheck, "hint.pass_recheck", HintMotion::approach},
+    {Situation::pass_loosen, "hint.pass_loosen", HintMotion::approach},
     {Situation::all_done, "hint.all_done", HintMotion::none},
 };
 static_assert(std::size(hint_rows) == situation_count);
@@ -76,13 +76,13 @@ static_assert(std::size(motion_keys) == motion_count);
 const HintRow& row(Situation situation) { return hint_rows[static_cast<std::size_t>(situation)]; }
 
 // The hand motion that replaces `motion` if the fingers hold the nut.
-HintMotion adapt_to_grip(HintMotion motion, const WorkState& work) {
+HintMotion adapt_to_grip(HintMotion motion, const ObservedLesson& work) {
     if (held_item(work) != HeldItem::nut_by_fingers) return motion;
     if (motion == HintMotion::lift) return HintMotion::let_go;
     return motion == HintMotion::pull_on ? HintMotion::spin : motion;
 }
 
-std::vector<words::TextArgument> text_arguments(const WorkState& work) {
+std::vector<words::TextArgument> text_arguments(const ObservedLesson& work) {
     const LessonStep* due = work.lesson.due();
     if (due == nullptr) return {};
     const auto& joints = work.lesson.assembly->joints;
@@ -120,7 +120,7 @@ GhostKind Hint::ghost() const {
     }
 }
 
-Hint make_hint(Situation situation, Situation underlying, int level, const WorkState& work) {
+Hint make_hint(Situation situation, Situation underlying, int level, const ObservedLesson& work) {
     const LessonStep* due = work.lesson.due();
     Hint hint;
     hint.situation = situation;
@@ -283,20 +283,20 @@ Situation announcement(const LessonStep& step, bool new_pass) {
     if (!new_pass) return Situation::next;
     switch (step.kind) {
         case StepKind::run_down:
-            return Situation::round_run_down;
+            return Situation::pass_run_down;
         case StepKind::tighten:
-            return Situation::round_tighten;
+            return Situation::pass_tighten;
         case StepKind::recheck:
-            return Situation::round_recheck;
+            return Situation::pass_recheck;
         case StepKind::loosen:
-            return Situation::round_loosen;
+            return Situation::pass_loosen;
     }
     return Situation::next;
 }
 
 // Updates torque and angle first: after the nut has moved, returning to it for the next stroke is progress
 // too.
-void update_progress(StepProgress& progress, const WorkState& work, Situation now, double dt) {
+void update_progress(StepProgress& progress, const ObservedLesson& work, Situation now, double dt) {
     progress.idle += dt;
     const LessonStep* due = work.lesson.due();
     if (due == nullptr) return;
@@ -313,11 +313,13 @@ void update_progress(StepProgress& progress, const WorkState& work, Situation no
     if (progress.moved && work.lesson.held_joint < 0) {
         progress.moved = false;
         progress.distance = 1e9;
-        progress.reached = 0;
+        progress.reached = Reached::nothing;
     }
     const bool tool = now != Situation::take_wrench && now != Situation::put_wrench_away &&
                       now != Situation::wrong_joint && now != Situation::wrench_needed;
-    const int reached = work.lesson.held_joint == static_cast<int>(due->joint) ? 2 : tool ? 1 : 0;
+    const Reached reached = work.lesson.held_joint == static_cast<int>(due->joint) ? Reached::tool_on_nut
+                            : tool                                                 ? Reached::right_tool
+                                                                                   : Reached::nothing;
     if (reached > progress.reached) {
         progress.reached = reached;
         progress.idle = 0.0;
@@ -329,7 +331,7 @@ void update_progress(StepProgress& progress, const WorkState& work, Situation no
     }
 }
 
-void begin_step(HintState& hints, const WorkState& work) {
+void begin_step(HintState& hints, const ObservedLesson& work) {
     const LessonStep* due = work.lesson.due();
     hints.step = work.lesson.current;
     hints.step_time = 0.0;
@@ -338,8 +340,9 @@ void begin_step(HintState& hints, const WorkState& work) {
     if (due != nullptr) hints.pass = due->pass;
 }
 
-// 0: moving to the nut; 1: working on it; 2: at the end of the work.
-int phase(Situation s) {
+enum class WorkPhase : std::uint8_t { approach, work, end_of_work };
+
+WorkPhase phase(Situation s) {
     switch (s) {
         case Situation::run_down:
         case Situation::run_down_by_wrench:
@@ -349,12 +352,12 @@ int phase(Situation s) {
         case Situation::check:
         case Situation::break_loose:
         case Situation::turn_off:
-            return 1;
+            return WorkPhase::work;
         case Situation::ease:
         case Situation::ease_to_yield:
-            return 2;
+            return WorkPhase::end_of_work;
         default:
-            return 0;
+            return WorkPhase::approach;
     }
 }
 
@@ -368,7 +371,7 @@ bool replaces(const HintState& hints, Situation candidate) {
     if (candidate == hints.situation) return false;
     if (!hints.shown || immediate(candidate)) return true;
     if (hints.differs_for >= unstable_after) return true;
-    const bool paused = phase(hints.situation) > 0 && between_strokes(candidate);
+    const bool paused = phase(hints.situation) > WorkPhase::approach && between_strokes(candidate);
     if (hints.candidate_for < (paused ? stroke_debounce : debounce)) return false;
     const bool advanced = phase(candidate) > phase(hints.situation);
     return urgent(candidate) ||
@@ -383,7 +386,7 @@ int level_by_time(const HintTimes& times, double idle) {
 
 }  // namespace
 
-const std::optional<Hint>& update(HintState& hints, const WorkState& work, double dt, bool requested) {
+const std::optional<Hint>& update(HintState& hints, const ObservedLesson& work, double dt, bool requested) {
     if (work.lesson.mode == Mode::assessment) {
         hints = {};
         return hints.shown;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,19 +16,19 @@ namespace bolt::lesson {
 // The hand motion that a hint requests. It selects the arrow and the control to name.
 enum class HintMotion : std::uint8_t {
     none,
-    take,
-    put_away,
+    take,      // the wrench
+    put_away,  // lay the wrench down
     approach,  // with the wrench
     reach,     // with the fingers
-    set_on,
+    set_on,    // put the wrench on the nut
     grip_nut,
-    spin,
-    twist_back,
+    spin,        // turn the nut with the fingers
+    twist_back,  // turn the empty hand back
     let_go,
-    pull_on,
-    pull_off,
-    lift,
-    set_back,
+    pull_on,   // pull the wrench in the tightening direction
+    pull_off,  // pull the wrench in the loosening direction
+    lift,      // take the wrench off the nut
+    set_back,  // move the handle back for another stroke
 };
 inline constexpr std::size_t motion_count = 14;
 
@@ -35,7 +36,9 @@ enum class GhostKind : std::uint8_t { none, hand, hand_and_wrench };
 
 struct Hint {
     Situation situation = Situation::all_done;
-    int level = 0;   // 0: text; 1: outline and arrow; 2: ghost; 3: animated motion and its control
+    // 0: text; 1: outline and arrow; 2: ghost, a translucent hand or wrench at the target pose; 3: animated
+    // motion and its control.
+    int level = 0;
     int joint = -1;  // the due joint; −1: none
     HintMotion motion = HintMotion::none;
     words::TextKey text = "hint.all_done";
@@ -46,9 +49,10 @@ struct Hint {
     [[nodiscard]] GhostKind ghost() const;
 };
 
-// `situation` selects the text and `underlying` the motion. They differ while the text announces a new step
-// and the arrow already shows its work.
-Hint make_hint(Situation situation, Situation underlying, int level, const WorkState& work);
+// `situation` selects the text and `underlying` the motion. They differ in the first 3 s of a step:
+// `situation` is then the announcement, and `underlying` is what to do, which gives the motion and its
+// arrow.
+Hint make_hint(Situation situation, Situation underlying, int level, const ObservedLesson& work);
 
 // The control for each motion as text ("hold F and drag").
 using ControlNames = std::array<std::string, motion_count>;
@@ -100,15 +104,18 @@ inline constexpr HintTimes practice_times{{20.0, 35.0, 50.0, 65.0}};
 inline constexpr double min_hint_duration = 1.5;            // s
 inline constexpr double min_duration_when_fulfilled = 0.5;  // s, once its request is fulfilled
 
+// How far the hand has come with the nut of a step.
+enum class Reached : std::uint8_t { nothing, right_tool, tool_on_nut };
+
 // The best values reached in a step; a new best is progress.
 struct StepProgress {
     double torque = 0.0;  // N·m, highest in this step
     double angle = 0.0;   // rad, furthest in the step's direction
     // The next two start again when the hand releases a nut that it has moved.
     double distance = 1e9;  // m to the nut, smallest
-    int reached = 0;        // 1: the hand has the right tool; 2: the tool is on the nut
-    bool moved = false;     // the hand has moved the nut that it holds
-    double idle = 0.0;      // s since the last progress
+    Reached reached = Reached::nothing;
+    bool moved = false;  // the hand has moved the nut that it holds
+    double idle = 0.0;   // s since the last progress
 };
 
 // The shown hint and the timing of its successor.
@@ -131,6 +138,7 @@ struct HintState {
 
 // Advances by a frame of `dt` seconds and returns the hint to show. `requested`: the trainee requested help
 // in this frame.
-const std::optional<Hint>& update(HintState& hints, const WorkState& work, double dt, bool requested = false);
+const std::optional<Hint>& update(HintState& hints, const ObservedLesson& work, double dt,
+                                  bool requested = false);
 
 }  // namespace bolt::lesson

@@ -21,7 +21,7 @@ Verdict worst(Verdict a, Verdict b) {
 
 std::string times(int n) { return n == 1 ? "once" : fmt::format("{} times", n); }
 
-void take_points(LessonResult& result, ScoreReason reason) {
+void take_points(LessonResult& result, Deduction reason) {
     reason.points = -reason.points;
     result.score += reason.points;
     result.reasons.push_back(std::move(reason));
@@ -50,7 +50,7 @@ JointResult judge_joint(const Lesson& lesson, std::size_t index, const world::Re
         // A nut off its seat has no clamp force, whatever its torque was.
         if (joint.stage == joint::Stage::navigation) result.overall = Verdict::low;
     }
-    if (result.condition != joint::JointCondition::sound) result.overall = Verdict::high;
+    if (result.condition != joint::JointCondition::intact) result.overall = Verdict::high;
     return result;
 }
 
@@ -63,7 +63,7 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
     int done_already = 0, out_of_turn = 0, wrong_ways = 0, overdone = 0, slips = 0;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         JointResult joint = judge_joint(lesson, i, world);
-        if (joint.condition != joint::JointCondition::sound)
+        if (joint.condition != joint::JointCondition::intact)
             take_points(result, {1.5 * share, fmt::format("{} is {}", joint.id, joint::name(joint.condition)),
                                  DeductionKind::damaged, static_cast<int>(i), 1});
         else if (joint.overall != Verdict::ok)
@@ -77,7 +77,7 @@ LessonResult judge(const Lesson& lesson, const world::ReadHaptics& world, double
         wrong_ways += lesson.joints[i].wrong_way_count;
         slips += lesson.joints[i].slip_count;
         const bool still_too_high =
-            joint.torque_verdict == Verdict::high || joint.condition != joint::JointCondition::sound;
+            joint.torque_verdict == Verdict::high || joint.condition != joint::JointCondition::intact;
         overdone += std::max(0, lesson.joints[i].over_torque_count - (still_too_high ? 1 : 0));
         result.joints.push_back(std::move(joint));
     }

@@ -199,11 +199,11 @@ void begin_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& wor
     report_out_of_turn(lesson, joint, world);
 }
 
-// Updates the torque that turned the nut, in a step of any kind. Divides by the breakaway factor (r in
-// mechanistic.hpp), because a nut that is turned in small increments breaks away each time. The factor
-// applies to friction only and the whole torque is divided by it, so the result is slightly too low. A nut
-// that leaves its seat resets the torque.
-void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint& joint, double work) {
+// Updates the torque that turned the nut, in a step of any kind. `step_torque`: torque of the wrench in the
+// direction of the task, N·m. Divides by the breakaway factor (r in mechanistic.hpp), because a nut that is
+// turned in small increments breaks away each time. The factor applies to friction only and the whole torque
+// is divided by it, so the result is slightly too low. A nut that leaves its seat resets the torque.
+void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint& joint, double step_torque) {
     JointTrack& track = lesson.joints[index];
     if (lesson.task != Task::tighten) return;
     if (joint.stage == joint::Stage::navigation) {
@@ -213,7 +213,7 @@ void update_turned_torque(Lesson& lesson, std::size_t index, const world::Joint&
     const double ratio = lesson.assembly->joints[index].design.friction.static_ratio;
     const double breakaway_factor = 1.0 + (ratio - 1.0) * joint.breakaway;
     if (joint.speed > turning_speed)
-        track.turned_torque = std::max(track.turned_torque, work / breakaway_factor);
+        track.turned_torque = std::max(track.turned_torque, step_torque / breakaway_factor);
 }
 
 // Reports excess torque, once until the nut leaves its seat. Breakaway torque does not turn the nut and does
@@ -251,16 +251,18 @@ void observe_work(Lesson& lesson, std::size_t joint, const world::ReadHaptics& w
     JointTrack& track = lesson.joints[joint];
     const world::Joint& nut = joint_at(world, joint);
     const double torque = nut.torque;
-    const double work = lesson.task == Task::loosen ? -torque : torque;
+    // Torque of the wrench in the direction of the task, N·m.
+    const double step_torque = lesson.task == Task::loosen ? -torque : torque;
     const bool fingers = lesson.grip == servo::Grip::fingers;
     // Lifting the wrench off a finished nut can exert torque without turning the nut.
     const LessonStep* due = lesson.due();
     const bool leaves = !fingers && due != nullptr && due->joint != joint &&
                         lesson.last_held_joint == static_cast<int>(joint) && track.done_in_pass == due->pass;
-    const bool works = leaves ? nut.speed > turning_speed : work > working_torque || (fingers && work > 0.01);
+    const bool works =
+        leaves ? nut.speed > turning_speed : step_torque > working_torque || (fingers && step_torque > 0.01);
     if (!track.worked && works) begin_work(lesson, joint, world);
-    track.peak_torque = std::max(track.peak_torque, work);
-    update_turned_torque(lesson, joint, nut, work);
+    track.peak_torque = std::max(track.peak_torque, step_torque);
+    update_turned_torque(lesson, joint, nut, step_torque);
     report_excess_torque(lesson, joint, tick_of(world));
     if (!fingers) report_wrong_way(lesson, joint, world);
     if (!track.snug && lesson.task == Task::tighten && torque >= spec_of(lesson, joint).snug_torque &&
@@ -375,7 +377,7 @@ void observe(Lesson& lesson, const world::ReadHaptics& world) {
     // The step of a broken bolt cannot be done; the lesson continues with the next one.
     const LessonStep* due = lesson.due();
     if (due != nullptr && lesson.held_joint < 0 &&
-        lesson.joints[due->joint].result.condition != joint::JointCondition::sound)
+        lesson.joints[due->joint].result.condition != joint::JointCondition::intact)
         end_step(lesson, world);
 }
 

@@ -58,8 +58,8 @@ bool uses_fingers(const content::Assembly& assembly, const LessonStep& step, dou
 // stays due.
 
 // The record of one joint between ticks. A hold lasts from the tick in which the hand engages the nut until
-// it releases it; an analysis::Visit may have several. For `worked` alone, finger grips that follow each
-// other within a second count as one hold.
+// it releases it; an analysis::Visit may have several. Exception: `worked` is kept if fingers grip the same
+// nut again within a second.
 struct JointTrack {
     JointResult result;
     bool snug = false;           // the snug torque has been reached

@@ -41,7 +41,7 @@ struct JointResult {
     Verdict torque_verdict = Verdict::none;
     Verdict angle_verdict = Verdict::none;
     Verdict overall = Verdict::none;  // OK only if each judged quantity is OK and the joint is sound
-    joint::JointCondition condition = joint::JointCondition::sound;
+    joint::JointCondition condition = joint::JointCondition::intact;
     int strokes = 0;
     int done_already = 0;  // times that the hand worked on it after its step was done
     int out_of_turn = 0;   // times that the hand worked on it before its step was due
@@ -60,8 +60,8 @@ enum class DeductionKind : std::uint8_t {
     unfinished
 };
 
-// A deduction from the score, or a remark without points, with its reason as text.
-struct ScoreReason {
+// A deduction from the score with its reason as text; one without points only explains.
+struct Deduction {
     double points = 0.0;
     std::string text;
     DeductionKind kind = DeductionKind::none;
@@ -75,7 +75,7 @@ struct LessonResult {
     double score = 0.0;     // 0…100
     bool finished = false;  // every step is done
     std::vector<JointResult> joints;
-    std::vector<ScoreReason> reasons;
+    std::vector<Deduction> reasons;
 };
 
 // The kind of a mistake, in order of severity. lesson.cpp detects mistakes; feedback.cpp has their texts. A
@@ -109,7 +109,7 @@ enum class EventKind : std::uint8_t {
     note
 };
 
-// As session files store it.
+// As session files store it; the names of `undo` and `visibility` are older.
 constexpr std::string_view name(EventKind kind) {
     constexpr std::string_view names[] = {"pass_begin", "step_begin", "step_end", "engage",
                                           "release",    "stage",      "click",    "mistake",

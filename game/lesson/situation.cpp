@@ -6,9 +6,9 @@ namespace bolt::lesson {
 
 namespace {
 
-constexpr double near = 0.06;                // m from the nut within which the trainee has found it
-constexpr double worn = 0.2e-3;              // m of wear at each corner
-constexpr double no_room = to_radians(3.0);  // remaining swing of the handle
+constexpr double near = 0.06;                      // m from the nut within which the trainee has found it
+constexpr double worn = 0.2e-3;                    // m of wear at each corner
+constexpr double no_free_swing = to_radians(3.0);  // remaining swing of the handle
 constexpr double last_part =
     0.8;  // share of the lowest valid torque from which the trainee should pull slowly
 constexpr double let_go_share = 0.5;     // share of the peak torque below which the pull has ended
@@ -20,12 +20,12 @@ constexpr double wrong_torque = 1.0;     // N·m; more than the wrench's elastic
 constexpr double wrong_share = 0.2;      // share of the step's torque
 constexpr double worked_torque = 0.5;    // N·m
 
-bool out_of_room(const WorkState& s) {
+bool out_of_room(const ObservedLesson& s) {
     const world::WorkingHand& hand = s.world.only<world::WorkingHand>();
-    return hand.action == world::HandAction::holding && hand.room < no_room;
+    return hand.action == world::HandAction::holding && hand.free_swing < no_free_swing;
 }
 
-Situation without_nut(const WorkState& s, const LessonStep& due, bool fingers) {
+Situation without_nut(const ObservedLesson& s, const LessonStep& due, bool fingers) {
     const bool wrench = wrench_in_hand(s);
     if (fingers && wrench) return Situation::put_wrench_away;
     if (!fingers && !wrench) return Situation::take_wrench;
@@ -36,7 +36,7 @@ Situation without_nut(const WorkState& s, const LessonStep& due, bool fingers) {
     return again ? Situation::set_on_again : Situation::set_on;
 }
 
-Situation running_down(const WorkState& s, const world::Joint& joint, bool fingers) {
+Situation running_down(const ObservedLesson& s, const world::Joint& joint, bool fingers) {
     if (step_fulfilled(s.lesson, s.world)) return Situation::seated;
     const bool by_wrench = held_item(s) == HeldItem::nut_by_wrench;
     if (by_wrench && fingers) return Situation::put_wrench_away;
@@ -46,7 +46,7 @@ Situation running_down(const WorkState& s, const world::Joint& joint, bool finge
     return fingers ? Situation::run_down : Situation::run_down_by_wrench;
 }
 
-Situation tightening(const WorkState& s, const LessonStep& due, const world::Joint& joint) {
+Situation tightening(const ObservedLesson& s, const LessonStep& due, const world::Joint& joint) {
     if (held_item(s) == HeldItem::nut_by_fingers) return Situation::wrench_needed;
     const JointTrack& track = s.lesson.joints[due.joint];
     const content::ToleranceWindow window = torque_window(s.lesson, due);
@@ -71,7 +71,7 @@ Situation tightening(const WorkState& s, const LessonStep& due, const world::Joi
     return eases ? Situation::ease : Situation::pull;
 }
 
-Situation loosening(const WorkState& s, const LessonStep& due, const world::Joint& joint) {
+Situation loosening(const ObservedLesson& s, const LessonStep& due, const world::Joint& joint) {
     if (step_fulfilled(s.lesson, s.world)) return Situation::free;
     if (held_item(s) == HeldItem::nut_by_fingers) return Situation::wrench_needed;
     const double turned = s.lesson.joints[due.joint].begin_angle - joint.angle;
@@ -84,22 +84,22 @@ Situation loosening(const WorkState& s, const LessonStep& due, const world::Join
 
 }  // namespace
 
-bool wrench_in_hand(const WorkState& work) { return work.world.only<world::WorkingHand>().wrench; }
+bool wrench_in_hand(const ObservedLesson& work) { return work.world.only<world::WorkingHand>().wrench; }
 
-HeldItem held_item(const WorkState& work) {
+HeldItem held_item(const ObservedLesson& work) {
     if (work.lesson.held_joint >= 0)
         return work.lesson.grip == servo::Grip::fingers ? HeldItem::nut_by_fingers : HeldItem::nut_by_wrench;
     return wrench_in_hand(work) ? HeldItem::wrench : HeldItem::nothing;
 }
 
-double distance_to_due(const WorkState& work) {
+double distance_to_due(const ObservedLesson& work) {
     const LessonStep* due = work.lesson.due();
     if (due == nullptr) return std::numeric_limits<double>::infinity();
     const Vec3 nut = world::nut_centre(work.world, work.setup, due->joint);
     return glm::distance(work.world.only<world::ConstrainedTool>().pose.position, nut);
 }
 
-Situation situation(const WorkState& work) {
+Situation situation(const ObservedLesson& work) {
     const LessonStep* due = work.lesson.due();
     if (due == nullptr) return Situation::all_done;
     const servo::NutGeometry& nut = work.setup.nuts[due->joint];

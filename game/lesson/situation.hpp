@@ -29,50 +29,50 @@ enum class Situation : std::uint8_t {
     pull,
     pull_to_yield,
     pull_to_click,
-    set_back,  // the handle has no room left to swing
-    ease,
-    ease_to_yield,
+    set_back,       // the handle has no room left to swing
+    ease,           // the target is near: pull gently
+    ease_to_yield,  // yield is near: pull gently
     stop,
     stop_at_yield,
     stop_at_click,
     stop_too_much,
     take_off,
-    check,
+    check,  // re-check: pull until the nut moves or the torque is reached
     checked,
     break_loose,
     turn_off,
-    free,
+    free,  // the nut is loose
     wrong_joint,
     other_way_on,
     other_way_off,
     wrench_needed,  // fingers hold a nut that needs the wrench
     leave_broken,
     leave_stripped,
-    next,  // this and the following four announce a step
-    round_run_down,
-    round_tighten,
-    round_recheck,
-    round_loosen,
+    next,  // the next joint; this and the following four announce a step
+    pass_run_down,
+    pass_tighten,
+    pass_recheck,
+    pass_loosen,
     all_done,
 };
 inline constexpr std::size_t situation_count = 40;
 
-// The state after a tick: the lesson after observe(), and the world that it observed.
-struct WorkState {
+// The lesson after observe(), and the world that it observed in this tick.
+struct ObservedLesson {
     const Lesson& lesson;
     const servo::Setup& setup;
     ecs::Access<const world::Joint, const world::ConstrainedTool, const world::WorkingHand> world;
 };
 
 // Also true while the wrench is on a nut.
-bool wrench_in_hand(const WorkState& work);
+bool wrench_in_hand(const ObservedLesson& work);
 
 enum class HeldItem : std::uint8_t { nothing, wrench, nut_by_fingers, nut_by_wrench };
-HeldItem held_item(const WorkState& work);
+HeldItem held_item(const ObservedLesson& work);
 
-Situation situation(const WorkState& work);
+Situation situation(const ObservedLesson& work);
 
 // Distance from the tool to the due nut, m; infinite if no step is due.
-double distance_to_due(const WorkState& work);
+double distance_to_due(const ObservedLesson& work);
 
 }  // namespace bolt::lesson

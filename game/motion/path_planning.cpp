@@ -17,7 +17,7 @@ namespace {
 constexpr double beyond_grip = 1.12;  // wrench length / distance from jaw to grip
 constexpr double swing_step = to_radians(5.0);
 constexpr double swing_margin = to_radians(3.0);  // between handle and obstacles
-constexpr double max_lead = 4e-3;                 // m by which the hand may lead the wrench
+constexpr double max_ahead = 4e-3;                // m by which the hand may be ahead of the wrench
 constexpr double max_turn_lead = to_radians(4.0);
 constexpr double clearance = 0.012;                          // m between wrench and obstacles along a path
 constexpr std::array rises{0.05, 0.1, 0.15, 0.2, 0.3, 0.4};  // m
@@ -103,7 +103,7 @@ struct FreeSpace {
 
     // The angle in rad by which a handle can swing before it meets an obstacle, at most `most`; negative if
     // it meets one at the start.
-    [[nodiscard]] double swing_room(std::size_t joint, double nut_angle, double angle, double sign,
+    [[nodiscard]] double free_swing(std::size_t joint, double nut_angle, double angle, double sign,
                                     double most) const {
         if (!handle_is_free(joint, nut_angle, angle, 0.0)) return -1.0;
         double room = 0.0;
@@ -113,7 +113,7 @@ struct FreeSpace {
     }
 };
 
-// For a gap that is closed above: over the top to a pose beside it, then straight in from the side.
+// Plans a path into a gap that is closed above: over the top to a pose beside the gap, then straight in.
 std::optional<ReachPath> side_approach(const FreeSpace& space, const Pose& from, const Pose& to,
                                        const Vec3& up, const std::function<Vec3(int)>& aside) {
     for (const double far : {0.25, 0.4, 0.6})
@@ -189,7 +189,7 @@ GripAngle choose_grip(const servo::Setup& setup, const servo::ToolContact* conta
             const double candidate = nearest + (contact != nullptr ? sixth * pi / 3.0 : 0.0);
             double swing = stroke, penalty = 0.0;
             if (space) {
-                swing = space->swing_room(joint, nut_angle, candidate, sign, stroke);
+                swing = space->free_swing(joint, nut_angle, candidate, sign, stroke);
                 for (const double above : heights)
                     if (!space->handle_is_free(joint, nut_angle, candidate, above)) penalty = squeeze_cost;
             }
@@ -215,12 +215,12 @@ double hover_height(const servo::Setup& setup, const servo::ToolContact& contact
     return max_height;
 }
 
-Pose yield_to_wrench(const Pose& commanded, const Pose& wrench) {
+Pose give_way_to_wrench(const Pose& commanded, const Pose& wrench) {
     const Vec3 ahead = commanded.position - wrench.position;
     const Vec3 turn = turn_between(wrench.orientation, commanded.orientation);
     const double far = glm::length(ahead), round = glm::length(turn);
     Pose pose = commanded;
-    if (far > max_lead) pose.position = wrench.position + ahead * (max_lead / far);
+    if (far > max_ahead) pose.position = wrench.position + ahead * (max_ahead / far);
     if (round > max_turn_lead)
         pose.orientation = glm::normalize(rotation(turn * (max_turn_lead / round)) * wrench.orientation);
     return pose;

@@ -60,7 +60,7 @@ ReachPath plan_reach(const servo::Setup& setup, const servo::ToolContact& contac
 struct GripAngle {
     double handle = 0.0;  // rad about the bolt, tightening positive
     bool flipped = false;
-    double room = 0.0;  // rad by which the handle can swing from there
+    double free_swing = 0.0;  // rad by which the handle can swing from there
 };
 
 // Chooses among the angles at which the jaw fits (every 60°, and 30° between these with the wrench flipped)
@@ -75,6 +75,6 @@ double hover_height(const servo::Setup& setup, const servo::ToolContact& contact
                     double nut_angle, const GripAngle& grip, double max_height);
 
 // Limits how far the hand leads a blocked wrench, because the force of a hand is limited.
-Pose yield_to_wrench(const Pose& commanded, const Pose& wrench);
+Pose give_way_to_wrench(const Pose& commanded, const Pose& wrench);
 
 }  // namespace bolt::motion

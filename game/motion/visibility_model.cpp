@@ -65,7 +65,7 @@ Vec3 eye_at(const Vec3& target, const Bearing& b) {
 // to `move`.
 EyeCandidate search_direction(const EyeCandidate& from, const HeadDirection& direction, const Vec3& target,
                               double sufficient, const std::function<double(const Vec3&)>& visibility_from,
-                              HeadMove& move) {
+                              HeadMovement& move) {
     EyeCandidate best = from;
     Bearing bearing = from.bearing;
     ++move.glances;
@@ -101,19 +101,20 @@ double target_visibility(VisibilityModel& model, const servo::Setup& setup, cons
                          std::size_t joint, const Pose& wrench, const Vec3& eye) {
     const double nut = nut_visibility(model, contact, joint, eye);
     if (nut <= 0.0) return 0.0;
-    if (model.head.empty()) {
-        model.head = collision::sample_outer_surface(contact.wrench.solid, wrench_samples);
-        std::erase_if(model.head, [&](const collision::SurfacePoint& sample) {
+    if (model.wrench_head.empty()) {
+        model.wrench_head = collision::sample_outer_surface(contact.wrench.solid, wrench_samples);
+        std::erase_if(model.wrench_head, [&](const collision::SurfacePoint& sample) {
             return glm::length(sample.at) > head_size * setup.wrench.jaw.opening;
         });
     }
     return std::min(
-        nut, collision::visibility_of(contact.world, contact.wrench.solid, wrench, model.head, eye).share);
+        nut,
+        collision::visibility_of(contact.world, contact.wrench.solid, wrench, model.wrench_head, eye).share);
 }
 
-std::optional<HeadMove> improve_view(VisibilityModel& model, const servo::Setup& setup,
-                                     const servo::ToolContact& contact, std::size_t joint, const Pose& wrench,
-                                     double sufficient, Random& random) {
+std::optional<HeadMovement> improve_view(VisibilityModel& model, const servo::Setup& setup,
+                                         const servo::ToolContact& contact, std::size_t joint,
+                                         const Pose& wrench, double sufficient, Random& random) {
     const auto visibility_from = [&](const Vec3& eye) {
         return target_visibility(model, setup, contact, joint, wrench, eye);
     };
@@ -121,7 +122,7 @@ std::optional<HeadMove> improve_view(VisibilityModel& model, const servo::Setup&
     if (now >= sufficient) return std::nullopt;
     const Vec3 target = setup.nuts[joint].seat;
     EyeCandidate best{bearing_of(target, model.eye), now};
-    HeadMove move;
+    HeadMovement move;
     std::array<HeadDirection, 4> ways{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
     for (int tries = 0; tries < max_tries && best.share < sufficient;) {
         for (std::size_t i = ways.size() - 1; i > 0; --i) std::swap(ways[i], ways[random.bits() % (i + 1)]);

@@ -17,7 +17,7 @@ namespace bolt::motion {
 struct VisibilityModel {
     Vec3 eye{0.0};                                           // m
     std::vector<std::vector<collision::SurfacePoint>> nuts;  // by joint; empty: not sampled yet
-    std::vector<collision::SurfacePoint> head;               // of the wrench
+    std::vector<collision::SurfacePoint> wrench_head;
 };
 
 // The fraction 0…1 of a nut that the obstacles do not hide. The wrench does not count as an obstacle, because
@@ -29,7 +29,7 @@ double nut_visibility(VisibilityModel& model, const servo::ToolContact& contact,
 double target_visibility(VisibilityModel& model, const servo::Setup& setup, const servo::ToolContact& contact,
                          std::size_t joint, const Pose& wrench, const Vec3& eye);
 
-struct HeadMove {
+struct HeadMovement {
     Vec3 eye{0.0};
     double turn = 0.0;  // rad, total movement about the nut, with the unsuccessful attempts
     int glances = 0;    // directions tried
@@ -39,9 +39,9 @@ struct HeadMove {
 // sees only from the present position. The head moves about the nut in one direction while the visibility
 // increases, then returns and tries another direction, and stops at the best position if no direction is
 // better. None: the present visibility suffices.
-std::optional<HeadMove> improve_view(VisibilityModel& model, const servo::Setup& setup,
-                                     const servo::ToolContact& contact, std::size_t joint, const Pose& wrench,
-                                     double sufficient, Random& random);
+std::optional<HeadMovement> improve_view(VisibilityModel& model, const servo::Setup& setup,
+                                         const servo::ToolContact& contact, std::size_t joint,
+                                         const Pose& wrench, double sufficient, Random& random);
 
 // Standard deviation, m, of the placement of a tool at a target with the visible fraction `share`. Vision and
 // touch are weighted by their precision (van Beers, Sittig and Denier van der Gon, J. Neurophysiol. 81 (1999)

@@ -130,10 +130,11 @@ Attempt attempt_of(const analysis::SessionData& session) {
     a.visible_share = near_time > 0.0 ? visible_time / near_time : unknown;
     a.time_to_nut = analysis::quartiles(std::move(times_to_nut)).median;
     a.time_near_nut = analysis::quartiles(std::move(times_near_nut)).median;
-    a.bumps = metrics.recorded ? static_cast<double>(metrics.bumps.size()) : unknown;
-    a.bump_time = metrics.recorded ? 0.0 : unknown;
-    for (const analysis::Bump& bump : metrics.bumps) a.bump_time += bump.length;
-    const double greatest = metrics.device ? metrics.device->force : unknown;
+    a.obstacle_contacts = metrics.recorded ? static_cast<double>(metrics.obstacle_contacts.size()) : unknown;
+    a.contact_time = metrics.recorded ? 0.0 : unknown;
+    for (const analysis::ObstacleContact& contact : metrics.obstacle_contacts)
+        a.contact_time += contact.length;
+    const double greatest = metrics.device_limits ? metrics.device_limits->force : unknown;
     a.greatest_change = metrics.force.greatest / greatest;
     a.usual_change = metrics.force.p99 / greatest;
     return a;
@@ -175,8 +176,8 @@ constexpr StudyMeasure measures[] = {
     {"Time near the nut until it is held", "s, median over the steps", &Attempt::time_near_nut, 1.0, 2},
     {"Nut in sight meanwhile", "% of the time with 60 % of it visible or more", &Attempt::visible_share,
      100.0, 0},
-    {"Bumps", "in a lesson", &Attempt::bumps, 1.0, 1},
-    {"Time in contact with obstacles", "s in a lesson", &Attempt::bump_time, 1.0, 2},
+    {"Contacts with obstacles", "in a lesson", &Attempt::obstacle_contacts, 1.0, 1},
+    {"Time in contact with obstacles", "s in a lesson", &Attempt::contact_time, 1.0, 2},
     {"Duration of the lesson", "min", &Attempt::duration, 1.0 / 60.0, 2},
     {"Score", "points", &Attempt::score, 1.0, 1},
     {"Largest change of force in 1 ms", "% of the device's greatest", &Attempt::greatest_change, 100.0, 2},

@@ -23,9 +23,9 @@ struct Attempt {
 
     // Haptic metrics; NaN: unknown.
     bool guided = false, view_help = false, obstacles = false;
-    double time_to_nut = 0.0, time_near_nut = 0.0;  // s with the wrench, medians over the steps
-    double visible_share = 0.0;                     // 0…1, share of time_near_nut with a visible nut
-    double bumps = 0.0, bump_time = 0.0;            // count, s
+    double time_to_nut = 0.0, time_near_nut = 0.0;       // s with the wrench, medians over the steps
+    double visible_share = 0.0;                          // 0…1, share of time_near_nut with a visible nut
+    double obstacle_contacts = 0.0, contact_time = 0.0;  // count, s
     // Change of the force in a millisecond, as shares of the device's maximum: the largest and the 99th
     // percentile.
     double greatest_change = 0.0, usual_change = 0.0;

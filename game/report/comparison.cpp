@@ -27,13 +27,14 @@ struct CurveExtent {
 
 // The angle, rad, of the virtual curve at the common point of the first cycle: the plots' 0°.
 double common_angle(const analysis::JointComparison& joint) {
-    return joint.cycles.empty() ? 0.0 : joint.cycles[0].alignment.our_angle;
+    return joint.cycles.empty() ? 0.0 : joint.cycles[0].alignment.simulated_angle;
 }
 
 std::vector<plot::SvgPoint> virtual_points(const analysis::JointComparison& joint) {
     std::vector<plot::SvgPoint> points;
-    for (std::size_t i = 0; i < joint.ours.size(); ++i)
-        points.push_back({to_degrees(joint.ours.angle[i] - common_angle(joint)), joint.ours.torque[i]});
+    for (std::size_t i = 0; i < joint.simulated.size(); ++i)
+        points.push_back(
+            {to_degrees(joint.simulated.angle[i] - common_angle(joint)), joint.simulated.torque[i]});
     return points;
 }
 
@@ -75,15 +76,15 @@ plot::Plot plot_with_extent(CurveExtent extent, std::string title, double width,
 
 void add_stages(plot::Plot& plot, const analysis::JointComparison& joint) {
     constexpr std::string_view styles[] = {"s0", "s1", "s2", "s3"};
-    const analysis::TorqueCurve& ours = joint.ours;
-    for (std::size_t i = 0; i < ours.size();) {
+    const analysis::TorqueCurve& simulated = joint.simulated;
+    for (std::size_t i = 0; i < simulated.size();) {
         std::size_t end = i;
-        while (end + 1 < ours.size() && ours.stage[end + 1] == ours.stage[i]) ++end;
-        const std::size_t to = std::min(end + 1, ours.size() - 1);
-        plot.bands.push_back({{to_degrees(ours.angle[i] - common_angle(joint)),
-                               to_degrees(ours.angle[to] - common_angle(joint))},
-                              styles[static_cast<std::size_t>(ours.stage[i])],
-                              std::string(joint::name(ours.stage[i]))});
+        while (end + 1 < simulated.size() && simulated.stage[end + 1] == simulated.stage[i]) ++end;
+        const std::size_t to = std::min(end + 1, simulated.size() - 1);
+        plot.bands.push_back({{to_degrees(simulated.angle[i] - common_angle(joint)),
+                               to_degrees(simulated.angle[to] - common_angle(joint))},
+                              styles[static_cast<std::size_t>(simulated.stage[i])],
+                              std::string(joint::name(simulated.stage[i]))});
         i = end + 1;
     }
 }
@@ -241,7 +242,7 @@ std::vector<std::string> remarks(const analysis::Comparison& c) {
     }
     double virtual_least = 0.0, virtual_most = 0.0;
     for (const analysis::JointComparison& joint : c.joints) {
-        const double peak = peak_of(joint.ours);
+        const double peak = peak_of(joint.simulated);
         virtual_least = virtual_least == 0.0 ? peak : std::min(virtual_least, peak);
         virtual_most = std::max(virtual_most, peak);
     }

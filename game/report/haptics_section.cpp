@@ -32,7 +32,7 @@ std::string evenness_mark(const analysis::HapticMetrics& f) {
 
 void put_evenness(std::string& out, const analysis::SessionData& s) {
     const analysis::HapticMetrics& f = s.metrics;
-    const double greatest = f.device ? f.device->force : 0.0;
+    const double greatest = f.device_limits ? f.device_limits->force : 0.0;
     if (f.force.ticks == 0) {
         out += "<p>The device rendered no force.</p>\n";
         return;
@@ -50,10 +50,10 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
             plot::number(greatest, 0));
     if (f.force.at_limit > 0)
         put(out, " The output stage limited the change {}, to {}\u00a0N in a millisecond.",
-            times_text(f.force.at_limit), plot::number(f.device->force_rate * 1e-3, 1));
+            times_text(f.force.at_limit), plot::number(f.device_limits->force_rate * 1e-3, 1));
     constexpr const char* names[analysis::activity_count] = {"while the output was switched off",
-                                                             "letting go of a nut",
-                                                             "taking hold of a nut",
+                                                             "releasing a nut",
+                                                             "engaging a nut",
                                                              "on a nut",
                                                              "against something",
                                                              "in the air"};
@@ -63,7 +63,7 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
             activities += fmt::format("{}{} {}", activities.empty() ? "" : ", ", f.at_limit[i], names[i]);
     if (!activities.empty()) put(out, " Of these: {}.", activities);
     put(out, " The torque changed by {}\u00a0N·m{} at most.</p>\n", plot::number(f.torque.greatest, 3),
-        share_text(f.torque.greatest, f.device ? f.device->torque : 0.0));
+        share_text(f.torque.greatest, f.device_limits ? f.device_limits->torque : 0.0));
 
     out +=
         "<div class=\"scroll\"><table><thead><tr><th class=\"n\">at</th><th class=\"n\">change in<br/>1 ms, "
@@ -79,9 +79,9 @@ void put_evenness(std::string& out, const analysis::SessionData& s) {
     out += "<p class=\"note\">The largest changes, those within 50\u00a0ms of a larger one left out.</p>\n";
 }
 
-void put_bumps(std::string& out, const analysis::SessionData& s) {
+void put_obstacle_contacts(std::string& out, const analysis::SessionData& s) {
     const analysis::HapticMetrics& f = s.metrics;
-    out += "<h3>Bumps</h3>\n";
+    out += "<h3>Contacts with obstacles</h3>\n";
     if (!f.recorded) {
         out += "<p>This session is of an older format, which does not record what the wrench touched.</p>\n";
         return;
@@ -90,14 +90,14 @@ void put_bumps(std::string& out, const analysis::SessionData& s) {
         out += "<p>Contact was not simulated: the wrench passed through everything.</p>\n";
         return;
     }
-    struct BumpTotal {
+    struct ContactTotal {
         std::uint64_t count = 0;
         double seconds = 0.0, longest = 0.0, peak_force = 0.0;
     };
-    std::map<collision::ObstacleId, BumpTotal> by_obstacle;
-    BumpTotal all;
-    for (const analysis::Bump& b : f.bumps)
-        for (BumpTotal* w : {&by_obstacle[b.obstacle], &all}) {
+    std::map<collision::ObstacleId, ContactTotal> by_obstacle;
+    ContactTotal all;
+    for (const analysis::ObstacleContact& b : f.obstacle_contacts)
+        for (ContactTotal* w : {&by_obstacle[b.obstacle], &all}) {
             ++w->count;
             w->seconds += b.length;
             w->longest = std::max(w->longest, b.length);
@@ -107,15 +107,16 @@ void put_bumps(std::string& out, const analysis::SessionData& s) {
         out += "<p>None: between the nuts the wrench touched nothing.</p>\n";
         return;
     }
-    std::vector<std::pair<collision::ObstacleId, BumpTotal>> rows(by_obstacle.begin(), by_obstacle.end());
+    std::vector<std::pair<collision::ObstacleId, ContactTotal>> rows(by_obstacle.begin(), by_obstacle.end());
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a.second.count > b.second.count; });
     put(out,
-        "<p>Between the nuts the wrench bumped into something {}, for {}\u00a0s in total and with at most "
+        "<p>Between the nuts the wrench touched something {}, for {}\u00a0s in total and with at most "
         "{}\u00a0N.</p>\n",
         times_text(all.count), plot::number(all.seconds, 1), plot::number(all.peak_force, 1));
     out +=
-        "<div class=\"scroll\"><table><thead><tr><th>with</th><th class=\"n\">bumps</th><th class=\"n\">in "
+        "<div class=\"scroll\"><table><thead><tr><th>with</th><th class=\"n\">contacts</th><th "
+        "class=\"n\">in "
         "all, s</th><th class=\"n\">longest, s</th><th class=\"n\">hardest, N</th></tr></thead><tbody>\n";
     for (const auto& [obstacle, w] : rows)
         put(out,
@@ -125,7 +126,8 @@ void put_bumps(std::string& out, const analysis::SessionData& s) {
             plot::number(w.seconds, 2), plot::number(w.longest, 2), plot::number(w.peak_force, 1));
     out += "</tbody></table></div>\n";
     out +=
-        "<p class=\"note\">Touches less than 0.1\u00a0s apart count as one bump. Touching the nut that the "
+        "<p class=\"note\">Touches less than 0.1\u00a0s apart count as one contact. Touching the nut that "
+        "the "
         "wrench "
         "is moving to or has just left does not count, nor does a contact that began with a nut in the "
         "jaw.</p>\n";
@@ -178,16 +180,17 @@ void put_servo(std::string& out, const analysis::SessionData& s) {
     std::string faults;
     for (std::size_t i = 1; i < f.faults.size(); ++i)
         if (f.faults[i] > 0.0)
-            faults += fmt::format("{}{}: {}\u00a0s", faults.empty() ? "" : "; ",
-                                  force::name(static_cast<force::Fault>(i)), plot::number(f.faults[i], 2));
+            faults +=
+                fmt::format("{}{}: {}\u00a0s", faults.empty() ? "" : "; ",
+                            force::message_for(static_cast<force::Fault>(i)), plot::number(f.faults[i], 2));
     if (!f.recorded) return;
     out += "<h3>Output stage and servo</h3>\n";
     put(out, "<p>{} {}</p>\n",
         faults.empty() ? "The output was never switched off."
                        : "The output was switched off: " + plot::escape(faults) + ".",
-        f.timing ? "The servo ran on a thread: " + plot::escape(f.servo) + "."
+        f.timing ? "The servo ran on a thread: " + plot::escape(f.servo_text) + "."
                  : "There are no wake-up, compute and period times: the servo ran in " +
-                       plot::escape(f.servo) + ".");
+                       plot::escape(f.servo_text) + ".");
     if (!f.timing) return;
     out +=
         "<div class=\"scroll\"><table><thead><tr><th>µs</th><th class=\"n\">median</th><th class=\"n\">99 "
@@ -215,7 +218,7 @@ std::string haptics_section(const analysis::SessionData& session) {
     if (f.force.ticks == 0 && f.arrivals.empty()) return {};
     std::string out = "<h2>What the hand felt</h2>\n";
     put_evenness(out, session);
-    put_bumps(out, session);
+    put_obstacle_contacts(out, session);
     put_arrivals(out, session);
     put_servo(out, session);
     return out;

@@ -66,7 +66,7 @@ void put_score(std::string& out, const analysis::SessionData& s) {
         "<h2>Score</h2>\n<table><thead><tr><th class=\"n\" "
         "style=\"width:5.5em\">points</th><th>reason</th></tr></thead>"
         "<tbody>\n";
-    for (const lesson::ScoreReason& reason : s.reasons)
+    for (const lesson::Deduction& reason : s.reasons)
         put(out, "<tr><td class=\"n\">{}</td><td class=\"w\">{}</td></tr>\n",
             plot::signed_number(reason.points, 1), plot::escape(reason.text));
     put(out, "<tr class=\"sum\"><td class=\"n\">{}</td><td>score</td></tr></tbody></table>\n",
@@ -319,7 +319,7 @@ void put_method(std::string& out, const analysis::SessionData& s) {
 
 std::string verdict_mark(const lesson::JointResult& result) {
     using lesson::Verdict;
-    if (result.condition != joint::JointCondition::sound)
+    if (result.condition != joint::JointCondition::intact)
         return fmt::format("<span class=\"v vh\">✕ {}</span>", joint::name(result.condition));
     constexpr std::string_view styles[] = {"vn", "vl", "vo", "vh"};
     constexpr std::string_view shapes[] = {"–", "▼ LOW", "✓ OK", "▲ HIGH"};

@@ -24,8 +24,8 @@ std::string verdict_mark(const lesson::JointResult& result);
 // HTML of one session. `number` counts from 1 and is part of the anchor's name; 0: the only session.
 std::string session_section(const analysis::SessionData& session, std::size_t number);
 
-// HTML: the haptic metrics of a session: evenness of the force, bumps, times to reach the nuts, and timing of
-// the servo. Empty if the session has neither forces nor arrivals.
+// HTML: the haptic metrics of a session: evenness of the force, contacts with obstacles, times to reach the
+// nuts, and timing of the servo. Empty if the session has neither forces nor arrivals.
 std::string haptics_section(const analysis::SessionData& session);
 
 // overview: without the sections of the single sessions, if there are several.

@@ -267,7 +267,7 @@ double penetration_depth(const collision::CollisionWorld& solids, const Vec3& po
                          Vec3& out) {
     double deepest = -margin;
     for (const collision::Body& body : solids.bodies) {
-        if (!body.on) continue;
+        if (!body.enabled) continue;
         const collision::CollisionShape& shape = solids.shapes[body.shape];
         const Vec3 local = inverse(body.pose) * point;
         const Vec3 beside = glm::max(shape.solid.box.low - local, local - shape.solid.box.high);

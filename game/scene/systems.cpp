@@ -204,7 +204,7 @@ render::Scene make_lit_scene(const Workplace& workplace, const render::Environme
     scene.environment = &light;
     scene.lights.push_back(view::key_light());
     scene.background = {0.10F, 0.11F, 0.12F, 1.0F};
-    scene.occlusion_radius = 0.04F * glm::distance(workplace.machine.low, workplace.machine.high);
+    scene.occlusion_radius = 0.04F * glm::distance(workplace.workpiece.low, workplace.workpiece.high);
     return scene;
 }
 

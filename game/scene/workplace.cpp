@@ -26,9 +26,9 @@ assets::Model read_optional(const std::filesystem::path& file, std::vector<std::
 
 Result<LessonModels> load_lesson_models(const content::Assembly& assembly, hand::Side side) {
     LessonModels models;
-    view::ModelLoadResult machine = view::load_model(assembly.file);
-    if (!machine.ok()) return fail(machine.errors.front());
-    models.machine = std::move(machine.model);
+    view::ModelLoadResult workpiece = view::load_model(assembly.file);
+    if (!workpiece.ok()) return fail(workpiece.errors.front());
+    models.workpiece = std::move(workpiece.model);
     const std::filesystem::path content = content::content_folder();
     models.workshop = read_optional(content / "environments/workshop.glb", models.missing);
     models.hand =
@@ -55,7 +55,7 @@ Result<std::unique_ptr<GpuLessonModels>> upload(gpu::Device& device, const Lesso
         to = std::move(gpu_model);
         return {};
     };
-    for (const auto& [model, to] : {std::pair{&models.machine.model, &uploaded->machine},
+    for (const auto& [model, to] : {std::pair{&models.workpiece.model, &uploaded->workpiece},
                                     {&models.workshop, &uploaded->workshop},
                                     {&models.wrench, &uploaded->wrench},
                                     {&models.hand, &uploaded->hand}})
@@ -109,12 +109,12 @@ glm::dmat4 nut_from_mesh(const assets::Mesh& mesh, const glm::mat4& world, const
     return from_assembly * glm::dmat4(world);
 }
 
-Status add_machine(Workplace& workplace, const LessonModels& models, const GpuLessonModels& on_gpu,
-                   const content::Assembly& assembly, const servo::Setup& setup) {
-    const assets::Model& model = models.machine.model;
+Status add_workpiece(Workplace& workplace, const LessonModels& models, const GpuLessonModels& on_gpu,
+                     const content::Assembly& assembly, const servo::Setup& setup) {
+    const assets::Model& model = models.workpiece.model;
     render::Scene scene;
-    render::add_model(scene, model, on_gpu.machine);
-    workplace.machine = render::bounds(scene);
+    render::add_model(scene, model, on_gpu.workpiece);
+    workplace.workpiece = render::bounds(scene);
     const std::vector<int> joints = joints_of(model, assembly);
     std::vector<bool> has_nut(setup.nuts.size(), false);
     for (const render::Object& object : scene.objects) {
@@ -141,8 +141,9 @@ Status add_machine(Workplace& workplace, const LessonModels& models, const GpuLe
 }
 
 void add_workshop(Workplace& workplace, const LessonModels& models, const GpuLessonModels& on_gpu) {
-    const glm::vec3 foot(0.5F * (workplace.machine.low.x + workplace.machine.high.x), workplace.machine.low.y,
-                         0.5F * (workplace.machine.low.z + workplace.machine.high.z));
+    const glm::vec3 foot(0.5F * (workplace.workpiece.low.x + workplace.workpiece.high.x),
+                         workplace.workpiece.low.y,
+                         0.5F * (workplace.workpiece.low.z + workplace.workpiece.high.z));
     workplace.workshop = glm::translate(glm::dmat4(1.0), Vec3(foot));
     if (models.workshop.meshes.empty()) return;
     render::Scene scene;
@@ -204,7 +205,7 @@ Result<Workplace> make_workplace(SceneWorld world, const LessonModels& models, c
                                  const content::Assembly& assembly, const servo::Setup& setup) {
     Workplace workplace;
     workplace.world = std::move(world);
-    BOLT_TRY(add_machine(workplace, models, on_gpu, assembly, setup));
+    BOLT_TRY(add_workpiece(workplace, models, on_gpu, assembly, setup));
     add_workshop(workplace, models, on_gpu);
     add_wrench(workplace, models, on_gpu);
     add_hand(workplace, models, on_gpu);

@@ -1,5 +1,5 @@
-// The components and models of a workplace: the machine in its workshop, the wrench and the hand. Plain data;
-// the systems (systems.hpp) move and draw it.
+// The components and models of a workplace: the workpiece in its workshop, the wrench and the hand. Plain
+// data; the systems (systems.hpp) move and draw it.
 #pragma once
 
 #include <algorithm>
@@ -83,35 +83,35 @@ struct Worker {
 inline constexpr double floor_below_plate = 0.85;
 inline constexpr double shoulders_below_eyes = 0.2;  // m, sitting; about the value of DIN 33402-2
 
-// The rest pose of a wrench: in front of the machine, the handle along x towards the side of the working
+// The rest pose of a wrench: in front of the workpiece, the handle along x towards the side of the working
 // hand, the jaw's normal up.
-inline Pose wrench_rest_pose(const render::BoundingBox& machine, double head_thickness,
+inline Pose wrench_rest_pose(const render::BoundingBox& workpiece, double head_thickness,
                              hand::Side side = hand::Side::right) {
-    const Vec3 low(machine.low), high(machine.high);
+    const Vec3 low(workpiece.low), high(workpiece.high);
     const Quat half_turn = glm::angleAxis(side == hand::Side::left ? pi : 0.0, Vec3(0, 1, 0));
     return {{0.5 * (low.x + high.x), low.y + 0.5 * head_thickness + 0.002, high.z + 0.06},
             half_turn * glm::angleAxis(-0.5 * pi, Vec3(1, 0, 0))};
 }
 
 // Height of the worker's eyes in the assembly's frame, m; none if standing.
-inline std::optional<double> eye_height(const render::BoundingBox& machine, const Worker& worker) {
+inline std::optional<double> eye_height(const render::BoundingBox& workpiece, const Worker& worker) {
     if (!worker.seated_eyes) return std::nullopt;
-    return static_cast<double>(machine.low.y) - floor_below_plate + *worker.seated_eyes;
+    return static_cast<double>(workpiece.low.y) - floor_below_plate + *worker.seated_eyes;
 }
 
 // Position of the working hand's shoulder, m, assembly frame.
-inline Vec3 shoulder_position(const render::BoundingBox& machine, const Worker& worker = {}) {
-    const Vec3 low(machine.low), high(machine.high);
+inline Vec3 shoulder_position(const render::BoundingBox& workpiece, const Worker& worker = {}) {
+    const Vec3 low(workpiece.low), high(workpiece.high);
     Vec3 at = high + Vec3(0.35, 0.3, 0.4);
     if (worker.side == hand::Side::left) at.x = low.x - 0.35;
-    if (const auto eyes = eye_height(machine, worker)) at.y = std::min(at.y, *eyes - shoulders_below_eyes);
+    if (const auto eyes = eye_height(workpiece, worker)) at.y = std::min(at.y, *eyes - shoulders_below_eyes);
     return at;
 }
 
-// The models of a lesson on the CPU. All but the machine are optional: a model that the assembly does not
+// The models of a lesson on the CPU. All but the workpiece are optional: a model that the assembly does not
 // name is empty, and one that cannot be read is listed in `missing`.
 struct LessonModels {
-    view::LoadedModel machine;
+    view::LoadedModel workpiece;
     assets::Model workshop, wrench, hand;
     std::optional<shading::RadianceImage> light;
     Quat wrench_turn{1.0, 0.0, 0.0, 0.0};  // from the frame of the wrench's model to the tool's
@@ -123,7 +123,7 @@ Result<LessonModels> load_lesson_models(const content::Assembly& assembly,
 
 // The models of a lesson on the GPU. Entities point to them, so they must not be moved.
 struct GpuLessonModels {
-    render::GpuModel machine, workshop, wrench, hand, arrows;
+    render::GpuModel workpiece, workshop, wrench, hand, arrows;
     render::EnvironmentLight light;
 };
 
@@ -132,12 +132,12 @@ Result<std::unique_ptr<GpuLessonModels>> upload(gpu::Device& device, const Lesso
 struct Workplace {
     SceneWorld world;
 
-    render::BoundingBox machine;  // m, of the assembly
-    glm::dmat4 workshop{1.0};     // from the workshop's frame to the assembly's
+    render::BoundingBox workpiece;  // m, of the assembly
+    glm::dmat4 workshop{1.0};       // from the workshop's frame to the assembly's
 };
 
-// Creates the entities in `world`, the machine on the workshop's clamping plate. Fails if the model lacks the
-// node of a joint or of a nut.
+// Creates the entities in `world`, the workpiece on the workshop's clamping plate. Fails if the model lacks
+// the node of a joint or of a nut.
 Result<Workplace> make_workplace(SceneWorld world, const LessonModels& models, const GpuLessonModels& on_gpu,
                                  const content::Assembly& assembly, const servo::Setup& setup);
 

@@ -36,10 +36,11 @@ struct MeshNode {
     std::vector<glm::dvec3> points;  // three a triangle, in the model's frame
 };
 
-Error content_error(const std::filesystem::path& file, std::string what) {
+Error content_error(const std::filesystem::path& file, std::string what, std::string expected = {}) {
     Error error;
     error.code = ErrorCode::bad_content;
     error.what = std::move(what);
+    error.expected = std::move(expected);
     error.file = file.string();
     return error;
 }
@@ -161,7 +162,7 @@ Result<WrenchModel> read_wrench(const content::WrenchDesign& design) {
                                                          to_tool_frame(low, high, side, Vec3(0, 1, 0)),
                                                          to_tool_frame(low, high, side, Vec3(0, 0, 1))))};
     }
-    return fail(content_error(file, "the wrench has no triangles"));
+    return fail(content_error(file, "the wrench has no triangles", "a closed mesh"));
 }
 
 }  // namespace
@@ -229,7 +230,8 @@ Result<std::optional<ContactModels>> load_contact_models(const content::Assembly
 
 Result<collision::ToolShape> load_wrench(const content::Assembly& assembly) {
     if (assembly.wrench.model.empty())
-        return fail(content_error(assembly.file, "the assembly's wrench has no model"));
+        return fail(content_error(assembly.file, "the assembly's wrench has no model",
+                                  "\"model\": a .glb of the wrench"));
     BOLT_TRY_ASSIGN(const auto parts, read_wrench(assembly.wrench));
     Result<collision::ToolShape> tool = collision::make_tool(parts.meshes);
     if (!tool) return fail(content_error(wrench_file(assembly.wrench), tool.error().what));
@@ -248,7 +250,7 @@ namespace {
 constexpr std::size_t nut_samples = 400;  // visibility within 5 %, enough to choose a view
 constexpr double narrowest = 4.0 / 3.0;   // aspect ratio of a picture
 
-bool in_picture(const content::Viewpoint& view, const Vec3& point) {
+bool in_picture(const content::NamedView& view, const Vec3& point) {
     const Vec3 ahead = glm::normalize(view.target - view.eye);
     const Vec3 right = glm::normalize(glm::cross(ahead, Vec3(0.0, 1.0, 0.0)));
     const Vec3 to = point - view.eye;
@@ -273,7 +275,7 @@ std::vector<NutView> nut_views(const content::Assembly& assembly, const servo::T
     const std::size_t body = *contact.nut_bodies[joint];
     const std::vector<collision::SurfacePoint> samples = collision::sample_outer_surface(
         contact.world.shapes[contact.world.bodies[body].shape].solid, nut_samples);
-    for (const content::Viewpoint& view : assembly.views) {
+    for (const content::NamedView& view : assembly.views) {
         const collision::Visibility seen = collision::visibility_of(contact.world, body, samples, view.eye);
         views.push_back({seen.share, seen.angle / square(2.0 * std::tan(0.5 * view.field_of_view)),
                          in_picture(view, contact.world.bodies[body].pose.position)});

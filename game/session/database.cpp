@@ -150,7 +150,9 @@ Result<Database> Database::open_with(const std::string& file, std::string name, 
 Result<Database> Database::create(const std::filesystem::path& path, std::string name) {
     // SQLite would retry to read a file that it cannot create, and then report that the file is missing.
     const int made = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (made < 0) return file_error(name, "cannot be created: " + std::generic_category().message(errno));
+    if (made < 0)
+        return file_error(name, "cannot be created: " + std::generic_category().message(errno),
+                          "a folder with write permission");
     (void)::close(made);
     return open(path, std::move(name));
 }
@@ -238,7 +240,7 @@ Result<FileLock> FileLock::acquire(const std::filesystem::path& path, const std:
             if (errno == EWOULDBLOCK)
                 return file_error(file, taken, "another file, or the end of that recording");
             if (errno == EINTR) continue;
-            return file_error(file, "cannot be locked: " + reason_of(errno));
+            return file_error(file, "cannot be locked: " + reason_of(errno), "a file system with locks");
         }
         // The previous holder may have removed the file since it was opened; a removed file locks nothing.
         if (!is_at(lock.handle_, place)) continue;

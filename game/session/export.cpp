@@ -62,7 +62,7 @@ std::string summary_table(const content::Assembly& assembly, const lesson::Lesso
         const lesson::JointResult& joint = result.joints[i];
         const content::AssemblyJoint& planned = assembly.joints[i];
         std::string verdict(lesson::name(joint.overall));
-        if (joint.condition != joint::JointCondition::sound)
+        if (joint.condition != joint::JointCondition::intact)
             verdict += fmt::format(" ({})", joint::name(joint.condition));
         if (joint.out_of_turn > 0) verdict += fmt::format(", {}× out of turn", joint.out_of_turn);
         if (joint.done_already > 0) verdict += fmt::format(", {}× again", joint.done_already);
@@ -71,7 +71,7 @@ std::string summary_table(const content::Assembly& assembly, const lesson::Lesso
                              planned.spec.torque.target, to_degrees(joint.angle), verdict);
     }
     table += fmt::format("{:.1f} s, score {:.1f} of 100\n", result.duration, result.score);
-    for (const lesson::ScoreReason& reason : result.reasons)
+    for (const lesson::Deduction& reason : result.reasons)
         table += reason.points == 0.0 ? fmt::format("  {:>6}  {}\n", "", reason.text)
                                       : fmt::format("  {:>+6.1f}  {}\n", reason.points, reason.text);
     return table;
@@ -131,13 +131,14 @@ void append_row(std::string& text, double time, const TickRecord& tick, Names& n
                    tick.force[0], tick.force[1], tick.force[2], tick.torque[0], tick.torque[1],
                    tick.torque[2], tick.contacts);
     text.append(names.obstacles[file_number(tick.touched).value_or(-1)]).append(",");
-    text.append(force::name(static_cast<force::Fault>(tick.fault))).append("\r\n");
+    text.append(force::message_for(static_cast<force::Fault>(tick.fault))).append("\r\n");
 }
 
 tl::unexpected<Error> write_error(const std::string& out_name, int reason) {
     Error error;
     error.file = out_name;
     error.what = std::string("cannot be written: ") + std::strerror(reason);
+    error.expected = "a destination that accepts more data";
     return fail(std::move(error));
 }
 

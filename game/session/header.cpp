@@ -1,7 +1,8 @@
-#include "game/session/session_file.hpp"
+#include "game/session/header.hpp"
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cstddef>
 
 #include "game/session/tables.hpp"
@@ -21,7 +22,7 @@ void for_each_limit(Limits& l, Visit visit) {
     visit("delay_ticks", l.delay);
     visit("speed_m_s", l.speed), visit("angular_speed_rad_s", l.angular_speed);
     visit("jump_m", l.jump), visit("angular_jump_rad", l.angular_jump);
-    visit("silence_s", l.max_silence), visit("recovery_s", l.recovery);
+    visit("silence_s", l.max_silence), visit("recovery_s", l.recovery_time);
 }
 
 // The list above names every member; a new member must be added to it.
@@ -39,19 +40,19 @@ std::string limits_text(const force::OutputLimits& limits) {
 
 std::optional<force::OutputLimits> parse_limits(std::string_view text) {
     force::OutputLimits limits;
-    bool sound = true;
+    bool valid = true;
     for_each_limit(limits, [&](std::string_view name, auto& value) {
         if (!text.starts_with(name) || text.size() <= name.size() || text[name.size()] != '=') {
-            sound = false;
+            valid = false;
             return;
         }
         text.remove_prefix(name.size() + 1);
         const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-        sound = sound && problem == std::errc{};
+        valid = valid && problem == std::errc{};
         text.remove_prefix(static_cast<std::size_t>(end - text.data()));
         if (text.starts_with(' ')) text.remove_prefix(1);
     });
-    return sound && text.empty() ? std::optional(limits) : std::nullopt;
+    return valid && text.empty() ? std::optional(limits) : std::nullopt;
 }
 
 std::string servo_text(double rate) { return rate > 0.0 ? fmt::format("{:.0f} Hz", rate) : "virtual time"; }
@@ -149,7 +150,7 @@ HeaderTexts texts_of(const Header& header) {
     if (header.guide) texts[key::guide] = switch_text(*header.guide);
     if (header.contact_models)
         texts[key::obstacles] = header.contact_models->empty() ? no_obstacles : *header.contact_models;
-    if (header.device) texts[key::device] = limits_text(*header.device);
+    if (header.device_limits) texts[key::device] = limits_text(*header.device_limits);
     if (header.servo_rate) texts[key::servo] = servo_text(*header.servo_rate);
     if (header.view_help) texts[key::view_help] = switch_text(*header.view_help);
     if (header.hand) texts[key::hand] = *header.hand == hand::Side::left ? "left" : "right";
@@ -181,7 +182,7 @@ Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
     parser.optional(
         key::obstacles, header.contact_models, "none, or the contact models",
         [](const std::string& text) { return std::optional(text == "none" ? std::string() : text); });
-    parser.optional(key::device, header.device, "the limits of a device", parse_limits);
+    parser.optional(key::device, header.device_limits, "the limits of a device", parse_limits);
     parser.optional(key::servo, header.servo_rate, "virtual time, or a rate in Hz", parse_servo);
     parser.optional(key::view_help, header.view_help, "on or off", parse_switch);
     parser.optional(key::tool, header.tool);

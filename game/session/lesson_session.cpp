@@ -55,7 +55,7 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
         const auto tightened = [&] {
             return joint.torque >= target || (into_yield && joint.stage == joint::Stage::yield);
         };
-        while (!tightened() && joint.condition == joint::JointCondition::sound && ++steps < max_steps) {
+        while (!tightened() && joint.condition == joint::JointCondition::intact && ++steps < max_steps) {
             const bool contact = joint.stage != joint::Stage::navigation;
             const double step = (contact ? 0.1 : 1.0) * speed * setup.dt;
             joint::turn_nut(setup.group, state.joints, i, joint.nut.angle + step, 1.0, setup.dt);
@@ -63,7 +63,8 @@ Status pretighten(const content::Assembly& assembly, const servo::Setup& setup, 
         if (!tightened())
             return fail(ErrorCode::bad_content,
                         fmt::format("joint {} cannot be tightened to {:.1f} N·m: it is {}",
-                                    assembly.joints[i].design.id, target, joint::name(joint.condition)));
+                                    assembly.joints[i].design.id, target, joint::name(joint.condition)),
+                        "a target torque that the joint bears");
         joint.nut.speed = 0.0;
     }
     for (double rest = 0.0; rest < 10.0; rest += setup.dt)
@@ -80,7 +81,7 @@ Header make_header(const SessionSetup& start, const LessonOptions& options) {
     header.view_help = options.view_help;
     header.contact_models = start.contact_models;
     header.obstacle_names = start.obstacle_names;
-    header.device = options.device;
+    header.device_limits = options.device_limits;
     header.servo_rate = options.servo_rate;
     header.assembly = assembly.name;
     header.assembly_file = assembly.file;
@@ -110,7 +111,7 @@ Result<std::optional<ContactModels>> obstacles_of(const content::Assembly& assem
 }
 
 // Compares all bits of the outputs, also those that the session file does not store.
-bool same_tick(const servo::Input& input, const servo::Output& a, const servo::Output& b) {
+bool same_tick(const servo::TickInput& input, const servo::Output& a, const servo::Output& b) {
     return same_output(make_record(input, a), make_record(input, b)) &&
            std::memcmp(&a.constrained_tool, &b.constrained_tool, sizeof a.constrained_tool) == 0 &&
            a.slipped == b.slipped && a.clicked == b.clicked && a.undone == b.undone &&
@@ -141,10 +142,10 @@ void lesson_system(const world::WriteHaptics& world, TickContext& tick) {
 
 LessonSession::~LessonSession() = default;
 
-Result<SessionSetup> prepare(const content::Assembly& given, const LessonOptions& options) {
+Result<SessionSetup> prepare_session(const content::Assembly& given, const LessonOptions& options) {
     SessionSetup start;
     start.assembly = lesson::apply_law(given, options.law);
-    start.setup = make_setup(start.assembly, options.law, options.device, options.seed, options.dt);
+    start.setup = make_setup(start.assembly, options.law, options.device_limits, options.seed, options.dt);
     start.state = servo::initial_state(start.setup);
     if (options.task == lesson::Task::loosen) {
         BOLT_TRY(pretighten(start.assembly, start.setup, start.state));
@@ -158,14 +159,14 @@ Result<SessionSetup> prepare(const content::Assembly& given, const LessonOptions
 }
 
 void set_device_limits(const LessonOptions& options, SessionSetup& start) {
-    start.setup = make_setup(start.assembly, options.law, options.device, options.seed, options.dt);
+    start.setup = make_setup(start.assembly, options.law, options.device_limits, options.seed, options.dt);
     if (start.state.tool_contact) servo::set_coupling(start.setup, *start.state.tool_contact);
 }
 
 Result<std::unique_ptr<LessonSession>> LessonSession::begin(const content::Assembly& given,
                                                             const LessonOptions& options,
                                                             const std::filesystem::path& file) {
-    BOLT_TRY_ASSIGN(auto start, prepare(given, options));
+    BOLT_TRY_ASSIGN(auto start, prepare_session(given, options));
     return begin(std::move(start), options, file);
 }
 
@@ -197,9 +198,9 @@ Status LessonSession::record_events(const world::ReadHaptics& world) {
     return {};
 }
 
-Result<servo::Output> LessonSession::step(const world::WriteHaptics& world, const servo::Input& given,
+Result<servo::Output> LessonSession::step(const world::WriteHaptics& world, const servo::TickInput& given,
                                           std::vector<lesson::LessonEvent> extra_events) {
-    servo::Input input = given;
+    servo::TickInput input = given;
     const auto undo = std::exchange(requested_undo_, std::nullopt);
     input.checkpoint_action = target_checkpoints() != checkpoints_saved_ ? servo::save_checkpoint
                               : undo                                     ? restore_action(*undo)
@@ -216,7 +217,7 @@ std::uint8_t LessonSession::restore_action(std::size_t steps) const {
     return allowed ? static_cast<std::uint8_t>(checkpoints) : std::uint8_t{0};
 }
 
-Status LessonSession::repeat(const world::WriteHaptics& world, const servo::Input& input,
+Status LessonSession::repeat(const world::WriteHaptics& world, const servo::TickInput& input,
                              const servo::Output& output) {
     BOLT_TRY_ASSIGN(const auto again, tick(world, input, {}));
     if (same_tick(input, again, output)) return {};
@@ -227,7 +228,7 @@ Status LessonSession::repeat(const world::WriteHaptics& world, const servo::Inpu
                 "equal results; the lesson is saved up to this time");
 }
 
-Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, const servo::Input& input,
+Result<servo::Output> LessonSession::tick(const world::WriteHaptics& world, const servo::TickInput& input,
                                           std::vector<lesson::LessonEvent>&& extra_events) {
     const servo::Output output = servo::tick(current_.setup, current_.state, input);
     checkpoints_saved_ += input.checkpoint_action == servo::save_checkpoint ? 1U : 0U;

@@ -48,9 +48,9 @@ struct LessonOptions {
     std::string trainee;             // the name given with --trainee; may be empty
     std::optional<hand::Side> hand;  // the working hand; none: unknown
 
-    std::optional<bool> view_help;  // only of a simulated trainee
-    double servo_rate = 0.0;        // Hz, of the servo's thread; 0: virtual time
-    force::OutputLimits device;     // default: a 6-DoF arm of the Virtuose class
+    std::optional<bool> view_help;      // only of a simulated trainee
+    double servo_rate = 0.0;            // Hz, of the servo's thread; 0: virtual time
+    force::OutputLimits device_limits;  // default: a 6-DoF arm of the Virtuose class
 };
 
 // The initial state of a lesson and its servo.
@@ -62,18 +62,18 @@ struct SessionSetup {
     std::vector<ObstacleName> obstacle_names;
 };
 // Fails if the contact models are required but missing or invalid, or if a joint cannot be pretightened.
-Result<SessionSetup> prepare(const content::Assembly& given, const LessonOptions& options);
+Result<SessionSetup> prepare_session(const content::Assembly& given, const LessonOptions& options);
 
-// Changes the device to `options.device`. All other options must equal those of prepare().
+// Replaces the device limits by those of the options. All other options must equal those of
+// prepare_session().
 void set_device_limits(const LessonOptions& options, SessionSetup& start);
 
 // A lesson that follows the ticks of the session's own servo, or of a station's.
 struct LessonTracker {
     lesson::Lesson lesson;
-    // The number of steps begun, less those that undo took back. The servo saves one checkpoint at the begin
-    // of each step, so this equals servo::State::checkpoint_count once the last one is saved. A station's
-    // servo saves it some ticks late. Until then the newest checkpoint is that of the previous step, and
-    // restoring it begins the previous step again.
+    // Steps begun, minus steps taken back by undo. The servo saves one checkpoint when a step begins, so
+    // this equals servo::State::checkpoint_count, except for the few ticks in which a station has not saved
+    // the newest one; a restore in that time returns to the previous step.
     std::uint32_t steps_begun = 0;
 };
 
@@ -116,25 +116,26 @@ class LessonSession {
     // Computes one tick and runs tick_systems on `world`, in which world::add_haptics() has created the
     // entities; always the same world. `extra_events`: additional events to record with the tick. Fails if
     // the session file cannot be written; everything written before stays readable.
-    Result<servo::Output> step(const world::WriteHaptics& world, const servo::Input& input,
+    Result<servo::Output> step(const world::WriteHaptics& world, const servo::TickInput& input,
                                std::vector<lesson::LessonEvent> extra_events = {});
 
     // Repeats a tick that a station's servo has computed from the same initial state, and compares the
     // outputs. Fails also if they differ, which means that one of the two missed an input.
-    Status repeat(const world::WriteHaptics& world, const servo::Input& input, const servo::Output& output);
-    // The number of times that the servo must have saved a checkpoint by now: the times that it did, plus one
-    // for each step whose checkpoint is not saved yet. Undo does not reduce it. A caller of repeat() sends
-    // the station one station::SaveCheckpoint each time that this number rises by one; step() does it itself.
+    Status repeat(const world::WriteHaptics& world, const servo::TickInput& input,
+                  const servo::Output& output);
+    // Number of SaveCheckpoint commands due so far: checkpoints saved plus steps begun whose checkpoint is
+    // still pending. Undo does not reduce it. A caller of repeat() sends one station::SaveCheckpoint
+    // whenever the number rises by one; step() does it itself.
     [[nodiscard]] std::uint32_t target_checkpoints() const {
         return checkpoints_saved_ + tracker_.steps_begun - current_.state.checkpoint_count;
     }
-    // The servo::Input::checkpoint_action that restores the start of the step `steps` steps before the due
-    // one; 0: not allowed.
+    // The servo::TickInput::checkpoint_action that restores the start of the step `steps` steps before the
+    // due one; 0: not allowed.
     [[nodiscard]] std::uint8_t restore_action(std::size_t steps) const;
 
     // Makes the next step() return the nuts and the lesson to the start of the due step (0) or of the step
     // `steps` steps earlier; possible after the last step too. Ignored in an assessment, beyond the oldest
-    // checkpoint, and while a nut is held or the tool is beside one (servo::Input::checkpoint_action).
+    // checkpoint, and while a nut is held or the tool is beside one (servo::TickInput::checkpoint_action).
     void request_undo(std::size_t steps) { requested_undo_ = steps; }
 
     // Events of the last tick.
@@ -161,7 +162,7 @@ class LessonSession {
   private:
     LessonSession() = default;
     Status record_events(const world::ReadHaptics& world);
-    Result<servo::Output> tick(const world::WriteHaptics& world, const servo::Input& input,
+    Result<servo::Output> tick(const world::WriteHaptics& world, const servo::TickInput& input,
                                std::vector<lesson::LessonEvent>&& extra_events);
 
     SessionSetup current_;  // its state advances with each tick

@@ -126,7 +126,7 @@ struct OpenedFile {
 Result<OpenedFile> open_session(const std::filesystem::path& path, const std::string& file) {
     std::error_code status;
     const std::filesystem::path real = std::filesystem::canonical(path, status);
-    if (status) return file_error(file, "cannot be opened: " + status.message());
+    if (status) return file_error(file, "cannot be opened: " + status.message(), a_session);
     if (!std::filesystem::is_regular_file(real, status))
         return file_error(file, "is not a session file", a_session);
     if (std::filesystem::file_size(real, status) == 0 && !status)

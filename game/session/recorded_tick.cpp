@@ -35,7 +35,7 @@ collision::ObstacleId obstacle_of_number(std::int16_t number) {
         static_cast<std::size_t>(number >= 0 ? number : first_nut - 2 - number));
 }
 
-TickRecord make_record(const servo::Input& input, const servo::Output& output) {
+TickRecord make_record(const servo::TickInput& input, const servo::Output& output) {
     TickRecord record;
     record.commanded_tool = input.commanded_tool;
     record.grip = static_cast<std::uint8_t>(input.grip);
@@ -60,8 +60,8 @@ TickRecord make_record(const servo::Input& input, const servo::Output& output) {
     return record;
 }
 
-servo::Input input_of(const TickRecord& record) {
-    servo::Input input;
+servo::TickInput input_of(const TickRecord& record) {
+    servo::TickInput input;
     input.commanded_tool = record.commanded_tool;
     input.grip = static_cast<servo::Grip>(record.grip);
     input.dead_man = (record.flags & flag_dead_man) != 0;
@@ -212,7 +212,8 @@ void from_columns(std::byte chunk_version, const std::byte* in, std::span<TickRe
 }
 
 tl::unexpected<Error> damaged(std::uint64_t first_tick, const std::string& why) {
-    return fail(ErrorCode::failed, fmt::format("the ticks from {} on are damaged: {}", first_tick, why));
+    return fail(ErrorCode::failed, fmt::format("the ticks from {} on are damaged: {}", first_tick, why),
+                "an unmodified session file");
 }
 
 struct FreeCompressor {

@@ -31,8 +31,8 @@ struct TickRecord {
     collision::ObstacleId touched;  // obstacle against the wrench; named in Header::obstacle_names
     std::uint8_t fault = 0;         // force::Fault of the output stage
 
-    std::uint8_t checkpoint_action = 0;  // Input::checkpoint_action; since format 3
-    float set_torque = 0.0F;             // N·m, Input::set_torque; since format 4
+    std::uint8_t checkpoint_action = 0;  // TickInput::checkpoint_action; since format 3
+    float set_torque = 0.0F;             // N·m, TickInput::set_torque; since format 4
 };
 
 // The number of an obstacle in a session file, in its ticks and in its table of names: none −1, fixed
@@ -47,8 +47,8 @@ inline constexpr std::size_t max_fixed = 33766, max_nuts = 31768;
 // Bits of `flags`; its upper four bits count missed deadlines.
 inline constexpr std::uint8_t flag_dead_man = 1, flag_silent = 2, flag_stop = 4, flag_reset = 8;
 
-TickRecord make_record(const servo::Input& input, const servo::Output& output);
-servo::Input input_of(const TickRecord& record);
+TickRecord make_record(const servo::TickInput& input, const servo::Output& output);
+servo::TickInput input_of(const TickRecord& record);
 
 // True if the outputs are equal bit by bit; NaNs with equal bits count as equal.
 bool same_output(const TickRecord& a, const TickRecord& b);

@@ -53,7 +53,7 @@ lesson::Lesson restore_lesson(const SessionReader& session, const SessionSetup& 
 
 Result<SessionSetup> restore_setup(const SessionReader& session) {
     const Header& header = session.header();
-    if (!header.device || !header.contact_models)
+    if (!header.device_limits || !header.contact_models)
         return fail(replay_error(session, "the session does not record its device and obstacles",
                                  "a session of format 2 or later"));
     BOLT_TRY_ASSIGN(auto assembly, assembly_of(header));
@@ -64,9 +64,9 @@ Result<SessionSetup> restore_setup(const SessionReader& session) {
     options.law = header.law;
     options.seed = header.seed;
     options.dt = header.dt;
-    options.device = *header.device;
+    options.device_limits = *header.device_limits;
     options.obstacles = header.contact_models->empty() ? Obstacles::none : Obstacles::required;
-    Result<SessionSetup> start = prepare(assembly, options);
+    Result<SessionSetup> start = prepare_session(assembly, options);
     if (!start) return start;
     if (start->contact_models != *header.contact_models)
         return fail(replay_error(session,
@@ -91,7 +91,7 @@ Result<ReplayResult> replay(const SessionReader& session, SessionSetup start,
     BOLT_TRY(session.for_each_chunk([&](std::uint64_t, std::span<const TickRecord> chunk) {
         for (const TickRecord& recorded : chunk) {
             if (!proceed) return;
-            const servo::Input input = input_of(recorded);
+            const servo::TickInput input = input_of(recorded);
             const servo::Output output = servo::tick(start.setup, start.state, input);
             TickContext context{{start.state, input, output}, tracker};
             ecs::run(tick_systems, world, context);
@@ -145,7 +145,7 @@ Result<RecordedHand> replay_device(const SessionReader& session) {
     d.name = "the hand of " + session.file();
     d.id = "recording";
     d.sensing = device::Sensing::pose;
-    if (const auto& limits = session.header().device) d.limits = *limits;
+    if (const auto& limits = session.header().device_limits) d.limits = *limits;
     for (std::size_t i = 0; i < 6; ++i) d.renders[i] = (i < 3 ? d.limits.force : d.limits.torque) > 0.0;
     d.rate = 1.0 / session.header().dt;
     d.buttons = 3;

@@ -19,7 +19,7 @@ struct ReplayTick {
     const servo::Setup& setup;
     const servo::State& state;
     const lesson::Lesson& lesson;  // with the events of this tick
-    const servo::Input& input;
+    const servo::TickInput& input;
     const servo::Output& output;
     double time = 0.0;  // s, after the tick
 };

@@ -21,73 +21,15 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "engine/base/result.hpp"
 #include "game/lesson/result.hpp"
+#include "game/session/header.hpp"
 #include "game/session/recorded_tick.hpp"
-#include "haptics/force/output_limits.hpp"
-#include "haptics/hand/kinematics.hpp"
-#include "haptics/joint/stage.hpp"
 #include "haptics/servo/servo_thread.hpp"
 
 namespace bolt::session {
-
-// An obstacle's name, for TickRecord::touched.
-struct ObstacleName {
-    collision::ObstacleId id;  // one that has a file_number (recorded_tick.hpp)
-    std::string name;
-};
-
-// The kind of trainee. `unrecorded`: the session is from an older program, which did not record it.
-enum class TraineeKind : std::uint8_t { unrecorded, person, simulated };
-
-// The properties of a recorded lesson. The file stores them as text (header.cpp).
-struct Header {
-    std::string assembly;       // name
-    std::string assembly_file;  // path as given by the user, for messages
-    std::string assembly_text;  // the file's exact text, so that a session replays without the folder
-    std::string variant;
-    joint::Law law = joint::Law::mechanistic;
-    lesson::Mode mode = lesson::Mode::guided;
-    lesson::Task task = lesson::Task::tighten;
-    // "person", or the simulated trainee's profile: "expert", … The key in the file is "operator".
-    std::string trainee_profile;
-    std::uint64_t seed = 0;
-    double dt = 0.001;    // s
-    std::string program;  // name and version of the writing program
-
-    // Further inputs of the ticks; none in format 1, which does not store them.
-    std::optional<bool> guide;                  // the guiding force towards the due joint
-    std::optional<std::string> contact_models;  // their files with size and checksum; empty: no obstacles
-    std::optional<force::OutputLimits> device;
-    std::optional<double> servo_rate;  // Hz, of the servo's thread; 0: virtual time
-    std::vector<ObstacleName> obstacle_names;
-
-    std::optional<bool> view_help;   // only of a simulated trainee
-    std::string tool;                // name in the assembly; empty before format 4: the assembly's first tool
-    std::optional<hand::Side> hand;  // the working hand; none if unknown
-
-    // The name given with --trainee, which may be empty. None in sessions of older programs, which stored a
-    // person's typed name in `trainee_profile`.
-    std::optional<std::string> trainee;
-};
-
-// "virtual time", or the rate as text.
-std::string servo_text(double rate);
-
-// Determines the kind of trainee without using the trainee's name. The first condition that holds decides:
-//   `trainee` is set                  person if `trainee_profile` is "person", otherwise simulated
-//   `view_help` is set                simulated: only sessions of simulated trainees record it
-//   `trainee_profile` is "person"     person
-//   `tool` is not empty               person: the format is 4 or newer, in which every session of a simulated
-//                                     trainee has `view_help`
-//   none of these                     unrecorded
-TraineeKind trainee_kind(const Header& header);
-
-// The trainee's name; empty if none is recorded. A simulated trainee has one only if --trainee gave it.
-std::string trainee_name(const Header& header);
 
 // Move-only. All errors name the file. After an error everything committed before stays readable, and each
 // later call returns the same error. A commit blocks on the file system, so never call this from the servo

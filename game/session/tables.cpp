@@ -140,7 +140,7 @@ std::uint64_t row_hash(std::uint64_t ordinal, const lesson::JointResult& result)
     return hash.add(result.strokes).add(result.done_already).add(result.out_of_turn).value();
 }
 
-std::uint64_t row_hash(std::uint64_t ordinal, const lesson::ScoreReason& reason) {
+std::uint64_t row_hash(std::uint64_t ordinal, const lesson::Deduction& reason) {
     return RowHash("score_reason").add(ordinal).add(reason.points).add(std::string_view(reason.text)).value();
 }
 
@@ -231,7 +231,7 @@ Status put_changed(Database& database, std::span<JointRow> joints, TableChecksum
 Status put_result(Database& database, const lesson::LessonResult& result, TableChecksums& checksums) {
     BOLT_TRY_ASSIGN(auto statement, database.prepare("INSERT INTO score_reason VALUES(?, ?, ?)"));
     for (std::size_t i = 0; i < result.reasons.size(); ++i) {
-        const lesson::ScoreReason& reason = result.reasons[i];
+        const lesson::Deduction& reason = result.reasons[i];
         BOLT_TRY(statement.run_with(i, reason.points, reason.text));
         checksums.reason.add(row_hash(i, reason));
     }

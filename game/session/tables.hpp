@@ -1,4 +1,5 @@
-// The tables of a session file and their checksums, shared by the writer and the reader only.
+// The tables of a session file and their checksums, shared by the writer and the reader only. The keys of
+// table meta are in header.hpp.
 #pragma once
 
 #include <array>
@@ -6,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -45,33 +45,6 @@ CREATE TABLE servo_time(name TEXT PRIMARY KEY, count INTEGER NOT NULL, least_ns 
 CREATE TABLE seal(name TEXT PRIMARY KEY, rows INTEGER NOT NULL, sum INTEGER NOT NULL) WITHOUT ROWID;
 )";
 
-namespace key {
-inline constexpr const char* assembly = "assembly";
-inline constexpr const char* assembly_file = "assembly_file";
-inline constexpr const char* assembly_text = "assembly_text";
-inline constexpr const char* variant = "variant";
-inline constexpr const char* law = "law";
-inline constexpr const char* mode = "mode";
-inline constexpr const char* task = "task";
-inline constexpr const char* trainee_profile = "operator";  // this name is older
-inline constexpr const char* seed = "seed";
-inline constexpr const char* dt = "dt_s";
-inline constexpr const char* program = "program";
-inline constexpr const char* guide = "guide";  // this and the next three since format 2
-inline constexpr const char* obstacles = "obstacles";
-inline constexpr const char* device = "device";
-inline constexpr const char* servo = "servo";
-inline constexpr const char* view_help = "view_help";  // optional
-inline constexpr const char* tool = "tool";            // since format 4
-inline constexpr const char* hand = "hand";            // optional
-inline constexpr const char* trainee = "trainee";      // optional
-
-inline constexpr const char* state = "state";
-inline constexpr const char* duration = "duration_s";  // this and the next two only in complete sessions
-inline constexpr const char* score = "score";
-inline constexpr const char* finished = "finished";
-}  // namespace key
-
 // Parses the whole text as a number; none if that fails.
 template <class Number>
 std::optional<Number> number(std::string_view text) {
@@ -88,19 +61,6 @@ std::optional<Enum> named(std::string_view text, int count) {
         if (name(static_cast<Enum>(i)) == text) return static_cast<Enum>(i);
     return std::nullopt;
 }
-
-// The header as the texts of table meta, by key.
-using HeaderTexts = std::map<std::string, std::string, std::less<>>;
-HeaderTexts texts_of(const Header& header);
-// Ignores other keys. Fails, and names `file`, if a text is missing or cannot be parsed. Texts that older
-// formats do not store may be missing.
-Result<Header> header_of(const HeaderTexts& texts, const std::string& file);
-
-// The limits of a haptic device as one line: "force_N=20 torque_Nm=2 …", each limit by name, as the shortest
-// number that reads back the same, because a replay needs all bits.
-std::string limits_text(const force::OutputLimits& limits);
-// The inverse. None if a name is missing or unknown, or a value is not a number.
-std::optional<force::OutputLimits> parse_limits(std::string_view text);
 
 inline constexpr const char* state_recording = "recording";
 inline constexpr const char* state_complete = "complete";
@@ -149,7 +109,7 @@ std::uint64_t row_hash(const ObstacleName& obstacle);
 std::uint64_t row_hash(const TimingRow& row);
 std::uint64_t row_hash(std::uint64_t ordinal, const lesson::LessonEvent& event);
 std::uint64_t row_hash(std::uint64_t ordinal, const lesson::JointResult& result);
-std::uint64_t row_hash(std::uint64_t ordinal, const lesson::ScoreReason& reason);
+std::uint64_t row_hash(std::uint64_t ordinal, const lesson::Deduction& reason);
 
 struct TableChecksums {
     TableChecksum meta, chunk, event, joint, reason, obstacle, servo_time;

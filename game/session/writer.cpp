@@ -18,6 +18,8 @@ namespace bolt::session {
 
 namespace {
 
+constexpr const char* replaceable = "a file that may be replaced, in a folder with write permission";
+
 Status create_empty(const std::filesystem::path& path, const std::string& file, const Header& header,
                     TableChecksums& checksums) {
     BOLT_TRY_ASSIGN(auto database, Database::create(path, file));
@@ -80,16 +82,20 @@ Status keep_old_file(const std::filesystem::path& path, const std::string& file)
         std::filesystem::create_hard_link(path, kept, status);
         if (status) std::filesystem::rename(path, kept, status);
         if (status)
-            return file_error(file, fmt::format("cannot be replaced: the old file cannot be kept as {}: {}",
-                                                kept.string(), status.message()));
+            return file_error(file,
+                              fmt::format("cannot be replaced: the old file cannot be kept as {}: {}",
+                                          kept.string(), status.message()),
+                              replaceable);
     }
     for (const char* suffix : {"-wal", "-journal"}) {
         const std::filesystem::path log = path.string() + suffix;
         if (std::filesystem::exists(log, status))
             std::filesystem::rename(log, kept.string() + suffix, status);
         if (status)
-            return file_error(file, fmt::format("cannot be replaced: {} cannot be moved: {}", log.string(),
-                                                status.message()));
+            return file_error(
+                file,
+                fmt::format("cannot be replaced: {} cannot be moved: {}", log.string(), status.message()),
+                replaceable);
     }
     return {};
 }
@@ -115,7 +121,7 @@ Status create_file(const std::filesystem::path& path, const std::string& file, c
                    TableChecksums& checksums) {
     std::error_code status;
     const bool exists = std::filesystem::exists(path, status);
-    if (status) return file_error(file, "cannot be replaced: " + status.message());
+    if (status) return file_error(file, "cannot be replaced: " + status.message(), replaceable);
     if (exists && !merge_log(path, file))
         return file_error(file, "cannot be replaced while it is open elsewhere",
                           "a file that nobody has open");
@@ -133,7 +139,7 @@ Status create_file(const std::filesystem::path& path, const std::string& file, c
     std::filesystem::rename(part, path, status);
     if (!status) return {};
     remove_with_logs(part);
-    return file_error(file, "cannot be replaced: " + status.message());
+    return file_error(file, "cannot be replaced: " + status.message(), replaceable);
 }
 
 }  // namespace
@@ -213,8 +219,10 @@ Status SessionWriter::State::merge_wal() {
     const Status moved = database->execute("PRAGMA journal_mode = MEMORY");
     // If a reader has the file open, the session is complete in both files, and readers use both.
     if (moved || database->was_busy()) return {};
-    return file_error(file, "the recording is complete, but part of it is in " + file +
-                                "-wal, which must stay beside it: " + moved.error().what);
+    return file_error(file,
+                      "the recording is complete, but part of it is in " + file +
+                          "-wal, which must stay beside it: " + moved.error().what,
+                      "a file system with free space");
 }
 
 void SessionWriter::State::update(const lesson::JointResult& result) {

@@ -29,7 +29,7 @@ struct CheckedDevice {
 
     void tick(const servo::Deadline& deadline) {
         const device::DeviceSnapshot& snapshot = thread.snapshot();
-        force::PortInput input;
+        force::DeviceInput input;
         input.pose = snapshot.sample.pose;
         input.fresh = snapshot.number != number;
         input.missed = static_cast<std::uint32_t>(deadline.missed);
@@ -72,7 +72,7 @@ Result<std::string> wait_for_trial(CheckedDevice& checked, const std::function<b
 
 std::string end_of(const station::StiffnessTrial& trial) {
     switch (trial.end) {
-        case station::TrialEnd::announced:
+        case station::TrialEnd::reported:
             return "all that it announces";
         case station::TrialEnd::oscillation:
             return fmt::format("at {:.2g} N/mm the handle keeps oscillating",
@@ -82,7 +82,7 @@ std::string end_of(const station::StiffnessTrial& trial) {
                                1e-3 * stiffness_of(trial, trial.level));
         case station::TrialEnd::fault:
             return fmt::format("at {:.2g} N/mm the force was blocked: {}",
-                               1e-3 * stiffness_of(trial, trial.level), force::name(trial.fault));
+                               1e-3 * stiffness_of(trial, trial.level), force::message_for(trial.fault));
         case station::TrialEnd::none:
             break;
     }
@@ -94,7 +94,7 @@ std::string stiffness_report(const DeviceCheck& check) {
     const station::StiffnessTrial& trial = *check.stiffness;
     std::string text =
         trial.stable > 0.0
-            ? fmt::format("  stable on this computer up to {:.2g} N/mm of the announced {:.2g} N/mm: {}\n",
+            ? fmt::format("  stable on this computer up to {:.2g} N/mm of the reported {:.2g} N/mm: {}\n",
                           1e-3 * trial.stable, 1e-3 * trial.limits.stiffness, end_of(trial))
             : fmt::format("  stable on this computer with no stiffness that was tried: {}\n", end_of(trial));
     if (const auto response = median_response(trial))

@@ -36,7 +36,7 @@ class ThreadedStation final : public LessonStation {
         return report != nullptr ? report->condition : device::Condition{};
     }
     void permit_move() override {
-        if (permission_) permission_->give();
+        if (permission_) permission_->grant();
     }
     [[nodiscard]] const station::Layout& layout() const override { return station_.layout(); }
     [[nodiscard]] const servo::Setup& setup() const override { return station_.setup(); }
@@ -61,12 +61,12 @@ class FrameSteppedStation final : public LessonStation {
         driver_ = std::move(driver);
         BOLT_TRY_ASSIGN(auto layout, station::make_layout(options, driver_->describe(), {}));
         layout_ = std::move(layout);
-        setup_ = options.setup(station::limits_of(layout_), 1.0 / options.servo.rate);
-        BOLT_TRY_ASSIGN(auto state, options.state(setup_));
+        setup_ = options.make_setup(station::limits_of(layout_), 1.0 / options.servo.rate);
+        BOLT_TRY_ASSIGN(auto state, options.make_state(setup_));
         servo_ = std::move(state);
         state_ = station::initial_state(layout_);
         controls_ = options.controls;
-        snapshot_.opening = 1;
+        snapshot_.connection_number = 1;
         snapshot_.usable = true;
         return {};
     }

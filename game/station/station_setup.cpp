@@ -202,14 +202,14 @@ std::string adapter_warning(const fs::path& port) {
 Result<content::GloveCalibration> find_calibration(const std::string& trainee,
                                                    const hand::GloveIdentity& glove, const fs::path& folder) {
     BOLT_TRY_ASSIGN(const auto where, folder.empty() ? calibrations_folder() : folder);
-    const fs::path path = content::glove_calibration_path(where, trainee, glove.hand);
+    const fs::path path = content::glove_calibration_path(where, trainee, glove.side);
     const std::string remedy =
         fmt::format("one made with `boltwright glove calibrate --trainee \"{}\"`", trainee);
     std::error_code failed;
     if (!fs::exists(path, failed))
         return fail(
             ErrorCode::bad_content,
-            fmt::format("no calibration of {}'s {} hand in {}", trainee, name(glove.hand), where.string()),
+            fmt::format("no calibration of {}'s {} hand in {}", trainee, name(glove.side), where.string()),
             remedy);
     Result<content::GloveCalibration> stored = content::load_glove_calibration(path);
     if (stored && stored->sensors != glove.sensors)
@@ -363,10 +363,10 @@ Result<PlannedStation> plan_station(const content::Assembly& assembly, const Sta
     planned.options.handle_length = setup.wrench.handle_length;
     planned.options.home = initial_wrench_pose(setup, initial->contact ? &*initial->contact : nullptr,
                                                request.joint, state.joints[request.joint].nut.angle);
-    planned.options.setup = [initial](const force::OutputLimits& limits, double dt) {
+    planned.options.make_setup = [initial](const force::OutputLimits& limits, double dt) {
         return initial->setup(limits, dt);
     };
-    planned.options.state = [initial](const servo::Setup& made) -> Result<servo::State> {
+    planned.options.make_state = [initial](const servo::Setup& made) -> Result<servo::State> {
         return initial->take_state(made);
     };
     return planned;
@@ -382,18 +382,19 @@ Result<PlannedStation> plan_lesson_station(const content::Assembly& assembly,
     PlannedStation planned;
     BOLT_TRY(choose_devices(request, planned));
     BOLT_TRY(open_glove(assembly, request, planned));
-    BOLT_TRY_ASSIGN(auto prepared, session::prepare(assembly, lesson));
+    BOLT_TRY_ASSIGN(auto prepared, session::prepare_session(assembly, lesson));
     const auto start = std::make_shared<PreparedLesson>(PreparedLesson{lesson, std::move(prepared)});
     planned.obstacles = start->setup.state.tool_contact.has_value();
     planned.options.home = home;
     planned.options.handle_length = start->setup.setup.wrench.handle_length;
     planned.options.servo.rate = 1.0 / lesson.dt;
-    planned.options.setup = [start, scale = request.force_scale](const force::OutputLimits& limits, double) {
-        start->options.device = force::scaled(limits, scale);
+    planned.options.make_setup = [start, scale = request.force_scale](const force::OutputLimits& limits,
+                                                                      double) {
+        start->options.device_limits = force::scaled(limits, scale);
         session::set_device_limits(start->options, start->setup);
         return start->setup.setup;
     };
-    planned.options.state = [start](const servo::Setup&) -> Result<servo::State> {
+    planned.options.make_state = [start](const servo::Setup&) -> Result<servo::State> {
         return std::move(start->setup.state);
     };
     return planned;

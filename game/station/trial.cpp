@@ -53,7 +53,7 @@ std::string report(const GloveTrial& tried, double seconds) {
     std::string text = fmt::format("Glove on {}: ", tried.port.string());
     if (tried.report.handshakes == 0) return text + "it did not answer\n";
     text += fmt::format("CyberGlove, {} hand, {} sensors\n    ",
-                        identity.hand == hand::Side::left ? "left" : "right", identity.sensors);
+                        identity.side == hand::Side::left ? "left" : "right", identity.sensors);
     text += sample_summary(tried.frames, seconds, tried.age, tried.report.longest_silence);
     if (tried.report.lost_bytes > 0)
         text += fmt::format("    {} invalid bytes received\n", tried.report.lost_bytes);

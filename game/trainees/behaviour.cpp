@@ -9,56 +9,56 @@ namespace bolt::trainees {
 
 using lesson::StepKind;
 
-const lesson::LessonStep* next_step(const lesson::Lesson& lesson, const Intent& intent) {
+const lesson::LessonStep* next_step(const lesson::Lesson& lesson, const StepPlan& plan) {
     const lesson::LessonStep* due = lesson.due();
-    const bool believes_done = intent.finished && !intent.wrong_joint && intent.step == lesson.current;
+    const bool believes_done = plan.finished && !plan.wrong_joint && plan.step == lesson.current;
     const bool moves_on = lesson.mode == lesson::Mode::assessment && believes_done;
     if (!moves_on) return due;
     return lesson.current + 1 < lesson.steps.size() ? due + 1 : nullptr;
 }
 
-Intent make_intent(const TraineeProfile& profile, Random& random, const servo::Setup& setup,
-                   const lesson::Lesson& lesson, const lesson::LessonStep& due, const Intent& before) {
+StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const servo::Setup& setup,
+                        const lesson::Lesson& lesson, const lesson::LessonStep& due, const StepPlan& before) {
     const bool retry = &due == lesson.due() && before.step == lesson.current;
     const std::size_t joints = setup.nuts.size();
-    Intent intent;
-    intent.step = static_cast<std::size_t>(&due - lesson.steps.data());
-    intent.attempt = retry ? before.attempt + 1 : 0;
-    intent.joint = due.joint;
+    StepPlan plan;
+    plan.step = static_cast<std::size_t>(&due - lesson.steps.data());
+    plan.attempt = retry ? before.attempt + 1 : 0;
+    plan.joint = due.joint;
     const double drag = lesson.assembly->joints[due.joint].design.prevailing_torque;
-    intent.until_seated = due.kind == StepKind::run_down;
-    intent.fingers = lesson::uses_fingers(*lesson.assembly, due, setup.finger_torque(setup.nuts[due.joint]));
-    intent.loosening = due.kind == StepKind::loosen;
-    intent.only_checks = due.kind == StepKind::recheck;
-    if (!retry && !intent.fingers && joints > 1 && random.chance(profile.wrong_joint)) {
-        intent.wrong_joint = true;
-        intent.joint = (due.joint + 1 + random.bits() % (joints - 1)) % joints;
+    plan.until_seated = due.kind == StepKind::run_down;
+    plan.fingers = lesson::uses_fingers(*lesson.assembly, due, setup.finger_torque(setup.nuts[due.joint]));
+    plan.loosening = due.kind == StepKind::loosen;
+    plan.only_checks = due.kind == StepKind::recheck;
+    if (!retry && !plan.fingers && joints > 1 && random.chance(profile.wrong_joint)) {
+        plan.wrong_joint = true;
+        plan.joint = (due.joint + 1 + random.bits() % (joints - 1)) % joints;
     }
     // With a torque wrench a trainee that means to stop at the target waits for the click.
-    intent.until_click = !intent.wrong_joint && lesson::wrench_set_torque(lesson) > 0.0;
+    plan.until_click = !plan.wrong_joint && lesson::wrench_set_torque(lesson) > 0.0;
     double stop = 1.0 + profile.torque_bias + profile.torque_noise * random.normal();
     if (!retry && random.chance(profile.stops_early)) {
         stop *= 0.75;
-        intent.until_click = false;
+        plan.until_click = false;
     }
     if (random.chance(profile.overtightens)) {
         stop *= 1.25;
-        intent.until_click = false;
+        plan.until_click = false;
     }
-    stop += 0.04 * intent.attempt;  // a retry means that the last torque was too low
-    intent.goal_torque = (intent.wrong_joint ? 0.3 : 1.0) * due.torque * stop;
-    if (intent.until_seated) intent.goal_torque = 1.3 * drag + 2.0;
+    stop += 0.04 * plan.attempt;  // a retry means that the last torque was too low
+    plan.goal_torque = (plan.wrong_joint ? 0.3 : 1.0) * due.torque * stop;
+    if (plan.until_seated) plan.goal_torque = 1.3 * drag + 2.0;
     // When tightening into yield, a trainee that feels yielding pulls until it occurs. It knows the lower and
     // upper torque limits.
-    const content::Specification& spec = lesson.assembly->joints[intent.joint].spec;
+    const content::Specification& spec = lesson.assembly->joints[plan.joint].spec;
     const bool full_target = due.kind == StepKind::tighten && due.fraction > 0.999;
-    intent.until_yield = !intent.wrong_joint && full_target && spec.strategy == content::Strategy::yield &&
-                         random.chance(profile.feels_yield);
-    intent.least_torque = spec.torque.low;
-    if (intent.until_yield)
-        intent.goal_torque =
-            spec.torque.high * (std::min(0.98, stop - 0.04 * intent.attempt) + 0.04 * intent.attempt);
-    return intent;
+    plan.until_yield = !plan.wrong_joint && full_target && spec.strategy == content::Strategy::yield &&
+                       random.chance(profile.feels_yield);
+    plan.least_torque = spec.torque.low;
+    if (plan.until_yield)
+        plan.goal_torque =
+            spec.torque.high * (std::min(0.98, stop - 0.04 * plan.attempt) + 0.04 * plan.attempt);
+    return plan;
 }
 
 namespace {
@@ -106,22 +106,22 @@ void plan_path(TraineeState& t) {
 // head.
 double search_view(TraineeState& t) {
     t.next_eye = t.visibility.eye;
-    if (t.obstacles() == nullptr || t.intent.fingers) return 0.0;
+    if (t.obstacles() == nullptr || t.plan.fingers) return 0.0;
     t.placement_error = Vec3(0.0);
     const Pose wrench = t.tool_at_nut(t.hover_height);
     const servo::ToolContact& contact = *t.obstacles();
     double seconds = 0.0;
     const auto sees_enough = [&] {
-        return motion::target_visibility(t.visibility, *t.setup, contact, t.intent.joint, wrench,
+        return motion::target_visibility(t.visibility, *t.setup, contact, t.plan.joint, wrench,
                                          t.visibility.eye) >= t.profile.wanted_visibility;
     };
     if (t.view_help && !sees_enough()) {
         const Vec3 nut = servo::nut_centre(t.nut(), t.joint().nut.angle);
         t.visibility.eye = t.next_eye =
-            t.view_help({*t.setup, contact, t.intent.joint, nut, wrench, t.visibility.eye});
+            t.view_help({*t.setup, contact, t.plan.joint, nut, wrench, t.visibility.eye});
         seconds = glance + view_transition;
     }
-    const auto better = motion::improve_view(t.visibility, *t.setup, contact, t.intent.joint, wrench,
+    const auto better = motion::improve_view(t.visibility, *t.setup, contact, t.plan.joint, wrench,
                                              t.profile.wanted_visibility, t.random);
     if (!better) return seconds;
     t.next_eye = better->eye;
@@ -131,11 +131,11 @@ double search_view(TraineeState& t) {
 // Draws the offset of the placed tool from the nut's centre, m. It depends on what is visible from
 // t.next_eye.
 Vec3 random_placement_error(TraineeState& t) {
-    if (t.intent.fingers) return t.random_offset(3.0 * t.profile.position_noise);
-    const double seen = t.obstacles() == nullptr ? 1.0
-                                                 : motion::target_visibility(
-                                                       t.visibility, *t.setup, *t.obstacles(), t.intent.joint,
-                                                       t.tool_at_nut(t.hover_height), t.next_eye);
+    if (t.plan.fingers) return t.random_offset(3.0 * t.profile.position_noise);
+    const double seen = t.obstacles() == nullptr
+                            ? 1.0
+                            : motion::target_visibility(t.visibility, *t.setup, *t.obstacles(), t.plan.joint,
+                                                        t.tool_at_nut(t.hover_height), t.next_eye);
     // A wrench head that touches something beside the nut can hardly turn it, so it is placed higher the next
     // time.
     const Vec3 lift = lift_step * std::clamp(t.fruitless_strokes - max_fruitless, 0, max_lift) * t.nut().axis;
@@ -153,18 +153,18 @@ double reach_duration(const TraineeState& t) {
 }  // namespace
 
 void begin_next_action(TraineeState& t) {
-    const lesson::LessonStep* due = next_step(*t.lesson, t.intent);
+    const lesson::LessonStep* due = next_step(*t.lesson, t.plan);
     if (due == nullptr) {
         t.enter(Phase::done);
         return;
     }
-    // After a stroke that only ran out of room the intent stays the same.
-    if (t.step_is_past() || t.intent.wrong_joint || t.intent.finished) {
+    // After a stroke that only ran out of room the plan stays the same.
+    if (t.step_is_past() || t.plan.wrong_joint || t.plan.finished) {
         t.nut_angle_at_start = t.servo_state->joints[due->joint].nut.angle;
         t.free_turn = 0.0;
-        t.intent = make_intent(t.profile, t.random, *t.setup, *t.lesson, *due, t.intent);
+        t.plan = make_step_plan(t.profile, t.random, *t.setup, *t.lesson, *due, t.plan);
     }
-    if (t.intent.fingers) {
+    if (t.plan.fingers) {
         t.flipped = false;
         t.handle_angle = t.random.uniform(0.0, 2.0 * pi);
         t.hover_height = default_hover;
@@ -174,14 +174,14 @@ void begin_next_action(TraineeState& t) {
     const double search_time = search_view(t);
     t.placement_error = random_placement_error(t);
     // With obstacles the tool is changed at the rest pose, which is clear of them.
-    const bool tool_change = t.holds_wrench == t.intent.fingers;
+    const bool tool_change = t.holds_wrench == t.plan.fingers;
     if (t.obstacles() != nullptr && tool_change && t.from.position != t.rest.position) {
         t.to = t.rest;
         plan_path(t);
         t.enter(Phase::change_tool, t.waypoints.empty() ? t.profile.reach_time : reach_duration(t));
         return;
     }
-    t.holds_wrench = !t.intent.fingers;
+    t.holds_wrench = !t.plan.fingers;
     if (search_time > 0.0) {
         t.enter(Phase::search_view, search_time);
         return;
@@ -202,20 +202,20 @@ void start_reach(TraineeState& t) {
 }
 
 void choose_grip_angle(TraineeState& t) {
-    const double sign = t.intent.loosening ? -1.0 : 1.0;
+    const double sign = t.plan.loosening ? -1.0 : 1.0;
     // After repeated misses or fruitless strokes it tries from another side.
     const double other_side = t.consecutive_misses > max_misses || t.fruitless_strokes > max_fruitless
                                   ? t.random.uniform(-1.0, 1.0) * pi
                                   : 0.0;
     const motion::GripAngle grip =
-        motion::choose_grip(*t.setup, t.obstacles(), t.intent.joint, t.joint().nut.angle,
+        motion::choose_grip(*t.setup, t.obstacles(), t.plan.joint, t.joint().nut.angle,
                             0.5 * pi - 0.5 * sign + other_side, sign, t.profile.stroke);
     t.handle_angle = grip.handle + t.profile.angle_noise * t.random.normal();
     t.flipped = grip.flipped;
-    t.swing_room = grip.room;
+    t.free_swing = grip.free_swing;
     t.hover_height = t.obstacles() == nullptr
                          ? default_hover
-                         : motion::hover_height(*t.setup, *t.obstacles(), t.intent.joint, t.joint().nut.angle,
+                         : motion::hover_height(*t.setup, *t.obstacles(), t.plan.joint, t.joint().nut.angle,
                                                 grip, default_hover);
 }
 
@@ -289,34 +289,34 @@ constexpr double unload_time = 0.18;  // s in which the wrench springs back befo
 // when it turns. The handle's speed follows from dT/dt = K (hand speed − nut speed).
 void pull(TraineeState& t, const Percept& felt) {
     const TraineeProfile& profile = t.profile;
-    Intent& intent = t.intent;
+    StepPlan& plan = t.plan;
     const double load = std::abs(felt.torque);
     const double nut_speed = std::abs(t.joint().nut.speed);
     const double stiffness = t.setup->wrench.stiffness, dt = t.setup->dt;
-    const double scale = intent.loosening ? stiffness * to_radians(1.0) : intent.goal_torque;
+    const double scale = plan.loosening ? stiffness * to_radians(1.0) : plan.goal_torque;
     // The hand anticipates the growth of the torque during its reaction time, both for slowing down and for
     // stopping. With the delayed torque alone it would overshoot the goal.
     const double growth = profile.anticipation * profile.reaction * std::max(felt.torque_rate, 0.0);
-    const double missing = intent.loosening ? 1.0 : 1.0 - (load + growth) / intent.goal_torque;
+    const double missing = plan.loosening ? 1.0 : 1.0 - (load + growth) / plan.goal_torque;
     const double rate = scale * std::max(profile.final_rate, profile.load_rate * missing);
-    const double fastest = profile.pull_speed * (intent.only_checks ? 0.2 : 1.0);
+    const double fastest = profile.pull_speed * (plan.only_checks ? 0.2 : 1.0);
     const double speed = std::min(fastest * std::min(1.0, t.elapsed() / 0.15), rate / stiffness + nut_speed);
-    t.handle_angle += (intent.loosening ? -1.0 : 1.0) * speed * dt;
+    t.handle_angle += (plan.loosening ? -1.0 : 1.0) * speed * dt;
 
-    if (intent.loosening) {
+    if (plan.loosening) {
         t.free_turn = load < free_torque ? t.free_turn + nut_speed * dt : 0.0;
-        intent.finished = t.free_turn > to_radians(free_stroke);
+        plan.finished = t.free_turn > to_radians(free_stroke);
     } else {
-        intent.finished = (intent.until_click && felt.clicked) ||
-                          load + growth >= (intent.until_click ? missing_click : 1.0) * intent.goal_torque ||
-                          (intent.until_yield && felt.yields && load >= intent.least_torque) ||
-                          (intent.only_checks && t.joint().nut.angle - t.nut_angle_at_start > visible_turn);
+        plan.finished = (plan.until_click && felt.clicked) ||
+                        load + growth >= (plan.until_click ? missing_click : 1.0) * plan.goal_torque ||
+                        (plan.until_yield && felt.yields && load >= plan.least_torque) ||
+                        (plan.only_checks && t.joint().nut.angle - t.nut_angle_at_start > visible_turn);
     }
-    const bool no_room = std::abs(t.handle_angle - t.stroke_start) >= t.swing_room;
-    if (!intent.finished && !no_room) return;
+    const bool no_free_swing = std::abs(t.handle_angle - t.stroke_start) >= t.free_swing;
+    if (!plan.finished && !no_free_swing) return;
     // A handle that runs against an obstacle feels like a tight nut, but the joint's torque stays low.
     const bool turned = std::abs(t.joint().nut.angle - t.nut_angle_at_stroke) > least_turn;
-    const bool tight = std::abs(t.joint().torque) > tight_share * intent.goal_torque;
+    const bool tight = std::abs(t.joint().torque) > tight_share * plan.goal_torque;
     t.fruitless_strokes = turned || tight ? 0 : t.fruitless_strokes + 1;
 
     t.enter(Phase::unload, unload_time);
@@ -327,9 +327,9 @@ void spin(TraineeState& t, const Percept& felt) {
     // The torque of fingertips is too small for the device's scale, so the trainee sees that the nut is
     // seated.
     const bool started = t.elapsed() > 0.1 + t.profile.reaction + t.arm_lag;
-    t.intent.finished = started && felt.nut_speed < seated_speed * t.profile.spin_speed;
-    if (t.intent.finished || t.handle_angle - t.stroke_start > to_radians(spin_stroke))
-        t.enter(Phase::spin_back, t.intent.finished ? 0.3 : 0.12);
+    t.plan.finished = started && felt.nut_speed < seated_speed * t.profile.spin_speed;
+    if (t.plan.finished || t.handle_angle - t.stroke_start > to_radians(spin_stroke))
+        t.enter(Phase::spin_back, t.plan.finished ? 0.3 : 0.12);
 }
 
 void unload(TraineeState& t) {
@@ -338,7 +338,7 @@ void unload(TraineeState& t) {
 }
 
 void spin_back(TraineeState& t) {
-    if (!t.intent.finished) t.handle_angle -= to_radians(spin_stroke) / t.phase_duration * t.setup->dt;
+    if (!t.plan.finished) t.handle_angle -= to_radians(spin_stroke) / t.phase_duration * t.setup->dt;
 }
 
 }  // namespace bolt::trainees

@@ -1,4 +1,4 @@
-// Behaviour of a simulated trainee: its intent for a step, its state between ticks, and the movements of its
+// Behaviour of a simulated trainee: its plan for a step, its state between ticks, and the movements of its
 // hand (reach, pull, spin).
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace bolt::trainees {
 
 // How the trainee means to carry out one step of the lesson, correctly or not.
-struct Intent {
+struct StepPlan {
     std::size_t step = SIZE_MAX;  // index into Lesson::steps
     std::size_t joint = 0;        // the joint that the trainee believes to be due
     bool fingers = false;         // runs the nut down by hand
@@ -34,11 +34,11 @@ struct Intent {
 
 // Returns the step to work on, or null if none is left. In an assessment the lesson does not report that a
 // joint is too loose, so a trainee that believes to be done continues with the following step.
-const lesson::LessonStep* next_step(const lesson::Lesson& lesson, const Intent& intent);
+const lesson::LessonStep* next_step(const lesson::Lesson& lesson, const StepPlan& plan);
 
-// Draws the intent for the step `due`. `before`: the previous intent.
-Intent make_intent(const TraineeProfile& profile, Random& random, const servo::Setup& setup,
-                   const lesson::Lesson& lesson, const lesson::LessonStep& due, const Intent& before);
+// Draws the plan for the step `due`. `before`: the previous plan.
+StepPlan make_step_plan(const TraineeProfile& profile, Random& random, const servo::Setup& setup,
+                        const lesson::Lesson& lesson, const lesson::LessonStep& due, const StepPlan& before);
 
 // Action of the hand. At its end each phase selects the next one.
 enum class Phase {
@@ -62,7 +62,7 @@ struct TraineeState {
     Random random;
     motion::Tremor tremor;
     DelayedPerception perception;
-    Intent intent;
+    StepPlan plan;
     Phase phase = Phase::pause;
     double time = 0.0;            // s since the beginning of the lesson
     double phase_start = 0.0;     // s
@@ -79,7 +79,7 @@ struct TraineeState {
     Vec3 placement_error{0.0};        // m, offset of the placed tool from the nut's centre
     Vec3 bulge{0.0};                  // m, deviation of the reach from the straight line at its middle
     std::vector<Pose> waypoints;      // after `to`, in reverse order
-    double swing_room = 0.0;          // rad that the handle can swing in this stroke
+    double free_swing = 0.0;          // rad that the handle can swing in this stroke
     double hover_height = 0.0;        // m above the nut, start of the lowering
 
     bool holds_wrench = false;
@@ -92,7 +92,7 @@ struct TraineeState {
     std::vector<lesson::LessonEvent> events;  // since the last SimulatedTrainee::take_events
     double reported_visibility = -1.0;        // 0…1, the value of the last event
     std::size_t reported_joint = SIZE_MAX;    // the joint of the last event
-    ArmDeflection arm;
+    HandDeflection deflection;
     double arm_lag = 0.0;               // s by which a force-feedback arm follows the hand
     Pose hand;                          // actual pose of the hand
     bool held_nut = false;              // held a nut in the last tick
@@ -107,8 +107,8 @@ struct TraineeState {
     TraineeState(const TraineeProfile& p, std::uint64_t seed, const servo::Setup& s)
         : profile(p), random(seed, 7001), tremor(random), perception(p.reaction, s.dt, s.wrench.stiffness) {}
 
-    [[nodiscard]] const servo::NutGeometry& nut() const { return setup->nuts[intent.joint]; }
-    [[nodiscard]] const joint::JointState& joint() const { return servo_state->joints[intent.joint]; }
+    [[nodiscard]] const servo::NutGeometry& nut() const { return setup->nuts[plan.joint]; }
+    [[nodiscard]] const joint::JointState& joint() const { return servo_state->joints[plan.joint]; }
     // Null without contact simulation.
     [[nodiscard]] const servo::ToolContact* obstacles() const {
         return servo_state->tool_contact ? &*servo_state->tool_contact : nullptr;
@@ -116,9 +116,9 @@ struct TraineeState {
     [[nodiscard]] double elapsed() const { return time - phase_start; }
     [[nodiscard]] double progress() const { return phase_duration > 0.0 ? elapsed() / phase_duration : 1.0; }
     [[nodiscard]] bool phase_over() const { return progress() >= 1.0; }
-    [[nodiscard]] bool step_is_past() const { return intent.step != lesson->current; }
+    [[nodiscard]] bool step_is_past() const { return plan.step != lesson->current; }
     [[nodiscard]] bool holds_intended_nut() const {
-        return servo_state->engagement.joint == static_cast<int>(intent.joint);
+        return servo_state->engagement.joint == static_cast<int>(plan.joint);
     }
     [[nodiscard]] Vec3 random_offset(double deviation) {
         return Vec3(random.normal(), random.normal(), random.normal()) * deviation;
@@ -141,7 +141,7 @@ struct TraineeState {
 // newtons draws the hand down.
 constexpr double default_hover = 0.035;
 
-// Chooses the due step and the intent for it, and starts the first movement.
+// Chooses the due step and the plan for it, and starts the first movement.
 void begin_next_action(TraineeState& t);
 
 // Chooses the handle angle so that the stroke is centred on the trainee's side.

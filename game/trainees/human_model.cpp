@@ -26,25 +26,27 @@ void step_spring(Vec3& x, Vec3& v, const Vec3& force, double m, double b, double
 
 }  // namespace
 
-void reset_arm(ArmDeflection& arm, const Pose& pose, const Pose& intended) {
-    arm = {};
-    arm.offset = pose.position - intended.position;
-    arm.turn = turn_between(intended.orientation, pose.orientation);
+void reset_deflection(HandDeflection& deflection, const Pose& pose, const Pose& intended) {
+    deflection = {};
+    deflection.offset = pose.position - intended.position;
+    deflection.turn = turn_between(intended.orientation, pose.orientation);
 }
 
-Pose step_arm(const Impedance& i, ArmDeflection& arm, const Pose& intended, const force::OutputCommand& felt,
-              bool holds_nut, double dt) {
+Pose step_deflection(const Impedance& i, HandDeflection& deflection, const Pose& intended,
+                     const force::OutputCommand& felt, bool holds_nut, double dt) {
     if (holds_nut) {
         const double remaining = std::max(0.0, 1.0 - dt / fade_time);
-        arm.offset *= remaining;
-        arm.turn *= remaining;
-        arm.velocity = arm.rate = Vec3(0.0);
+        deflection.offset *= remaining;
+        deflection.turn *= remaining;
+        deflection.velocity = deflection.rate = Vec3(0.0);
     } else {
-        step_spring(arm.offset, arm.velocity, felt.force, i.mass, i.damping, i.stiffness, i.force, dt);
-        step_spring(arm.turn, arm.rate, felt.torque, i.inertia, i.angular_damping, i.angular_stiffness,
-                    i.torque, dt);
+        step_spring(deflection.offset, deflection.velocity, felt.force, i.mass, i.damping, i.stiffness,
+                    i.max_force, dt);
+        step_spring(deflection.turn, deflection.rate, felt.torque, i.inertia, i.angular_damping,
+                    i.angular_stiffness, i.max_torque, dt);
     }
-    return {intended.position + arm.offset, glm::normalize(rotation(arm.turn) * intended.orientation)};
+    return {intended.position + deflection.offset,
+            glm::normalize(rotation(deflection.turn) * intended.orientation)};
 }
 
 namespace {

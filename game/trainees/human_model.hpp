@@ -13,36 +13,36 @@
 
 namespace bolt::trainees {
 
-// A hand that holds a wrench yields to a force as a mass, a damper and a spring between its intended and its
-// actual pose (Hogan, Impedance control, ASME J. Dyn. Syst. Meas. Control 107 (1985) 1). The values are
+// A hand that holds a wrench gives way to a force as a mass, a damper and a spring between its intended and
+// its actual pose (Hogan, Impedance control, ASME J. Dyn. Syst. Meas. Control 107 (1985) 1). The values are
 // chosen, not measured: they lie within the ranges of tests/stability and damp at 0.7 of critical. The force
 // limit is that of a person who reaches without leaning on the wrench.
 struct Impedance {
     double mass = 0.5;               // kg
     double damping = 17.0;           // N·s/m
     double stiffness = 300.0;        // N/m
-    double force = 6.0;              // N, limit of the spring's force
+    double max_force = 6.0;          // N, limit of the spring's force
     double inertia = 5e-3;           // kg·m²
     double angular_damping = 0.14;   // N·m·s/rad
     double angular_stiffness = 2.0;  // N·m/rad
-    double torque = 0.6;             // N·m, limit of the spring's torque
+    double max_torque = 0.6;         // N·m, limit of the spring's torque
 };
 
 // Deviation of the hand's actual pose from its intended pose.
-struct ArmDeflection {
+struct HandDeflection {
     Vec3 offset{0.0}, velocity{0.0};  // m, m/s
     Vec3 turn{0.0}, rate{0.0};        // rad, rad/s, rotation vectors
 };
 
 // Sets the deflection so that the hand stays at `pose` when its intended pose becomes `intended`. The
 // velocities become 0.
-void reset_arm(ArmDeflection& arm, const Pose& pose, const Pose& intended);
+void reset_deflection(HandDeflection& deflection, const Pose& pose, const Pose& intended);
 
 // Advances the deflection by one tick and returns the hand's actual pose. The intended motion itself has no
 // lag, as in a practised reach; only `felt`, the device's output, deflects the hand. If `holds_nut` is true
-// the hand does not yield to the output, and the deflection fades.
-Pose step_arm(const Impedance& impedance, ArmDeflection& arm, const Pose& intended,
-              const force::OutputCommand& felt, bool holds_nut, double dt);
+// the hand does not give way to the output, and the deflection fades.
+Pose step_deflection(const Impedance& impedance, HandDeflection& deflection, const Pose& intended,
+                     const force::OutputCommand& felt, bool holds_nut, double dt);
 
 // Returns the joint's torque (N·m about the bolt's axis, tightening positive) as the device's output conveys
 // it, with the device's scale divided out. `handle`: unit, from the bolt to the grip.

@@ -25,10 +25,10 @@ void engage(TraineeState& t, const Pose& pose) {
         t.stroke_start = t.handle_angle;
         t.nut_angle_at_stroke = t.joint().nut.angle;
         t.consecutive_misses = 0;
-        t.enter(t.intent.fingers ? Phase::spin : Phase::pull);
+        t.enter(t.plan.fingers ? Phase::spin : Phase::pull);
     } else if (t.phase_over()) {
         ++t.consecutive_misses;
-        if (t.obstacles() != nullptr && !t.intent.fingers) {
+        if (t.obstacles() != nullptr && !t.plan.fingers) {
             start_lift(t, pose, 0.2);
             return;
         }
@@ -56,7 +56,7 @@ void report_visibility(TraineeState& t, const lesson::LessonStep* due) {
 
 // Advances the phase by one tick. Returns the intended pose of the tool and sets `grip` if it is closed.
 Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
-    const Grip own = t.intent.fingers ? Grip::fingers : Grip::wrench;
+    const Grip own = t.plan.fingers ? Grip::fingers : Grip::wrench;
     Pose pose = t.from;
     switch (t.phase) {
         case Phase::pause:
@@ -70,7 +70,7 @@ Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
         case Phase::change_tool:
             pose = motion::arc_pose(t.from, t.to, motion::minimum_jerk(t.progress()), t.bulge);
             if (!t.phase_over() || start_next_waypoint(t, Phase::change_tool)) break;
-            t.holds_wrench = !t.intent.fingers;
+            t.holds_wrench = !t.plan.fingers;
             t.enter(Phase::pause, 0.2);
             break;
         case Phase::reach:
@@ -104,7 +104,7 @@ Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
             pose = motion::arc_pose(t.from, t.to, motion::minimum_jerk(t.progress()), Vec3(0.0));
             if (!t.phase_over()) break;
             t.from = t.to;
-            const bool done = t.intent.finished || t.step_is_past();
+            const bool done = t.plan.finished || t.step_is_past();
             t.enter(Phase::pause, done ? t.profile.pause * t.random.uniform(0.3, 1.7) : 0.05);
             break;
         }
@@ -117,7 +117,7 @@ Pose step_phase(TraineeState& t, const Percept& felt, Grip& grip) {
             spin_back(t);
             pose = t.tool_at_nut(0.0);
             if (!t.phase_over()) break;
-            if (t.intent.finished || t.step_is_past())
+            if (t.plan.finished || t.step_is_past())
                 start_lift(t, pose, 0.3);
             else
                 t.enter(Phase::engage, 0.05);
@@ -150,8 +150,8 @@ SimulatedTrainee::~SimulatedTrainee() = default;
 namespace {
 
 // Perceives the tick before and advances the phase. The hand has not moved yet.
-Intention advance(TraineeState& t, const servo::Setup& setup, const servo::State& state,
-                  const lesson::Lesson& lesson) {
+IntendedPose advance(TraineeState& t, const servo::Setup& setup, const servo::State& state,
+                     const lesson::Lesson& lesson) {
     t.setup = &setup;
     t.servo_state = &state;
     t.lesson = &lesson;
@@ -160,9 +160,9 @@ Intention advance(TraineeState& t, const servo::Setup& setup, const servo::State
         t.visibility.eye = lesson.assembly->views.front().eye;
     t.time += setup.dt;
 
-    Intention intention;
+    IntendedPose intended;
     const lesson::LessonStep* due = lesson.due();
-    if (due != nullptr && lesson.guides) intention.guide = static_cast<std::int16_t>(due->joint);
+    if (due != nullptr && lesson.guides) intended.guide = static_cast<std::int16_t>(due->joint);
     // A hand that holds a nut does not yield to forces; a free hand does. While the wrench is being lowered
     // the jaw may already be on the nut, but the hand does not hold it yet.
     const bool holds_nut = state.engagement.joint >= 0 && t.phase != Phase::lower;
@@ -173,7 +173,7 @@ Intention advance(TraineeState& t, const servo::Setup& setup, const servo::State
         felt_torque(setup.torque_rendering, t.nut(), t.hand.orientation * Vec3(1, 0, 0), output);
     const Percept& felt = t.perception.update(holds_nut ? torque : 0.0, t.handle_angle, t.joint().nut.speed,
                                               holds_nut, holds_nut && state.engagement.swung > 0.0);
-    Pose pose = step_phase(t, felt, intention.grip);
+    Pose pose = step_phase(t, felt, intended.grip);
     if (t.phase != Phase::done) {
         pose.position += t.tremor.at(t.time) * t.profile.tremor;
         if (t.phase == Phase::pull) {
@@ -181,51 +181,52 @@ Intention advance(TraineeState& t, const servo::Setup& setup, const servo::State
             pose.orientation = motion::tool_orientation(t.nut(), t.handle_angle + sway, t.flipped);
         }
     }
-    if (t.obstacles() != nullptr && t.holds_wrench) intention.grip = Grip::wrench;
-    intention.tool = pose;
-    intention.holds_nut = holds_nut;
-    return intention;
+    if (t.obstacles() != nullptr && t.holds_wrench) intended.grip = Grip::wrench;
+    intended.tool = pose;
+    intended.holds_nut = holds_nut;
+    return intended;
 }
 
 }  // namespace
 
-servo::Input SimulatedTrainee::act(const servo::Setup& setup, const servo::State& state,
-                                   const lesson::Lesson& lesson) {
+servo::TickInput SimulatedTrainee::act(const servo::Setup& setup, const servo::State& state,
+                                       const lesson::Lesson& lesson) {
     TraineeState& t = *state_;
-    const Intention intention = advance(t, setup, state, lesson);
-    const bool holds_nut = intention.holds_nut;
+    const IntendedPose intended = advance(t, setup, state, lesson);
+    const bool holds_nut = intended.holds_nut;
     // The intended pose may have jumped; the hand stays in place.
-    if (holds_nut != t.held_nut || t.intended_pose_jumped) reset_arm(t.arm, t.hand, intention.tool);
+    if (holds_nut != t.held_nut || t.intended_pose_jumped)
+        reset_deflection(t.deflection, t.hand, intended.tool);
     t.held_nut = holds_nut;
     t.intended_pose_jumped = false;
     const force::OutputCommand output{state.output_stage.limiter.force, state.output_stage.limiter.torque};
-    t.hand = step_arm(t.profile.impedance, t.arm, intention.tool, output, holds_nut, setup.dt);
+    t.hand = step_deflection(t.profile.impedance, t.deflection, intended.tool, output, holds_nut, setup.dt);
     if (t.obstacles() != nullptr && t.holds_wrench && t.obstacles()->in_hand) {
         const Pose& wrench = t.obstacles()->god_object.constrained_tool;
-        retreat_if_caught(t, intention.tool, wrench);
-        if (holds_nut) t.hand = motion::yield_to_wrench(t.hand, wrench);
+        retreat_if_caught(t, intended.tool, wrench);
+        if (holds_nut) t.hand = motion::give_way_to_wrench(t.hand, wrench);
     }
-    servo::Input input;
+    servo::TickInput input;
     input.dead_man = true;
-    input.guide = intention.guide;
-    input.grip = intention.grip;
+    input.guide = intended.guide;
+    input.grip = intended.grip;
     input.commanded_tool = servo::to_commanded_tool(t.hand);
     report_visibility(t, lesson.due());
     return input;
 }
 
-Intention SimulatedTrainee::intend(const servo::Setup& setup, const servo::State& state,
-                                   const lesson::Lesson& lesson, const Pose& hand) {
+IntendedPose SimulatedTrainee::intend(const servo::Setup& setup, const servo::State& state,
+                                      const lesson::Lesson& lesson, const Pose& hand) {
     TraineeState& t = *state_;
     t.hand = hand;
     t.arm_lag = arm_lag;
-    const Intention intention = advance(t, setup, state, lesson);
-    t.held_nut = intention.holds_nut;
+    const IntendedPose intended = advance(t, setup, state, lesson);
+    t.held_nut = intended.holds_nut;
     t.intended_pose_jumped = false;
     if (t.obstacles() != nullptr && t.holds_wrench && t.obstacles()->in_hand)
-        retreat_if_caught(t, intention.tool, t.obstacles()->god_object.constrained_tool);
+        retreat_if_caught(t, intended.tool, t.obstacles()->god_object.constrained_tool);
     report_visibility(t, lesson.due());
-    return intention;
+    return intended;
 }
 
 const Pose& SimulatedTrainee::hand() const { return state_->hand; }
@@ -255,7 +256,7 @@ Result<session::LessonOutcome> train(const content::Assembly& assembly, const Tr
     std::uint64_t step_start = 0;
     bool running = true;
     while (running && state.tick - step_start < step_limit && !session.finished() && state.tick < last) {
-        const servo::Input input = trainee.act(session.setup(), state, lesson);
+        const servo::TickInput input = trainee.act(session.setup(), state, lesson);
         const Result<servo::Output> output = session.step(world, input, trainee.take_events());
         if (!output) return fail(output.error());
         TrainingProgress progress{session.time(), lesson.current, lesson.steps.size(), nullptr};

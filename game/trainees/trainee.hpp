@@ -1,5 +1,5 @@
 // A simulated trainee, and a whole lesson carried out by it in virtual time. It sees the assembly, feels the
-// torque with a delay, moves the tool and yields to the device's force like a hand. Its input to the servo
+// torque with a delay, moves the tool and gives way to the device's force like a hand. Its input to the servo
 // tick is that of a person: a device pose and a grip.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace bolt::trainees {
 struct TraineeState;  // behaviour.hpp
 
 // The pose that a trainee wants the tool to have, and its grip.
-struct Intention {
+struct IntendedPose {
     Pose tool;  // in the assembly's frame
     servo::Grip grip = servo::Grip::none;
     std::int16_t guide = -1;  // joint that the guiding force leads to; −1: none
@@ -36,12 +36,12 @@ class SimulatedTrainee {
     ~SimulatedTrainee();
 
     // Returns the input for the next tick from the percepts after the last one. Deterministic in the seed.
-    servo::Input act(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson);
+    servo::TickInput act(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson);
 
-    // As act(), for a trainee that holds a force-feedback arm: returns its intention and leaves it to the arm
+    // As act(), for a trainee that holds a force-feedback arm: returns its intended and leaves it to the arm
     // how far the hand follows. `hand`: the pose of the tool that the arm commands now.
-    Intention intend(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson,
-                     const Pose& hand);
+    IntendedPose intend(const servo::Setup& setup, const servo::State& state, const lesson::Lesson& lesson,
+                        const Pose& hand);
 
     // The pose of the tool that the hand commands; before the first tick, where it begins.
     [[nodiscard]] const Pose& hand() const;

@@ -81,7 +81,7 @@ void move_camera(ActiveLesson& active, const FrameInput& input, double height, d
     view::turn(active.view.camera.goal, glm::dvec2(turned.x, -turned.y) / height);
     view::pan(active.view.camera.goal, glm::dvec2(input.middle_drag.x, -input.middle_drag.y) / height);
     const glm::dvec2 at(input.pointer.x / height - 0.5 * aspect, 0.5 - input.pointer.y / height);
-    if (input.wheel != 0.0) view::zoom(active.view.camera.goal, input.wheel, at, active.workplace.machine);
+    if (input.wheel != 0.0) view::zoom(active.view.camera.goal, input.wheel, at, active.workplace.workpiece);
 }
 
 }  // namespace
@@ -162,7 +162,7 @@ void log_events(ActiveLesson& active, std::span<const lesson::LessonEvent> event
     for (const lesson::LessonEvent& event : events) {
         // Keep the explanation of the mistake when its step restarts.
         const bool undone_by_mistake = event.kind == lesson::EventKind::undo && active.undo.by_mistake;
-        if (!undone_by_mistake) lesson::add_event(active.coaching.mistakes, active.session->lesson(), event);
+        if (!undone_by_mistake) lesson::add_event(active.guidance.mistakes, active.session->lesson(), event);
         observe(active.undo, active.session->lesson(), event);
         active.events.push_back(event);
     }
@@ -212,7 +212,7 @@ void step_ticks(scene::SceneWorld& world, Frame& frame) {
     const servo::Setup& setup = session.setup();
     for (; active.clock.pending >= setup.dt && continues(active) && frame.status;
          active.clock.pending -= setup.dt) {
-        servo::Input input = step_hand(active.mouse, setup, session.state());
+        servo::TickInput input = step_hand(active.mouse, setup, session.state());
         if (const lesson::LessonStep* due = session.lesson().due(); due != nullptr && session.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
         const auto undo = steps_to_undo(active.undo, session.lesson());
@@ -243,15 +243,17 @@ void repeat_station_ticks(scene::SceneWorld& world, Frame& frame) {
         if (frame.status) after_tick(world, active, tick.output);
     }
     if (client.link->lost_ticks() > 0 && continues(active) && frame.status)
-        frame.status =
-            fail(ErrorCode::failed, fmt::format("{} ticks of the servo were dropped because frames took too "
-                                                "long; the session up to there is complete",
-                                                client.link->lost_ticks()));
+        frame.status = fail(ErrorCode::failed,
+                            fmt::format("{} ticks of the servo were dropped because frames took too "
+                                        "long; the session up to there is complete",
+                                        client.link->lost_ticks()),
+                            "frames that are short enough for the queue of ticks: close other programs or "
+                            "lower the resolution");
     const Status sent =
-        send_intent(client, *active.session,
-                    {active.clock.paused || active.clock.finished || !continues(active),
-                     frame.input.triggered(Action::tool), frame.input.triggered(Action::recentre),
-                     steps_to_undo(active.undo, active.session->lesson()), viewer_heading(active)});
+        send_actions(client, *active.session,
+                     {active.clock.paused || active.clock.finished || !continues(active),
+                      frame.input.triggered(Action::tool), frame.input.triggered(Action::recentre),
+                      steps_to_undo(active.undo, active.session->lesson()), viewer_heading(active)});
     if (frame.status && !sent) frame.status = sent;
     const WorkingHand hand = write_hand(world, hand_of(client));
     if (hand.wrench && !had_wrench)
@@ -316,7 +318,7 @@ void show_force(scene::SceneWorld& world, ActiveLesson& active, double seconds) 
 
 }  // namespace
 
-void coaching_system(scene::SceneWorld& world, Frame& frame) {
+void guidance_system(scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     const lesson::Lesson& lesson = active.session->lesson();
     update(active.undo, frame.seconds);
@@ -327,14 +329,14 @@ void coaching_system(scene::SceneWorld& world, Frame& frame) {
     if (!active.clock.paused) {
         // The pending undo will leave the lesson's current step: give no hint for that step.
         if (due(active.undo, lesson) == lesson.due())
-            lesson::update(active.coaching.hints, {lesson, active.session->setup(), world}, frame.seconds,
+            lesson::update(active.guidance.hints, {lesson, active.session->setup(), world}, frame.seconds,
                            frame.input.triggered(Action::hint));
         else
-            active.coaching.hints.shown.reset();
-        lesson::update(active.coaching.mistakes, active.undo.by_mistake ? 0.0 : frame.seconds);
+            active.guidance.hints.shown.reset();
+        lesson::update(active.guidance.mistakes, active.undo.by_mistake ? 0.0 : frame.seconds);
     }
     const lesson::Hint* hint =
-        active.coaching.hints.shown && !active.clock.finished ? &*active.coaching.hints.shown : nullptr;
+        active.guidance.hints.shown && !active.clock.finished ? &*active.guidance.hints.shown : nullptr;
     const int outlined = hint != nullptr ? hint->outlined() : -1;
     for (std::size_t i = 0; i < lesson.joints.size(); ++i) {
         glm::vec4 color = no_color;

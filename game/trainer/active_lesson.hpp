@@ -46,18 +46,8 @@ struct LessonClock {
     bool paused = false, finished = false;
 };
 
-struct LessonView {
-    view::CameraGlide camera;
-    motion::VisibilityModel visibility;
-    double out_of_view = 0.0;  // s since the due joint was last visible
-    CloseUp close_up;
-    bool clamp_map = false;                   // show the clamp force of every joint
-    std::vector<render::Rectangle> occupied;  // px, areas of the interface in the previous picture
-    std::optional<Pose> head;  // of the user in a room, assembly frame; none: the camera shows the lesson
-};
-
 // Help for the trainee.
-struct Coaching {
+struct Guidance {
     lesson::HintState hints;
     lesson::MistakeState mistakes;
     std::optional<std::pair<std::size_t, Pose>> wrench_ghost;  // cached: its step and its pose
@@ -100,7 +90,7 @@ struct ActiveLesson {
     PointerState pointer;
     LessonClock clock;
     LessonView view;
-    Coaching coaching;
+    Guidance guidance;
     ForceDisplay force;
     LessonSound sound;
     LessonVibration vibration;
@@ -153,7 +143,7 @@ void tick_system(scene::SceneWorld& world, Frame& frame);
 // Sets the poses of nuts, wrench and hand from the components.
 void placement_system(scene::SceneWorld& world, Frame& frame);
 // Updates hints, mistakes, captions, outlines and the arrow of the force.
-void coaching_system(scene::SceneWorld& world, Frame& frame);
+void guidance_system(scene::SceneWorld& world, Frame& frame);
 // Updates the camera, the close-up and the cut-away in front of the nut.
 void view_system(scene::SceneWorld& world, Frame& frame);
 // Updates the labels at the wrench and at the joints.
@@ -162,7 +152,7 @@ void label_system(scene::SceneWorld& world, Frame& frame);
 void present_system(scene::SceneWorld& world, Frame& frame);
 
 inline constexpr ecs::System<scene::SceneWorld, Frame> frame_systems[] = {
-    {"ticks", tick_system}, {"placement", placement_system}, {"coaching", coaching_system},
+    {"ticks", tick_system}, {"placement", placement_system}, {"guidance", guidance_system},
     {"view", view_system},  {"labels", label_system},        {"present", present_system}};
 
 // The picture from the camera's present viewpoint.

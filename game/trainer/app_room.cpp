@@ -16,7 +16,7 @@ constexpr double default_seated_eyes = 1.2;  // m above the floor, about the mea
 // The pose of the assembly's frame in the room; that of the room without a lesson.
 Pose App::scene_in_room() const {
     if (!active_ || !room_->workpiece) return {};
-    return adjusted(*room_->workpiece, active_->workplace.machine, room_->turns, room_->height);
+    return adjusted(*room_->workpiece, active_->workplace.workpiece, room_->turns, room_->height);
 }
 
 // Pauses a lesson that its user suddenly does not see: no device may push, and a tracked hand is gone. It
@@ -39,7 +39,7 @@ void App::place_in_room(const view::Immersion& immersion) {
     if (placed && !room.panel) room.panel = place_panel(viewer);
     if (!active_) room.workpiece.reset();
     if (placed && active_ && !room.workpiece) {
-        const render::BoundingBox& machine = active_->workplace.machine;
+        const render::BoundingBox& machine = active_->workplace.workpiece;
         room.workpiece = place_workpiece(
             viewer, machine,
             immersion.floor_known

@@ -19,7 +19,7 @@ std::string request_of(const words::Words& words, const device::ArmNeeds& needs)
             return words["arm.inkwell"];
         case device::DeviceNeed::user:
             return words::format_text(words, "arm.user", {{"text", needs.preparation.instruction}});
-        case device::DeviceNeed::patience:
+        case device::DeviceNeed::wait:
             return words["arm.calibrates"];
         case device::DeviceNeed::none:
             break;
@@ -100,7 +100,7 @@ std::string describe(const device::ArmNeeds& needs) {
             return "the arm needs its inkwell";
         case device::DeviceNeed::user:
             return "the arm waits for the user: " + needs.preparation.instruction;
-        case device::DeviceNeed::patience:
+        case device::DeviceNeed::wait:
             return "the arm calibrates itself";
         case device::DeviceNeed::none:
             break;

@@ -12,8 +12,8 @@ namespace {
 constexpr double wheel_step = 0.02;              // m along the view for a notch
 constexpr double wheel_step_on_bolt = 0.01;      // m along the bolt
 constexpr double wheel_turn = to_radians(30.0);  // of the fingers for a notch: within the lead of the arm
-// s in which the hand follows a notch of the wheel. At once, it would hit the work at 1 m/s, and fingers
-// would slip off the nut.
+// s in which the hand follows a notch of the mouse wheel. An immediate step would move the tool into the
+// workpiece at 1 m/s and make the fingers slip off the nut.
 constexpr double wheel_time = 0.1, least_notch = 1e-3;
 constexpr double finger_turn = to_radians(2.5);  // of the fingers for a pixel of drag
 constexpr double key_speed = 0.25;               // m/s
@@ -22,13 +22,13 @@ constexpr double key_turn_speed = 1.5;           // rad/s
 // pinching.
 constexpr double finger_rate = 6.0;
 
-// 1/s, HandMotion::yielding in the air: the largest guiding force, 2.4 N, leads the hand at 2.7 cm/s. On a
-// bolt it is 0, because the hand holds what it has pulled.
-constexpr double air_yielding = 3.0;
+// 1/s, HandMotion::compliance_rate in the air: the largest guiding force, 2.4 N, leads the hand at 2.7 cm/s.
+// On a bolt it is 0, because the hand holds what it has pulled.
+constexpr double air_compliance = 3.0;
 
 // m that the hand leads the arm in the air. Its spring of 300 N/m then pulls with less than the 12 N of the
 // arm, so that it cannot push through a wall that holds the wrench.
-constexpr double air_lead = 0.035;
+constexpr double air_deflection = 0.035;
 
 constexpr double least_depth = 0.15;  // m before the eye
 
@@ -37,8 +37,8 @@ constexpr double least_slope = 0.25;
 
 // Before the hand releases a wrench on a nut, it yields for a short time. Otherwise the wrench would keep its
 // tension until the hand takes it again.
-constexpr double ease_time = 0.3;       // s
-constexpr double ease_yielding = 30.0;  // 1/s
+constexpr double ease_time = 0.3;         // s
+constexpr double ease_compliance = 30.0;  // 1/s
 
 // A motion of the hand in the assembly's frame. The turn is about the tool's origin.
 struct HandShift {
@@ -73,7 +73,7 @@ Vec3 grip_of(const DragScene& scene) {
     return scene.tool * Vec3(scene.wrench ? scene.handle_length : 0.0, 0.0, 0.0);
 }
 
-// The notches of this frame, of all that the wheel was turned while the button is held.
+// The notches of this frame, of all that the mouse wheel was turned while the button is held.
 double smooth_wheel(DraggedHand& hand, const DragInput& input) {
     hand.wheel = input.mouse.left_down ? hand.wheel + input.mouse.wheel : 0.0;
     const double followed = std::min(1.0, input.seconds / wheel_time) * hand.wheel;
@@ -116,8 +116,8 @@ Vec3 across_bolt(const DragScene& scene, const Vec3& axis, const Vec3& shift) {
     return std::abs(slope) < least_slope ? shift : shift - glm::dot(shift, axis) / slope * view;
 }
 
-// Beside a bolt a drag and the wheel move the wrench across and along the bolt: nobody sees its depth well
-// enough to place the jaw along the view.
+// Beside a bolt a drag and the mouse wheel move the wrench across and along the bolt: nobody sees its depth
+// well enough to place the jaw along the view.
 HandShift beside_bolt(const DragInput& input, const DragScene& scene) {
     const Vec3& axis = scene.nut->axis;
     const Vec3 shift = in_picture(scene.projection, grip_of(scene), input.mouse.left_drag);
@@ -159,12 +159,13 @@ void drag_hand(DraggedHand& hand, const DragInput& input, const DragScene& scene
     const bool closed = (hand.held && (hand.grasps || scene.wrench)) || input.keys.buttons != 0 || eases;
     hand.motion.buttons = closed ? 1 : 0;
 
-    hand.motion.yielding = eases ? ease_yielding : scene.engaged ? 0.0 : air_yielding;
+    hand.motion.compliance_rate = eases ? ease_compliance : scene.engaged ? 0.0 : air_compliance;
     DragInput smooth = input;
     smooth.mouse.wheel = smooth_wheel(hand, input);
-    // Only a pull at the handle needs all the strength: a mouse may pull a bolt too tight.
+    // The intention may lead far only while the hand pulls the handle, because only this needs the arm's
+    // full force. Overtightening must stay possible.
     const bool pulls = scene.engaged && smooth.mouse.wheel == 0.0;
-    hand.motion.lead = pulls ? device::HandMotion{}.lead : air_lead;
+    hand.motion.max_deflection = pulls ? device::HandMotion{}.max_deflection : air_deflection;
     HandShift motion = mouse_motion(hand, smooth, scene);
     motion.shift += key_speed * input.seconds * (scene.device * input.keys.along);
     motion.turn += key_turn_speed * input.seconds * (scene.device * input.keys.about);

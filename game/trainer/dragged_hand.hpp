@@ -1,8 +1,9 @@
-// A hand that the mouse moves freely, for a simulated arm. Drags, the wheel and keys move the intended pose
-// of the hand; the forces of the arm determine how closely the hand follows it. In the air a drag moves the
-// hand in the plane of the picture and the wheel moves it along the view; with the right button or Shift held
-// too, a drag turns the tool about its own normal. Beside a bolt a drag moves the wrench across the bolt and
-// the wheel along it. On a bolt a drag swings the handle, and the wheel moves the wrench along the bolt.
+// A hand that the mouse moves freely, for a simulated arm. Drags, the mouse wheel and keys move the intended
+// pose of the hand; the forces of the arm determine how closely the hand follows it. In the air a drag moves
+// the hand in the plane of the picture and the mouse wheel moves it along the view; with the right button or
+// Shift held too, a drag turns the tool about its own normal. Beside a bolt a drag moves the wrench across
+// the bolt and the mouse wheel along it. On a bolt a drag swings the handle, and the mouse wheel moves the
+// wrench along the bolt.
 #pragma once
 
 #include <optional>

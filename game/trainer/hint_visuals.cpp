@@ -62,11 +62,11 @@ void show_hand(scene::SceneWorld& world, ActiveLesson& active, HintMotion motion
 // The pose in which the hand would put the wrench on the nut. Cached per step, because the search casts rays.
 const Pose& wrench_ghost_pose(ActiveLesson& active, const lesson::LessonStep& due) {
     const std::size_t step = active.session->lesson().current;
-    if (!active.coaching.wrench_ghost || active.coaching.wrench_ghost->first != step)
-        active.coaching.wrench_ghost = {
+    if (!active.guidance.wrench_ghost || active.guidance.wrench_ghost->first != step)
+        active.guidance.wrench_ghost = {
             step, wrench_pose_on_nut(hand_of(active).rest, active.session->setup(), active.session->state(),
                                      due.joint, due.kind == lesson::StepKind::loosen)};
-    return active.coaching.wrench_ghost->second;
+    return active.guidance.wrench_ghost->second;
 }
 
 void show_ghosts(scene::SceneWorld& world, ActiveLesson& active, const lesson::Hint& hint,
@@ -132,7 +132,7 @@ void show_hint_visuals(scene::SceneWorld& world, ActiveLesson& active, const les
     scene::hide_ghosts(world);
     const lesson::LessonStep* due = active.session->lesson().due();
     if (hint == nullptr || due == nullptr) {
-        active.coaching.wrench_ghost.reset();
+        active.guidance.wrench_ghost.reset();
         scene::show_arrow(world, std::nullopt);
         return;
     }

@@ -283,9 +283,9 @@ void draw_hint(const ActiveLesson& active, const HudText& texts, const glm::dvec
     std::vector<HudLine> lines;
     const force::Fault fault = active.workplace.world.only<world::DeviceForce>().fault;
     if (fault != force::Fault::none) lines.push_back({w[lesson::text_key(fault)], warm});
-    if (active.coaching.mistakes.shown) {
-        lines.push_back({lesson::mistake_text(w, *active.coaching.mistakes.shown), warm});
-        lines.push_back({lesson::remedy_text(w, *active.coaching.mistakes.shown), white});
+    if (active.guidance.mistakes.shown) {
+        lines.push_back({lesson::mistake_text(w, *active.guidance.mistakes.shown), warm});
+        lines.push_back({lesson::remedy_text(w, *active.guidance.mistakes.shown), white});
         lines.push_back(
             {active.session->lesson().mode == lesson::Mode::guided
                  ? w["mistake.begins_again"]
@@ -293,9 +293,9 @@ void draw_hint(const ActiveLesson& active, const HudText& texts, const glm::dvec
                                       {{"control", key_name(active.input.keys, Action::restart_step)}}),
              pale});
     }
-    if (active.coaching.hints.shown) {
-        lines.push_back({lesson::hint_text(w, *active.coaching.hints.shown), white});
-        if (std::string motion = lesson::motion_text(w, *active.coaching.hints.shown, *texts.controls);
+    if (active.guidance.hints.shown) {
+        lines.push_back({lesson::hint_text(w, *active.guidance.hints.shown), white});
+        if (std::string motion = lesson::motion_text(w, *active.guidance.hints.shown, *texts.controls);
             !motion.empty())
             lines.push_back({std::move(motion), pale});
     }

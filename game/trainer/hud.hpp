@@ -24,9 +24,9 @@ enum class Caption : std::uint8_t {
     done,
     strike_casing,
     strike_nut,
-    groan,
-    scrape,
-    run
+    groan,   // stick-slip of a loaded nut
+    scrape,  // the wrench slides on a part
+    run      // a free nut runs down
 };
 inline constexpr std::size_t caption_count = 9;
 inline constexpr std::size_t max_captions = 3;   // at once

@@ -25,7 +25,7 @@ Status start_station_of(const LessonStart& start, StartedLesson& lesson, session
     const bool dragged = equipment.hand == HandMode::free || equipment.hand == HandMode::simulated_arm;
     if (dragged) lesson.active.station->dragged.emplace();
     if (equipment.hand == HandMode::tracked) lesson.active.station->tracked.emplace();
-    options.device = lesson.active.station->link->setup().limits;
+    options.device_limits = lesson.active.station->link->setup().limits;
     options.servo_rate = 1.0 / options.dt;
     session::set_device_limits(options, setup);
     return {};
@@ -38,14 +38,14 @@ hand::Side working_side(const ActiveLesson& active, const content::TraineeSettin
     return settings.left_handed ? hand::Side::left : hand::Side::right;
 }
 
-// A view of the machine and the resting wrench, no higher than the eyes of a seated trainee.
+// A view of the workpiece and the resting wrench, no higher than the eyes of a seated trainee.
 view::Orbit first_view(const ActiveLesson& active, const LessonContext& context, float aspect) {
-    const view::LoadedModel& model = context.models.machine;
-    const render::BoundingBox& machine = active.workplace.machine;
+    const view::LoadedModel& model = context.models.workpiece;
+    const render::BoundingBox& workpiece = active.workplace.workpiece;
     const view::Viewpoint viewpoint = model.views.empty()
-                                          ? view::default_viewpoint(machine, view::default_fov, aspect)
+                                          ? view::default_viewpoint(workpiece, view::default_fov, aspect)
                                           : model.views.front();
-    render::BoundingBox all = machine;
+    render::BoundingBox all = workpiece;
     for (const double along : {-0.1, 1.2}) {
         const double x = along * active.session->setup().wrench.handle_length;
         const glm::vec3 end(hand_of(active).rest * Vec3(x, 0.0, 0.0));
@@ -53,7 +53,7 @@ view::Orbit first_view(const ActiveLesson& active, const LessonContext& context,
         all.high = glm::max(all.high, end);
     }
     const view::Orbit orbit = view::frame_all(view::orbit_of(viewpoint), all, aspect);
-    const auto eyes = scene::eye_height(machine, context.worker);
+    const auto eyes = scene::eye_height(workpiece, context.worker);
     return eyes ? view::frame_all(view::limit_eye_height(orbit, *eyes), all, aspect) : orbit;
 }
 
@@ -96,10 +96,10 @@ Result<StartedLesson> start_lesson(const LessonStart& start) {
     options.task = choice.task;
     options.trainee_profile = "person";
     options.trainee = choice.trainee;
-    options.device = force::scaled(start.options.device, start.settings.force_scale);
+    options.device_limits = force::scaled(start.options.device_limits, start.settings.force_scale);
     context.assembly = lesson::apply_law(std::move(loaded.assembly), options.law);
 
-    BOLT_TRY_ASSIGN(auto setup, session::prepare(context.assembly, options));
+    BOLT_TRY_ASSIGN(auto setup, session::prepare_session(context.assembly, options));
     BOLT_TRY(start_station_of(start, lesson, setup));
     context.worker = {working_side(lesson.active, start.settings), start.settings.seated_eye_height};
     options.hand = context.worker.side;
@@ -114,20 +114,19 @@ Result<StartedLesson> start_lesson(const LessonStart& start) {
 void place_trainee(ActiveLesson& active, const LessonContext& context, float aspect) {
     const servo::Setup& setup = active.session->setup();
     const servo::State& state = active.session->state();
-    const render::BoundingBox& machine = active.workplace.machine;
+    const render::BoundingBox& workpiece = active.workplace.workpiece;
     const scene::Worker& worker = context.worker;
     active.mouse = make_hand(
-        scene::wrench_rest_pose(machine, context.assembly.wrench.head_thickness, worker.side), worker.side);
+        scene::wrench_rest_pose(workpiece, context.assembly.wrench.head_thickness, worker.side), worker.side);
     active.workplace.world.only<world::WorkingHand>() = hand_of(active.mouse);
     active.postures = scene::make_postures(state.tool_contact ? &state.tool_contact->wrench : nullptr,
                                            setup.wrench.handle_length, worker.side, scene::widest_nut(setup));
-    active.shoulder = scene::shoulder_position(machine, worker);
+    active.shoulder = scene::shoulder_position(workpiece, worker);
     if (active.station) {
         StationClient& station = *active.station;
         station.rest = hand_of(active).rest;
         station.home = hand_of(active).pose;
-        if (station.tracked)
-            station.tracked->side = worker.side == hand::Side::left ? xr::Side::left : xr::Side::right;
+        if (station.tracked) station.tracked->side = worker.side;
         const hand::Skeleton& open = active.postures.open;
         const Pose fingers = scene::frame_towards(station.home, active.shoulder, 0.0);
         station.bare_wrist =

@@ -12,7 +12,7 @@ LessonStarter::LessonStarter(LessonStart start, std::unique_ptr<LessonStarter> b
     };
     thread_ = std::jthread([this, begun = std::move(start)] {
         before_.reset();
-        result_.emplace(given_up_ ? fail(ErrorCode::failed, "the start was given up") : start_lesson(begun));
+        result_.emplace(given_up_ ? fail(ErrorCode::failed, "the start was cancelled") : start_lesson(begun));
         done_ = true;
     });
 }
@@ -35,7 +35,7 @@ device::ArmNeeds LessonStarter::needs() const {
     return {preparation_, permission_->active()};
 }
 
-void LessonStarter::permit_move() { permission_->give(); }
+void LessonStarter::permit_move() { permission_->grant(); }
 void LessonStarter::give_up() { given_up_ = true; }
 
 }  // namespace bolt::trainer

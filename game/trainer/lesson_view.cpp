@@ -65,7 +65,7 @@ void choose_eye(ActiveLesson& active, std::size_t joint) {
     const double sense = active.session->lesson().task == lesson::Task::loosen ? 1.0 : -1.0;
 
     const double swing =
-        hand_of(active).wrench ? sense * std::min(hand_of(active).room, considered_swing) : 0.0;
+        hand_of(active).wrench ? sense * std::min(hand_of(active).free_swing, considered_swing) : 0.0;
     const view::CloseUpEye eye = view::close_up_eye(target, tool, swing, active.view.visibility);
     active.view.close_up.eye = eye.position;
     active.view.close_up.visibility = eye.visibility;
@@ -239,7 +239,7 @@ Projection projection_of(const ActiveLesson& active, const glm::dvec2& size) {
 void view_system(scene::SceneWorld& world, Frame& frame) {
     ActiveLesson& active = frame.active;
     if (frame.input.triggered(Action::whole_view) && !active.view.head)
-        active.view.camera.glide_to(view::frame_all(active.view.camera.goal, active.workplace.machine,
+        active.view.camera.glide_to(view::frame_all(active.view.camera.goal, active.workplace.workpiece,
                                                     static_cast<float>(frame.size.x / frame.size.y)));
     // In a room the user moves the head; nothing else moves the view.
     if (!active.view.head && (frame.input.triggered(Action::find_view) || joint_out_of_view(active, frame)))

@@ -1,14 +1,18 @@
-// Camera, close-up and labels of a lesson. The close-up is a small picture in a corner that shows jaw and nut
-// from an eye on the wrench while they are near each other.
+// Camera, close-up and labels of a lesson; view_system() and label_system() of active_lesson.hpp are
+// implemented beside them. The close-up is a small picture in a corner that shows jaw and nut from an eye on
+// the wrench while they are near each other.
 #pragma once
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "engine/base/math.hpp"
 #include "engine/render/overlay.hpp"
 #include "engine/render/renderer.hpp"
 #include "engine/ui/ui.hpp"
+#include "game/motion/visibility_model.hpp"
+#include "game/view/camera.hpp"
 
 namespace bolt::trainer {
 
@@ -22,6 +26,16 @@ struct CloseUp {
     Pose tool;                                    // wrench or fingers
     Vec3 eye{0.0};                                // m, in the tool's frame
     double visibility = 0.0;                      // 0 … 1 of nut and jaw, when the eye was chosen
+};
+
+struct LessonView {
+    view::CameraGlide camera;
+    motion::VisibilityModel visibility;
+    double out_of_view = 0.0;  // s since the due joint was last visible
+    CloseUp close_up;
+    bool clamp_map = false;                   // show the clamp force of every joint
+    std::vector<render::Rectangle> occupied;  // px, areas of the interface in the previous picture
+    std::optional<Pose> head;  // of the user in a room, assembly frame; none: the camera shows the lesson
 };
 
 // Determines whether the close-up is shown in this frame, and its eye.

@@ -93,7 +93,7 @@ void choose_side(MouseHand& hand, const servo::Setup& setup, const servo::State&
                             state.joints[*hand.nut].nut.angle, wanted, sign, preferred_stroke);
     hand.handle_angle = grip.handle;
     hand.flipped = grip.flipped;
-    hand.room = grip.room;
+    hand.free_swing = grip.free_swing;
     hand.hover_height = state.tool_contact
                             ? motion::hover_height(setup, *state.tool_contact, *hand.nut,
                                                    state.joints[*hand.nut].nut.angle, grip, max_hover)
@@ -167,8 +167,8 @@ void pull(MouseHand& hand, const servo::Setup& setup, const servo::State& state)
     const double gain = 1.0 / (1.0 + drag_resistance * torque / greatest);
     const double step = std::clamp(gain * hand.turn, -max_pull_speed * dt, max_pull_speed * dt);
     hand.turn -= step / gain;
-    const double least = hand.stroke_begin - (hand.loosens ? hand.room : preferred_stroke);
-    const double most = hand.stroke_begin + (hand.loosens ? preferred_stroke : hand.room);
+    const double least = hand.stroke_begin - (hand.loosens ? hand.free_swing : preferred_stroke);
+    const double most = hand.stroke_begin + (hand.loosens ? preferred_stroke : hand.free_swing);
     const double to = std::clamp(hand.handle_angle + step, least, most);
     if (to != hand.handle_angle + step) hand.turn = 0.0;  // no room left: discard the rest of the drag
     hand.handle_angle = to;
@@ -248,7 +248,7 @@ WorkingHand hand_of(const MouseHand& mouse) {
     const bool has = mouse.action == HandAction::holding || mouse.action == HandAction::returning;
     const double turned = has ? mouse.handle_angle - mouse.stroke_begin : 0.0;
     if (mouse.wrench)
-        hand.room = mouse.room - std::abs(turned);
+        hand.free_swing = mouse.free_swing - std::abs(turned);
     else
         hand.twisted = turned;
     return hand;
@@ -289,7 +289,7 @@ Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo
     return at_nut(other, setup, state, 0.0);
 }
 
-servo::Input step_hand(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
+servo::TickInput step_hand(MouseHand& hand, const servo::Setup& setup, const servo::State& state) {
     servo::Grip grip = hand.wrench ? servo::Grip::wrench : servo::Grip::none;
     switch (hand.action) {
         case HandAction::resting:
@@ -339,7 +339,7 @@ servo::Input step_hand(MouseHand& hand, const servo::Setup& setup, const servo::
             }
             break;
     }
-    servo::Input input;
+    servo::TickInput input;
     input.dead_man = true;
     input.grip = grip;
     input.commanded_tool = servo::to_commanded_tool(hand.pose);

@@ -38,7 +38,7 @@ struct MouseHand {
     double trainee_side = -1.0;      // sign of the direction to the trainee along the y axis of `rest`
     double handle_angle = 0.0;       // rad, about the bolt, tightening positive
     bool flipped = false;
-    double room = 0.0;          // rad by which the handle can swing in this pull
+    double free_swing = 0.0;    // rad by which the handle can swing in this pull
     double hover_height = 0.0;  // m above the nut, where the hand waits
 
     double stroke_begin = 0.0;  // rad, handle angle at the start of the pull or twist
@@ -73,6 +73,6 @@ Pose wrench_pose_on_nut(const Pose& rest, const servo::Setup& setup, const servo
                         std::size_t joint, bool loosens);
 
 // Advances the hand by one tick and returns the servo's input, except `guide`, which the lesson sets.
-servo::Input step_hand(MouseHand& hand, const servo::Setup& setup, const servo::State& state);
+servo::TickInput step_hand(MouseHand& hand, const servo::Setup& setup, const servo::State& state);
 
 }  // namespace bolt::trainer

@@ -144,9 +144,9 @@ ScreenAction draw_result(const ScreenContext& context, const content::Assembly& 
     draw_joint_table(words, result.joints);
     const lesson::Review review = lesson::review(assembly, result);
     ImGui::PushTextWrapPos(340.0F * scale);
-    for (const lesson::Remark& reason : review.reasons)
+    for (const lesson::DeductionText& reason : review.reasons)
         draw_text((reason.points != 0.0 ? fmt::format("{:+.0f}  ", reason.points) : std::string()) +
-                  lesson::remark_text(words, reason));
+                  lesson::deduction_text(words, reason));
     ImGui::Separator();
     for (const words::TextKey advice : review.advice) draw_text(words[advice]);
     ImGui::PopTextWrapPos();

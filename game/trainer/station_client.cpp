@@ -188,15 +188,15 @@ bool pinches(const hand::Skeleton& hand) {
 
 // Grip of a hand without a glove, or of the fingers of a gloved hand; the station determines when a gloved
 // hand holds the wrench.
-servo::Grip grip_of(const StationClient& client, bool closes, const StationIntent& intent) {
+servo::Grip grip_of(const StationClient& client, bool closes, const UserActions& actions) {
     const bool has_wrench =
         (client.gloved ? client.latest.input.grip : client.controls.grip) == servo::Grip::wrench;
     const bool engaged = client.latest.output.joint >= 0;
     if (has_wrench && !client.gloved && client.has_gripper && !closes) return servo::Grip::none;
     if (has_wrench && !client.gloved)
-        return intent.toggle_wrench && !engaged ? servo::Grip::none : servo::Grip::wrench;
+        return actions.toggle_wrench && !engaged ? servo::Grip::none : servo::Grip::wrench;
     if (has_wrench) return servo::Grip::none;
-    const bool takes = (closes && !client.hand_closed && !client.nut_is_nearer) || intent.toggle_wrench;
+    const bool takes = (closes && !client.hand_closed && !client.nut_is_nearer) || actions.toggle_wrench;
     if (!client.gloved && takes && client.near_wrench && !engaged) return servo::Grip::wrench;
     return closes && client.near_nut ? servo::Grip::fingers : servo::Grip::none;
 }
@@ -226,12 +226,12 @@ void update_client(StationClient& client, const session::LessonSession& session)
 
 // Sends one-time commands: checkpoints, undo, and moves of the tool to its initial pose.
 Status send_commands(StationClient& client, const session::LessonSession& session,
-                     const StationIntent& intent) {
+                     const UserActions& actions) {
     for (; client.checkpoints_sent < session.target_checkpoints(); ++client.checkpoints_sent)
         BOLT_TRY(client.link->send(station::SaveCheckpoint{}));
     const bool engaged = client.latest.output.joint >= 0;
     const std::uint8_t back =
-        intent.undo && !engaged ? session.restore_action(*intent.undo) : std::uint8_t{0};
+        actions.undo && !engaged ? session.restore_action(*actions.undo) : std::uint8_t{0};
     if (back != client.restore_sent) {
         if (client.restore_sent == 0)
             BOLT_TRY(client.link->send(station::RestoreCheckpoint{back}));
@@ -239,7 +239,7 @@ Status send_commands(StationClient& client, const session::LessonSession& sessio
             BOLT_TRY(client.link->send(station::AmendRestore{back}));
         client.restore_sent = back;
     }
-    if (client.tool_placed && (engaged || !intent.recentre)) return {};
+    if (client.tool_placed && (engaged || !actions.recentre)) return {};
     if (client.tracked && !client.tracked->present) return {};
     client.tool_placed = true;
     return client.link->send(station::PlaceTool{client.tracked ? client.tracked->fingertips : client.home});
@@ -258,7 +258,7 @@ WorkingHand hand_of(const StationClient& client) {
     hand.rest = client.latest.resting_wrench.value_or(client.rest);
     if (client.has_gripper) hand.closing = 1.0 - client.latest.gripper.opening;
     if (client.gloved && engaged && client.latest.input.grip == servo::Grip::fingers)
-        hand.room = std::max(
+        hand.free_swing = std::max(
             0.0, forearm_range - std::abs(client.latest.output.nut_angle - client.nut_angle_at_grip));
     return hand;
 }
@@ -270,8 +270,8 @@ bool needs_dead_man(const station::Layout& layout) {
     return renders(layout.mover) || renders(layout.wheel);
 }
 
-Status send_intent(StationClient& client, const session::LessonSession& session,
-                   const StationIntent& intent) {
+Status send_actions(StationClient& client, const session::LessonSession& session,
+                    const UserActions& actions) {
     update_client(client, session);
     client.link->set_puck_input(client.keyboard.input());
     if (client.dragged) client.link->set_hand_motion(client.dragged->motion);
@@ -285,16 +285,16 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
     const bool held = client.gloved && client.latest.input.grip == servo::Grip::wrench;
     const bool closes = client.keyboard.button_down() || client.latest.dead_man_pressed ||
                         (client.gloved && !held && pinches(client.fingers));
-    controls.pause = intent.paused;
+    controls.pause = actions.paused;
     controls.wrench_rest_pose = client.rest;
     controls.bare_wrist = client.bare_wrist;
-    controls.grip = grip_of(client, closes, intent);
+    controls.grip = grip_of(client, closes, actions);
     // A glove that sends no valid samples keeps the wrench, but releases the dead-man switch.
     const bool hand_closed = client.gloved && !client.glove_lost && (held || closes);
     controls.dead_man =
         !needs_dead_man(client.link->layout()) || hand_closed || client.keyboard.button_down();
     controls.dead_man_timeout = dead_man_timeout;
-    controls.view = intent.view;
+    controls.view = actions.view;
     const lesson::LessonStep* due = session.lesson().due();
     const bool leads = due != nullptr && session.lesson().guides;
     controls.guide = leads ? static_cast<std::int16_t>(due->joint) : std::int16_t{-1};
@@ -307,7 +307,7 @@ Status send_intent(StationClient& client, const session::LessonSession& session,
     controls.set_torque = static_cast<float>(lesson::wrench_set_torque(session.lesson()));
     client.link->set_controls(controls);
     client.hand_closed = closes;
-    return send_commands(client, session, intent);
+    return send_commands(client, session, actions);
 }
 
 lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys, const Equipment& equipment,

@@ -88,8 +88,9 @@ Result<std::unique_ptr<station_setup::LessonStation>> start_station(const conten
 // lesson repeats every tick with its own servo, and sends its controls with every frame.
 //
 // The hand closes by a device's button or gripper, the space bar or a glove. If it closes beside the wrench,
-// it takes the wrench; if it closes beside a nut, it holds the nut with the fingers. Of a wrench and a nut
-// the nearer one counts. A key lays the wrench down; a gloved hand and a gripper lay it down by opening.
+// it takes the wrench; if it closes beside a nut, it holds the nut with the fingers. If both are
+// within reach, the nearer one counts. A key lays the wrench down; a gloved hand and a gripper lay it down by
+// opening.
 struct StationClient {
     std::unique_ptr<station_setup::LessonStation> link;
     Pose home, rest;                 // initial pose of the tool, and where the wrench lies
@@ -131,7 +132,7 @@ lesson::ControlNames control_names(const words::Words& words, const KeyMap& keys
                                    const StationClient* client);
 
 // The user's input for the station in one frame.
-struct StationIntent {
+struct UserActions {
     bool paused = false;
     bool toggle_wrench = false;       // the key that takes the wrench or lays it down
     bool recentre = false;            // move the tool to its initial pose
@@ -140,8 +141,8 @@ struct StationIntent {
 };
 // Call once a frame: reads the latest tick and sends controls and commands. Fails if the station's command
 // queue is full.
-[[nodiscard]] Status send_intent(StationClient& client, const session::LessonSession& session,
-                                 const StationIntent& intent);
+[[nodiscard]] Status send_actions(StationClient& client, const session::LessonSession& session,
+                                  const UserActions& actions);
 
 // Returns true if a device renders forces, which then requires a dead-man switch: a button, or the tool in a
 // gloved hand.

@@ -9,7 +9,7 @@ namespace {
 
 // m that the hand leads the arm. In the air its spring of 300 N/m then pulls with less than the 12 N of the
 // arm, so that it cannot push through a wall; on a bolt a pull needs all the strength.
-constexpr double open_lead = 0.035, pull_lead = 0.06;
+constexpr double open_deflection = 0.035, pull_deflection = 0.06;
 
 // m from the palm to the point where thumb and index finger meet, in the frame of the grip pose of a right
 // hand: X into the palm, Y from the fingertips to the wrist, −Z to the thumb. About an adult's.
@@ -61,7 +61,7 @@ void track_hand(TrackedHand& tracked, const TrackedHandInput& input) {
     tracked.motion.target = tracked.fingertips;
     // The end of the wrench's handle is in the palm.
     if (input.wrench) tracked.motion.target->position = hand.position;
-    tracked.motion.lead = input.engaged ? pull_lead : open_lead;
+    tracked.motion.max_deflection = input.engaged ? pull_deflection : open_deflection;
 }
 
 }  // namespace bolt::trainer

@@ -22,7 +22,7 @@ Palette palette_of(content::PaletteKind kind) {
 }
 
 Verdict verdict_of(const lesson::JointResult& joint) {
-    return joint.condition != joint::JointCondition::sound ? Verdict::high : joint.overall;
+    return joint.condition != joint::JointCondition::intact ? Verdict::high : joint.overall;
 }
 
 glm::vec4 color_of(const Palette& palette, Verdict verdict) {

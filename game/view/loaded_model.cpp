@@ -54,7 +54,7 @@ ModelLoadResult load_model(const std::string& source, DetailLevel level) {
         file = level == DetailLevel::far ? a.models.far_level : a.models.model;
         if (file.empty()) return {{}, {no_model(a, level)}};
         model.name = a.name;
-        for (const content::Viewpoint& view : a.views)
+        for (const content::NamedView& view : a.views)
             model.views.push_back({view.name, glm::vec3(view.eye), glm::vec3(view.target),
                                    static_cast<float>(view.field_of_view)});
         for (const content::AssemblyJoint& joint : a.joints)

@@ -95,10 +95,10 @@ Status add_joint(ShownModel& shown, const LoadedModel& model, const std::string&
     BOLT_TRY_ASSIGN(const auto box, box_of(shown, model, node));
     if (box.empty() || color.w == 0.0F) return {};
     render::Label label;
-    label.text =
-        fmt::format("{} {} {:.0f} N·m", joint.id,
-                    joint.condition == joint::JointCondition::sound ? lesson::name(joint.overall) : "DAMAGED",
-                    joint.torque);
+    label.text = fmt::format(
+        "{} {} {:.0f} N·m", joint.id,
+        joint.condition == joint::JointCondition::intact ? lesson::name(joint.overall) : "DAMAGED",
+        joint.torque);
     label.position = {0.5F * (box.low.x + box.high.x), box.high.y, 0.5F * (box.low.z + box.high.z)};
     label.height = 15.0F;
     label.anchor = {0.5F, 0.0F};

@@ -35,7 +35,7 @@ Viewer::~Viewer() = default;
 Result<std::unique_ptr<Viewer>> Viewer::create(std::unique_ptr<Recording> recording, ViewerOptions options) {
     BOLT_TRY_ASSIGN(auto models, scene::load_lesson_models(recording->start.assembly, options.hand));
     std::unique_ptr<Viewer> viewer(new Viewer(std::move(recording), std::move(options), std::move(models)));
-    const std::vector<view::Viewpoint>& views = viewer->models_.machine.views;
+    const std::vector<view::Viewpoint>& views = viewer->models_.workpiece.views;
     viewer->camera_.jump(view::orbit_of(views.empty() ? view::Viewpoint{} : views.front()));
     return viewer;
 }
@@ -74,7 +74,7 @@ void Viewer::change_speed(int by) {
 }
 
 void Viewer::show_view(std::size_t number) {
-    const std::vector<view::Viewpoint>& views = models_.machine.views;
+    const std::vector<view::Viewpoint>& views = models_.workpiece.views;
     if (number >= views.size()) return;
     follows_ = false;
     view_name_ = views[number].name;
@@ -138,7 +138,7 @@ void Viewer::handle_events(std::span<const platform::InputEvent> events, VkExten
     }
     if (gpu_->ui->wants_pointer()) return mouse_.stop();
     const double height = size.height, aspect = size.width / height;
-    if (mouse_.apply(events, {height, aspect}, camera_.goal, gpu_->replay->workplace.machine)) {
+    if (mouse_.apply(events, {height, aspect}, camera_.goal, gpu_->replay->workplace.workpiece)) {
         follows_ = false;
         view_name_.clear();
     }

@@ -201,8 +201,8 @@ void Viewer::draw_panel(const glm::vec2& size, float scale) {
     ImGui::SetNextWindowBgAlpha(0.82F);
     ImGui::Begin("##panel", nullptr, panel_flags);
     if (ImGui::RadioButton(words["viewer.follow"].c_str(), follows_)) handle_key(platform::Key::f);
-    for (std::size_t i = 0; i < models_.machine.views.size(); ++i) {
-        const std::string& name = models_.machine.views[i].name;
+    for (std::size_t i = 0; i < models_.workpiece.views.size(); ++i) {
+        const std::string& name = models_.workpiece.views[i].name;
         if (i % 3 != 0) ImGui::SameLine();
         if (ImGui::RadioButton(name.c_str(), view_name_ == name)) show_view(i);
     }

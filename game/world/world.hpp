@@ -29,7 +29,7 @@ struct ServoClock {
 struct Joint {
     std::size_t index = 0;  // in the assembly
     joint::Stage stage = joint::Stage::navigation;
-    joint::JointCondition condition = joint::JointCondition::sound;
+    joint::JointCondition condition = joint::JointCondition::intact;
     double angle = 0.0;      // of the nut from its hand-started position, tightening positive
     double speed = 0.0;      // rad/s of the nut
     double torque = 0.0;     // of wrench or fingers on the nut, tightening positive
@@ -88,7 +88,8 @@ struct WorkingHand {
     Pose to;                         // end of a reach
     Pose rest;                       // of the wrench while it is not in the hand
     double twisted = 0.0;            // rad that the fingers have turned since they gripped the nut
-    double room = std::numeric_limits<double>::infinity();  // angle by which the hand can still turn the tool
+    double free_swing =
+        std::numeric_limits<double>::infinity();  // angle by which the hand can still turn the tool
 };
 
 // The measured fingers of a hand with a glove. The hand's entity has this component only while a glove is
@@ -113,7 +114,7 @@ using WriteHaptics =
 // The servo after a tick.
 struct Snapshot {
     const servo::State& state;
-    const servo::Input& input;
+    const servo::TickInput& input;
     const servo::Output& output;
 };
 

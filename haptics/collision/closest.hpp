@@ -16,12 +16,12 @@ namespace bolt::collision {
 // 0…2: a vertex; 3…5: the edge from vertex 0, 1, 2 to the next; 6: the inside of the face.
 using Region = std::uint8_t;
 
-struct OnTriangle {
+struct ClosestTrianglePoint {
     Vec3 point{0.0};
     Region region = 6;
 };
 
-inline OnTriangle closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
+inline ClosestTrianglePoint closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& t) {
     const Vec3& a = t[0];
     const Vec3& b = t[1];
     const Vec3& c = t[2];
@@ -52,13 +52,13 @@ inline OnTriangle closest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& 
 
 // Parameters, −1 … 1, of the closest points of two segments middle ± half. `inner`: neither point is at an
 // end and the segments are not parallel.
-struct OnSegments {
+struct ClosestSegmentParameters {
     double s = 0.0, t = 0.0;
     bool inner = false;
 };
 
-inline OnSegments closest_on_segments(const Vec3& middle_a, const Vec3& half_a, const Vec3& middle_b,
-                                      const Vec3& half_b) {
+inline ClosestSegmentParameters closest_on_segments(const Vec3& middle_a, const Vec3& half_a,
+                                                    const Vec3& middle_b, const Vec3& half_b) {
     const double aa = glm::dot(half_a, half_a);
     const double bb = glm::dot(half_b, half_b);
     const double ab = glm::dot(half_a, half_b);

@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::uint32_t unmerged = 0xffffffffU;
 
-double squared(double x) { return x * x; }
-
 // The largest difference between the normals of a merged contact and of the nearer one. It is the length of
 // the difference vector, which for unit vectors is at most the angle between them.
 double normal_tolerance(double distance, double nearer_distance) {
@@ -24,9 +22,9 @@ struct KeptContacts {
     [[nodiscard]] const KeptContact* find_merge(const Contact& contact, double merge) const {
         for (const KeptContact& k : contacts.first(count)) {
             const Vec3 between = contact.on_tool - k.on_tool;
-            if (!(glm::dot(between, between) < squared(merge)) || k.obstacle != contact.obstacle) continue;
+            if (!(glm::dot(between, between) < square(merge)) || k.obstacle != contact.obstacle) continue;
             const Vec3 difference = contact.normal - k.normal;
-            if (glm::dot(difference, difference) < squared(normal_tolerance(contact.distance, k.distance)))
+            if (glm::dot(difference, difference) < square(normal_tolerance(contact.distance, k.distance)))
                 return &k;
         }
         return nullptr;
@@ -39,11 +37,11 @@ struct KeptContacts {
         if (!(within > 0.0)) return nullptr;
         for (const KeptContact& k : contacts.first(count)) {
             const Vec3 between = deferred.on_tool - k.on_tool;
-            if (!(glm::dot(between, between) < squared(within)) || k.obstacle != deferred.obstacle) continue;
+            if (!(glm::dot(between, between) < square(within)) || k.obstacle != deferred.obstacle) continue;
             const double angle =
                 normal_tolerance(deferred.lower, k.distance) - static_cast<double>(deferred.spread);
             // Upper bound of the cosine, from its series.
-            const double cosine = 1.0 - squared(angle) / 2.0 + squared(squared(angle)) / 24.0;
+            const double cosine = 1.0 - square(angle) / 2.0 + square(square(angle)) / 24.0;
             if (angle > 0.0 && glm::dot(deferred.normal, k.normal) > std::min(cosine, 1.0)) return &k;
         }
         return nullptr;

@@ -72,7 +72,7 @@ struct ContactQueryResult {
     std::size_t count = 0;         // contacts written
     double complete_within = 0.0;  // m; every nearer contact was written, or merged with one that was
     bool truncated = false;        // the output was too small; the nearest contacts were kept
-    std::uint32_t work = 0;        // cost of the query in comparisons of a sample with a surface, approximate
+    std::uint32_t query_cost = 0;  // in comparisons of a sample with a surface, approximate
 };
 
 // Two contacts with the same obstacle are merged if their points on the tool are within the merge distance
@@ -103,7 +103,7 @@ struct DeferredContact {
     // Set and read by the narrow phase.
     std::uint32_t sample = 0;  // index of the sample
     double accumulated = 0.0;  // m, the sample's accumulated motion when it was deferred
-    std::uint32_t pair = 0;    // index of the body
+    std::uint32_t body = 0;    // index
     bool of_tool = false;      // the sample is the tool's
     bool resolved = false;     // the exact query has been done, with or without a contact as its result
 };
@@ -115,7 +115,7 @@ struct ContactCollector {
     double complete_within;  // m; all contacts nearer than this are in the buffer
     std::span<DeferredContact> deferred;
     std::size_t deferred_count = 0;
-    std::uint32_t work = 0;
+    std::uint32_t query_cost = 0;
 
     bool defer(const DeferredContact& one) {
         if (deferred_count == deferred.size()) return false;

@@ -43,8 +43,9 @@ struct EdgeGathering {
     }
 };
 
-// The cosine by which the common perpendicular fails to point out of both solids. At most 0: it points out of
-// both, so the edges face each other; otherwise a face, vertex or other edge is nearer.
+// Largest cosine between the common perpendicular, taken away from each of the two solids, and the inward
+// directions of that solid's edge. At most 0: the perpendicular points out of both solids, so the edges face
+// each other. Above 0: a face, a vertex or another edge is nearer.
 double facing_excess(const Ridge& edge, const EdgePiece& piece, const Vec3& normal) {
     double excess = -1.0;
     for (std::size_t i = 0; i < 2; ++i)
@@ -105,13 +106,14 @@ void add_edge_pair(EdgeGathering& g, std::uint32_t index) {
             return;
         }
         if (excess > 0.0) {
-            const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
+            const ClosestSegmentParameters at =
+                closest_on_segments(g.piece->middle, g.piece->half, middle, half);
             const Vec3 between = g.piece->middle + at.s * g.piece->half - middle - at.t * half;
             if (glm::dot(between, between) <= g.radius * g.radius) g.turn = turn;
             return;
         }
     }
-    const OnSegments at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
+    const ClosestSegmentParameters at = closest_on_segments(g.piece->middle, g.piece->half, middle, half);
     crossing.on_piece = g.piece->middle + at.s * g.piece->half;
     crossing.on_edge = middle + at.t * half;
     const double apart = glm::length(crossing.on_piece - crossing.on_edge);
@@ -190,10 +192,10 @@ EdgeGathering make_gathering(const Solid& solid, const EdgePiece& piece, double 
     return g;
 }
 
-Crossings select_crossings(EdgeGathering& g, const Solid& other, const Pose& to_other,
-                           std::span<Crossing> crossings) {
+EdgeQueryResult select_crossings(EdgeGathering& g, const Solid& other, const Pose& to_other,
+                                 std::span<Crossing> crossings) {
     std::sort(g.found.begin(), g.found.begin() + static_cast<std::ptrdiff_t>(g.count), nearer_crossing);
-    Crossings result{0, std::min(g.band, g.nearest_dropped), g.clear, g.turn};
+    EdgeQueryResult result{0, std::min(g.band, g.nearest_dropped), g.clear, g.turn};
     for (const Crossing& c : std::span(g.found).first(g.count)) {
         if (c.distance < -ambiguous_depth && !is_inside(*g.solid, c.on_piece) &&
             (c.distance < -g.band || !is_inside(other, to_other * c.on_edge)))
@@ -209,8 +211,9 @@ Crossings select_crossings(EdgeGathering& g, const Solid& other, const Pose& to_
 
 }  // namespace
 
-Crossings query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
-                      double radius, double band, std::span<Crossing> crossings, FacingEdges& facing) {
+EdgeQueryResult query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                            const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
+                            FacingEdges& facing) {
     facing.count = 0;
     facing.all = true;
     facing.turn = infinite_distance;
@@ -236,9 +239,9 @@ namespace {
 
 // As `query_edges`, among the candidates of an earlier query. `radius` and `facing.turn` must be reduced by
 // the piece's motion since then, and `facing.all` must be true.
-Crossings query_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
-                             const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
-                             const FacingEdges& facing) {
+EdgeQueryResult query_facing_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                                   const Pose& to_other, double radius, double band,
+                                   std::span<Crossing> crossings, const FacingEdges& facing) {
     EdgeGathering g = make_gathering(solid, piece, radius, band);
     g.turn = facing.turn;
     for (std::uint32_t i = 0; i < facing.count; ++i) add_edge_pair(g, facing.ridges[i]);
@@ -247,9 +250,9 @@ Crossings query_facing_edges(const Solid& solid, const EdgePiece& piece, const S
 
 }  // namespace
 
-Crossings query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
-                             const Pose& to_other, double turned, double band, bool near_before,
-                             EdgeCache& cache, bool& searched, std::span<Crossing> crossings) {
+EdgeQueryResult query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                                   const Pose& to_other, double turned, double band, bool near_before,
+                                   EdgeCache& cache, bool& searched, std::span<Crossing> crossings) {
     const double turn = turned - cache.turned;
     const double displacement =
         glm::length(piece.middle - Vec3(cache.at)) + glm::length(piece.half) * turn + rounding_in_float;

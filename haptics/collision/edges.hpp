@@ -27,7 +27,7 @@ inline constexpr double ambiguous_depth = 0.1e-3;
 // m; exceeds the rounding error of positions and distances in float.
 inline constexpr double rounding_in_float = 1e-6;
 
-struct Crossings {
+struct EdgeQueryResult {
     std::size_t count = 0;
     double complete_within = 0.0;  // as in PointQueryResult
     // As long as the piece's points move by less than (clear − band), m, and it turns by less than `turn`,
@@ -48,8 +48,9 @@ struct FacingEdges {
 // Finds the crossings within `band` of the piece whose edges face each other. If the output is too small, it
 // gets the nearest. `other` is the solid that the piece belongs to, `to_other` leads into its frame. Edges
 // further than `radius` are ignored. Fills `facing`.
-Crossings query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other, const Pose& to_other,
-                      double radius, double band, std::span<Crossing> crossings, FacingEdges& facing);
+EdgeQueryResult query_edges(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                            const Pose& to_other, double radius, double band, std::span<Crossing> crossings,
+                            FacingEdges& facing);
 
 // The candidates of a piece's last search, with its middle and accumulated turn at that time.
 struct EdgeCache {
@@ -65,8 +66,8 @@ inline constexpr double short_lookahead = 2e-3;
 // As `query_edges`, with the cached candidates where they suffice. `turned`: rad, the piece's accumulated
 // turn. `near_before`: an edge was within `short_lookahead` at the last query. `searched` returns whether the
 // edges had to be searched again.
-Crossings query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
-                             const Pose& to_other, double turned, double band, bool near_before,
-                             EdgeCache& cache, bool& searched, std::span<Crossing> crossings);
+EdgeQueryResult query_edges_cached(const Solid& solid, const EdgePiece& piece, const Solid& other,
+                                   const Pose& to_other, double turned, double band, bool near_before,
+                                   EdgeCache& cache, bool& searched, std::span<Crossing> crossings);
 
 }  // namespace bolt::collision

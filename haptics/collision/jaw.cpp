@@ -131,7 +131,7 @@ JawFit jaw_fit(const Jaw& jaw, const HexagonPrism& prism, const Pose& wrench) {
     fit.misalignment = -off;  // tightening turns about −Z
     fit.tilt = std::asin(std::clamp(across.z, -1.0, 1.0));
     const Vec3 middle(0.0, 0.0, wrench.position.z);
-    fit.aside = glm::dot(middle - wrench.position, across);
+    fit.lateral_offset = glm::dot(middle - wrench.position, across);
     const double corner_drop = prism.corner_drop(), side = prism.half_side();
     fit.overlap = prism.height;
     for (const double a : {-side, side})

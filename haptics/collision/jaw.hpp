@@ -62,12 +62,13 @@ struct JawFit {
     double overlap = 0.0;       // m, height over which jaw and nut overlap at every corner that can bear
     // m along the flats from the axis to the two ends of the contact.
     double toward_throat = 0.0, toward_mouth = 0.0;
-    double aside = 0.0;  // m, from the middle of the slot to the bolt's axis
-    double tilt = 0.0;   // rad, about the flats' length
+    double lateral_offset = 0.0;  // m, from the middle of the slot to the bolt's axis
+    double tilt = 0.0;            // rad, about the flats' length
 
     // Returns true if the hexagon is between the flats, at whatever angle.
     [[nodiscard]] bool surrounds(double opening) const {
-        return overlap > 0.0 && toward_throat + toward_mouth > 0.0 && std::abs(aside) < 0.25 * opening;
+        return overlap > 0.0 && toward_throat + toward_mouth > 0.0 &&
+               std::abs(lateral_offset) < 0.25 * opening;
     }
 };
 

@@ -252,7 +252,8 @@ void compute_smooth_normals(ContactMesh& mesh) {
 Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
                                       std::span<const std::uint32_t> indices) {
     if (vertices.size() > 0xffffffffULL || indices.size() > 0xffffffffULL)
-        return fail(ErrorCode::bad_content, "the contact mesh has more than 2^32 vertices or indices");
+        return fail(ErrorCode::bad_content, "the contact mesh has more than 2^32 vertices or indices",
+                    "at most 4294967295 of each");
     if (indices.size() % 3 != 0)
         return fail(ErrorCode::bad_content, fmt::format("the contact mesh has {} indices", indices.size()),
                     "three per triangle");
@@ -264,8 +265,8 @@ Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
                             "a finite coordinate within 1 km");
     for (const std::uint32_t i : indices)
         if (i >= vertices.size())
-            return fail(ErrorCode::bad_content,
-                        fmt::format("the contact mesh refers to vertex {} of {}", i, vertices.size()));
+            return fail(ErrorCode::bad_content, fmt::format("the contact mesh has the triangle index {}", i),
+                        fmt::format("an index below {}", vertices.size()));
 
     ContactMesh mesh;
     const std::vector<std::uint32_t> welded = weld_vertices(vertices, mesh.vertices);
@@ -284,7 +285,8 @@ Result<ContactMesh> make_contact_mesh(std::span<const glm::vec3> vertices,
         mesh.face_normals.emplace_back(glm::normalize(normal));
     }
     if (mesh.triangles.empty())
-        return fail(ErrorCode::bad_content, "the contact mesh has no triangle with an area");
+        return fail(ErrorCode::bad_content, "the contact mesh has no triangle with an area",
+                    "at least one triangle with an area");
     classify_edges(mesh);
     compute_vertex_normals(mesh);
     compute_smooth_normals(mesh);

@@ -15,7 +15,7 @@ constexpr double sample_lookahead = 2.5e-3;
 // cluster's bound is computed first.
 constexpr std::size_t individual_queries = 4;
 // Cost of an edge search, in queries of a sample.
-constexpr std::uint32_t edge_search_work = 10;
+constexpr std::uint32_t edge_search_cost = 10;
 // m; exceeds the rounding error of poses and distances.
 constexpr double rounding = 1e-9;
 constexpr double no_bound = -1e9;
@@ -40,8 +40,8 @@ void reset(SurfaceQueryCache& cache, const SurfaceSamples& samples) {
 // Accumulates the relative motion: any point at r from the tool's origin has moved by at most moved + turned
 // × |r|.
 void accumulate_motion(PairCache& pair, const Pose& pose) {
-    if (pair.fresh) {
-        pair.fresh = false;
+    if (pair.empty) {
+        pair.empty = false;
     } else {
         const Quat turn = glm::conjugate(pair.last.orientation) * pose.orientation;
         const double angle = 2.0 * std::atan2(glm::length(Vec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
@@ -85,10 +85,10 @@ class SurfaceQueryPass {
           band_(band),
           collected_(collected) {}
 
-    // `reach`: m, of the tool. Relative to an obstacle's samples the whole tool moves, so its reach bounds
-    // their motion.
-    void run(SurfaceQueryCache& cache, const PairCache& pair, double reach) const {
-        const AccumulatedMotion motion{pair.moved, pair.turned, reach};
+    // `origin_radius`: m, of the tool. Relative to an obstacle's samples the whole tool moves, so its radius
+    // about the origin bounds their motion.
+    void run(SurfaceQueryCache& cache, const PairCache& pair, double origin_radius) const {
+        const AccumulatedMotion motion{pair.moved, pair.turned, origin_radius};
         const std::size_t top = samples_.levels.size() - 1;
         for (std::uint32_t i = 0; i < samples_.levels[top].size(); ++i) visit(cache, motion, top, i);
     }
@@ -108,7 +108,7 @@ class SurfaceQueryPass {
 
   private:
     struct AccumulatedMotion {
-        double moved, turned, reach;
+        double moved, turned, origin_radius;
     };
     // The accumulated motion of the samples of one cluster.
     struct SampleMotion {
@@ -116,7 +116,8 @@ class SurfaceQueryPass {
         double turn;          // rad
     };
     [[nodiscard]] SampleMotion motion_of(const Cluster& cluster, const AccumulatedMotion& motion) const {
-        return {motion.moved + motion.turned * (of_tool_ ? cluster.reach : motion.reach), motion.turned};
+        return {motion.moved + motion.turned * (of_tool_ ? cluster.origin_radius : motion.origin_radius),
+                motion.turned};
     }
 
     void visit(SurfaceQueryCache& cache, const AccumulatedMotion& motion, std::size_t level,
@@ -215,7 +216,7 @@ class SurfaceQueryPass {
 
     // Queries a sample whose bound no longer holds.
     void query_sample(SurfaceQueryCache& cache, std::uint32_t index, const SampleMotion& accumulated) const {
-        ++collected_.work;
+        ++collected_.query_cost;
         const SurfaceSample& sample = samples_.samples[index];
         const Vec3 at = to_surface_ * sample.at;
         if (sample.piece == SurfaceSample::no_piece)
@@ -317,7 +318,7 @@ class SurfaceQueryPass {
                                  .obstacle = obstacle_at(index, octree_.triangles[octree_query.leaf->begin]),
                                  .sample = index,
                                  .accumulated = accumulated,
-                                 .pair = pair_,
+                                 .body = pair_,
                                  .of_tool = of_tool_});
     }
 
@@ -328,9 +329,10 @@ class SurfaceQueryPass {
                               {to_surface_.turned(edge.inward[0]), to_surface_.turned(edge.inward[1])}};
         std::array<Crossing, max_planes> crossings;
         bool searched = false;
-        const Crossings found = query_edges_cached(surface_, piece, tool_, from_surface_, accumulated.turn,
-                                                   band_, last.edge_near, edges, searched, crossings);
-        if (searched) collected_.work += edge_search_work;
+        const EdgeQueryResult found =
+            query_edges_cached(surface_, piece, tool_, from_surface_, accumulated.turn, band_, last.edge_near,
+                               edges, searched, crossings);
+        if (searched) collected_.query_cost += edge_search_cost;
         collected_.complete_within = std::min(collected_.complete_within, found.complete_within);
         bound = {found.clear - rounding + accumulated.displacement, found.turn + accumulated.turn};
         last = {glm::vec3(at), static_cast<float>(found.clear), accumulated.turn,
@@ -392,7 +394,7 @@ NarrowPhaseState make_narrow_phase(const CollisionWorld& world, const ToolShape&
 void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const ToolShape& tool) {
     for (std::size_t i = 0; i < state.pairs.size(); ++i) {
         PairCache& pair = state.pairs[i];
-        pair.fresh = true;
+        pair.empty = true;
         pair.moved = pair.turned = 0.0;
         reset(pair.of_tool, tool.samples);
         reset(pair.of_body, world.shapes[world.bodies[i].shape].samples);
@@ -413,19 +415,19 @@ ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& t
     };
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
         const Body& body = world.bodies[i];
-        if (!body.on) continue;
+        if (!body.enabled) continue;
         const Pose to_body = inverse(body.pose) * pose;
         if (is_out_of_reach(tool.solid, world.shapes[body.shape].solid, to_body, band)) continue;
         PairCache& pair_cache = state.pairs[i];
         accumulate_motion(pair_cache, to_body);
         const Pose to_tool = inverse(to_body);
-        surface_pass(i, true, to_body, to_tool).run(pair_cache.of_tool, pair_cache, tool.reach());
-        surface_pass(i, false, to_body, to_tool).run(pair_cache.of_body, pair_cache, tool.reach());
+        surface_pass(i, true, to_body, to_tool).run(pair_cache.of_tool, pair_cache, tool.origin_radius());
+        surface_pass(i, false, to_body, to_tool).run(pair_cache.of_body, pair_cache, tool.origin_radius());
     }
     const auto resolve = [&](const DeferredContact& one, Contact& contact) {
-        PairCache& pair_cache = state.pairs[one.pair];
+        PairCache& pair_cache = state.pairs[one.body];
         const Pose to_tool = inverse(pair_cache.last);
-        return surface_pass(one.pair, one.of_tool, pair_cache.last, to_tool)
+        return surface_pass(one.body, one.of_tool, pair_cache.last, to_tool)
             .resolve(one, one.of_tool ? pair_cache.of_tool : pair_cache.of_body, contact);
     };
     ContactQueryResult found =
@@ -433,7 +435,7 @@ ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& t
                          std::span(state.deferred).first(collected.deferred_count), state.deferred_order,
                          collected.complete_within},
                         resolve, out);
-    found.work = collected.work;
+    found.query_cost = collected.query_cost;
     return found;
 }
 

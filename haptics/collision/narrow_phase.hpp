@@ -19,8 +19,8 @@ namespace bolt::collision {
 // A conservative distance bound, stored with the motion accumulated when it was computed. Subtract the motion
 // since then to get the bound that holds now.
 struct DistanceBound {
-    double lower;  // m: signed distance of a point, or `Crossings::clear` of an edge piece
-    double turn;   // rad: `Crossings::turn`; infinite for points
+    double lower;  // m: signed distance of a point, or `EdgeQueryResult::clear` of an edge piece
+    double turn;   // rad: `EdgeQueryResult::turn`; infinite for points
 };
 
 // The last query of a sample or cluster: its middle in the surface's frame, the lower bound there, and the
@@ -44,7 +44,7 @@ struct SurfaceQueryCache {
 
 // The cache of the tool and one body.
 struct PairCache {
-    bool fresh = true;                 // no query yet
+    bool empty = true;                 // no query yet
     Pose last;                         // tool to body, at the last query
     double moved = 0.0, turned = 0.0;  // m and rad, accumulated relative motion
     SurfaceQueryCache of_tool, of_body;
@@ -67,11 +67,11 @@ NarrowPhaseState make_narrow_phase(const CollisionWorld& world, const ToolShape&
 // Discards all cached bounds. The next result is the same, at a higher cost.
 void clear_cache(NarrowPhaseState& state, const CollisionWorld& world, const ToolShape& tool);
 
-// Writes the contacts up to `band` (m) between the tool at `pose` and the bodies of the world that are on.
+// Writes the contacts up to `band` (m) between the tool at `pose` and the enabled bodies of the world.
 // Penetration has no limit except for edges against edges (edges.hpp). Distances are those of the meshes,
 // computed in double; the equation of `Contact` holds to 1e-9 m. `complete_within` is the band if all
-// contacts were written or merged (contact.hpp), otherwise the distance up to which they are complete. `work`
-// depends on the cache. Does not allocate.
+// contacts were written or merged (contact.hpp), otherwise the distance up to which they are complete.
+// `query_cost` depends on the cache. Does not allocate.
 ContactQueryResult find_contacts(const CollisionWorld& world, const ToolShape& tool, const Pose& pose,
                                  double band, NarrowPhaseState& state, std::span<Contact> out);
 

@@ -304,7 +304,7 @@ void build_clusters(SurfaceSamples& result, std::size_t begin, std::size_t end) 
         for (std::size_t i = begin; i < end; ++i)
             for (const Vec3& p : {samples[i].at - half(samples[i]), samples[i].at + half(samples[i])}) {
                 one.radius = std::max(one.radius, glm::length(p - one.middle));
-                one.reach = std::max(one.reach, glm::length(p));
+                one.origin_radius = std::max(one.origin_radius, glm::length(p));
             }
         result.levels[0].push_back(one);
         return;
@@ -340,7 +340,7 @@ std::vector<Cluster> group_clusters(const std::vector<Cluster>& clusters) {
         for (std::size_t i = begin; i < end; ++i) {
             result.radius =
                 std::max(result.radius, glm::length(clusters[i].middle - result.middle) + clusters[i].radius);
-            result.reach = std::max(result.reach, clusters[i].reach);
+            result.origin_radius = std::max(result.origin_radius, clusters[i].origin_radius);
         }
         groups.push_back(result);
     }

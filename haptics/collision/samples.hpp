@@ -29,9 +29,9 @@ struct PieceExtent {
 
 // A bounding sphere of samples, including the ends of edge pieces.
 struct Cluster {
-    Vec3 middle{0.0};     // m
-    double radius = 0.0;  // m
-    double reach = 0.0;   // m, greatest distance of its samples from the frame's origin
+    Vec3 middle{0.0};            // m
+    double radius = 0.0;         // m
+    double origin_radius = 0.0;  // m, greatest distance of its samples from the frame's origin
     // Range of samples on level 0; on other levels range of clusters of the level below.
     std::uint32_t begin = 0, end = 0;
 };

@@ -59,7 +59,7 @@ SurfacePatch patch_on(const ContactMesh& mesh, std::uint32_t triangle, const Vec
 // The patch nearest to a point of the other surface.
 SurfacePatch nearest_patch(const ContactMesh& mesh, std::uint32_t triangle, const Vec3& over,
                            const Quat& turn) {
-    const OnTriangle on = closest_on_triangle(over, corners(mesh, triangle));
+    const ClosestTrianglePoint on = closest_on_triangle(over, corners(mesh, triangle));
     return patch_on(mesh, triangle, on.point, on.region, turn);
 }
 

@@ -35,14 +35,16 @@ Result<SceneHandle> commit(RTCDevice device, RTCGeometry geometry) {
     rtcAttachGeometry(scene.get(), geometry);
     rtcCommitScene(scene.get());
     if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE)
-        return fail(ErrorCode::failed, fmt::format("Embree could not build a contact scene (error {})",
-                                                   static_cast<int>(error)));
+        return fail(ErrorCode::failed,
+                    fmt::format("Embree cannot build a contact scene (error {})", static_cast<int>(error)),
+                    "enough memory for the contact mesh");
     return scene;
 }
 
 Status build_scenes(Solid& solid) {
     const std::unique_ptr<RTCDeviceTy, DeviceRelease> device(rtcNewDevice("threads=1"));
-    if (!device) return fail(ErrorCode::failed, "Embree cannot create a device");
+    if (!device)
+        return fail(ErrorCode::failed, "Embree cannot create a device", "a processor that Embree supports");
     const auto new_geometry = [&](RTCGeometryType type) {
         return std::unique_ptr<RTCGeometryTy, GeometryRelease>(rtcNewGeometry(device.get(), type));
     };
@@ -53,7 +55,8 @@ Status build_scenes(Solid& solid) {
     void* indices = rtcSetNewGeometryBuffer(triangles.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                             sizeof(mesh.triangles[0]), mesh.triangles.size());
     if (vertices == nullptr || indices == nullptr)
-        return fail(ErrorCode::failed, "Embree has no memory for a contact mesh");
+        return fail(ErrorCode::failed, "Embree has no memory for a contact mesh",
+                    "free memory for its vertices and triangles");
     std::memcpy(vertices, mesh.vertices.data(), mesh.vertices.size() * sizeof(glm::vec3));
     std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));
     BOLT_TRY_ASSIGN(auto scene, commit(device.get(), triangles.get()));
@@ -102,7 +105,7 @@ Result<Solid> make_solid(std::span<const ContactMesh> parts) {
     solid.middle = 0.5 * (solid.box.low + solid.box.high);
     for (const glm::vec3& v : solid.mesh.vertices) {
         solid.radius = std::max(solid.radius, glm::length(Vec3(v) - solid.middle));
-        solid.reach = std::max(solid.reach, glm::length(Vec3(v)));
+        solid.origin_radius = std::max(solid.origin_radius, glm::length(Vec3(v)));
     }
     BOLT_TRY(build_scenes(solid));
     return solid;

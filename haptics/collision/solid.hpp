@@ -20,7 +20,7 @@ struct SceneRelease {
 };
 using SceneHandle = std::unique_ptr<RTCSceneTy, SceneRelease>;
 
-struct Box {
+struct BoundingBox {
     Vec3 low{0.0}, high{0.0};  // m
 };
 
@@ -39,10 +39,10 @@ struct Solid {
     std::vector<std::uint32_t> part;                // by triangle: index of the part that it came from
     std::vector<Ridge> ridges;                      // in the order of `edge_scene`
     SceneHandle scene, edge_scene;
-    Box box;
-    Vec3 middle{0.0};     // of the box
-    double radius = 0.0;  // m, of the sphere about `middle` that contains all vertices
-    double reach = 0.0;   // m, of the sphere about the origin that contains all vertices
+    BoundingBox box;
+    Vec3 middle{0.0};            // of the box
+    double radius = 0.0;         // m, of the sphere about `middle` that contains all vertices
+    double origin_radius = 0.0;  // m, of the sphere about the origin that contains all vertices
 };
 
 // Joins closed surfaces in the order given. Parts may touch but must not overlap: inside two parts at once

@@ -73,12 +73,12 @@ class OctreeBuilder {
         const auto& c = solid_.corners[t];
         const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
         const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
-        constexpr double reach = octree_reach + octree_rounding;
+        constexpr double within = listing_distance + octree_rounding;
         const Vec3 gap = glm::max(glm::max(low - middle, middle - high) - half, Vec3(0.0));
-        if (glm::dot(gap, gap) > reach * reach) return false;
+        if (glm::dot(gap, gap) > within * within) return false;
         const Vec3 normal(solid_.mesh.face_normals[t]);
         const Vec3 size = glm::abs(normal);
-        return std::abs(glm::dot(normal, middle - Vec3(c[0]))) <= half * (size.x + size.y + size.z) + reach;
+        return std::abs(glm::dot(normal, middle - Vec3(c[0]))) <= half * (size.x + size.y + size.z) + within;
     }
 
     void add_boxes(std::span<const std::uint32_t> listed, OctreeLeaf& leaf) {
@@ -137,7 +137,7 @@ class OctreeBuilder {
     // surface are impossible, because the triangles that connect them would be listed too.
     [[nodiscard]] bool is_nearly_planar(std::span<const std::uint32_t> listed, float spread) const {
         // rad, largest angle between two triangles.
-        constexpr double max_angle = 0.9 * plane_tolerance / (2.0 * octree_reach);
+        constexpr double max_angle = 0.9 * plane_tolerance / (2.0 * listing_distance);
         if (solid_.mesh.open_edges > 0 || static_cast<double>(spread) > max_angle) return false;
         const double least = 1.0 - 0.5 * max_angle * max_angle;
         for (const std::uint32_t a : listed)
@@ -183,8 +183,8 @@ TriangleOctree make_triangle_octree(const Solid& solid, double cell) {
         const auto& c = solid.corners[t];
         const Vec3 low(glm::min(glm::min(c[0], c[1]), c[2]));
         const Vec3 high(glm::max(glm::max(c[0], c[1]), c[2]));
-        const glm::ivec3 from((low - octree_reach - octree_rounding - octree.low) / octree.root);
-        const glm::ivec3 to((high + octree_reach + octree_rounding - octree.low) / octree.root);
+        const glm::ivec3 from((low - listing_distance - octree_rounding - octree.low) / octree.root);
+        const glm::ivec3 to((high + listing_distance + octree_rounding - octree.low) / octree.root);
         for (int z = std::max(0, from.z); z <= std::min(nz - 1, to.z); ++z)
             for (int y = std::max(0, from.y); y <= std::min(ny - 1, to.y); ++y)
                 for (int x = std::max(0, from.x); x <= std::min(nx - 1, to.x); ++x)
@@ -255,7 +255,7 @@ OctreeQuery query(const TriangleOctree& octree, const Vec3& point, OctreeCursor&
     const auto distance = static_cast<double>(node->distance);
     OctreeQuery result{distance - displacement, std::abs(distance) + displacement, nullptr, 0.0};
     const Vec3 inward = half - glm::abs(offset);
-    const double unlisted = std::min({inward.x, inward.y, inward.z}) + octree_reach - octree.rounding;
+    const double unlisted = std::min({inward.x, inward.y, inward.z}) + listing_distance - octree.rounding;
     result.unlisted = unlisted;
     if (node->next == 0) {
         if (distance > 0.0) result.lower = std::max(result.lower, unlisted);

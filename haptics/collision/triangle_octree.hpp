@@ -1,5 +1,5 @@
 // An octree over the surroundings of a solid, built at load and refined near curved surface. A leaf stores
-// the signed distance of its centre and the triangles within `octree_reach` of any point in it. A query
+// the signed distance of its centre and the triangles within `listing_distance` of any point in it. A query
 // returns distance bounds without visiting triangles; near the surface the listed triangles give exact
 // distances.
 #pragma once
@@ -10,9 +10,9 @@
 
 namespace bolt::collision {
 
-inline constexpr double octree_reach = 0.7e-3;  // m; see above
-inline constexpr int octree_levels = 5;         // of subdivision below the root cells
-inline constexpr std::size_t max_listed = 256;  // triangles of a leaf; a leaf with more lists none
+inline constexpr double listing_distance = 0.7e-3;  // m; see above
+inline constexpr int octree_levels = 5;             // of subdivision below the root cells
+inline constexpr std::size_t max_listed = 256;      // triangles of a leaf; a leaf with more lists none
 
 struct OctreeLeaf {
     std::uint32_t begin = 0, end = 0;  // range in `TriangleOctree::triangles`
@@ -25,8 +25,8 @@ struct OctreeLeaf {
     double height = 0.0;
     float spread = 0.0F;
     bool front = false;  // the part of the cell in front of the plane is outside the solid
-    // The triangles belong to one part and none rises above the plane of another within reach, so a point
-    // outside has exactly one separating plane.
+    // The triangles belong to one part and none rises above the plane of another within listing_distance, so
+    // a point outside has exactly one separating plane.
     bool convex = false;
 };
 
@@ -70,7 +70,7 @@ struct OctreeCursor {
 OctreeQuery query(const TriangleOctree& octree, const Vec3& point, OctreeCursor& last);
 
 // As `query_point`, among the listed triangles of `found.leaf`, which must not be null. Empty if the nearest
-// listed triangle is further than `found.unlisted`. `band` must not exceed octree_reach.
+// listed triangle is further than `found.unlisted`. `band` must not exceed listing_distance.
 std::optional<PointQueryResult> query_listed(const Solid& solid, const TriangleOctree& octree,
                                              const OctreeQuery& found, const Vec3& point, double band,
                                              std::span<SeparatingPlane> planes);

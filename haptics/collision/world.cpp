@@ -88,7 +88,7 @@ bool occluded(const CollisionWorld& world, const Vec3& from, const Vec3& to,
               std::optional<std::size_t> ignored) {
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
         const Body& body = world.bodies[i];
-        if (!body.on || i == ignored) continue;
+        if (!body.enabled || i == ignored) continue;
         const Pose back = inverse(body.pose);
         if (occluded(world.shapes[body.shape].solid, back * from, back * to)) return true;
     }
@@ -98,7 +98,7 @@ bool occluded(const CollisionWorld& world, const Vec3& from, const Vec3& to,
 double signed_distance(const CollisionWorld& world, const Vec3& point) {
     double distance = infinite_distance;
     for (const Body& body : world.bodies) {
-        if (!body.on) continue;
+        if (!body.enabled) continue;
         distance = std::min(distance, query_point(world.shapes[body.shape].solid, inverse(body.pose) * point,
                                                   infinite_distance, 0.0, {})
                                           .distance);

@@ -22,7 +22,9 @@ struct ToolShape {
     Solid solid;
     TriangleOctree octree;
     SurfaceSamples samples;
-    [[nodiscard]] double reach() const { return solid.reach; }  // m, greatest distance from the tool's origin
+    [[nodiscard]] double origin_radius() const {
+        return solid.origin_radius;
+    }  // m, greatest distance from the tool's origin
 };
 
 // Fails if a part is not closed, since the inside of the tool must be defined, or if the options are invalid.
@@ -51,7 +53,7 @@ struct Body {
     ObstacleId id;
     std::size_t shape = 0;
     Pose pose;  // to the assembly
-    bool on = true;
+    bool enabled = true;
 };
 
 struct CollisionWorld {
@@ -68,11 +70,11 @@ std::optional<std::size_t> find_body(const CollisionWorld& world, ObstacleId id)
 // The obstacle that a triangle of a body's mesh belongs to.
 ObstacleId obstacle_of(const CollisionWorld& world, const Body& body, std::uint32_t triangle);
 
-// True if a body that is on intersects the segment between two points. `ignored`: index of a body to skip.
+// True if an enabled body intersects the segment between two points. `ignored`: index of a body to skip.
 bool occluded(const CollisionWorld& world, const Vec3& from, const Vec3& to,
               std::optional<std::size_t> ignored = std::nullopt);
 
-// m, from a point to the nearest body that is on; infinite without one.
+// m, from a point to the nearest enabled body; infinite without one.
 double signed_distance(const CollisionWorld& world, const Vec3& point);
 
 // A sample of a surface, in the frame of its body, for the visibility queries below.
@@ -94,8 +96,8 @@ struct Visibility {
 };
 
 // Visibility of the body with this index in the world's current state, by rays. Used to choose views and to
-// decide what a simulated trainee sees. Other bodies that are off hide nothing; the body itself may be off.
-// With n points the error of the share is about 1/√n.
+// decide what a simulated trainee sees. Other bodies that are not enabled hide nothing; the body itself need
+// not be enabled. With n points the error of the share is about 1/√n.
 Visibility visibility_of(const CollisionWorld& world, std::size_t body, std::span<const SurfacePoint> points,
                          const Vec3& eye);
 

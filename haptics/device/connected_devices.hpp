@@ -11,7 +11,7 @@
 
 namespace bolt::device {
 
-class WaitingArms;  // plugin_arms.hpp
+class UnfinishedCalibrations;  // plugin_arms.hpp
 
 enum class DeviceKind : std::uint8_t {
     arm,    // through its vendor's library or service (arms.hpp); renders forces
@@ -52,7 +52,8 @@ struct OpenOptions {
     // kg, of the handle or tool that is mounted on an arm, for the compensation of its weight; at most
     // `max_effector_mass`. 0: the handle that the factory has mounted.
     double effector_mass = 0.0;
-    std::shared_ptr<WaitingArms> waiting_arms{};   // of plug-ins, from one attempt to the next; may be null
+    std::shared_ptr<UnfinishedCalibrations>
+        waiting_arms{};                            // of plug-ins, from one attempt to the next; may be null
     std::shared_ptr<MovePermission> permission{};  // factory_for() sets `arm_may_move` from it; may be null
 };
 

@@ -71,7 +71,7 @@ std::vector<std::string> summary_lines(const Description& d) {
     if (!d.serial.empty()) unit += (unit.empty() ? "serial number " : ", serial number ") + d.serial;
     if (!unit.empty()) lines.push_back(unit);
     lines.push_back(fmt::format("{}{}, {:.0f} times a second{}; {}{} button{}", sensing_text(d),
-                                reach_text(d.reach), d.rate,
+                                reach_text(d.half_workspace), d.rate,
                                 d.silent_at_rest || d.sensing == Sensing::velocity ? " while it moves" : "",
                                 d.senses_gripper ? "a gripper, " : "", d.buttons, d.buttons == 1 ? "" : "s"));
     lines.push_back(rendering_text(d));

@@ -52,7 +52,7 @@ struct Description {
     double rate = 1000.0;           // samples per second while the hand moves
     bool silent_at_rest = false;    // may send nothing while the hand rests; implied by Sensing::velocity
     // m, half the workspace along each axis; 0 for a puck or a wheel
-    Vec3 reach{0.0};
+    Vec3 half_workspace{0.0};
     Vec3 axis{0.0, 0.0, 1.0};  // unit, of Sensing::angle
     int buttons = 0;
     bool senses_gripper = false;       // jaws for thumb and finger; Sensing::pose

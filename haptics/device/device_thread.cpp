@@ -49,7 +49,8 @@ bool is_within_reach(const Vec3& position, const Vec3& reach) {
 bool DeviceSupervisor::is_valid(const Sample& s) const {
     switch (report_.description->sensing) {
         case Sensing::pose:
-            return finite(s.pose.position) && is_within_reach(s.pose.position, report_.description->reach) &&
+            return finite(s.pose.position) &&
+                   is_within_reach(s.pose.position, report_.description->half_workspace) &&
                    std::abs(glm::dot(s.pose.orientation, s.pose.orientation) - 1.0) < 1e-2;
         case Sensing::velocity:
             return finite(s.velocity) && finite(s.angular_velocity);
@@ -65,7 +66,7 @@ bool DeviceSupervisor::try_open(std::uint64_t number) {
     next_try_ = now + retry_delay_;
     retry_delay_ = std::min(2.0 * retry_delay_, options_.max_retry_delay);
     if (!opened) {
-        ++report_.refusals;
+        ++report_.failed_openings;
         report_.fault_message = opened.error().message();
         report_.preparation = preparation_of(opened.error());
         return false;
@@ -123,7 +124,7 @@ Status DeviceSupervisor::write(const ForceCommand& requested, double now) {
     const bool forces = command.force != Vec3(0.0) || command.torque != Vec3(0.0);
     // A new command is written even if its force is unchanged: some devices drop the force when writes stop.
     if (!(forces && is_new) && !(!forces && may_hold_force_)) return {};
-    if (stale && requested.enabled && rendering_) ++report_.lapses;
+    if (stale && requested.enabled && rendering_) ++report_.command_timeouts;
     const double begun = timer_.now();
     BOLT_TRY(device_->write(command));
     const double taken = timer_.now() - begun;
@@ -149,7 +150,7 @@ void DeviceSupervisor::track_silence(bool received, double now) {
     const std::string message = report_.description->name + " is connected but sends no valid samples";
     if (report_.fault_message != message) report_.fault_message = message;
     if (now - last_sample_ < options_.reopen_after) return;
-    ++report_.silences;
+    ++report_.silence_timeouts;
     close();
     next_try_ = now + retry_delay_;
 }
@@ -202,9 +203,9 @@ void run_once(DeviceSupervisor& supervisor, DeviceMailboxes& mailboxes, DeviceSn
     });
     const DeviceReport& report = supervisor.report();
     const bool usable = report.state == DeviceState::usable;
-    if (!sample && usable == snapshot.usable && report.openings == snapshot.opening) return;
+    if (!sample && usable == snapshot.usable && report.openings == snapshot.connection_number) return;
     snapshot.usable = usable;
-    snapshot.opening = report.openings;
+    snapshot.connection_number = report.openings;
     if (sample) {
         snapshot.sample = *sample;
         ++snapshot.number;

@@ -36,17 +36,17 @@ enum class DeviceState : std::uint8_t {
 
 struct DeviceReport {
     DeviceState state = DeviceState::absent;
-    std::string fault_message;                       // plain text with a remedy; empty: none
-    Preparation preparation;                         // what the device needs before it can be opened
-    Condition condition;                             // while open
-    std::shared_ptr<const Description> description;  // from the last opening; null: never opened
-    std::uint64_t openings = 0, refusals = 0;        // successful and failed attempts to open
-    std::uint64_t losses = 0;                        // closed after a read or write error
-    std::uint64_t silences = 0;                      // closed after reopen_after s of silence
+    std::string fault_message;                        // plain text with a remedy; empty: none
+    Preparation preparation;                          // what the device needs before it can be opened
+    Condition condition;                              // while open
+    std::shared_ptr<const Description> description;   // from the last opening; null: never opened
+    std::uint64_t openings = 0, failed_openings = 0;  // successful and failed attempts to open
+    std::uint64_t losses = 0;                         // closed after a read or write error
+    std::uint64_t silence_timeouts = 0;               // closed after reopen_after s of silence
     std::uint64_t samples = 0, malformed = 0;
     std::uint64_t writes = 0;
     double write_time = 0.0, longest_write = 0.0;  // s that the driver took for them
-    std::uint64_t lapses = 0;                      // command timeouts while a force was rendered
+    std::uint64_t command_timeouts = 0;            // command timeouts while a force was rendered
 };
 
 // Keeps one device usable: opens it, reopens it with exponential backoff after a loss or silence, reports the
@@ -92,10 +92,10 @@ class DeviceSupervisor {
 
 // The device as the servo sees it.
 struct DeviceSnapshot {
-    Sample sample;              // the latest valid sample
-    std::uint64_t number = 0;   // count of samples; 0: none yet
-    std::uint64_t opening = 0;  // count of openings; if it changes, the pose may jump
-    bool usable = false;        // false: the sample is stale
+    Sample sample;                        // the latest valid sample
+    std::uint64_t number = 0;             // count of samples; 0: none yet
+    std::uint64_t connection_number = 0;  // count of openings; if it changes, the pose may jump
+    bool usable = false;                  // false: the sample is stale
 };
 
 struct DeviceMailboxes {

@@ -128,7 +128,7 @@ Description describe_arm(const ForceDimensionApi& api, char id, int index) {
     d.limits.damping = bounds.damping;
     d.limits.angular_damping = renders_torque ? 0.01 : 0.0;
     d.rate = 1.0 / period;
-    d.reach = Vec3(bounds.reach);
+    d.half_workspace = Vec3(bounds.reach);
     d.buttons = 8;
     d.senses_gripper = api.has_gripper != nullptr && api.get_gripper_angle != nullptr && api.has_gripper(id);
     if (!wrist) d.remarks.emplace_back("senses no rotation: the tool keeps its orientation");

@@ -80,7 +80,7 @@ Description describe_arm(const HaplyArmEntry& arm, const HaplyGripEntry* grip, i
     d.limits.angular_damping = 0.0;
     d.limits.delay = 3;  // mailbox, message, the arm's own tick
     d.rate = 1.0 / exchange_period;
-    d.reach = Vec3(0.1);
+    d.half_workspace = Vec3(0.1);
     d.buttons = grip == nullptr ? 0 : grip->wireless ? 3 : 1;
     if (grip == nullptr)
         d.remarks.emplace_back("has no VerseGrip, so it senses no rotation: the tool keeps its orientation");

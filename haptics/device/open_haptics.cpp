@@ -77,12 +77,12 @@ std::string reported_text(const OpenHapticsApi& api, unsigned what) {
 // is implausible.
 void describe_reach(const OpenHapticsApi& api, double max_reach, ArmProperties& arm) {
     const Doubles box = get_doubles(api, get_usable_box);
-    arm.description.reach = Vec3(max_reach);
+    arm.description.half_workspace = Vec3(max_reach);
     const Vec3 low = mm * Vec3(box[0], box[1], box[2]), high = mm * Vec3(box[3], box[4], box[5]);
     const Vec3 half = 0.5 * (high - low), centre = 0.5 * (low + high);
     if (!finite(half) || std::min({half.x, half.y, half.z}) <= 0.0 || !(glm::length(centre) < max_reach))
         return;
-    arm.description.reach = glm::min(half, Vec3(max_reach));
+    arm.description.half_workspace = glm::min(half, Vec3(max_reach));
     arm.centre = centre;
 }
 

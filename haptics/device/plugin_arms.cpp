@@ -104,11 +104,11 @@ Status take_timing(const bw_arm_info_v1& info, Description& d) {
 
 Status take_reach(const bw_arm_info_v1& info, Description& d) {
     for (int i = 0; i < 3; ++i) {
-        const double reach = info.reach[i];
+        const double reach = info.half_workspace[i];
         if (!std::isfinite(reach) || reach <= 0.0)
             return fail(ErrorCode::no_device, fmt::format("its reach along {} is {:g} m", "xyz"[i], reach),
                         "a finite number above 0");
-        d.reach[i] = std::min(reach, max_reach);
+        d.half_workspace[i] = std::min(reach, max_reach);
     }
     return {};
 }
@@ -167,7 +167,7 @@ class PluginArm final : public DeviceDriver {
             }
             if (next_ > now) timer_.wait(next_ - now);
             next_ = std::max(next_ + 1.0 / description_.rate, timer_.now());  // late samples are left out
-            if (const Status begun = process_.begin_exchange(wrench_); !begun) return lost(begun.error());
+            if (const Status begun = process_.begin_exchange(command_); !begun) return lost(begun.error());
         }
         const auto reply = process_.finish_exchange(std::max(until - timer_.now(), 0.0));
         if (!reply) return lost(reply.error());
@@ -179,10 +179,10 @@ class PluginArm final : public DeviceDriver {
     Status write(const force::OutputCommand& command) override {
         force::OutputCommand sent;
         if (finite(command.force) && finite(command.torque)) sent = clamp_to_limits(description_, command);
-        wrench_ = {sizeof wrench_, 0, {}, {}};
+        command_ = {sizeof command_, 0, {}, {}};
         for (int i = 0; i < 3; ++i) {
-            wrench_.force[i] = sent.force[i];
-            wrench_.torque[i] = sent.torque[i];
+            command_.force[i] = sent.force[i];
+            command_.torque[i] = sent.torque[i];
         }
         return {};
     }
@@ -213,7 +213,7 @@ class PluginArm final : public DeviceDriver {
     Description description_;
     bool senses_rotation_;
     Timer timer_;
-    bw_arm_wrench_v1 wrench_{sizeof(bw_arm_wrench_v1), 0, {}, {}};
+    bw_arm_command_v1 command_{sizeof(bw_arm_command_v1), 0, {}, {}};
     double next_;  // s, time of the next exchange
 };
 
@@ -224,7 +224,7 @@ struct WaitingArm {
     double since = 0.0;  // s, when its calibration began
 };
 
-class WaitingArms {
+class UnfinishedCalibrations {
   public:
     std::optional<WaitingArm> take(const std::string& id) {
         const std::lock_guard lock(mutex_);
@@ -244,7 +244,9 @@ class WaitingArms {
     std::map<std::string, WaitingArm> arms_;
 };
 
-std::shared_ptr<WaitingArms> make_waiting_arms() { return std::make_shared<WaitingArms>(); }
+std::shared_ptr<UnfinishedCalibrations> make_unfinished_calibrations() {
+    return std::make_shared<UnfinishedCalibrations>();
+}
 
 namespace {
 
@@ -285,8 +287,8 @@ Error calibration_error(const ArmProcess& process, const PluginReply& reply, con
                 return process.error(
                     fmt::format("the arm has not found its position in {:g} s", calibration_time),
                     "an arm that can move freely");
-            error = process.error("the arm is calibrating", "patience");
-            set_preparation(error, {DeviceNeed::patience, {}});
+            error = process.error("the arm is calibrating", "a calibrated arm: wait until it has finished");
+            set_preparation(error, {DeviceNeed::wait, {}});
             return error;
         default:
             return process.error(fmt::format("calibrate returns {}", reply.result),
@@ -349,7 +351,7 @@ Result<std::unique_ptr<DeviceDriver>> open_plugin_arm(const PluginArmOptions& op
         Error error = calibration_error(process, calibrated, id, too_late);
         if (calibrated.result == BW_ARM_NEEDS_USER) arm->since = timer.now();
         const DeviceNeed need = preparation_of(error).need;
-        if (may_wait && (need == DeviceNeed::user || need == DeviceNeed::patience))
+        if (may_wait && (need == DeviceNeed::user || need == DeviceNeed::wait))
             options.waiting->keep(id, std::move(*arm));
         return fail(std::move(error));
     }

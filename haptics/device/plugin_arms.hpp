@@ -24,15 +24,16 @@ std::string plugin_arm_id(const std::filesystem::path& plugin, int index);
 // How many arms the plug-in has now, at most 16. Starts the plug-in for that.
 Result<int> count_plugin_arms(const std::filesystem::path& plugin);
 
-// The processes of arms that wait for their user, by id. Closed arms would begin their calibration again.
-class WaitingArms;
-std::shared_ptr<WaitingArms> make_waiting_arms();
+// Plug-in processes that stay open between two attempts to open an arm, by arm id, so that a calibration
+// continues instead of starting again.
+class UnfinishedCalibrations;
+std::shared_ptr<UnfinishedCalibrations> make_unfinished_calibrations();
 
 struct PluginArmOptions {
     std::filesystem::path plugin;
     int index = 0;          // of the arm, from 0
     bool may_move = false;  // the arm may move by itself to find its position, if it has not done so yet
-    std::shared_ptr<WaitingArms> waiting{};  // null: an arm that waits for its user is closed
+    std::shared_ptr<UnfinishedCalibrations> waiting{};  // null: an arm that waits for its user is closed
 };
 
 // Opens arm `index`. The error has a need (preparation_of()) if the arm would have to move by itself and may

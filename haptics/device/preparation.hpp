@@ -19,7 +19,7 @@ enum class DeviceNeed : std::uint8_t {
     permission,  // to move by itself, so that it finds its position
     inkwell,     // its stylus or handle in the inkwell, where it is calibrated
     user,        // the action that Preparation::instruction names
-    patience,    // it calibrates itself without a visible movement
+    wait,        // it calibrates itself without a visible movement
 };
 
 struct Preparation {
@@ -50,21 +50,21 @@ class MovePermission {
   public:
     // For the next attempt. Call it only after a message to the user to keep hands and things clear. No
     // effect during an attempt that has the permission already.
-    void give() {
+    void grant() {
         auto expected = State::none;
-        state_.compare_exchange_strong(expected, State::given);
+        state_.compare_exchange_strong(expected, State::granted);
     }
     // Begins an attempt. Returns true if it has the permission; end() then ends it.
-    [[nodiscard]] bool take() {
-        auto expected = State::given;
-        return state_.compare_exchange_strong(expected, State::taken);
+    [[nodiscard]] bool acquire() {
+        auto expected = State::granted;
+        return state_.compare_exchange_strong(expected, State::acquired);
     }
     void end() { state_.store(State::none); }
-    // True from give() to end(): the arm moves, or is about to.
+    // True from grant() to end(): the arm moves, or is about to.
     [[nodiscard]] bool active() const { return state_.load() != State::none; }
 
   private:
-    enum class State : std::uint8_t { none, given, taken };
+    enum class State : std::uint8_t { none, granted, acquired };
     std::atomic<State> state_{State::none};
 };
 

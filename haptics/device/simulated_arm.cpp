@@ -26,12 +26,12 @@ Vec3 accelerated(const Vec3& v, const Vec3& force, double mass, double damping, 
 
 }  // namespace
 
-Pose encoder_pose(const Arm& arm) {
+Pose encoder_pose(const ArmModel& arm) {
     return {quantised(arm.pose.position, arm.parameters.encoder),
             rotation(quantised(rotation_vector(arm.pose.orientation), arm.parameters.angular_encoder))};
 }
 
-void step(Arm& arm, const force::OutputCommand& command, double dt) {
+void step(ArmModel& arm, const force::OutputCommand& command, double dt) {
     const ArmParameters& p = arm.parameters;
     for (std::size_t i = arm.sent.size() - 1; i > 0; --i) arm.sent[i] = arm.sent[i - 1];
     arm.sent[0] = command;
@@ -77,7 +77,7 @@ struct SimulatedArm::Shared {
     ArmParameters parameters;
     Timer timer;
     TripleBuffer<TimedMotion> motions;
-    Arm arm;  // of the thread that reads the device; outlives a disconnection
+    ArmModel arm;  // of the thread that reads the device; outlives a disconnection
 };
 
 namespace {
@@ -107,7 +107,7 @@ class SimulatedArmDevice final : public DeviceDriver {
         const int late = std::min(static_cast<int>((now - next_) / sample_period), max_late_steps);
         for (int i = 0; i <= std::max(late, 0); ++i) advance();
         next_ = std::max(next_ + sample_period, now);
-        const Arm& arm = shared_->arm;
+        const ArmModel& arm = shared_->arm;
         Sample read;
         read.pose = encoder_pose(arm);
         read.velocity = arm.velocity;
@@ -146,16 +146,16 @@ class SimulatedArmDevice final : public DeviceDriver {
     void relax() { wanted_ = shared_->arm.intention = shared_->arm.pose; }
 
     void advance() {
-        Arm& arm = shared_->arm;
+        ArmModel& arm = shared_->arm;
         if (last_.target) wanted_ = *last_.target;
-        wanted_.position =
-            arm.pose.position + force::clamp_length(wanted_.position - arm.pose.position, last_.lead);
+        wanted_.position = arm.pose.position +
+                           force::clamp_length(wanted_.position - arm.pose.position, last_.max_deflection);
         const Vec3 ahead = turn_between(arm.pose.orientation, wanted_.orientation);
-        if (glm::length(ahead) > last_.angular_lead)
-            wanted_.orientation = glm::normalize(rotation(force::clamp_length(ahead, last_.angular_lead)) *
-                                                 arm.pose.orientation);
-        const double yielded = std::min(1.0, last_.yielding * sample_period);
-        wanted_.position += yielded * (arm.pose.position - wanted_.position);
+        if (glm::length(ahead) > last_.max_angular_deflection)
+            wanted_.orientation = glm::normalize(
+                rotation(force::clamp_length(ahead, last_.max_angular_deflection)) * arm.pose.orientation);
+        const double yielded_share = std::min(1.0, last_.compliance_rate * sample_period);
+        wanted_.position += yielded_share * (arm.pose.position - wanted_.position);
         const double share = sample_period / (last_.target ? target_smoothing_time : smoothing_time);
         const Vec3 step_along = share * (wanted_.position - arm.intention.position),
                    step_about = share * turn_between(arm.intention.orientation, wanted_.orientation);

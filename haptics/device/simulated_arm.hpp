@@ -27,7 +27,7 @@ struct ArmParameters {
     int delay = 1;                   // ticks from sending to effect, at most 3
 };
 
-struct Arm {
+struct ArmModel {
     ArmParameters parameters;
     Pose pose;       // of the grip, device frame
     Pose intention;  // intended pose
@@ -41,23 +41,24 @@ struct Arm {
 };
 
 // The pose that the encoders measure.
-Pose encoder_pose(const Arm& arm);
+Pose encoder_pose(const ArmModel& arm);
 // Moves arm and hand for `dt` s, a multiple of 25 µs, under a command that was sent at the beginning.
-void step(Arm& arm, const force::OutputCommand& command, double dt);
+void step(ArmModel& arm, const force::OutputCommand& command, double dt);
 
 // The motion of the hand that holds a simulated arm. `moved` and `turned` are totals since the beginning, so
 // that no motion is lost if the device reads only the latest value.
 struct HandMotion {
     Vec3 moved{0.0};                  // m, along the axes of the device frame
     Quat turned{1.0, 0.0, 0.0, 0.0};  // unit, in the device frame
-    // m and rad that the intention may lead the arm: this limits how hard the hand pushes
+    // m and rad that the intention may be ahead of the arm: this limits how hard the hand pushes
     // against a wall.
-    double lead = 0.06, angular_lead = 0.6;
-    // 1/s, rate at which the intention approaches the pose of the arm: the arm leads a relaxed hand.
-    double yielding = 0.0;
+    double max_deflection = 0.06, max_angular_deflection = 0.6;
+    // 1/s, rate at which the intention approaches the pose of the arm: the arm moves a relaxed hand.
+    double compliance_rate = 0.0;
     std::uint32_t buttons = 0;
-    // The pose of the hand in the device frame, if it is measured; it replaces `moved` and `turned`. The lead
-    // still limits how hard the hand pushes, but the arm returns to this pose as soon as it can.
+    // The pose of the hand in the device frame, if it is measured; it replaces `moved` and `turned`. The
+    // greatest deflection still limits how hard the hand pushes, but the arm returns to this pose as soon as
+    // it can.
     std::optional<Pose> target;
     double gripper = 1.0;  // 0 closed … 1 fully open
 };
@@ -84,7 +85,7 @@ class SimulatedArm {
 };
 
 // The arm of `train --device simulated-arm`: the force of an omega.7 (12 N), a lower stiffness, because the
-// hand is a spring of 300 N/m, no torque, and no edge of its reach.
+// hand is a spring of 300 N/m, no torque, and an unlimited workspace.
 Description simulated_arm_description();
 ArmParameters simulated_arm_parameters();
 

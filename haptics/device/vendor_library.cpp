@@ -32,7 +32,8 @@ Result<VendorLibrary> VendorLibrary::open(std::span<const std::filesystem::path>
         return fail(ErrorCode::failed, fmt::format("{} cannot be loaded: {}", broken, why),
                     "the vendor's library for this kind of computer");
     const std::string name = candidates.empty() ? "library" : candidates.back().filename().string();
-    return fail(ErrorCode::no_device, fmt::format("{} is not installed", name));
+    return fail(ErrorCode::no_device, fmt::format("{} is not installed", name),
+                "the vendor's library, installed");
 }
 
 Status VendorLibrary::check() const {

@@ -81,8 +81,9 @@ struct SimulatedDeviceOptions {
 };
 
 // A simulated device: a script gives the intended motion, an optional hand impedance yields to the rendered
-// force, and faults of real devices can be injected. Works on any clock. Not thread-safe: one thread uses it,
-// or a test without threads in virtual time. It must outlive the connections that its factory creates.
+// force, and faults of real devices can be injected. It is for tests; the arm that a user can select is that
+// of simulated_arm.hpp. Works on any clock. Not thread-safe: one thread uses it, or a test without threads
+// in virtual time. It must outlive the connections that its factory creates.
 class SimulatedDevice {
   public:
     SimulatedDevice(SimulatedDeviceOptions design, Timer timer);

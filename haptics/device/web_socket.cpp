@@ -163,8 +163,10 @@ Result<std::string> http_get(const SocketAddress& address, std::string_view path
         if (const ErrorOfBoost error = exchange(io, stream, request, response, end))
             return fail(socket_error(address, error));
         if (response.get().result() != http::status::ok)
-            return fail(ErrorCode::no_device,
-                        fmt::format("{}: {}: status {}", address.text(), path, response.get().result_int()));
+            return fail(
+                ErrorCode::no_device,
+                fmt::format("{}: {}: HTTP status {}", address.text(), path, response.get().result_int()),
+                "200");
         return std::move(response.get().body());
     } catch (const boost::system::system_error& error) {
         return fail(socket_error(address, error.code()));

@@ -72,7 +72,7 @@ double fitted_scale(const Vec3& reach, double handle_length) {
     return scale;
 }
 
-Vec3 rotated_reach(const Quat& rotation, const Vec3& reach) {
+Vec3 rotated_half_workspace(const Quat& rotation, const Vec3& reach) {
     constexpr double negligible = 1e-6;  // component of a unit vector: less than a micrometre in a metre
     Vec3 rotated(std::numeric_limits<double>::infinity());
     for (int axis = 0; axis < 3; ++axis) {

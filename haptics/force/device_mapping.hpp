@@ -25,8 +25,9 @@ struct WorkspaceMap {
     double scale = 1.0;                 // m of the tool per m of the device
     double power_ratio = 1.0;           // power at the device / power at the tool
     double fade = 0.05;                 // s in which forces fade out and in with the clutch
-    // s in which WorkspaceState::centre returns to the origin, for a hand that is where the tool shows it;
-    // infinite: it stays where realign() has put it.
+    // s, time constant with which WorkspaceState::centre returns to 0 (absolute mapping, for a tracked hand
+    // whose pose the picture shows). Infinite: `centre` keeps the value that realign() computed (relative
+    // mapping).
     double return_time = std::numeric_limits<double>::infinity();
 };
 
@@ -76,7 +77,7 @@ double fitted_scale(const Vec3& reach, double handle_length);
 
 // The reach (m, half the workspace) along the axes to which `rotation` rotates those of the device, through
 // its middle. 0 if the reach along a device axis that contributes is unknown.
-Vec3 rotated_reach(const Quat& rotation, const Vec3& reach);
+Vec3 rotated_half_workspace(const Quat& rotation, const Vec3& reach);
 
 OutputCommand to_device(const WorkspaceMap& workspace, const WorkspaceState& state,
                         const OutputCommand& on_tool);

@@ -269,7 +269,7 @@ ForceRequest guide(const GuidingParameters& g, GuideState& s, const GuidedTool& 
     s.blocked_time = s.along < limit && distance < 2.0 * softening_radius ? s.blocked_time + dt : 0.0;
     const bool path_usable = seen && s.max_along - s.along < driven_back && s.blocked_time < replan_interval;
 
-    const double share = target_unchanged && path_usable ? std::clamp(g.share, 0.0, 1.0) : 0.0;
+    const double share = target_unchanged && path_usable ? std::clamp(g.mode_share, 0.0, 1.0) : 0.0;
     s.force_share = step_towards(s.force_share, share, g.fade_rate * dt);
     s.torque_share =
         step_towards(s.torque_share, left < g.alignment_distance ? share : 0.0, g.fade_rate * dt);

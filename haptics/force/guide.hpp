@@ -21,7 +21,7 @@ struct GuidingParameters {
     double max_force = 3.0;            // N
     double max_torque = 0.2;           // N·m, of the aligning torque
     double alignment_distance = 0.08;  // m to the target within which the torque acts
-    double share = 1.0;                // 0 … 1, of the force, that the lesson's mode allows
+    double mode_share = 1.0;           // 0 … 1, of the force, that the lesson's mode allows
     double fade_rate = 4.0;            // 1/s, at which the force fades in and out
 };
 
@@ -68,10 +68,10 @@ struct GuidePath {
     std::size_t count = 0;         // 0: no path found
 };
 
-// Candidates: straight, if that arrives along the axis or level from the side; via the approach point; over
-// the target at several heights; around one side. Returns the shortest free candidate. If none is free,
-// returns the straight segment, whatever its direction, if it is free; else an empty path. Queries `free` at
-// most 100 times.
+// Candidates: the straight segment, if it reaches the target along the axis, or from the side at the height
+// of the nut; via the approach point; over the target at several heights; around one side. Returns the
+// shortest free candidate. If none is free, returns the straight segment, whatever its direction, if it is
+// free; else an empty path. Queries `free` at most 100 times.
 GuidePath plan_path(const Vec3& from, const GuideTarget& target, IsSegmentFree free);
 
 // The lowest height above the target, m, to which the tool may be led from its present position. The segment
@@ -115,7 +115,8 @@ struct GuideState {
 
 // One tick of dt. With a negative `target.id` the force fades out; pass that while a nut is engaged. Returns
 // the request to the output stage: along the path all work counts as injected energy, so the passivity
-// observer ignores it; at the target the force is a potential, which the observer watches like any spring.
+// observer ignores it; at the target the force derives from a potential, which the observer watches like any
+// spring.
 ForceRequest guide(const GuidingParameters& guiding, GuideState& state, const GuidedTool& tool,
                    const GuideTarget& target, IsSegmentFree free, double dt);
 

@@ -35,7 +35,7 @@ struct OutputLimits {
     double angular_jump = 0.5;    // rad in one tick
     // s without a sample before the output is released; `release` counts from the last sample.
     double max_silence = 0.008;
-    double recovery = 0.1;  // s of valid samples after a fault before the output ramps up
+    double recovery_time = 0.1;  // s of valid samples after a fault before the output ramps up
 };
 
 // Limits the length of `v` to `max_length`; zero if `max_length` is not positive. Scaled before glm::length

@@ -11,7 +11,7 @@ constexpr double speed_smoothing = 0.005;  // s, of the velocity that the speed 
 // s, of the velocity that damping uses; unfiltered encoder steps would be felt as noise.
 constexpr double smoothing = 0.0015;
 
-bool is_pose(const PortInput& input) {
+bool is_pose(const DeviceInput& input) {
     const Pose& p = input.pose;
     // False for NaN too. No device moves a kilometre.
     for (int i = 0; i < 3; ++i)
@@ -42,10 +42,10 @@ bool update_motion(const OutputLimits& limits, WatchdogState& s, const Pose& pos
     return true;
 }
 
-Fault check_sample(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
+Fault check_sample(const OutputLimits& limits, WatchdogState& s, const DeviceInput& input,
                    bool request_is_finite, double dt) {
     s.ticks_since_sample += 1 + input.missed;
-    s.motion.fresh = s.motion.begins = false;
+    s.motion.fresh = s.motion.first = false;
     if (input.fresh) {
         if (!is_pose(input)) {
             s.has_last = false;  // the next pose starts a new motion
@@ -57,7 +57,7 @@ Fault check_sample(const OutputLimits& limits, WatchdogState& s, const PortInput
             s.ticks_since_sample = 0;
             return Fault::jumped;
         }
-        s.motion.begins = !s.has_last;
+        s.motion.first = !s.has_last;
         s.last = input.pose;
         s.has_last = true;
         s.ticks_since_sample = 0;
@@ -75,7 +75,7 @@ Fault check_sample(const OutputLimits& limits, WatchdogState& s, const PortInput
 
 }  // namespace
 
-const char* name(Fault fault) {
+const char* message_for(Fault fault) {
     switch (fault) {
         case Fault::none:
             return "none";
@@ -95,7 +95,7 @@ const char* name(Fault fault) {
     return "";
 }
 
-bool update_watchdog(const OutputLimits& limits, WatchdogState& s, const PortInput& input,
+bool update_watchdog(const OutputLimits& limits, WatchdogState& s, const DeviceInput& input,
                      bool request_is_finite, double dt) {
     const Fault before = s.fault;
     const Fault now = check_sample(limits, s, input, request_is_finite, dt);
@@ -110,7 +110,7 @@ bool update_watchdog(const OutputLimits& limits, WatchdogState& s, const PortInp
     } else if (before == Fault::stopped) {
         s.fault = Fault::none;
     } else if (before != Fault::none &&
-               static_cast<double>(++s.ticks_without_fault) * dt >= limits.recovery * (1 - 1e-9)) {
+               static_cast<double>(++s.ticks_without_fault) * dt >= limits.recovery_time * (1 - 1e-9)) {
         s.fault = Fault::none;
     }
     if (s.fault != before && s.fault != Fault::none) ++s.counts[static_cast<std::size_t>(s.fault)];
@@ -138,7 +138,7 @@ void add_applied_work(const OutputLimits& limits, PassivityState& s, const Motio
     s.applied.force += ticks * out.force;
     s.applied.torque += ticks * out.torque;
     s.ticks += ticks;
-    if (!motion.fresh && !motion.begins) return;
+    if (!motion.fresh && !motion.first) return;
     if (motion.fresh)
         s.balance -=
             (glm::dot(s.applied.force, motion.shift) + glm::dot(s.applied.torque, motion.rotation)) / s.ticks;
@@ -189,9 +189,9 @@ OutputCommand limit_output(const OutputLimits& limits, LimiterState& state, cons
                            bool enabled, double dt, double release) {
     const bool healthy = finite(state.force) && finite(state.torque);
     if (!healthy) state.force = state.torque = Vec3(0.0);
-    const bool sound = healthy && finite(requested.force) && finite(requested.torque);
-    if (!sound) ++state.invalid_requests;
-    if (!enabled || !sound) {
+    const bool valid_request = healthy && finite(requested.force) && finite(requested.torque);
+    if (!valid_request) ++state.invalid_requests;
+    if (!enabled || !valid_request) {
         // Reaches zero from the largest output in whole steps within `release`; overrides the slew rates.
         const double steps = std::max(1.0, std::floor(release / dt + 1e-9));
         const double share = (1.0 + 1e-9) / steps;
@@ -214,12 +214,13 @@ OutputCommand limit_output(const OutputLimits& limits, LimiterState& state, cons
     return {state.force, state.torque};
 }
 
-OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortInput& input,
+OutputCommand render(const OutputLimits& limits, OutputStage& stage, const DeviceInput& input,
                      const ForceRequest& request, double dt) {
     const bool finite_command = finite(request.command.force) && finite(request.command.torque);
-    const bool sound =
+    const bool valid_request =
         finite_command && std::isfinite(request.stored_energy) && std::isfinite(request.injected_energy);
-    const bool permitted = update_watchdog(limits, stage.watchdog, input, sound, dt) && input.dead_man;
+    const bool permitted =
+        update_watchdog(limits, stage.watchdog, input, valid_request, dt) && input.dead_man;
     const Motion& motion = stage.watchdog.motion;
     PassivityState& passivity = stage.passivity;
     add_applied_work(limits, passivity, motion, 1.0 + input.missed);
@@ -235,7 +236,7 @@ OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortI
         // is not finite, and sends none of it; an energy that is not finite is counted here.
         if (!finite_command)
             command = request.command;
-        else if (!sound)
+        else if (!valid_request)
             ++stage.limiter.invalid_requests;
     }
     // The release time counts from the last sample, and part of it has already passed.

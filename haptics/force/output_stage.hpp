@@ -24,10 +24,10 @@ enum class Fault : std::uint8_t {
     stopped,      // emergency stop
 };
 inline constexpr std::size_t fault_kinds = 7;
-const char* name(Fault fault);
+const char* message_for(Fault fault);
 
-// The state of the device in this tick.
-struct PortInput {
+// The state of the device in this tick, at the device's energy port.
+struct DeviceInput {
     Pose pose;                 // of the point of application of the force, in the force's frame
     bool valid = true;         // the sample is a pose
     bool fresh = true;         // a sample arrived since the last tick
@@ -44,7 +44,7 @@ struct Motion {
     Vec3 velocity{0.0};          // m/s, smoothed over 1.5 ms
     Vec3 angular_velocity{0.0};  // rad/s
     bool fresh = false;          // a new sample; false: shift and rotation are of an earlier one
-    bool begins = false;         // the first sample: it starts a motion and has none itself
+    bool first = false;          // this is the first valid sample; there is no motion since a previous one
 };
 
 struct WatchdogState {
@@ -61,7 +61,7 @@ struct WatchdogState {
 
 // The watchdog. One tick of dt. Returns true if the output may be rendered. `request_is_finite`: the
 // requested force is finite.
-bool update_watchdog(const OutputLimits& limits, WatchdogState& state, const PortInput& input,
+bool update_watchdog(const OutputLimits& limits, WatchdogState& state, const DeviceInput& input,
                      bool request_is_finite, double dt);
 
 // Time-domain passivity control: observes the energy at the device's port and removes energy that the
@@ -146,7 +146,7 @@ struct OutputStage {
 
 // One tick of dt. Returns the device's command. It is zero at most limits.release after the dead-man switch
 // is released, after the last sample of a silent device, and after any other fault.
-OutputCommand render(const OutputLimits& limits, OutputStage& stage, const PortInput& input,
+OutputCommand render(const OutputLimits& limits, OutputStage& stage, const DeviceInput& input,
                      const ForceRequest& request, double dt);
 
 }  // namespace bolt::force

@@ -84,7 +84,7 @@ double signed_distance(const collision::ToolShape& tool, const Vec3& at, double 
 
 std::size_t sphere_count(const Capsule& capsule) {
     const double length = glm::length(capsule.to - capsule.from);
-    return std::min(max_spheres, static_cast<std::size_t>(std::ceil(length / ball_spacing)) + 1);
+    return std::min(max_spheres, static_cast<std::size_t>(std::ceil(length / sphere_spacing)) + 1);
 }
 
 struct Sphere {
@@ -265,8 +265,8 @@ hand::FingertipContact nearest_of(const MovingDigit& digit) {
 
 // True if the tool is out of reach of the whole hand.
 bool out_of_reach(const collision::ToolShape& tool, const hand::Hand& hand, const Pose& wrist) {
-    constexpr double reach = 0.24;  // m, of a hand of scale 1 with its flesh
-    return glm::length(wrist.position - tool.solid.middle) > tool.solid.radius + hand.scale * reach;
+    constexpr double hand_length = 0.24;  // m, of a hand of scale 1 with its flesh
+    return glm::length(wrist.position - tool.solid.middle) > tool.solid.radius + hand.scale * hand_length;
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ FingertipGrasp fingertip_grasp(const collision::ToolShape& tool, const Fingertip
 
 // Distances are measured from spheres along the bones; this (m) is their greatest spacing. Between two
 // spheres the penetration can be 0.6 mm deeper in the narrowest finger.
-inline constexpr double ball_spacing = 6e-3;
+inline constexpr double sphere_spacing = 6e-3;
 inline constexpr double stop_tolerance = 50e-6;  // m, penetration tolerated where a digit stops
 inline constexpr int max_steps = 200;            // per digit; it then stays where it is
 
@@ -56,18 +56,18 @@ struct DigitStop {
     std::array<double, 3> share{1.0, 1.0, 1.0};
     bool touches = false;
     // Nearest point of the tool to the digit's last two bones.
-    hand::FingertipContact nearest;
+    FingertipContact nearest;
     int steps = 0;
 };
 
 struct FingerClosure {
-    hand::Angles angles;
-    std::array<DigitStop, hand::digit_count> digits;
+    Angles angles;
+    std::array<DigitStop, digit_count> digits;
 };
 
 // `wrist` is in the tool frame. Penetration that exists while the digit is open is tolerated; only deeper
 // penetration stops the digit.
-FingerClosure close_fingers(const collision::ToolShape& tool, const hand::Hand& hand,
-                            const hand::Angles& measured, const Pose& wrist);
+FingerClosure close_fingers(const collision::ToolShape& tool, const Hand& hand, const Angles& measured,
+                            const Pose& wrist);
 
 }  // namespace bolt::hand

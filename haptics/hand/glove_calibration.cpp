@@ -118,8 +118,10 @@ Result<CalibrationResult> calibrate(std::span<const PostureSamples> held) {
                         "at least a flat hand and a fist");
     for (const PostureSamples& h : held)
         if (h.samples.empty())
-            return fail(ErrorCode::failed, fmt::format("the glove sent no samples of the {}",
-                                                       posture_names[static_cast<std::size_t>(h.posture)]));
+            return fail(ErrorCode::failed,
+                        fmt::format("the glove sent no samples of the {}",
+                                    posture_names[static_cast<std::size_t>(h.posture)]),
+                        "samples of each posture");
 
     CalibrationResult result;
     result.score = 1.0;
@@ -139,10 +141,10 @@ Result<CalibrationResult> calibrate(std::span<const PostureSamples> held) {
         const std::optional<LinearFit> line = q.span >= least_span ? fit_line(at) : std::nullopt;
         if (!line) {
             result.score = 0.0;
-            result.remarks.push_back(
-                fmt::format("{}: moved by {:.0f} counts only; is the glove worn properly, and did the hand "
-                            "take the posture?",
-                            name_of(sensor), q.span));
+            result.remarks.push_back(fmt::format(
+                "{}: moved by {:.0f} counts; expected at least {:.0f}: check that the glove is worn "
+                "properly, and repeat the posture",
+                name_of(sensor), q.span, least_span));
             continue;
         }
         for (const PostureReading& s : at) q.noise = std::max(q.noise, std::abs(line->gain) * s.deviation);
@@ -340,7 +342,7 @@ void update(CalibrationSession& session, const GloveFrame* frame, double now) {
         session.rest = frame->raw;
     }
     if (session.phase == CalibrationPhase::moving) {
-        if (now - session.requested_since > session.options.patience)
+        if (now - session.requested_since > session.options.problem_delay)
             session.problem = CalibrationProblem::restless;
         const bool left =
             session.taken.empty() ||

@@ -83,12 +83,12 @@ enum class CalibrationPhase : std::uint8_t {
 enum class CalibrationProblem : std::uint8_t { none, silent, restless };
 
 struct CalibrationSessionOptions {
-    double settle = 0.3;     // s of rest before sampling starts
-    double hold = 2.0;       // s of sampling
-    double still = 8.0;      // counts that a sensor may deviate while the hand is still
-    double moved = 12.0;     // counts by which at least one sensor must differ from the last posture
-    double silence = 0.25;   // s without a frame until sampling restarts
-    double patience = 20.0;  // s in one posture until the problem is shown
+    double settle = 0.3;          // s of rest before sampling starts
+    double hold = 2.0;            // s of sampling
+    double still = 8.0;           // counts that a sensor may deviate while the hand is still
+    double moved = 12.0;          // counts by which at least one sensor must differ from the last posture
+    double silence = 0.25;        // s without a frame until sampling restarts
+    double problem_delay = 20.0;  // s in one posture until the problem is shown
 };
 
 // Guides a trainee through the four calibration postures. Each is sampled while the hand is still; the result

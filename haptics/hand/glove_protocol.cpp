@@ -224,7 +224,7 @@ bool GloveHandshake::store_value(std::uint8_t value) {
             samples_ = value;
             return true;
         case HandshakeStep::hand:
-            identity_.hand = value != 0 ? Side::right : Side::left;
+            identity_.side = value != 0 ? Side::right : Side::left;
             return true;
         case HandshakeStep::plugged:
             identity_.plugged = (value & 1U) != 0;
@@ -255,7 +255,7 @@ std::vector<std::uint8_t> GloveHandshake::update(std::span<const std::uint8_t> r
         return start_step(next, now);
     }
     if (failed_) return {};
-    if (now - since_ < options_.patience) return {};
+    if (now - since_ < options_.reply_timeout) return {};
     if (attempts_ < options_.tries) return start_step(step_, now);
     if (step_ >= HandshakeStep::hand)
         return start_step(static_cast<HandshakeStep>(static_cast<int>(step_) + 1), now);
@@ -287,14 +287,19 @@ std::vector<std::uint8_t> GloveSession::update(std::span<const std::uint8_t> rec
             ++frames_;
             since_ = now;
             unplugged = frame.unplugged;
-            fault_message_ = frame.unplugged  ? "the glove is not plugged into its interface unit"
-                             : frame.too_slow ? "the serial line is too slow for this sample rate"
-                                              : "";
+            fault_message_ = frame.unplugged ? "the glove is not plugged into its interface unit; expected "
+                                               "its plug in the unit"
+                             : frame.too_slow
+                                 ? "the serial line is too slow for this sample rate; expected a "
+                                   "faster line or fewer samples a second"
+                                 : "";
             if (!frame.unplugged) on_frame(frame);
         });
         identity_.plugged = !unplugged;
         if (now - since_ < options_.silence) return {};
-        fault_message_ = "the glove has stopped sending data";
+        fault_message_ =
+            "the glove has stopped sending data; expected a glove that is "
+            "switched on and plugged in";
         return start_handshake(now, GloveState::silent);
     }
     if (state_ == GloveState::rejected) {

@@ -100,7 +100,7 @@ void read_frames(GloveFrameReader& reader, std::span<const std::uint8_t> bytes,
 
 struct GloveIdentity {
     std::size_t sensors = 0;  // 18 or 22
-    Side hand = Side::right;
+    Side side = Side::right;
     bool plugged = true;  // the glove is connected to its interface unit
     std::string version;  // of the firmware; empty for old ones that do not report it
 };
@@ -108,7 +108,7 @@ struct GloveIdentity {
 struct GloveHandshakeOptions {
     double rate = 80.0;          // requested samples per second
     double quiet = 0.06;         // s without a byte: streaming has stopped
-    double patience = 0.3;       // s until a reply times out
+    double reply_timeout = 0.3;  // s until a reply times out
     int tries = 3;               // attempts per query
     double longest_quiet = 1.0;  // s until a line that keeps sending is rejected
 };

@@ -44,8 +44,9 @@ hand::Fingertips tips_of(const collision::ToolShape& tool, const FingerClosure& 
     hand::Fingertips tips;
     for (std::size_t i = 0; i < hand::digit_count; ++i) {
         const hand::FingertipContact& nearest = closure.digits[i].nearest;
-        tips.at[i] = touches(nearest) ? nearest.point + (nearest.distance + tips.radius) * nearest.normal
-                                      : Vec3(2.0 * (tool.reach() + hand::contact_query_range), 0.0, 0.0);
+        tips.at[i] = touches(nearest)
+                         ? nearest.point + (nearest.distance + tips.radius) * nearest.normal
+                         : Vec3(2.0 * (tool.origin_radius() + hand::contact_query_range), 0.0, 0.0);
     }
     return tips;
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "engine/base/math.hpp"
+#include "engine/base/side.hpp"
 
 namespace bolt::hand {
 
@@ -85,7 +86,7 @@ inline Angles closed_hand_angles(double share) {
 // Proportions of hand segments, Int. J. Morphol. 28(3), 2010, 755-758; they are not verified against that
 // table. With a carpus of 32 mm the hand is 189 mm long, about the median of men.
 
-enum class Side : std::uint8_t { left, right };
+using bolt::Side;
 
 // In the order of XrHandJointEXT; glTF nodes have the same names in lower case.
 enum Joint : std::size_t {

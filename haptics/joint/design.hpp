@@ -43,7 +43,7 @@ struct JointDesign {
     double misfit = 5e-6;          // m, scale over which the seat closes (non-parallel faces, thread draw-in)
     double embedding_time = 5.0;   // s, time constant of embedding
     double prevailing_torque = 0;  // N·m, of a locking nut
-    double running_torque = 0.02;  // N·m, mean drag of the free thread; it fluctuates with the angle
+    double running_drag = 0.02;    // N·m, mean drag of the free thread; it fluctuates with the angle
     double start_gap = 0.0;        // m, nut face to seat when the nut is hand-started (angle 0)
     double nut_mass = 0.0;         // kg; 0: from the nut's volume
     Vec3 seat{0.0};                // m, centre of the nut's seat in the assembly's frame

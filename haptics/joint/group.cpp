@@ -34,7 +34,7 @@ double kelvin_kei(double x) {
 }
 
 InteractionMatrix interaction_matrix(const FlangePlate& plate, std::span<const Vec3> seats) {
-    const double reach = 10.0 * plate.length();
+    const double cutoff = 10.0 * plate.length();
     InteractionMatrix m;
     m.own_compliance = plate.deflection_per_force(0.0);
     m.row_begin.push_back(0);
@@ -43,11 +43,11 @@ InteractionMatrix interaction_matrix(const FlangePlate& plate, std::span<const V
     std::iota(by_x.begin(), by_x.end(), 0U);
     std::sort(by_x.begin(), by_x.end(), [&](auto a, auto b) { return seats[a].x < seats[b].x; });
     for (std::uint32_t i = 0; i < seats.size(); ++i) {
-        const auto from = std::lower_bound(by_x.begin(), by_x.end(), seats[i].x - reach,
+        const auto from = std::lower_bound(by_x.begin(), by_x.end(), seats[i].x - cutoff,
                                            [&](auto j, double x) { return seats[j].x < x; });
         const std::size_t row = m.column.size();
-        for (auto j = from; j != by_x.end() && seats[*j].x <= seats[i].x + reach; ++j)
-            if (*j != i && glm::distance(seats[i], seats[*j]) <= reach) m.column.push_back(*j);
+        for (auto j = from; j != by_x.end() && seats[*j].x <= seats[i].x + cutoff; ++j)
+            if (*j != i && glm::distance(seats[i], seats[*j]) <= cutoff) m.column.push_back(*j);
         std::sort(m.column.begin() + static_cast<std::ptrdiff_t>(row), m.column.end());
         for (std::size_t k = row; k < m.column.size(); ++k)
             m.value.push_back(plate.deflection_per_force(glm::distance(seats[i], seats[m.column[k]])));
@@ -89,7 +89,8 @@ void update_published(const GroupParameters& group, JointState& joint, double an
     const double degrees = to_degrees(angle);
     published_advance(group.published, joint.published, degrees);
     const Direction direction = friction_share < 0.0 ? Direction::loosen : Direction::tighten;
-    const PublishedReading reading = published_read(group.published, joint.published, degrees, direction);
+    const PublishedResponse reading =
+        evaluate_published(group.published, joint.published, degrees, direction);
     joint.clamp = reading.clamp;
     joint.stage = reading.stage;
 }
@@ -125,8 +126,8 @@ std::vector<JointState> initial_state(const GroupParameters& group, std::size_t 
 Resistance resistance(const GroupParameters& group, std::size_t joint, const JointState& state) {
     if (group.law == Law::mechanistic) return resistance(group.joints[joint], state.mechanistic);
     const double degrees = to_degrees(state.nut.angle);
-    const auto on = published_read(group.published, state.published, degrees, Direction::tighten);
-    const auto off = published_read(group.published, state.published, degrees, Direction::loosen);
+    const auto on = evaluate_published(group.published, state.published, degrees, Direction::tighten);
+    const auto off = evaluate_published(group.published, state.published, degrees, Direction::loosen);
     // The paper gives the torques of the stages different signs; the hand feels their magnitude, against the
     // motion.
     Resistance r;
@@ -193,10 +194,11 @@ constexpr std::size_t max_samples = 2'000'000;
 
 double signed_torque(const GroupParameters& group, const JointState& joint, Direction direction) {
     if (group.law == Law::mechanistic) return joint.torque;
-    return published_read(group.published, joint.published, to_degrees(joint.nut.angle), direction).torque;
+    return evaluate_published(group.published, joint.published, to_degrees(joint.nut.angle), direction)
+        .torque;
 }
 
-bool has_failed(const JointState& joint) { return joint.condition != JointCondition::sound; }
+bool has_failed(const JointState& joint) { return joint.condition != JointCondition::intact; }
 
 // Tightens until the torque is reached or the joint fails, then rests for 10 s.
 void tighten_to(const GroupParameters& group, std::vector<JointState>& joints, double torque,

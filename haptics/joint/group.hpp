@@ -62,7 +62,7 @@ struct JointState {
     // 0…1, active share of the additional friction at rest; decreases as the nut turns.
     double breakaway = 0.0;
     Stage stage = Stage::navigation;
-    JointCondition condition = JointCondition::sound;
+    JointCondition condition = JointCondition::intact;
     MechanisticState mechanistic;
     PublishedState published;
 };

@@ -221,7 +221,7 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
     p.levers = torque_levers(p.thread, p.mu_thread, design.friction.bearing * bearing_scatter,
                              bearing_mean_diameter(size.nut_bearing, size.hole));
     p.kappa = design.bolt_class.kappa;
-    p.gap = design.start_gap;
+    p.start_gap = design.start_gap;
 
     const double h_rms = design.roughness_Rz / 5.5;  // usual for turned and milled faces
     const double seat_area = 0.25 * pi * (square(size.nut_bearing) - square(size.hole));
@@ -257,7 +257,7 @@ MechanisticParameters derive(const JointDesign& design, Random& random, double o
     p.wear_per_use = wear.per_use;
 
     p.prevailing_torque = design.prevailing_torque;
-    p.running_drag = design.running_torque;
+    p.running_drag = design.running_drag;
     const double weight = gravity * (design.nut_mass > 0.0 ? design.nut_mass : nut_mass(size, p.thread));
     p.weight_lead = -weight * design.axis.y * p.levers.lead;
     p.weight_friction = weight * std::abs(design.axis.y) * p.levers.thread;
@@ -272,16 +272,16 @@ Resistance resistance(const MechanisticParameters& p, const MechanisticState& s)
         (p.prevailing_torque + running_drag_at(p, s.angle) + p.weight_friction) * breakaway_factor;
     const double rate = s.stiffness * p.levers.lead;  // dF/dθ, N/rad: dx/dθ = P/2π
     Resistance r;
-    r.lead = s.clamp * p.levers.lead + p.weight_lead;
-    r.tighten = r.lead + s.clamp * friction_lever + drag;
-    r.loosen = r.lead - s.clamp * friction_lever - drag;
+    r.lead_torque = s.clamp * p.levers.lead + p.weight_lead;
+    r.tighten = r.lead_torque + s.clamp * friction_lever + drag;
+    r.loosen = r.lead_torque - s.clamp * friction_lever - drag;
     r.tighten_slope = rate * (p.levers.lead + friction_lever);
     r.loosen_slope = rate * (p.levers.lead - friction_lever);
     return r;
 }
 
 double free_closure(const MechanisticParameters& p, const MechanisticState& s, double angle) {
-    return p.levers.lead * angle - p.gap - s.plastic - s.stripped - s.embedding - s.neighbour_closure;
+    return p.levers.lead * angle - p.start_gap - s.plastic - s.stripped - s.embedding - s.neighbour_closure;
 }
 
 void advance(const MechanisticParameters& p, MechanisticState& s, double angle, double friction_share,

@@ -1,8 +1,8 @@
 // The mechanistic law: one continuous state per joint for tightening and loosening, re-use, yield, stripping
-// and breaking. Sources stand beside each part; what is ours is marked so. All SI.
+// and breaking. Sources stand beside each part; our own assumptions are marked (ours). All SI.
 //
 //   x   closure, m: how far the elastic parts are pressed together; negative while there is a gap.
-//       x = P θ/2π − gap − plastic − stripped − embedding − neighbour closure
+//       x = P θ/2π − start gap − plastic − stripped − embedding − neighbour closure
 //       θ is the nut's angle, P the pitch; the other terms are members of MechanisticState and
 //       MechanisticParameters
 //   F   clamp force, a function of x (seat_spring.hpp) with the compliance δ of VDI 2230 (design.hpp)
@@ -30,7 +30,7 @@ namespace bolt::joint {
 //
 // Voce hardening with an exponent below one, so that the slope is infinite at u = 0 and the torque curve
 // bends into yield without a kink. The scale u_c is fitted so that the load at 0.2 % plastic strain is R_p0.2
-// A_s. The form is ours; it is fitted to the three strengths of ISO 898-1, with half the elongation after
+// A_s. The form (ours) is fitted to the three strengths of ISO 898-1, with half the elongation after
 // fracture as uniform elongation.
 struct PlasticCurve {
     double elastic_load = 0.0;   // L_e, N of equivalent stress × A_s
@@ -58,7 +58,7 @@ struct MechanisticParameters {
     TorqueLevers levers;     // of this bolt, with scatter and without wear
     double mu_thread = 0.0;  // of this bolt
     double kappa = 1.5;
-    double gap = 0.0;  // m, nut face to seat at angle 0
+    double start_gap = 0.0;  // m, nut face to seat at angle 0
     SeatSpring seat;
     PlasticCurve bolt;
     double strip_load = 0.0;      // N, axial load at which the nut's threads shear
@@ -96,7 +96,7 @@ struct MechanisticState {
     double stiffness = 0.0;          // dF/dx of the elastic joint, N/m
     double neighbour_closure = 0.0;  // m by which the other joints of the group press the flange down here
     Stage stage = Stage::navigation;
-    JointCondition condition = JointCondition::sound;
+    JointCondition condition = JointCondition::intact;
 };
 
 // Torque that turns the nut on or off from the present state, and its slope over the angle.
@@ -105,7 +105,7 @@ struct Resistance {
     double loosen = 0.0;         // N·m, negative if the nut holds by itself
     double tighten_slope = 0.0;  // N·m/rad, of the elastic joint
     double loosen_slope = 0.0;
-    double lead = 0.0;  // N·m, the part that is not friction
+    double lead_torque = 0.0;  // N·m, the part that is not friction
 };
 
 Resistance resistance(const MechanisticParameters& p, const MechanisticState& s);

@@ -27,8 +27,8 @@ double next_speed(const Resistance& r, double inertia, NutMotion nut, const Spri
 
 double friction_share_of(const Resistance& r, double torque, double speed) {
     if (speed != 0.0) return speed > 0.0 ? 1.0 : -1.0;
-    const double friction = torque >= r.lead ? r.tighten - r.lead : r.lead - r.loosen;
-    return friction > 0.0 ? std::clamp((torque - r.lead) / friction, -1.0, 1.0) : 0.0;
+    const double friction = torque >= r.lead_torque ? r.tighten - r.lead_torque : r.lead_torque - r.loosen;
+    return friction > 0.0 ? std::clamp((torque - r.lead_torque) / friction, -1.0, 1.0) : 0.0;
 }
 
 NutStep step_rigid(const Resistance& given, double inertia, NutMotion nut, const NutDrive& drive, double dt) {
@@ -100,14 +100,15 @@ NutStep step_clicking(const Resistance& r, double inertia, NutMotion nut, const 
         step.click.swung = swung;
         return step;
     };
-    const NutStep stood = standing_at(drive.swung);
+    const NutStep standing = standing_at(drive.swung);
     const bool armed = drive.swung <= 0.0;
-    const bool goes_on = drive.swung < click.swing && stood.torque > (armed ? click.set_torque : on);
-    const bool goes_back = !armed && stood.torque < back;
-    if (!goes_on && !goes_back) return stood;
-    const double holds = goes_on ? on : back;
-    NutStep step = step_rigid(r, inertia, nut, swinging_drive(drive, holds, dt), dt);
-    const double swung = drive.swung + (step.torque - holds) * dt / (drive.stiffness * click.settling_time);
+    const bool swings_on = drive.swung < click.swing && standing.torque > (armed ? click.set_torque : on);
+    const bool swings_back = !armed && standing.torque < back;
+    if (!swings_on && !swings_back) return standing;
+    const double resisting_torque = swings_on ? on : back;
+    NutStep step = step_rigid(r, inertia, nut, swinging_drive(drive, resisting_torque, dt), dt);
+    const double swung =
+        drive.swung + (step.torque - resisting_torque) * dt / (drive.stiffness * click.settling_time);
     if (swung >= click.swing)
         step = standing_at(click.swing);
     else if (swung <= 0.0)

@@ -72,13 +72,13 @@ PublishedBoundaries published_boundaries(const PublishedParameters& p) {
     return b;
 }
 
-PublishedReading published_read(const PublishedParameters& p, const PublishedState& s, double theta_deg,
-                                Direction direction) {
+PublishedResponse evaluate_published(const PublishedParameters& p, const PublishedState& s, double theta_deg,
+                                     Direction direction) {
     const PublishedBoundaries b = published_boundaries(p);
     const bool virgin = theta_deg >= s.peak_deg;
     // Below the furthest angle the joint follows the elastic line, shifted by the permanent set.
     const double theta = virgin ? theta_deg : theta_deg - s.set_deg;
-    PublishedReading reading;
+    PublishedResponse reading;
 
     if (virgin && theta >= b.yield) {
         reading.stage = Stage::yield;

@@ -3,7 +3,7 @@
 // defaults.
 //
 // The parameters keep the paper's units (mm, N, GPa, rad, N·m), because tests compare with its printed
-// figures; the functions return SI. What the paper leaves open is ours and marked so.
+// figures; the functions return SI. Values that the paper does not give are chosen here and marked (ours).
 #pragma once
 
 #include "engine/base/math.hpp"
@@ -69,15 +69,15 @@ struct PublishedState {
     double set_deg = 0.0;   // permanent shift of the elastic line
 };
 
-struct PublishedReading {
+struct PublishedResponse {
     Stage stage = Stage::navigation;
     double torque = 0.0;  // N·m, with the paper's signs
     double clamp = 0.0;   // N; F_c in the transition, F_b after
 };
 
-// The law's reading at this angle in this direction. Pure.
-PublishedReading published_read(const PublishedParameters& p, const PublishedState& s, double theta_deg,
-                                Direction direction);
+// The law's response at this angle in this direction. Pure.
+PublishedResponse evaluate_published(const PublishedParameters& p, const PublishedState& s, double theta_deg,
+                                     Direction direction);
 
 // Updates peak and set after the nut has moved to theta_deg.
 void published_advance(const PublishedParameters& p, PublishedState& s, double theta_deg);

@@ -12,12 +12,12 @@ enum class Law : std::uint8_t { published, mechanistic };
 //   navigation  the nut turns on its thread and does not press on its seat
 //   transition  the nut reaches its seat: clamp force and torque begin to grow, and grow ever faster
 //   linearity   clamp force and torque grow in proportion to the angle
-//   yield       the bolt stretches for good: the torque grows at most half as fast, or falls. A nut with a
-//               stripped thread is in this stage too.
+//   yield       the bolt stretches permanently: the torque grows at most half as fast as in linearity, or
+//               falls. A nut with a stripped thread is in this stage too.
 enum class Stage : std::uint8_t { navigation, transition, linearity, yield };
 inline constexpr int stage_count = 4;
 
-enum class JointCondition : std::uint8_t { sound, stripped, broken };
+enum class JointCondition : std::uint8_t { intact, stripped, broken };
 
 constexpr std::string_view name(Law law) { return law == Law::published ? "published" : "mechanistic"; }
 
@@ -26,6 +26,7 @@ constexpr std::string_view name(Stage stage) {
     return names[static_cast<int>(stage)];
 }
 
+// As session files store it; the name of `intact` is older.
 constexpr std::string_view name(JointCondition condition) {
     constexpr std::string_view names[] = {"sound", "stripped", "broken"};
     return names[static_cast<int>(condition)];

@@ -14,10 +14,10 @@ namespace bolt::proxy {
 //
 // Coulomb's law is not the optimum of a convex problem: with the cone alone a slipping contact would lift off
 // by friction × slip. De Saxcé's correction (de Saxcé and Feng, Math. Comput. Modelling 28, 1998) compensates
-// this lift as slack, computed from the slip of the last round. This fixed-point iteration diverges between
-// two jaws, where the lift of one side causes slip of the other times a lever; Irons and Tuck's relaxation
-// (Int. J. Numer. Methods Eng. 1, 1969; "Aitken" in Küttler and Wall, Comput. Mech. 43, 2008) makes it
-// converge.
+// this lift as slack, computed from the slip of the last round. This fixed-point iteration diverges for
+// a part between two jaws: the lift at one side, amplified by a lever arm, is slip at the other. Irons and
+// Tuck's relaxation (Int. J. Numer. Methods Eng. 1, 1969; "Aitken" in Küttler and Wall, Comput. Mech. 43,
+// 2008) makes it converge.
 //
 // The forces of contradicting rows grow without bound while the motion converges, so convergence is judged by
 // the motion and not by the forces.
@@ -310,10 +310,10 @@ bool iterate(Problem& p, double full_penalty, bool has_fallback, int& factorisat
     return true;
 }
 
-bool solve_warm(Problem& p, const Vec6& expected, int& factorisations) {
-    p.motion = expected;
+bool solve_warm(Problem& p, const Vec6& initial_guess, int& factorisations) {
+    p.motion = initial_guess;
     p.penalty = penalty_warm;
-    for (std::size_t k = 0; k < p.count; ++k) p.rows[k].slip_slack = slack_for_slip(p.rows[k], expected);
+    for (std::size_t k = 0; k < p.count; ++k) p.rows[k].slip_slack = slack_for_slip(p.rows[k], initial_guess);
     return iterate(p, penalty_warm, true, factorisations);
 }
 
@@ -332,7 +332,7 @@ void solve_cold(Problem& p, int& factorisations) {
 
 ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
                             std::span<const Constraint> constraints, std::span<Vec3> forces,
-                            const std::optional<Twist>& expected) {
+                            const std::optional<Twist>& initial_guess) {
     const double length = std::sqrt(metric.angular / metric.linear);
     Problem p;
     p.count = std::min(constraints.size(), max_constraints);
@@ -347,7 +347,7 @@ ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
     p.wanted = to_vec6(wanted, length);
 
     ConstrainedMotion result;
-    if (!expected || !solve_warm(p, to_vec6(*expected, length), result.factorisations))
+    if (!initial_guess || !solve_warm(p, to_vec6(*initial_guess, length), result.factorisations))
         solve_cold(p, result.factorisations);
     for (std::size_t k = 0; k < p.count; ++k) {
         const double normal = glm::dot(point_motion(p.rows[k], p.motion), p.rows[k].normal);

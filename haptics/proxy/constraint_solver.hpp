@@ -42,7 +42,8 @@ inline double travel(const Twist& twist, double radius) {
 // The same for points that also lie in `box` (in the body's frame), which is a tighter bound for a long tool.
 // The linear part of a point's motion is greatest at a corner of the box; the arc deviates from it by at most
 // half the square of the turn times the radius.
-inline double travel(const Twist& twist, double radius, const Quat& orientation, const collision::Box& box) {
+inline double travel(const Twist& twist, double radius, const Quat& orientation,
+                     const collision::BoundingBox& box) {
     const Quat back = glm::conjugate(orientation);
     const Vec3 linear = back * twist.linear, angular = back * twist.angular;
     double longest = 0.0;
@@ -86,9 +87,9 @@ struct ConstrainedMotion {
 // sliding contact; a contact inside its cone does not slip. Redundant, degenerate and contradicting
 // constraints are allowed. Without friction the result is unique and continuous in all inputs. Bounded work,
 // no allocation; the same inputs give the same bits. `forces`, if not empty, receives the force of each
-// contact, N. `expected` is an initial guess of the result; a good one saves work.
+// contact, N. `initial_guess` is an initial guess of the result; a good one saves work.
 ConstrainedMotion constrain(const Metric& metric, const Twist& wanted,
                             std::span<const Constraint> constraints, std::span<Vec3> forces = {},
-                            const std::optional<Twist>& expected = {});
+                            const std::optional<Twist>& initial_guess = {});
 
 }  // namespace bolt::proxy

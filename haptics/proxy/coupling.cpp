@@ -41,8 +41,8 @@ Coupling make_coupling(const CouplingRange& range) {
     Coupling coupling;
     // N·s/m: permitted increase of the force per millisecond, divided by the speed; unlimited if no force is
     // rendered.
-    const double hardest = range.force > 0.0 ? step_share * range.force / hardest_speed
-                                             : std::numeric_limits<double>::infinity();
+    const double hardest = range.max_force > 0.0 ? step_share * range.max_force / hardest_speed
+                                                 : std::numeric_limits<double>::infinity();
     const Spring straight =
         passive(std::min(range.stiffness, 0.75 * hardest / millisecond), range.damping, range.dt);
     coupling.stiffness = straight.stiffness;
@@ -52,8 +52,8 @@ Coupling make_coupling(const CouplingRange& range) {
     const Spring turning = passive(range.torsion, range.torsion_damping, range.dt);
     coupling.torsion = turning.stiffness;
     coupling.torsion_damping = turning.damping;
-    coupling.force = range.force;
-    coupling.torque = range.torque;
+    coupling.max_force = range.max_force;
+    coupling.max_torque = range.max_torque;
     return coupling;
 }
 
@@ -67,7 +67,7 @@ force::OutputCommand coupling_force(const Coupling& c, const Offset& offset, con
     const Vec3 force = c.stiffness * offset.linear + (c.damping / dt) * (offset.linear - before.linear);
     const Vec3 torque =
         c.torsion * offset.angular + (c.torsion_damping / dt) * (offset.angular - before.angular);
-    return {saturated(force, c.force), saturated(torque, c.torque)};
+    return {saturated(force, c.max_force), saturated(torque, c.max_torque)};
 }
 
 double stored_energy(const Coupling& c, const Offset& offset) {
@@ -76,8 +76,8 @@ double stored_energy(const Coupling& c, const Offset& offset) {
     const auto stored = [](const Vec3& force, double stiffness) {
         return stiffness > 0.0 ? 0.5 * glm::dot(force, force) / stiffness : 0.0;
     };
-    return stored(saturated(c.stiffness * offset.linear, c.force), c.stiffness) +
-           stored(saturated(c.torsion * offset.angular, c.torque), c.torsion);
+    return stored(saturated(c.stiffness * offset.linear, c.max_force), c.stiffness) +
+           stored(saturated(c.torsion * offset.angular, c.max_torque), c.torsion);
 }
 
 }  // namespace bolt::proxy

@@ -13,14 +13,14 @@ struct Coupling {
     double damping = 0.0;          // N·s/m
     double torsion_damping = 0.0;  // N·m·s/rad
     // N and N·m at which the output saturates smoothly. 0: none is rendered.
-    double force = 20.0;
-    double torque = 2.0;
+    double max_force = 20.0;
+    double max_torque = 2.0;
 };
 
 // Capability of a device with a hand on it.
 struct CouplingRange {
-    double force = 20.0;            // N
-    double torque = 2.0;            // N·m; 0: renders none
+    double max_force = 20.0;        // N
+    double max_torque = 2.0;        // N·m; 0: renders none
     double stiffness = 3000.0;      // N/m, greatest stiffness that it may render
     double torsion = 30.0;          // N·m/rad
     double damping = 2.0;           // N·s/m, of device and hand together
@@ -28,11 +28,11 @@ struct CouplingRange {
     double dt = 0.001;              // s
 };
 
-// As stiff as passivity permits with a margin: the damping of device and hand must exceed stiffness × dt / 2
-// plus the coupling's own damping (Colgate and Schenkel, J. Robotic Systems 14(1), 1997). Also such that a
-// collision at 0.5 m/s adds at most a tenth of the greatest force per millisecond. Half of the remaining
-// damping is used. The stiffnesses are positive even if the device renders no force or torque, because they
-// also weight the tool's motions.
+// The coupling is as stiff as passivity permits with a margin: the damping of device and hand must exceed
+// stiffness × dt / 2 plus the coupling's own damping (Colgate and Schenkel, J. Robotic Systems 14(1), 1997).
+// Stiffness and damping are also small enough that a collision at 0.5 m/s raises the force by at most a tenth
+// of the maximum per millisecond. Half of the remaining damping is used. The stiffnesses are positive even if
+// the device renders no force or torque, because they also weight the tool's motions.
 Coupling make_coupling(const CouplingRange& range);
 
 // The constrained pose of the tool relative to the commanded pose.

@@ -30,7 +30,7 @@ struct ContactQuery {
     std::size_t count = 0;
     double nearest = 0.0;
     double limit = 0.0;  // m; nothing except the contacts is nearer
-    std::uint32_t work = 0;
+    std::uint32_t cost = 0;
 };
 
 struct ConstraintSet {
@@ -53,7 +53,7 @@ ContactQuery query_contacts(ContactFinder finder, const Pose& pose, double band)
     const collision::ContactQueryResult found = finder(pose, band, query.contacts);
     query.count = std::min(found.count, query.contacts.size());
     query.limit = query.nearest = found.complete_within;
-    query.work = found.work;
+    query.cost = found.query_cost;
     for (std::size_t i = 0; i < query.count; ++i)
         query.nearest = std::min(query.nearest, query.contacts[i].distance);
     return query;
@@ -70,8 +70,8 @@ class Stepper {
           finder_(finder),
           dt_(dt),
           pose_(before.constrained_tool),
-          expected_(before.first_motion),
-          recovery_left_(parameters.recovery * dt) {}
+          guess_(before.first_motion),
+          recovery_left_(parameters.recovery_speed * dt) {}
 
     GodObjectStep run() {
         const double displacement = path_bound(twist_between(before_.commanded_tool, commanded_tool_));
@@ -94,9 +94,9 @@ class Stepper {
 
     [[nodiscard]] const Pose& pose() const { return pose_; }
     [[nodiscard]] Twist first_motion() const { return first_motion_.value_or(Twist{}); }
-    [[nodiscard]] force::OutputCommand own_change_of(const force::OutputCommand& felt) const {
-        return {force_.own_change_of(felt.force - before_.felt.force),
-                torque_.own_change_of(felt.torque - before_.felt.torque)};
+    [[nodiscard]] force::OutputCommand tool_change_of(const force::OutputCommand& rendered) const {
+        return {force_.tool_change_of(rendered.force - before_.rendered.force),
+                torque_.tool_change_of(rendered.torque - before_.rendered.torque)};
     }
 
   private:
@@ -113,20 +113,20 @@ class Stepper {
     // Queries the contacts at a pose. A wide band is expensive, so it is wider than a stride only if the
     // surroundings may be free that far; one query then suffices for the whole tick.
     ContactQuery query(const Pose& pose, double free = 0.0) {
-        const double band = std::clamp(free, p_.stride, p_.reach);
+        const double band = std::clamp(free, p_.stride, p_.max_band);
         const ContactQuery found = query_contacts(finder_, pose, band + p_.skin + query_margin);
         // The first query, at the pose where the last tick ended, is not charged if its band is one stride: a
-        // finder with a cache returns its contacts without work, and without a cache it must not cost motion.
+        // finder with a cache returns its contacts without cost, and without a cache it must not cost motion.
         // A wider band is charged, because it replaces later queries.
-        if (++step_.queries > 1 || band > p_.stride) charged_work_ += found.work;
-        step_.work += found.work;
+        if (++step_.queries > 1 || band > p_.stride) charged_cost_ += found.cost;
+        step_.query_cost += found.cost;
         return found;
     }
 
-    // Before the first motion of a tick the work is unlimited, because obstacles found by rejected motions
+    // Before the first motion of a tick the cost is unlimited, because obstacles found by rejected motions
     // are not remembered in the next tick.
     [[nodiscard]] bool may_query() const {
-        return step_.queries < p_.queries && (charged_work_ < p_.work || !has_moved_);
+        return step_.queries < p_.max_queries && (charged_cost_ < p_.max_query_cost || !has_moved_);
     }
 
     Twist solve(const Twist& wanted, const ConstraintSet& rows) {
@@ -134,11 +134,11 @@ class Stepper {
         if (rows.count > 0) {
             const Metric metric{p_.coupling.stiffness, p_.coupling.torsion};
             const auto all = std::span(rows.rows).first(rows.count);
-            motion = constrain(metric, wanted, all, {}, expected_).motion;
+            motion = constrain(metric, wanted, all, {}, guess_).motion;
             ++step_.solves;
         }
         if (!first_motion_) first_motion_ = motion;
-        expected_ = motion;
+        guess_ = motion;
         return motion;
     }
 
@@ -192,13 +192,15 @@ class Stepper {
         }
     }
 
-    // Limits of the change of the rendered force or torque in this tick. Permitted are the change due to the
-    // hand's motion and its projections (contacts constrain some directions only; by Thales the projections
-    // lie in the ball whose diameter is that change), plus `any_direction`, plus a part along the
-    // trend of the last tick.
+    // Limits of the change of the rendered force or torque in this tick. The permitted change is the sum of
+    // three parts:
+    //   - the change due to the hand's motion, or a projection of it, because contacts constrain some
+    //     directions only. By Thales the projections lie in the ball whose diameter is that change;
+    //   - up to `any_direction` in every direction;
+    //   - a part along the trend of the last tick.
     struct ForceChangeLimit {
         Vec3 hand{0.0};              // change due to the hand's motion with the tool held
-        Vec3 trend{0.0};             // permitted change along the direction of the last tick's own change
+        Vec3 trend{0.0};             // permitted change along the tool's part of the last tick's change
         double any_direction = 0.0;  // permitted change in any direction
         double total_limit = 0.0;    // limit of the whole change
 
@@ -214,7 +216,7 @@ class Stepper {
             return std::max(excess(change) / std::max(any_direction, 1e-9),
                             glm::length(change) / std::max(total_limit, 1e-9));
         }
-        [[nodiscard]] Vec3 own_change_of(const Vec3& change) const {
+        [[nodiscard]] Vec3 tool_change_of(const Vec3& change) const {
             const Vec3 from = change - 0.5 * hand;
             const double size = glm::length(from), own = 0.5 * glm::length(hand);
             return size > own ? from * (1.0 - own / size) : Vec3(0.0);
@@ -223,15 +225,15 @@ class Stepper {
     [[nodiscard]] ForceChangeLimit change_limit(const Vec3& hand, const Vec3& before, double present,
                                                 double greatest) const {
         const double ms = dt_ / 1e-3;
-        const double own_change =
-            ms * std::max(p_.rate_limits.of_rendered * present, p_.rate_limits.of_maximum * greatest);
+        const double tool_change = ms * std::max(p_.rate_limits.tool_share_of_rendered * present,
+                                                 p_.rate_limits.tool_share_of_maximum * greatest);
         // While the tool is pushed out of an obstacle only the total limit applies.
-        const double most = p_.rate_limits.maximum * greatest * ms;
-        const double any_direction = p_.rate_limits.any_direction_share * own_change,
-                     along = own_change - any_direction;
+        const double most = p_.rate_limits.total_share_of_maximum * greatest * ms;
+        const double any_direction = p_.rate_limits.any_direction_share * tool_change,
+                     along = tool_change - any_direction;
         const double was = glm::length(before);
         return {hand, was > along ? before * (along / was) : before, any_direction,
-                recovering_ ? most : std::min(most, own_change + glm::length(hand))};
+                recovering_ ? most : std::min(most, tool_change + glm::length(hand))};
     }
 
     void set_change_limits() {
@@ -239,16 +241,16 @@ class Stepper {
         // The change that the hand's motion would cause with the tool held in place.
         const force::OutputCommand if_held = proxy::coupling_force(
             c, proxy::offset_between(commanded_tool_, before_.constrained_tool), before_.offset, dt_);
-        force_ = change_limit(if_held.force - before_.felt.force, before_.own_change.force,
-                              glm::length(before_.felt.force), c.force);
-        torque_ = change_limit(if_held.torque - before_.felt.torque, before_.own_change.torque,
-                               glm::length(before_.felt.torque), c.torque);
+        force_ = change_limit(if_held.force - before_.rendered.force, before_.tool_change.force,
+                              glm::length(before_.rendered.force), c.max_force);
+        torque_ = change_limit(if_held.torque - before_.rendered.torque, before_.tool_change.torque,
+                               glm::length(before_.rendered.torque), c.max_torque);
     }
 
     [[nodiscard]] force::OutputCommand change(const Twist& motion) const {
-        const force::OutputCommand felt = proxy::coupling_force(
+        const force::OutputCommand rendered = proxy::coupling_force(
             p_.coupling, proxy::offset_between(commanded_tool_, moved(pose_, motion)), before_.offset, dt_);
-        return {felt.force - before_.felt.force, felt.torque - before_.felt.torque};
+        return {rendered.force - before_.rendered.force, rendered.torque - before_.rendered.torque};
     }
 
     // The largest share ≤ `share` with `utilisation` ≤ 1; if there is none, the share with the smallest.
@@ -321,7 +323,7 @@ class Stepper {
         last_motion_ = motion;
         has_moved_ = true;
         // The remaining motion.
-        expected_ = {expected_.linear - motion.linear, expected_.angular - motion.angular};
+        guess_ = {guess_.linear - motion.linear, guess_.angular - motion.angular};
         recovery_left_ -= std::clamp(p_.skin - current_query_.nearest, 0.0, recovery_left_);
         pose_ = pose;
     }
@@ -379,10 +381,10 @@ class Stepper {
     ContactQuery current_query_;
     bool recovering_ = false;
     Twist last_motion_;  // the last motion of this tick
-    Twist expected_;     // initial guess of the next solve
+    Twist guess_;        // initial guess of the next solve
     std::optional<Twist> first_motion_;
     bool has_moved_ = false;
-    std::uint32_t charged_work_ = 0;  // work charged to this tick's budget
+    std::uint32_t charged_cost_ = 0;  // cost charged to this tick's budget
     double recovery_left_ = 0.0;      // m of recovery left in this tick
     GodObjectStep step_;
 };
@@ -404,9 +406,10 @@ GodObjectStep step_god_object(const GodObjectParameters& parameters, GodObjectSt
     state.constrained_tool = stepper.pose();
     state.first_motion = stepper.first_motion();
     const proxy::Offset offset = proxy::offset_between(commanded_tool, state.constrained_tool);
-    const force::OutputCommand felt = proxy::coupling_force(parameters.coupling, offset, state.offset, dt);
-    state.own_change = stepper.own_change_of(felt);
-    state.felt = felt;
+    const force::OutputCommand rendered =
+        proxy::coupling_force(parameters.coupling, offset, state.offset, dt);
+    state.tool_change = stepper.tool_change_of(rendered);
+    state.rendered = rendered;
     state.offset = offset;
     state.commanded_tool = commanded_tool;
     state.nearest_contact = step.contacts == 0 ? std::numeric_limits<double>::infinity() : step.nearest;

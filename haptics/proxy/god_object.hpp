@@ -22,31 +22,32 @@ namespace bolt::proxy {
 using ContactFinder =
     FunctionRef<collision::ContactQueryResult(const Pose&, double band, std::span<collision::Contact>)>;
 
-inline constexpr std::size_t max_contacts = 32;  // room that the finder gets
+inline constexpr std::size_t max_contacts = 32;  // capacity of the finder's output
 
-// Limits on the change of the rendered force in a millisecond. The change has two parts:
+// Limits on the change of the rendered force per millisecond. The change has two parts:
 //
-//   by the hand   the change that the hand's motion causes if the constrained tool stands still
-//   by the tool   the rest: the constrained tool itself moves, because it slips or falls off an edge
+//   the hand's part   the change that the hand's motion causes while the constrained tool stands still
+//   the tool's part   the rest: the constrained tool itself moves, because it slips or falls off an edge
 //
-// The part by the tool is limited to the greater of `of_rendered` and `of_maximum`. Both parts together are
-// limited to `maximum`. People notice a step of 7 %. While the tool is pushed out of an obstacle that moved
-// into it, only `maximum` applies. The same limits hold for the torque, with the rendered and the greatest
-// torque.
+// The tool's part is limited to the greater of its two shares. Both parts together are limited to
+// `total_share_of_maximum`. People notice a step of 7 %. While the tool is pushed out of an obstacle that
+// moved into it, only the total limit applies. The same limits hold for the torque, with the rendered and the
+// greatest torque.
 struct ForceRateLimits {
-    double of_rendered = 0.05;  // share of the rendered force
-    double of_maximum = 0.005;  // share of the greatest force; the greater of the two if little is rendered
-    double maximum = 0.08;      // share of the greatest force
-    // Share of the limit by the tool that is permitted in any direction. The rest is permitted only along the
-    // tool's part of the last tick: a change that alternates from tick to tick would be felt as trembling.
+    double tool_share_of_rendered = 0.05;  // of the rendered force
+    double tool_share_of_maximum = 0.005;  // of the greatest force; applies if little is rendered
+    double total_share_of_maximum = 0.08;  // of the greatest force
+    // Share of the limit of the tool's part that applies in every direction. The rest of the limit applies
+    // only along the tool's part of the last tick, because a change that alternates from tick to tick is felt
+    // as trembling.
     double any_direction_share = 0.3;
 };
 
 struct GodObjectParameters {
     proxy::Coupling coupling;
     ForceRateLimits rate_limits;
-    double radius = 0.3;                // m; bounds the distance of the tool's points from its origin
-    std::optional<collision::Box> box;  // bounds the tool as well, in its own frame
+    double radius = 0.3;                        // m; bounds the distance of the tool's points from its origin
+    std::optional<collision::BoundingBox> box;  // bounds the tool as well, in its own frame
     double friction_coefficient = 0.15;
     // m, kept between tool and obstacles. Features between the finder's samples are detected up to 0.19 mm
     // late as measured (bolt-contact-validation, on the ZQ350), so the penetration stays below 0.1 mm.
@@ -54,14 +55,14 @@ struct GodObjectParameters {
     // m, how far a point of the tool may move until the next query. It may move further only if the last
     // query found no obstacle within that distance.
     double stride = 0.4e-3;
-    double reach = 5e-3;     // m, widest band of a query
-    double recovery = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
-    // Budget per tick: the number of queries, and their work (ContactQueryResult::work). The work of the
-    // first query, at the pose of the last tick, is charged only if its band is wider than a stride, and
-    // `work` limits only queries after the tick's first motion. Once the budget is spent, the tool moves only
-    // as far as earlier queries proved free, and continues in the next tick.
-    int queries = 5;
-    std::uint32_t work = 800;
+    double max_band = 5e-3;        // m, widest band of a query
+    double recovery_speed = 0.25;  // m/s, at which the tool is pushed out of an obstacle that moved into it
+    // Budget per tick: the number of queries, and their cost (ContactQueryResult::query_cost). The cost of
+    // the first query, at the pose of the last tick, is charged only if its band is wider than a stride, and
+    // `max_query_cost` limits only queries after the tick's first motion. Once the budget is spent, the tool
+    // moves only as far as earlier queries proved free, and continues in the next tick.
+    int max_queries = 5;
+    std::uint32_t max_query_cost = 800;
 };
 
 struct GodObjectState {
@@ -69,8 +70,8 @@ struct GodObjectState {
     // Values of the last tick.
     Pose commanded_tool;
     proxy::Offset offset;
-    force::OutputCommand felt;        // N and N·m, rendered by the coupling
-    force::OutputCommand own_change;  // part of its change that the hand's motion did not cause
+    force::OutputCommand rendered;     // N and N·m, by the coupling
+    force::OutputCommand tool_change;  // the tool's part of its change (ForceRateLimits)
     // m, nearest contact; infinite without contacts.
     double nearest_contact = std::numeric_limits<double>::infinity();
     Twist first_motion;  // first constrained motion of the tick; warm-starts the next solve
@@ -81,7 +82,7 @@ struct GodObjectStep {
     double nearest = 0.0;      // m; lower bound of the distance at the pose of the last query
     std::size_t contacts = 0;  // within the band at that pose
     int queries = 0;
-    std::uint32_t work = 0;  // cost of the queries
+    std::uint32_t query_cost = 0;
     int solves = 0;
     bool budget_exhausted = false;  // the query budget ended before the tool reached its constrained pose
     bool rate_limited = false;      // the motion was shortened to limit the change of force

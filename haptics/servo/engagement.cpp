@@ -9,13 +9,13 @@ namespace bolt::servo {
 
 namespace {
 
-constexpr double centring = 1.5e-3;       // m, radial offset up to which a jaw slides onto the nut
-constexpr double squareness = 0.9976;     // cos 4°
-constexpr double finger_reach = 0.012;    // m from fingertips to nut centre
-constexpr double tilted_off = 0.866;      // cos 30°; a jaw that is tilted more releases the nut
-constexpr double along_axis = 0.8;        // handle · axis above which the azimuth is ill-conditioned
-constexpr double leap = 0.35;             // rad in a tick, faster than any hand
-constexpr double hold_relaxation = 0.05;  // s
+constexpr double centring = 1.5e-3;         // m, radial offset up to which a jaw slides onto the nut
+constexpr double squareness = 0.9976;       // cos 4°
+constexpr double finger_reach = 0.012;      // m from fingertips to nut centre
+constexpr double tilted_off = 0.866;        // cos 30°; a jaw that is tilted more releases the nut
+constexpr double along_axis = 0.8;          // handle · axis above which the azimuth is ill-conditioned
+constexpr double max_turn_per_tick = 0.35;  // rad in a tick, faster than any hand
+constexpr double hold_relaxation = 0.05;    // s
 
 struct NutOffset {
     double axial = 0.0;   // m, along the nut's axis
@@ -94,7 +94,7 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
         const double azimuth = tool_azimuth(setup, nut, tool, grip);
         const double turned = wrap(azimuth - e.azimuth, 2.0 * pi);
         if (grip == e.grip && !pulled_away(nut, o, grip) && !tilted_away(nut, tool, grip) &&
-            std::abs(turned) < leap) {
+            std::abs(turned) < max_turn_per_tick) {
             e.hand_angle += turned;
             e.azimuth = azimuth;
             e.offset_at_engagement *= 1.0 - setup.dt / hold_relaxation;
@@ -123,15 +123,16 @@ void update_pose_engagement(const Setup& setup, std::span<const joint::JointStat
 
 namespace {
 
-constexpr double tolerance = 1e-3;  // rad; the god-object's tolerance of micrometres at half a flat's length
-constexpr double near = 0.1;        // m from jaw to nut beyond which a nut is skipped
+// rad; angle that corresponds to a few micrometres (the god-object's tolerance) at half a flat's length.
+constexpr double tolerance = 1e-3;
+constexpr double near = 0.1;          // m from jaw to nut beyond which a nut is skipped
 constexpr double least_limit = 1e-9;  // N·m; NutDrive::torque_limit 0 means unlimited
 
 // Modelling assumptions: a jaw slips off a corner once it has turned by its whole backlash beyond the
 // corner's torque, but not faster than an elastic wrench swings back.
-constexpr double climbed_off = 2.0;      // half plays
-constexpr double swing_back = 0.02;      // s
-constexpr double least_height = 0.2e-3;  // m, lower bound of the rounded height
+constexpr double slip_off_half_plays = 2.0;  // half plays
+constexpr double least_slip_time = 0.02;     // s
+constexpr double least_height = 0.2e-3;      // m, lower bound of the rounded height
 
 double corner_torque(const Setup& setup, const NutGeometry& nut, double rounded, const Engagement& e) {
     const double clearance = 0.5 * (setup.wrench.jaw.opening - nut.across_flats);
@@ -177,7 +178,7 @@ void update_jaw_engagement(const Setup& setup, std::span<const joint::JointState
         const double azimuth = azimuth_of(setup, setup.nuts[i], tool);
         const double turned = wrap(azimuth - e.azimuth, 2.0 * pi);
         e.fit = fit_on(i);
-        if (e.grip == Grip::wrench && e.fit.surrounds(jaw.opening) && std::abs(turned) < leap) {
+        if (e.grip == Grip::wrench && e.fit.surrounds(jaw.opening) && std::abs(turned) < max_turn_per_tick) {
             e.hand_angle += turned;
             e.azimuth = azimuth;
             return;
@@ -219,16 +220,17 @@ bool round_corners(const Setup& setup, const NutGeometry& nut, const joint::Join
     if (std::abs(joint.torque) < 0.999 * limit) return false;
     const double wound = e.hand_angle - e.swung - joint.nut.angle;
     const double beyond = std::abs(wound) - play - whole / setup.wrench.stiffness;
-    const double turned = std::max(0.0, beyond - e.yielded);
-    e.yielded = std::max(e.yielded, beyond);
+    const double turned = std::max(0.0, beyond - e.turned_beyond_corner_torque);
+    e.turned_beyond_corner_torque = std::max(e.turned_beyond_corner_torque, beyond);
     // The work removes corner material: at two corners, a triangle with two sides of `rounded` that enclose
     // 120°.
     const double area = std::sqrt(3.0) / 4.0, height = std::max(e.fit.overlap, least_height);
     rounded = std::sqrt(square(rounded) + limit * turned / (2.0 * area * height * nut.corner_pressure));
     rounded = std::min(rounded, prism_of(nut).half_side());
-    const double bearing = 1.0 - e.yielded / (climbed_off * std::max(play, tolerance));
+    const double bearing =
+        1.0 - e.turned_beyond_corner_torque / (slip_off_half_plays * std::max(play, tolerance));
     e.corner_torque_share =
-        std::clamp(bearing, e.corner_torque_share - setup.dt / swing_back, e.corner_torque_share);
+        std::clamp(bearing, e.corner_torque_share - setup.dt / least_slip_time, e.corner_torque_share);
     if (e.corner_torque_share > 0.0) return false;
     e = {};
     return true;

@@ -41,7 +41,7 @@ struct Engagement {
     // Wrench with contact simulation.
     collision::JawFit fit;
     double corner_torque_share = 1.0;  // 0 … 1, of the corner torque that remains while the jaw slips
-    double yielded = 0.0;              // rad turned beyond the corner torque
+    double turned_beyond_corner_torque = 0.0;  // rad
 };
 
 // Centre of the nut in the assembly's frame, m, at `nut_angle` rad.

@@ -31,11 +31,11 @@ inline CommandedTool to_commanded_tool(const Pose& tool) {
     return commanded;
 }
 
-// Values of Input::checkpoint_action: `save_checkpoint` stores the state of all nuts, and the last
+// Values of TickInput::checkpoint_action: `save_checkpoint` stores the state of all nuts, and the last
 // `max_checkpoints` are kept; n = 1 … max_checkpoints restores the n-th last checkpoint, which undoes steps.
 inline constexpr std::uint8_t max_checkpoints = 8, save_checkpoint = 255;
 
-struct Input {
+struct TickInput {
     CommandedTool commanded_tool;
     Grip grip = Grip::none;
     bool dead_man = false;    // the dead-man switch is held; otherwise the output is zero
@@ -45,8 +45,8 @@ struct Input {
     bool stop = false;   // emergency stop pressed; latches until `reset`
     bool reset = false;  // releases the stop if neither dead-man switch nor stop is pressed
     std::uint8_t missed = 0;  // deadlines without a tick since the last tick, at most 15
-    // A value from above; 0: none. A restore is ignored while a nut is held or the tool is within 12 cm of a
-    // nut.
+    // One of the values above `TickInput`; 0: none. A restore is ignored while a nut is held or the tool is
+    // within 12 cm of a nut.
     std::uint8_t checkpoint_action = 0;
     // N·m on the scale of a click-type torque wrench; 0: it does not click. Ignored from the click until the
     // wrench leaves the nut.

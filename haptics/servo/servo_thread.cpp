@@ -206,7 +206,8 @@ Result<ServoThread> ServoThread::start(const ThreadOptions& options, Tick tick) 
         shared->thread = std::thread([s = shared.get()] { s->run(); });
     } catch (const std::system_error& error) {
         if (shared->privileges.memory_locked) munlockall();
-        return fail(ErrorCode::failed, fmt::format("servo: the thread cannot be created: {}", error.what()));
+        return fail(ErrorCode::failed, fmt::format("servo: the thread cannot be created: {}", error.what()),
+                    "a system that permits another thread");
     }
     ready.wait();
     return ServoThread(std::move(shared));

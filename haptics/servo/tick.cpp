@@ -111,30 +111,30 @@ force::ForceRequest release_request(const Setup& setup, ReleaseFade& release_fad
 }
 
 // The work (J) of the guiding force on the motion of the commanded tool relative to the constrained one. The
-// guiding force acts on the hand but is a potential of the constrained pose; where contacts hold the tool
-// back the two differ, and the difference counts as injected energy.
-double relative_work(const force::OutputCommand& help, const Pose& commanded_before,
+// guiding force acts on the hand, but derives from a potential of the constrained pose; where contacts hold
+// the tool back the two differ, and the difference counts as injected energy.
+double relative_work(const force::OutputCommand& guiding, const Pose& commanded_before,
                      const Pose& commanded_now, const Pose& constrained_before, const Pose& constrained_now) {
     const Vec3 relative = (commanded_now.position - commanded_before.position) -
                           (constrained_now.position - constrained_before.position);
-    return glm::dot(help.force, relative) +
-           glm::dot(help.torque,
+    return glm::dot(guiding.force, relative) +
+           glm::dot(guiding.torque,
                     turn_between(commanded_before.orientation, commanded_now.orientation) -
                         turn_between(constrained_before.orientation, constrained_now.orientation));
 }
 
 // The aligning torque for a device that renders none, as a force at the end of the wrench: a wrench near a
 // bolt turns with the end of its handle.
-force::OutputCommand as_force_at_lever_end(const Setup& setup, const force::OutputCommand& help,
+force::OutputCommand as_force_at_lever_end(const Setup& setup, const force::OutputCommand& guiding,
                                            const ToolPose& tool) {
-    if (setup.wrench.handle_length <= 0.0) return help;
-    return {help.force + glm::cross(help.torque, tool.handle) / setup.wrench.handle_length, Vec3(0.0)};
+    if (setup.wrench.handle_length <= 0.0) return guiding;
+    return {guiding.force + glm::cross(guiding.torque, tool.handle) / setup.wrench.handle_length, Vec3(0.0)};
 }
 
 constexpr double undo_clearance = 0.12;  // m between tool and nuts; an undo moves the nuts in one tick
 
-// Saves or restores a checkpoint (Input::checkpoint_action). Returns the number of the restored checkpoint, 0
-// if none. The change of energy is not work of the hand.
+// Saves or restores a checkpoint (TickInput::checkpoint_action). Returns the number of the restored
+// checkpoint, 0 if none. The change of energy is not work of the hand.
 std::uint8_t update_checkpoints(const Setup& setup, State& state, const ToolPose& tool, std::uint8_t action) {
     if (action == save_checkpoint) {
         Checkpoint& checkpoint = state.checkpoints.at(state.checkpoint_count++ % max_checkpoints);
@@ -165,13 +165,13 @@ State initial_state(const Setup& setup) {
     return state;
 }
 
-Output tick(const Setup& setup, State& state, const Input& input) {
+Output tick(const Setup& setup, State& state, const TickInput& input) {
     return tick(setup, state, input, [&](const Vec3& from, const Vec3& to) {
         return !state.tool_contact || !occluded(*state.tool_contact, from, to, input.guide);
     });
 }
 
-Output tick(const Setup& setup, State& state, const Input& input, force::IsSegmentFree free) {
+Output tick(const Setup& setup, State& state, const TickInput& input, force::IsSegmentFree free) {
     const FlushDenormals flush;
     const ToolPose commanded_tool = pose_of(input.commanded_tool);
     const std::uint8_t undone =
@@ -213,12 +213,12 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
     force::ForceRequest request;
     // The guiding force fades out if a nut is engaged or the sample is not a pose.
     const bool guides = engaged < 0 && constrained_tool.valid && input.dead_man;
-    force::ForceRequest help =
+    force::ForceRequest guiding =
         force::guide(setup.guiding, state.guide, guided_tool(setup, constrained_tool),
                      guide_target(setup, state.joints, guides ? input.guide : -1), free, setup.dt);
     if (setup.limits.torque <= 0.0 && grip == Grip::wrench)
-        help.command = as_force_at_lever_end(setup, help.command, constrained_tool);
-    state.guiding_command = help.command;
+        guiding.command = as_force_at_lever_end(setup, guiding.command, constrained_tool);
+    state.guiding_command = guiding.command;
     if (held_by_spring_before && engaged != engaged_before) state.release_fade = {state.hold_target, 1.0};
     if (!constrained_tool.valid || !input.dead_man) state.release_fade.share = 0.0;
     const force::ForceRequest released = release_request(setup, state.release_fade, constrained_tool);
@@ -238,13 +238,13 @@ Output tick(const Setup& setup, State& state, const Input& input, force::IsSegme
         output.clamp = joint.clamp;
     }
     if (constrained_tool.valid)
-        for (const force::ForceRequest& more : {help, contact_request, released}) {
+        for (const force::ForceRequest& more : {guiding, contact_request, released}) {
             request.command.force += more.command.force;
             request.command.torque += more.command.torque;
             request.stored_energy += more.stored_energy;
             request.injected_energy += more.injected_energy;
         }
-    force::PortInput port;
+    force::DeviceInput port;
     // A device without torque output applies its force at the end of the handle.
     const double lever_arm = setup.limits.torque > 0.0 ? 0.0 : setup.wrench.handle_length;
     port.pose = {commanded_tool.position + lever_arm * commanded_tool.handle, commanded_tool.orientation};

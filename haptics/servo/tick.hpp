@@ -53,8 +53,8 @@ State initial_state(const Setup& setup);
 // One tick. `free` returns true if the straight segment between two points is free; the guiding force plans
 // with it. The first overload queries State::tool_contact, so without contact simulation every segment is
 // free.
-Output tick(const Setup& setup, State& state, const Input& input);
-Output tick(const Setup& setup, State& state, const Input& input, force::IsSegmentFree free);
+Output tick(const Setup& setup, State& state, const TickInput& input);
+Output tick(const Setup& setup, State& state, const TickInput& input, force::IsSegmentFree free);
 
 // The tool as the guiding force sees it (haptics/force/guide.hpp).
 force::GuidedTool guided_tool(const Setup& setup, const ToolPose& tool);

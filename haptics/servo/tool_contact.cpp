@@ -54,17 +54,17 @@ void update_nut_poses(const Setup& setup, ToolContact& contact, std::span<const 
         if (!contact.nut_bodies[i]) continue;
         collision::Body& body = contact.world.bodies[*contact.nut_bodies[i]];
         body.pose = place;
-        const bool on =
+        const bool enabled =
             !held || !only_jaw_in_reach(setup, setup.nuts[i], place, contact.god_object.constrained_tool);
         contact.cache.meshes_unchanged =
-            contact.cache.meshes_unchanged && on == body.on && (unchanged || !on);
-        body.on = on;
+            contact.cache.meshes_unchanged && enabled == body.enabled && (unchanged || !enabled);
+        body.enabled = enabled;
     }
 }
 
-// The pose of a in_jaw nut as the jaw meets it: turned with the jaw beyond the play, less a margin that
-// leaves both flanks their skin. Two flanks pressed at once would be contradictory constraints with unlimited
-// friction.
+// The pose of the nut in the jaw that contact queries use: beyond the play it turns with the jaw, less a
+// margin that leaves a skin on each flank. Two flanks pressed at once would be contradictory constraints with
+// unlimited friction.
 Pose hexagon_pose_in_jaw(const Setup& setup, const NutGeometry& nut, const Pose& place, const Pose& wrench) {
     const double off =
         collision::jaw_fit(setup.wrench.jaw, prism_of(nut), inverse(place) * wrench).misalignment;
@@ -136,7 +136,7 @@ collision::ContactQueryResult find_contacts_cached(const Setup& setup, ToolConta
         last.nuts = find_jaw_contacts(setup, contact, pose, band, out);
     const auto rest = out.subspan(last.nuts.count);
     collision::ContactQueryResult found = last.meshes;
-    found.work = 0;
+    found.query_cost = 0;
     if (same_query && last.meshes_unchanged && last.nuts.count == jaw_contacts_before)
         std::copy_n(kept.begin() + static_cast<std::ptrdiff_t>(jaw_contacts_before), found.count,
                     rest.begin());
@@ -174,8 +174,8 @@ collision::ObstacleId touched_obstacle(std::span<const collision::Contact> conta
 
 void set_coupling(const Setup& setup, ToolContact& contact) {
     proxy::CouplingRange range;
-    range.force = setup.limits.force;
-    range.torque = setup.limits.torque;
+    range.max_force = setup.limits.force;
+    range.max_torque = setup.limits.torque;
     range.stiffness = setup.limits.stiffness;
     // A device without torque has no limit of its own, but the god-object needs a spring to choose between
     // turning and moving the tool.
@@ -189,7 +189,7 @@ void set_coupling(const Setup& setup, ToolContact& contact) {
 Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescription& d) {
     ToolContact contact;
     std::vector<collision::Obstacle> obstacles;
-    for (const collision::ContactMesh& mesh : d.still)
+    for (const collision::ContactMesh& mesh : d.fixed)
         obstacles.push_back({collision::ObstacleId::fixed(obstacles.size()), &mesh, {}, false});
     for (std::size_t i = 0; i < d.nuts.size() && i < setup.nuts.size(); ++i)
         if (!d.nuts[i].triangles.empty())
@@ -212,7 +212,7 @@ Result<ToolContact> make_tool_contact(const Setup& setup, const ToolContactDescr
     contact.narrow_phase = collision::make_narrow_phase(contact.world, contact.wrench);
 
     set_coupling(setup, contact);
-    contact.parameters.radius = contact.wrench.reach();
+    contact.parameters.radius = contact.wrench.origin_radius();
     contact.parameters.box = contact.wrench.solid.box;
     contact.parameters.friction_coefficient = d.friction_coefficient;
     return contact;
@@ -244,7 +244,7 @@ force::ForceRequest step_tool_contact(const Setup& setup, ToolContact& contact,
     contact.last_step =
         proxy::step_god_object(contact.parameters, contact.god_object, commanded_tool, finder, setup.dt);
     force::ForceRequest request;
-    request.command = contact.god_object.felt;
+    request.command = contact.god_object.rendered;
     request.stored_energy = proxy::stored_energy(contact.parameters.coupling, contact.god_object.offset);
     return request;
 }

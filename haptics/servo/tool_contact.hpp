@@ -3,8 +3,8 @@
 // hand feels the coupling between the commanded and the constrained pose.
 //
 // Contact between jaw and nut is closed form (haptics/collision/jaw.hpp), from the first contact until the
-// jaw is clear of the nut. Any other part of the wrench meets the nut's mesh; all other obstacles meet the
-// wrench's meshes.
+// jaw is clear of the nut. The other parts of the wrench are tested against the nut's mesh, and the whole
+// wrench against all other obstacles.
 #pragma once
 
 #include <array>
@@ -18,10 +18,11 @@
 
 namespace bolt::servo {
 
-// Static obstacles are in the assembly's frame, nuts in their own (nut_pose in setup.hpp).
+// Fixed obstacles are in the assembly's frame, nuts in their own (nut_pose in setup.hpp).
 struct ToolContactDescription {
-    std::span<const collision::ContactMesh> still;
-    std::span<const collision::ContactMesh> nuts;    // by joint; a mesh without triangles meets the jaw only
+    std::span<const collision::ContactMesh> fixed;
+    // By joint. An empty mesh: this nut is tested against the jaw only.
+    std::span<const collision::ContactMesh> nuts;
     std::span<const collision::ContactMesh> wrench;  // in the tool's frame
     double friction_coefficient = 0.15;              // steel on painted iron with a film of oil
 };

@@ -12,7 +12,7 @@ constexpr double rest_motion = to_radians(0.02);      // rad; less is rest
 constexpr double rest_time = 0.1;                     // s of rest until a nut counts as stuck
 constexpr double breakaway_motion = to_radians(0.1);  // rad by which a stuck nut breaks away
 constexpr double yield_pause = 0.3;                   // s without yield until it may be shown again
-constexpr double tick_wait = 0.02;                    // s; a late tick would feel like another one
+constexpr double detent_wait = 0.02;                  // s; a late detent would feel like another one
 
 std::size_t index_of(VibrationCue cue) { return static_cast<std::size_t>(cue); }
 
@@ -23,10 +23,10 @@ bool is_valid(const VibrationInput& input) {
 
 const VibrationPulse& pulse_of(const VibrationOptions& options, VibrationCue cue) {
     switch (cue) {
-        case VibrationCue::tick:
-            return options.tick;
-        case VibrationCue::bump:
-            return options.bump;
+        case VibrationCue::detent:
+            return options.detent;
+        case VibrationCue::strike:
+            return options.strike;
         case VibrationCue::breakaway:
             return options.breakaway;
         case VibrationCue::seat:
@@ -37,10 +37,10 @@ const VibrationPulse& pulse_of(const VibrationOptions& options, VibrationCue cue
             return options.slip;
         case VibrationCue::click:
             return options.click;
-        case VibrationCue::load:
+        case VibrationCue::load_pulse:
             break;
     }
-    return options.load;
+    return options.load_pulse;
 }
 
 // `scale`: 0 … 1, of the amplitude. Of two equal events that wait, the stronger one is shown.
@@ -59,8 +59,8 @@ double share_of(const VibrationInput& input) {
     return input.target > 0.0 ? std::abs(input.torque) / input.target : 0.0;
 }
 
-double notch_below(const VibrationOptions& options, double angle) {
-    return options.tick_angle * std::floor(angle / options.tick_angle);
+double detent_below(const VibrationOptions& options, double angle) {
+    return options.detent_angle * std::floor(angle / options.detent_angle);
 }
 
 // Takes the nut as it is, without a cue: it has just been engaged, or has jumped.
@@ -70,17 +70,18 @@ void engage(VibrationState& state, const VibrationOptions& options, const Vibrat
     state.angle = state.rest_angle = input.angle;
     state.share = share_of(input);
     state.growth = state.speed = 0.0;
-    state.notch = notch_below(options, input.angle);
+    state.detent_angle_at_last_cue = detent_below(options, input.angle);
     state.rest_since = state.time;
     state.stuck = false;
 }
 
-void add_ticks(VibrationState& state, const VibrationOptions& options, const VibrationInput& input) {
-    const double turned = input.angle - state.notch;
-    if (std::abs(turned) < options.tick_angle) return;
-    // Turned back, the nut ticks only after a whole tick_angle, so it does not chatter.
-    state.notch += options.tick_angle * std::trunc(turned / options.tick_angle);
-    if (input.stage == joint::Stage::navigation) add_event(state, options, VibrationCue::tick);
+void add_detents(VibrationState& state, const VibrationOptions& options, const VibrationInput& input) {
+    const double turned = input.angle - state.detent_angle_at_last_cue;
+    if (std::abs(turned) < options.detent_angle) return;
+    // After a reversal the next detent comes after a whole detent_angle, so that the cue does not repeat at
+    // one angle.
+    state.detent_angle_at_last_cue += options.detent_angle * std::trunc(turned / options.detent_angle);
+    if (input.stage == joint::Stage::navigation) add_event(state, options, VibrationCue::detent);
 }
 
 void add_stage_changes(VibrationState& state, const VibrationOptions& options, const VibrationInput& input) {
@@ -90,9 +91,9 @@ void add_stage_changes(VibrationState& state, const VibrationOptions& options, c
         state.seated_joint = input.joint;
         state.seat_angle = input.angle;
     }
-    // A nut that trembles at its seat reaches it once.
+    // The seat cue is repeated only after the nut has been turned back by half a detent angle.
     if (!seated && state.seated_joint == input.joint &&
-        input.angle < state.seat_angle - 0.5 * options.tick_angle)
+        input.angle < state.seat_angle - 0.5 * options.detent_angle)
         state.seated_joint = -1;
     if (input.stage != joint::Stage::yield) return;
     if (state.stage != joint::Stage::yield && state.time - state.last_yield > yield_pause)
@@ -116,7 +117,7 @@ void add_breakaway(VibrationState& state, const VibrationOptions& options, const
     state.stuck = state.time - state.rest_since >= rest_time;
 }
 
-// Sets the texture of the load.
+// Sets the load pulse.
 void follow_load(VibrationState& state, const VibrationOptions& options, const VibrationInput& input,
                  double dt) {
     const double share = share_of(input);
@@ -124,23 +125,23 @@ void follow_load(VibrationState& state, const VibrationOptions& options, const V
     state.growth += weight * ((share - state.share) / dt - state.growth);
     state.speed += weight * (std::abs(input.angle - state.angle) / dt - state.speed);
     state.share = share;
-    state.texture = {};
+    state.load_pulse = {};
     const bool loaded = input.stage != joint::Stage::navigation && share > 0.0;
     const bool active = state.growth >= options.min_growth ||
                         (state.speed >= options.min_speed && state.growth > -options.release);
     if (!loaded || !active) return;
-    state.texture = options.load;
-    state.texture.amplitude *= load_scale(options, share);
-    if (input.stage == joint::Stage::yield) state.texture.frequency = options.yield_frequency;
+    state.load_pulse = options.load_pulse;
+    state.load_pulse.amplitude *= load_scale(options, share);
+    if (input.stage == joint::Stage::yield) state.load_pulse.frequency = options.yield_frequency;
 }
 
-// The event with the highest rank that waits; drops those that have waited too long. None: load.
+// The event with the highest rank that waits; drops those that have waited too long. None: the load pulse.
 VibrationCue strongest(VibrationState& state, const VibrationOptions& options) {
-    VibrationCue found = VibrationCue::load;
-    for (std::size_t i = index_of(VibrationCue::tick); i < vibration_cue_count; ++i) {
+    VibrationCue found = VibrationCue::load_pulse;
+    for (std::size_t i = index_of(VibrationCue::detent); i < vibration_cue_count; ++i) {
         VibrationState::PendingCue& pending = state.pending[i];
         const auto cue = static_cast<VibrationCue>(i);
-        const double wait = cue == VibrationCue::tick ? tick_wait : options.max_wait;
+        const double wait = cue == VibrationCue::detent ? detent_wait : options.max_wait;
         if (state.time - pending.time > wait) pending = {};
         if (pending.amplitude > 0.0) found = cue;
     }
@@ -153,7 +154,7 @@ std::optional<VibrationCommand> sent(VibrationState& state, const VibrationOptio
     const double amplitude = std::clamp(options.gain * pulse.amplitude, 0.0, 1.0);
     if (!(amplitude >= options.least_amplitude)) return std::nullopt;
     state.sent_at = state.time;
-    state.busy_until = cue == VibrationCue::load ? state.time : state.time + pulse.duration;
+    state.busy_until = cue == VibrationCue::load_pulse ? state.time : state.time + pulse.duration;
     state.rendered = cue;
     return VibrationCommand{amplitude, pulse.frequency, pulse.duration, cue};
 }
@@ -170,21 +171,21 @@ void advance_vibration(VibrationState& state, const VibrationOptions& options, c
     if (!(dt > 0.0) || !std::isfinite(dt)) return;
     state.time += dt;
     if (!is_valid(input)) {
-        state.texture = {};
+        state.load_pulse = {};
         return;
     }
     if (input.clicked) add_event(state, options, VibrationCue::click);
     if (input.slipped) add_event(state, options, VibrationCue::slip);
     if (input.strike_speed > 0.0)
-        add_event(state, options, VibrationCue::bump, input.strike_speed / options.full_strike);
+        add_event(state, options, VibrationCue::strike, input.strike_speed / options.full_strike);
     if (input.joint < 0) {
         state.joint = -1;
-        state.texture = {};
+        state.load_pulse = {};
         return;
     }
     if (input.joint != state.joint || std::abs(input.angle - state.angle) > max_nut_speed * dt)
         engage(state, options, input);
-    add_ticks(state, options, input);
+    add_detents(state, options, input);
     add_stage_changes(state, options, input);
     add_breakaway(state, options, input);
     follow_load(state, options, input, dt);
@@ -201,9 +202,9 @@ std::optional<VibrationCommand> next_vibration(VibrationState& state, const Vibr
     const bool busy = state.time < state.busy_until;
     if (state.time - state.sent_at < options.min_interval || (busy && cue < state.rendered))
         return std::nullopt;
-    if (cue == VibrationCue::load) {
-        if (busy || state.texture.amplitude == 0.0) return std::nullopt;
-        return sent(state, options, state.texture, cue);
+    if (cue == VibrationCue::load_pulse) {
+        if (busy || state.load_pulse.amplitude == 0.0) return std::nullopt;
+        return sent(state, options, state.load_pulse, cue);
     }
     VibrationPulse pulse = pulse_of(options, cue);
     VibrationState::PendingCue& pending = state.pending[index_of(cue)];

@@ -16,16 +16,16 @@
 
 namespace bolt::servo {
 
-// In ascending rank. All but `load` are events, which give one command each.
+// In ascending rank. All but `load_pulse` are events, which give one command each.
 enum class VibrationCue : std::uint8_t {
-    load,       // texture while the load grows or a loaded nut turns
-    tick,       // the unloaded nut has turned by VibrationOptions::tick_angle
-    bump,       // the wrench has struck something
-    breakaway,  // a loaded nut that stood still begins to turn
-    seat,       // the nut has reached its seat
-    yield,      // the bolt begins to yield
-    slip,       // the jaw has slipped over the corners
-    click,      // the torque wrench has clicked
+    load_pulse,  // repeated while the load grows or a loaded nut turns
+    detent,      // the unloaded nut has turned by VibrationOptions::detent_angle
+    strike,      // the wrench has struck something
+    breakaway,   // a loaded nut that stood still begins to turn
+    seat,        // the nut has reached its seat
+    yield,       // the bolt begins to yield
+    slip,        // the jaw has slipped over the corners
+    click,       // the torque wrench has clicked
 };
 inline constexpr std::size_t vibration_cue_count = 8;
 
@@ -38,18 +38,19 @@ struct VibrationPulse {
 struct VibrationOptions {
     double gain = 1.0;  // 0 … 1, factor of all amplitudes; 0: off
 
-    VibrationPulse tick{0.25, 170.0, 0.012};
-    VibrationPulse bump{0.8, 200.0, 0.03};        // at full_strike; slower strikes in proportion
+    VibrationPulse detent{0.25, 170.0, 0.012};
+    VibrationPulse strike{0.8, 200.0, 0.03};      // at full_strike; slower strikes in proportion
     VibrationPulse breakaway{0.7, 140.0, 0.025};  // at the target torque
     VibrationPulse seat{0.7, 100.0, 0.05};
     VibrationPulse yield{0.9, 55.0, 0.15};
     VibrationPulse slip{0.95, 80.0, 0.08};
     VibrationPulse click{1.0, 230.0, 0.03};
-    VibrationPulse load{0.6, 120.0, 0.03};  // at the target torque; longer than a frame, so it has no gaps
-    double yield_frequency = 60.0;          // Hz, of `load` in the yield stage
+    VibrationPulse load_pulse{0.6, 120.0,
+                              0.03};  // at the target torque; longer than a frame, so it has no gaps
+    double yield_frequency = 60.0;    // Hz, of `load_pulse` in the yield stage
 
-    double tick_angle = to_radians(30.0);  // rad
-    double full_strike = 0.5;              // m/s
+    double detent_angle = to_radians(30.0);  // rad
+    double full_strike = 0.5;                // m/s
     // Exponent of the growth of sensation with amplitude, up to 350 Hz: R. T. Verrillo et al., Subjective
     // magnitude functions for vibrotaction, IEEE Trans. Man-Machine Systems 11 (1970). Amplitude =
     // share^(1/0.89), so that the sensation grows in proportion to torque / target.
@@ -59,11 +60,12 @@ struct VibrationOptions {
     // The load grows if torque / target grows faster than this (1/s), and the nut turns if it is faster than
     // this (rad/s); both are smoothed over smoothing_time (s).
     double min_growth = 0.05, min_speed = 0.02, smoothing_time = 0.05;
-    double release = 1.0;  // 1/s by which torque / target falls if the hand lets go; then there is no texture
+    double release =
+        1.0;  // 1/s by which torque / target falls if the hand lets go; then there is no load pulse
     double min_share = 0.1;  // torque / target below which there is no breakaway
 
     double min_interval = 0.01;     // s between two commands
-    double max_wait = 0.1;          // s for which an event waits for stronger ones; a tick waits 0.02 s
+    double max_wait = 0.1;          // s for which an event waits for stronger ones; a detent waits 0.02 s
     double least_amplitude = 0.01;  // weaker commands are not sent
 };
 
@@ -71,7 +73,7 @@ struct VibrationCommand {
     double amplitude = 0.0;  // above 0, at most 1
     double frequency = 0.0;  // Hz
     double duration = 0.0;   // s
-    VibrationCue cue = VibrationCue::load;
+    VibrationCue cue = VibrationCue::load_pulse;
 };
 
 // The events and values of one tick.
@@ -101,10 +103,10 @@ struct VibrationState {
     // The nut of the last tick.
     std::int16_t joint = -1;
     joint::Stage stage = joint::Stage::navigation;
-    double angle = 0.0, share = 0.0;  // rad, and |torque| / target
-    double growth = 0.0;              // 1/s, smoothed rate of `share`
-    double speed = 0.0;               // rad/s, smoothed
-    double notch = 0.0;               // rad, multiple of tick_angle at which the last tick was
+    double angle = 0.0, share = 0.0;        // rad, and |torque| / target
+    double growth = 0.0;                    // 1/s, smoothed rate of `share`
+    double speed = 0.0;                     // rad/s, smoothed
+    double detent_angle_at_last_cue = 0.0;  // rad, multiple of detent_angle
     double rest_angle = 0.0, rest_since = 0.0;
     bool stuck = false;  // stands still under load
 
@@ -113,11 +115,11 @@ struct VibrationState {
     double last_yield = -1e9;  // s, last tick in the yield stage
 
     std::array<PendingCue, vibration_cue_count> pending{};
-    VibrationPulse texture{};  // of the load in this tick; amplitude 0: none
+    VibrationPulse load_pulse{};  // in this tick; amplitude 0: none
 
     double sent_at = -1e9;     // s, time of the last command
     double busy_until = -1e9;  // s, end of the event that the controller renders
-    VibrationCue rendered = VibrationCue::load;
+    VibrationCue rendered = VibrationCue::load_pulse;
 };
 
 // Adds a tick. Ticks with values that are not finite only advance the time; a nut that jumps, by undoing a

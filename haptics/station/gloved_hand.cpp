@@ -34,11 +34,13 @@ std::vector<std::string> messages(const HandStatus& hand, hand::Side worn, const
     std::vector<std::string> messages;
     if (hand.lost) messages.emplace_back(hand::message_for(hand::GraspEvent::glove_lost, hand.held));
     if (report.fault_message[0] != '\0') messages.emplace_back(report.fault_message.data());
-    if (report.handshakes > 0 && report.identity.hand != worn)
-        messages.emplace_back(
-            worn == hand::Side::left
-                ? "the glove is a right one, the calibration is for a left one; calibrate this glove"
-                : "the glove is a left one, the calibration is for a right one; calibrate this glove");
+    if (report.handshakes > 0 && report.identity.side != worn)
+        messages.emplace_back(worn == hand::Side::left ? "glove: it is a right glove; expected the left "
+                                                         "glove of the calibration, or a calibration of "
+                                                         "this one"
+                                                       : "glove: it is a left glove; expected the right "
+                                                         "glove of the calibration, or a calibration of "
+                                                         "this one");
     return messages;
 }
 

@@ -12,14 +12,15 @@ namespace {
 
 using force::Pivot;
 
-// m from a bolt's axis, and above and below its nut's way, within which the wrench pivots about the bolt;
-// half more to leave it. Lower, the wrench is beside the work, and a turn would drive the jaw under its edge.
-// The guiding force aligns the jaw from the same distance (GuidingParameters::alignment_distance).
+// m. The wrench pivots about a bolt while its jaw is within pivot_radius of the axis and between pivot_below
+// under and pivot_above over the nut's range of travel; it stops at 1.5 times these distances. Further down
+// the jaw is beside the workpiece, and a rotation would push it under the workpiece's edge. The guiding
+// force aligns the jaw from the same distance (GuidingParameters::alignment_distance).
 constexpr double pivot_radius = 0.08, pivot_above = 0.06, pivot_below = 0.002;
 constexpr double pivot_alignment = 0.7;  // cosine of the largest angle between the tool's normal and the bolt
 constexpr double pivot_rate = 1.0;  // rad/s, at most, at which the wrench turns to a bolt that it comes near
-// m and rad by which obstacles hold a wrench back that no longer turns to a bolt: it would push the hand
-// away, with energy that the hand did not put in.
+// m and rad. If contacts hold the wrench back from its commanded pose by more than this, it stops turning to
+// the bolt; it would otherwise push the hand with energy that the hand did not supply.
 constexpr double held_back = 0.3e-3, held_back_angle = 5e-3;
 
 // The distance of a jaw at `tool` from the axis of this nut's bolt, m, if it is near the nut at any position
@@ -61,7 +62,8 @@ bool is_held_back(const Pose& commanded, const servo::Output& output) {
 }
 
 // The pose `last`, square to the bolt, except that it turns by `max_turn` rad at most.
-Pose squared(const Pose& last, const Pivot& pivot, double lever_arm, const Vec3& lever_end, double max_turn) {
+Pose turned_square_to_bolt(const Pose& last, const Pivot& pivot, double lever_arm, const Vec3& lever_end,
+                           double max_turn) {
     const Vec3 normal = last.orientation * Vec3(0.0, 0.0, 1.0);
     const Vec3 axis = glm::dot(normal, pivot.axis) < 0.0 ? -pivot.axis : pivot.axis;
     const Quat to_axis =
@@ -85,13 +87,14 @@ void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationSt
     const Pivot pivot{nut.seat, nut.axis};
     const Vec3 lever_end = force::lever_end(s.workspace, s.workspace.commanded_tool);
     const double lever_arm = s.workspace.lever_arm;
-    // Without output nothing holds the jaw: a tilted wrench that was turned square would sink into the work.
+    // While the dead-man switch is released no force is rendered, so turning a tilted wrench square would
+    // push it into the workpiece.
     const bool turns = s.input.dead_man && !is_held_back(last, s.output);
     const double max_turn = turns ? pivot_rate * dt : 0.0;
     force::realign(layout.workspace, s.workspace, s.mover_pose,
                    s.output.joint >= 0
                        ? force::pivoted(pivot, s.output.constrained_tool, lever_arm, lever_end)
-                       : squared(last, pivot, lever_arm, lever_end, max_turn));
+                       : turned_square_to_bolt(last, pivot, lever_arm, lever_end, max_turn));
 }
 
 namespace {
@@ -105,7 +108,7 @@ constexpr double approach_angular_speed = 3.0;  // rad/s per N·m; slower than a
 }  // namespace
 
 void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& s, const servo::State& servo,
-                 const StationInputs& inputs, servo::Input& input) {
+                 const StationInputs& inputs, servo::TickInput& input) {
     if (!layout.mover || layout.mover->sensing != device::Sensing::velocity || renders_force(*layout.mover))
         return;
     Pose& tool = s.workspace.commanded_tool;

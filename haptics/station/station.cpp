@@ -53,8 +53,8 @@ struct Station::Shared {
         const DeviceCommands& output = done.commands;
         if (mover) mover->command(output.mover, true);
         if (wheel) wheel->command(output.wheel, true);
-        count(stats.mover, station.mover, output.mover);
-        count(stats.wheel, station.wheel, output.wheel);
+        record_tick(stats.mover, station.mover, output.mover);
+        record_tick(stats.wheel, station.wheel, output.wheel);
         link_stats.write(stats);
         if (hand)
             hand->set_tool({tool_of_gloved_hand(layout, setup, station, inputs.controls),
@@ -82,7 +82,6 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
     return {};
 }
 
-// With the power 1/scale a force on the tool is as large on the hand.
 // A wrench that is grasped comes into the palm in this time. Chosen: as fast as a hand regrasps.
 constexpr double absolute_return_time = 0.1;  // s
 
@@ -90,9 +89,10 @@ force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& o
     force::WorkspaceMap map;
     map.rotation = glm::normalize(options.workspace.rotation);
     if (!layout.mover || layout.mover->sensing != device::Sensing::pose) return map;
-    const Vec3 reach = force::rotated_reach(map.rotation, layout.mover->reach);
+    const Vec3 reach = force::rotated_half_workspace(map.rotation, layout.mover->half_workspace);
     map.scale = options.workspace.scale.value_or(force::fitted_scale(reach, options.handle_length));
     if (options.workspace.absolute) map.return_time = absolute_return_time;
+    // With the power 1/scale a force on the tool is as large on the hand.
     map.power_ratio = options.workspace.power_ratio.value_or(1.0 / map.scale);
     return map;
 }
@@ -131,9 +131,9 @@ Result<Station> Station::start(StationOptions options) {
     else if (!options.glove.empty())
         s.glove = hand::GloveDriver::start(options.glove);
 
-    s.setup = options.setup(limits_of(s.layout), 1.0 / options.servo.rate);
-    if (options.state) {
-        BOLT_TRY_ASSIGN(auto state, options.state(s.setup));
+    s.setup = options.make_setup(limits_of(s.layout), 1.0 / options.servo.rate);
+    if (options.make_state) {
+        BOLT_TRY_ASSIGN(auto state, options.make_state(s.setup));
         s.state = std::move(state);
     } else {
         s.state = servo::initial_state(s.setup);
@@ -173,14 +173,16 @@ std::vector<std::string> Station::fault_messages() {
         const device::DeviceReport& report = (*thread)->report();
         if (!report.fault_message.empty()) messages.push_back(report.fault_message);
         if (report.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
-            messages.push_back(report.description->name + " hangs: unplug it and plug it in again");
+            messages.push_back(report.description->name +
+                               ": has not answered for 0.5 s; expected a device that answers: "
+                               "unplug it and plug it in again");
     }
     const StationTick& tick = latest_tick();
     // The device's own report describes its silence better.
     const force::Fault fault = tick.output.fault;
     if (tick.input.dead_man && fault != force::Fault::none &&
         (fault != force::Fault::silent || messages.empty()))
-        messages.emplace_back(force::name(fault));
+        messages.emplace_back(force::message_for(fault));
     if (shared_->glove && shared_->glove->report().fault_message[0] != '\0')
         messages.emplace_back(shared_->glove->report().fault_message.data());
     if (shared_->hand)

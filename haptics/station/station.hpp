@@ -22,7 +22,7 @@ struct LinkStats {
 };
 
 // Call after each tick with the device's link and the command that was sent.
-inline void count(LinkStats& stats, const DeviceLink& link, const force::OutputCommand& sent) {
+inline void record_tick(LinkStats& stats, const DeviceLink& link, const force::OutputCommand& sent) {
     if (stats.first == 0) stats.first = link.number;
     stats.samples = link.number - stats.first;
     stats.silence = link.silence;
@@ -42,7 +42,8 @@ struct WorkspaceOptions {
     Quat rotation{1.0, 0.0, 0.0, 0.0};
     std::optional<double> scale;        // none: fitted to the mover's reach
     std::optional<double> power_ratio;  // none: 1/scale, so that forces keep their magnitude
-    // The device's frame is the assembly's, and the tool is where the hand is (WorkspaceMap::return_time).
+    // The device's frame is the assembly's, and the tool returns to the pose of the hand
+    // (WorkspaceMap::return_time).
     bool absolute = false;
 };
 
@@ -62,8 +63,8 @@ struct StationOptions {
     StationControls controls;                            // initial
     servo::ThreadOptions servo;
     // Build the servo's setup from the devices' limits and dt, and its initial state.
-    std::function<servo::Setup(const force::OutputLimits& limits, double dt)> setup;
-    std::function<Result<servo::State>(const servo::Setup& setup)> state;  // empty: servo::initial_state
+    std::function<servo::Setup(const force::OutputLimits& limits, double dt)> make_setup;
+    std::function<Result<servo::State>(const servo::Setup& setup)> make_state;  // empty: servo::initial_state
 };
 
 // The layout of these devices: workspace and lever arm from the options, or fitted to the devices. The

@@ -130,10 +130,10 @@ void integrate_velocity(const Layout& layout, const servo::Setup& setup, Station
     tool.orientation = glm::normalize(rotation(turned_on) * tool.orientation);
     const Pose& constrained_tool = s.output.constrained_tool;
     tool.position =
-        constrained_tool.position + force::clamp_length(tool.position - constrained_tool.position, max_lead);
+        constrained_tool.position + force::clamp_length(tool.position - constrained_tool.position, max_ahead);
     const Vec3 turned = turn_between(constrained_tool.orientation, tool.orientation);
-    if (glm::length(turned) > max_angular_lead)
-        tool.orientation = glm::normalize(rotation(force::clamp_length(turned, max_angular_lead)) *
+    if (glm::length(turned) > max_angle_ahead)
+        tool.orientation = glm::normalize(rotation(force::clamp_length(turned, max_angle_ahead)) *
                                           constrained_tool.orientation);
 }
 
@@ -174,11 +174,11 @@ void move_by_mover(const Layout& layout, const servo::Setup& setup, StationState
         const bool jumped = has_jumped(*layout.mover, s.mover_pose, snapshot.sample.pose);
         s.mover_pose = snapshot.sample.pose;
         // The tool stays where it is and follows from there.
-        if (snapshot.opening != s.mover.opening || jumped) {
+        if (snapshot.connection_number != s.mover.connection_number || jumped) {
             force::realign(layout.workspace, s.workspace, s.mover_pose, s.workspace.commanded_tool);
             s.workspace.share = s.mover.force_share = 0.0;
         }
-        s.mover.opening = snapshot.opening;
+        s.mover.connection_number = snapshot.connection_number;
     }
     if (s.mover.number == 0) return;
     const bool away = clutch || !s.mover.usable;
@@ -202,8 +202,9 @@ double rotation_sense(const Description& wheel) {
 void turn_by_wheel(const Layout& layout, const servo::Setup& setup, StationState& s,
                    const DeviceSnapshot& snapshot, bool clutch) {
     if (!s.wheel.fresh) return;
-    const double by = snapshot.opening == s.wheel.opening ? snapshot.sample.angle - s.wheel_angle : 0.0;
-    s.wheel.opening = snapshot.opening;
+    const double by =
+        snapshot.connection_number == s.wheel.connection_number ? snapshot.sample.angle - s.wheel_angle : 0.0;
+    s.wheel.connection_number = snapshot.connection_number;
     s.wheel_angle = snapshot.sample.angle;
     if (!on_bolt(s) || clutch || by == 0.0 || !std::isfinite(by)) return;
     const servo::NutGeometry& nut = setup.nuts[static_cast<std::size_t>(s.output.joint)];
@@ -309,8 +310,8 @@ StationState initial_state(const Layout& layout) {
     return state;
 }
 
-servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, StationState& s,
-                         const StationInputs& inputs) {
+servo::TickInput read_inputs(const Layout& layout, const servo::Setup& setup, StationState& s,
+                             const StationInputs& inputs) {
     const double elapsed = setup.dt * (1.0 + static_cast<double>(inputs.missed));
     const StationControls controls = merge_buttons(layout, s, inputs, elapsed);
     receive(s, inputs.commands);
@@ -326,7 +327,7 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
                               grip == servo::Grip::wrench ? layout.lever_arm : 0.0);
     update_resting_wrench(layout, s, grip, controls);
 
-    servo::Input input;
+    servo::TickInput input;
     input.commanded_tool = servo::to_commanded_tool(s.workspace.commanded_tool);
     input.grip = grip;
     input.checkpoint_action = next_checkpoint_action(s);
@@ -337,7 +338,7 @@ servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, Statio
     input.stop = controls.stop;
     input.reset = controls.reset;
     input.missed = static_cast<std::uint8_t>(std::min<std::uint64_t>(inputs.missed, 15));
-    // The device that renders the force now must be alive.
+    // The device that renders the force must have sent a sample.
     const bool by_wheel = layout.wheel && (on_bolt(s) || !layout.mover);
     input.fresh =
         by_wheel ? has_current_data(*layout.wheel, s.wheel) : has_current_data(*layout.mover, s.mover);
@@ -375,7 +376,7 @@ DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, Stati
 
 DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
                     const StationInputs& inputs) {
-    servo::Input input = read_inputs(layout, setup, state, inputs);
+    servo::TickInput input = read_inputs(layout, setup, state, inputs);
     move_to_nut(layout, setup, state, servo, inputs, input);
     return map_output(layout, setup, state, servo::tick(setup, servo, input));
 }
@@ -400,7 +401,7 @@ DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, Stati
     if (layout.mover) move_by_mover(layout, setup, s, inputs.mover, inputs.controls.view, true, elapsed);
     if (layout.wheel) {
         if (s.wheel.fresh) s.wheel_angle = inputs.wheel.sample.angle;
-        s.wheel.opening = inputs.wheel.opening;
+        s.wheel.connection_number = inputs.wheel.connection_number;
     }
     s.restarting = true;
     s.wheel_fade = s.mover.force_share = s.wheel.force_share = 0.0;

@@ -87,15 +87,15 @@ struct StationControls {
     std::int16_t approach_joint = -1;
 };
 
-// Moves the tool to a pose in the assembly's frame; the hand stays where it is, and the tool follows it from
-// there.
+// Moves the tool to a pose in the assembly's frame. The mapping is realigned: device and tool keep their
+// poses, and later motion of the device moves the tool relative to them.
 struct PlaceTool {
     Pose tool{};
 };
 // Stores the state of the nuts for undo. Checkpoints are saved one a tick, before a pending restore.
 struct SaveCheckpoint {};
 // Restores the n-th last checkpoint, 1 … servo::max_checkpoints. It stays pending until the servo permits it
-// (see servo::Input::checkpoint_action), and replaces a pending restore. More steps than
+// (see servo::TickInput::checkpoint_action), and replaces a pending restore. More steps than
 // servo::max_checkpoints have no effect.
 struct RestoreCheckpoint {
     std::uint8_t steps = 1;
@@ -132,8 +132,8 @@ inline constexpr double gripper_closes_below = 0.35, gripper_opens_above = 0.55;
 
 // The state of the connection to one device.
 struct DeviceLink {
-    // Numbers of the last sample and of the opening of the device that it belongs to.
-    std::uint64_t number = 0, opening = 0;
+    // Number of the last sample, and DeviceSnapshot::connection_number of the device when it was read.
+    std::uint64_t number = 0, connection_number = 0;
     double silence = 0.0;  // s since the last sample
     bool fresh = false;    // a sample arrived in this tick
     bool usable = false;
@@ -161,7 +161,7 @@ struct StationState {
     std::uint8_t checkpoint_to_restore = 0;  // 0: none
     bool stopped_in_pause = false;           // a stop pressed in a pause takes effect afterwards
     bool dead_man_pressed = false;           // by a button or the gripper of a device, in this tick
-    servo::Input input;                      // of the last tick
+    servo::TickInput input;                  // of the last tick
     servo::Output output;
 };
 
@@ -173,13 +173,13 @@ StationState initial_state(const Layout& layout);
 
 // One tick. Forces come from the servo's output stage; this code maps them and may only reduce them. A device
 // that is lost or silent for too long moves nothing and renders no force. When it returns, the hand may be
-// anywhere, so the tool stays in place and follows from there, as after a clutch.
+// anywhere, so the mapping is realigned, as after a clutch.
 DeviceCommands tick(const Layout& layout, const servo::Setup& setup, StationState& state, servo::State& servo,
                     const StationInputs& inputs);
 
 // The parts of tick(), in order; read_inputs() calls pivot_about_bolt().
-servo::Input read_inputs(const Layout& layout, const servo::Setup& setup, StationState& state,
-                         const StationInputs& inputs);
+servo::TickInput read_inputs(const Layout& layout, const servo::Setup& setup, StationState& state,
+                             const StationInputs& inputs);
 // On a bolt and near it the wrench follows the end of its handle, and its jaw points to the bolt. The wrist
 // may turn freely: a device without torque cannot hold it, and a hand cannot place a jaw with it to a degree.
 // `last`: the tool's pose before this tick.
@@ -188,7 +188,7 @@ void pivot_about_bolt(const Layout& layout, const servo::Setup& setup, StationSt
 // Moves a tool whose device senses velocity and renders no force: along with a held nut, and towards
 // StationControls::approach_joint. Changes `input`.
 void move_to_nut(const Layout& layout, const servo::Setup& setup, StationState& state,
-                 const servo::State& servo, const StationInputs& inputs, servo::Input& input);
+                 const servo::State& servo, const StationInputs& inputs, servo::TickInput& input);
 DeviceCommands map_output(const Layout& layout, const servo::Setup& setup, StationState& state,
                           const servo::Output& output);
 
@@ -207,7 +207,7 @@ DeviceCommands pause_tick(const Layout& layout, const servo::Setup& setup, Stati
 // One tick, for recording.
 struct StationTick {
     std::uint64_t number = 0;  // of the servo's deadline; missed ones are counted
-    servo::Input input;
+    servo::TickInput input;
     servo::Output output;
     Pose commanded_tool;  // in the assembly's frame
     // Pose of the wrench while no hand holds it (StationControls::wrench_rest_pose).
@@ -228,7 +228,7 @@ StationStep step(const Layout& layout, const servo::Setup& setup, StationState& 
 // The following apply to a tool whose device senses velocity (Sensing::velocity).
 //
 // The commanded pose is at most this far ahead of the constrained pose, so that a reversal acts at once.
-inline constexpr double max_lead = 0.01, max_angular_lead = 0.15;  // m, rad
+inline constexpr double max_ahead = 0.01, max_angle_ahead = 0.15;  // m, rad
 // Fingers turn a nut `finger_velocity_factor` times faster than the velocity that the device senses; at the
 // largest torque a wrench turns 1 + `torque_slowdown` times more slowly. Chosen values.
 inline constexpr double finger_velocity_factor = 4.0, torque_slowdown = 15.0;

@@ -79,7 +79,7 @@ void end_level(StiffnessTrial& t) {
         t.stable = stiffness_of(t, t.level);
     if (t.end != TrialEnd::none) return;
     if (t.level + 1 == stiffness_levels) {
-        t.end = TrialEnd::announced;
+        t.end = TrialEnd::reported;
         return;
     }
     ++t.level;
@@ -134,8 +134,8 @@ StiffnessTrial begin_stiffness_trial(const device::Description& arm) {
     return t;
 }
 
-force::OutputCommand step(StiffnessTrial& t, const force::PortInput& given, double dt) {
-    force::PortInput input = given;
+force::OutputCommand step(StiffnessTrial& t, const force::DeviceInput& given, double dt) {
+    force::DeviceInput input = given;
     input.dead_man = given.dead_man && t.end == TrialEnd::none;
     const Vec3 position = given.pose.position;
     if (!t.has_centre && given.fresh) t.centre = position;

@@ -13,14 +13,14 @@
 
 namespace bolt::station {
 
-inline constexpr int stiffness_levels = 10;          // the last one has the stiffness that the arm announces
+inline constexpr int stiffness_levels = 10;          // the last one has the stiffness that the arm reports
 inline constexpr double stiffness_level_time = 1.0;  // s
 inline constexpr double trial_force_share = 0.2;     // of the arm's largest force; the trial renders no more
 
 // Why a trial has ended.
 enum class TrialEnd : std::uint8_t {
     none,         // it continues
-    announced,    // the arm renders all that it announces
+    reported,     // the arm renders the stiffness that it reports
     oscillation,  // a swing that a step of the spring has excited does not die away
     energy,       // a spring at rest gives energy to the hand
     fault,        // the output stage has blocked the force (Fault)
@@ -55,7 +55,7 @@ StiffnessTrial begin_stiffness_trial(const device::Description& arm);
 
 // One tick of dt. Returns the command for the arm. The trial advances only while `input.dead_man` is set;
 // after an interruption the level begins again. After the end the command falls to zero.
-force::OutputCommand step(StiffnessTrial& trial, const force::PortInput& input, double dt);
+force::OutputCommand step(StiffnessTrial& trial, const force::DeviceInput& input, double dt);
 
 // N/m, of a level.
 double stiffness_of(const StiffnessTrial& trial, int level);

@@ -88,7 +88,7 @@ TEST_CASE("Comparison: errors name the joint and the direction") {
     const Result<Comparison> unknown = analysis::compare(*reader, measured, "b2");
     REQUIRE_FALSE(unknown.has_value());
     CHECK(unknown.error().code == ErrorCode::usage);
-    CHECK(unknown.error().message() == "there is no joint 'b2' in the session; expected 'B2'");
+    CHECK(unknown.error().message() == "there is no joint \"b2\" in the session; did you mean \"B2\"?");
     const Result<Comparison> untouched = analysis::compare(*reader, measured, "B1");
     REQUIRE_FALSE(untouched.has_value());
     CHECK(untouched.error().what == "joint 'B1' was not loosened in this session");

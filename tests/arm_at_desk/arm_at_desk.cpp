@@ -149,7 +149,7 @@ class Player {
     // Corrects a part of the distance between the tool and its goal, in the frame of the device.
     void move(const Pose& goal, double seconds) {
         const station::Layout& layout = client().link->layout();
-        const Vec3 reach = used_reach * layout.mover->reach;
+        const Vec3 reach = used_reach * layout.mover->half_workspace;
         if (clutching_ > 0.0) {
             clutching_ -= seconds;
             if (clutching_ < 0.8 * clutch_time) pose_.position = before_clutch_ * -0.5;
@@ -184,7 +184,7 @@ class Player {
     const HeldArm& arm_;
     SteadyHand hand_;
     trainees::SimulatedTrainee trainee_;
-    trainees::Intention intention_;
+    trainees::IntendedPose intention_;
     Pose pose_;  // where the hand is led, device frame
     Vec3 before_clutch_{0.0};
     double time_ = 0.0, clutching_ = 0.0;  // s

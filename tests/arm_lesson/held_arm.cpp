@@ -52,7 +52,7 @@ class MessagedHaply final : public device::DeviceDriver {
         description_.limits.damping = 5.0;
         description_.limits.angular_damping = 0.0;
         description_.limits.delay = 3;
-        description_.reach = Vec3(0.1);
+        description_.half_workspace = Vec3(0.1);
         description_.buttons = 3;
     }
 

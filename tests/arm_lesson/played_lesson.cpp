@@ -31,8 +31,8 @@ PlayedLesson::PlayedLesson(HeldArm& arm, const content::Assembly& assembly, sess
         serve();
         REQUIRE_MESSAGE(arm_.timer.now() < now_ + 5.0, supervisor_->report().fault_message);
     }
-    auto own = session::prepare(assembly, options);
-    auto recorded = session::prepare(assembly, options);
+    auto own = session::prepare_session(assembly, options);
+    auto recorded = session::prepare_session(assembly, options);
     REQUIRE(own);
     REQUIRE(recorded);
     station_ = std::move(*own);
@@ -44,7 +44,7 @@ PlayedLesson::PlayedLesson(HeldArm& arm, const content::Assembly& assembly, sess
     REQUIRE(layout);
     layout_ = std::move(*layout);
     state_ = station::initial_state(layout_);
-    options.device = station::limits_of(layout_);
+    options.device_limits = station::limits_of(layout_);
     session::set_device_limits(options, station_);
     session::set_device_limits(options, *recorded);
     auto begun = session::LessonSession::begin(std::move(*recorded), options, file);
@@ -64,10 +64,10 @@ Pose PlayedLesson::device_pose(const Pose& tool) const {
 }
 
 // The intention is a pose of the tool. Beyond the arm's reach the hand presses the clutch and goes back.
-void PlayedLesson::move_hand(const trainees::Intention& intention) {
+void PlayedLesson::move_hand(const trainees::IntendedPose& intention) {
     const double dt = station_.setup.dt;
     const Pose wanted = device_pose(intention.tool);
-    const Vec3 reach = used_reach * layout_.mover->reach;
+    const Vec3 reach = used_reach * layout_.mover->half_workspace;
     const Vec3 beyond = glm::abs(wanted.position) - reach;
     const bool out = reach != Vec3(0.0) && std::max({beyond.x, beyond.y, beyond.z}) > 0.0;
     if (!clutching_ && settling_ <= 0.0 && out) {

@@ -47,7 +47,7 @@ class PlayedLesson {
         Vec3 from{0.0}, to{0.0};               // m, device frame
     };
     void serve();
-    void move_hand(const trainees::Intention& intention);
+    void move_hand(const trainees::IntendedPose& intention);
     [[nodiscard]] Pose device_pose(const Pose& tool) const;
     void measure(const station::StationTick& before);
 
@@ -62,7 +62,7 @@ class PlayedLesson {
     std::unique_ptr<session::LessonSession> session_;
     world::World world_;
     std::optional<trainees::SimulatedTrainee> trainee_;
-    trainees::Intention intention_;
+    trainees::IntendedPose intention_;
     station::StationTick latest_;
     FeltForces felt_;
     Vec3 last_force_{0.0};

@@ -370,7 +370,7 @@ TEST_CASE("Hostile files: an image with too many pixels is refused before it is 
     const std::uint8_t grey[] = {128};
     std::string png = encode_png(1, 1, 1, grey).value();
     png.replace(16, 4, std::string("\0\0\x40\x01", 4));  // the width in IHDR: 16385
-    Image image;
+    Bitmap image;
     image.encoded.assign(png.begin(), png.end());
     const Status decoded = decode(image);
     REQUIRE_FALSE(decoded);

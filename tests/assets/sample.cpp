@@ -29,8 +29,8 @@ Primitive skinned() {
 }
 
 // Not square, so that the axes cannot be confused: 2 × 1 pixels.
-Image image() {
-    Image image;
+Bitmap image() {
+    Bitmap image;
     image.name = "paint";
     image.width = 2;
     image.height = 1;

@@ -85,14 +85,14 @@ TEST_CASE("Edges: a piece that moves within its certified bounds has no crossing
                         random.uniform(0.0, 4.0) * mm * random_direction(random);
         Pose pose{Vec3(0.0), random_turn(random)};
         pose.position = at - pose.orientation * sample.at;
-        const auto query = [&](const Pose& p, double band, Crossings& found) {
+        const auto query = [&](const Pose& p, double band, EdgeQueryResult& found) {
             const Quat& q = p.orientation;
             const EdgePiece piece{p * sample.at, q * edge.half, {q * edge.inward[0], q * edge.inward[1]}};
             std::array<Crossing, max_planes> crossings;
             FacingEdges facing;
             found = query_edges(solid, piece, tool.solid, inverse(p), 6.0 * mm, band, crossings, facing);
         };
-        Crossings first;
+        EdgeQueryResult first;
         query(pose, 0.6 * mm, first);
         crossed += first.count > 0 ? 1 : 0;
         for (const double band : {0.05 * mm, 0.6 * mm, 2.0 * mm}) {
@@ -100,11 +100,11 @@ TEST_CASE("Edges: a piece that moves within its certified bounds has no crossing
             if (!(way > 0.0)) continue;
             // Rotate about the piece's middle by a share of the permitted motion and shift by the rest.
             const double turn =
-                std::min({0.99 * first.turn, 0.5 * random.uniform() * way / tool.reach(), 1.0});
+                std::min({0.99 * first.turn, 0.5 * random.uniform() * way / tool.origin_radius(), 1.0});
             const Quat turned = rotation(turn * random_direction(random)) * pose.orientation;
-            const double shift = way - turn * tool.reach();
+            const double shift = way - turn * tool.origin_radius();
             Pose there{pose.position + shift * random_direction(random), turned};
-            Crossings again;
+            EdgeQueryResult again;
             query(there, band, again);
             CHECK(again.count == 0);
             ++held;

@@ -82,7 +82,7 @@ TEST_CASE(
                 Body& body = world.bodies[b];
                 if (b != 2) body.pose.position += 4e-5 * wave(0.7 * t, phase + static_cast<double>(b));
                 if (b != 1) body.pose.orientation = rotation(0.5 * wave(0.3 * t, static_cast<double>(b)));
-                if (random.chance(0.004)) body.on = !body.on;
+                if (random.chance(0.004)) body.enabled = !body.enabled;
             }
             const Pose pose{Vec3(20.0, 27.0, 15.0) * mm + 14.0 * mm * wave(t, phase),
                             rotation(1.5 * wave(0.37 * t, phase + 1.0))};

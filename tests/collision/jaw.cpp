@@ -235,7 +235,7 @@ TEST_CASE("Jaw: the fit of a turned, raised, pulled-back, tilted or flipped jaw"
               doctest::Approx(-0.01).epsilon(1e-9));
     fit = jaw_fit(p.jaw, p.prism, p.wrench({0, 0.05e-3, 0}, 0.0, 0.01));
     CHECK(fit.tilt == doctest::Approx(0.01).epsilon(1e-9));
-    CHECK(fit.aside == doctest::Approx(-0.05e-3).epsilon(1e-3));
+    CHECK(fit.lateral_offset == doctest::Approx(-0.05e-3).epsilon(1e-3));
     // Flipped, with the head to the other side.
     Pose over = p.wrench();
     over.orientation = glm::angleAxis(pi, Vec3(1, 0, 0)) * over.orientation;

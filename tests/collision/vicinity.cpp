@@ -30,7 +30,7 @@ TEST_CASE("Octree: the bounds hold everywhere and exclude most distant points") 
             const OctreeQuery seen = query(octree, p);
             REQUIRE(seen.lower <= distance);
             REQUIRE(seen.upper >= std::abs(distance));
-            if (std::abs(distance) < octree_reach - 1e-6) REQUIRE(seen.leaf != nullptr);
+            if (std::abs(distance) < listing_distance - 1e-6) REQUIRE(seen.leaf != nullptr);
             far += distance > 3e-3 ? 1 : 0;
             told += distance > 3e-3 && seen.lower > 1e-3 ? 1 : 0;
         }
@@ -72,7 +72,7 @@ TEST_CASE("Octree: near the surface a query over a leaf's list equals a full sea
             const PointQueryResult of_search = query_point(solid, p, infinite_distance, band, searched);
             if (!of_list) {
                 REQUIRE(std::abs(of_search.distance) > seen.unlisted - 1e-9);
-                REQUIRE(seen.unlisted > octree_reach - 1e-4);
+                REQUIRE(seen.unlisted > listing_distance - 1e-4);
                 continue;
             }
             REQUIRE(of_list->distance == of_search.distance);

@@ -101,7 +101,7 @@ TEST_CASE("Visibility: a disabled body hides nothing, and the far side of the bo
     CubeAndWalls setting({wall({-50.0, -50.0, 20.0}, {50.0, 50.0, 21.0})});
     CHECK(setting.share(Vec3(0.0, 0.0, 1.0)) == 0.0);
     CHECK(setting.share(Vec3(0.0, 0.0, -1.0)) == 1.0);
-    setting.world.bodies[0].on = false;
+    setting.world.bodies[0].enabled = false;
     CHECK(setting.share(Vec3(0.0, 0.0, 1.0)) == 1.0);
     CHECK(visibility_of(setting.world, setting.body, {}, Vec3(0.0, 0.0, 1.0)).share == 0.0);
     CHECK(visibility_of(setting.world, setting.body, setting.points, Vec3(0.0)).share == 0.0);  // eye inside

@@ -89,9 +89,9 @@ TEST_CASE("Collision world: contacts follow a moving body, and a disabled body h
     }
     world.bodies[body].pose = layout.poses[3];
     CHECK(find_contacts(world, tool, above, 1.5 * mm, state, contacts).count > 0);
-    world.bodies[body].on = false;
+    world.bodies[body].enabled = false;
     CHECK(find_contacts(world, tool, above, 1.5 * mm, state, contacts).count == 0);
-    world.bodies[body].on = true;
+    world.bodies[body].enabled = true;
     CHECK(find_contacts(world, tool, above, 1.5 * mm, state, contacts).count > 0);
 }
 
@@ -104,7 +104,7 @@ TEST_CASE("Collision world: a line of sight is occluded by obstacles at their cu
     CHECK_FALSE(occluded(world, left + Vec3(0.0, 5.0, 0.0) * mm, right + Vec3(0.0, 5.0, 0.0) * mm));
     CHECK(occluded(world, Vec3(0.0, 1.0, 0.0) * mm, Vec3(0.0, -3.0, 0.0) * mm));
     for (std::size_t i = 0; i < 5; ++i)
-        world.bodies[find_body(world, ObstacleId::nut(i)).value()].on = i == 2;
+        world.bodies[find_body(world, ObstacleId::nut(i)).value()].enabled = i == 2;
     CHECK(occluded(world, left, right));
     CHECK_FALSE(occluded(world, left, right, find_body(world, ObstacleId::nut(2))));
     world.bodies[find_body(world, ObstacleId::nut(2)).value()].pose.position.z += 20.0 * mm;

@@ -204,7 +204,7 @@ TEST_CASE("Assemblies: every value of a file is converted to SI") {
     CHECK(first.misfit == doctest::Approx(8e-6));
     CHECK(first.embedding_time == 3.0);
     CHECK(first.prevailing_torque == 9.0);
-    CHECK(first.running_torque == 0.05);
+    CHECK(first.running_drag == 0.05);
     CHECK(first.start_gap == doctest::Approx(0.02));
     CHECK(first.nut_mass == doctest::Approx(0.017));
     CHECK(first.seat.z == doctest::Approx(0.0025));  // the washer of M12 on the face

@@ -43,7 +43,7 @@ Life run_life(const LifePlan& plan, const content::Assembly& assembly, Coverage&
         life.rescue_time = session.time() - life.random_time;
         for (const double lost : session.state().rounded) coverage.rounded += lost > 0.0 ? 1 : 0;
         for (const auto& joint : session.state().joints)
-            coverage.damaged += joint.condition != joint::JointCondition::sound ? 1 : 0;
+            coverage.damaged += joint.condition != joint::JointCondition::intact ? 1 : 0;
         life.problems = checker.problems();
     }
     for (const char* end : {"", "-wal", "-shm"}) std::filesystem::remove(file.string() + end);

@@ -67,7 +67,7 @@ void withdraw_hand(LessonRun& run, const Vec3& at) {
     const double seconds = 0.5 + glm::distance(from.position, at) / 0.4;
     while (!run.over() && run.session.time() - begun < seconds) {
         const double share = (run.session.time() - begun) / (seconds - 0.3);
-        servo::Input input;
+        servo::TickInput input;
         const Pose now{glm::mix(from.position, at, std::clamp(share, 0.0, 1.0)), Quat(1, 0, 0, 0)};
         input.commanded_tool = servo::to_commanded_tool(now);
         input.reset = share < 0.1;
@@ -120,7 +120,7 @@ int finish_at_device(LessonRun& run, std::uint64_t seed) {
         trainees::SimulatedTrainee trainee(expert, seed + static_cast<std::uint64_t>(restarts), setup);
         bool wrench = false;
         while (!run.over() && !run.failed() && !patient.over(run.session)) {
-            const servo::Input input = trainee.act(setup, run.session.state(), run.session.lesson());
+            const servo::TickInput input = trainee.act(setup, run.session.state(), run.session.lesson());
             if (input.grip != servo::Grip::none) wrench = input.grip == servo::Grip::wrench;
             const float* at = input.commanded_tool.position;
             run.player.hand.pose.position = Vec3(at[0], at[1], at[2]);

@@ -110,7 +110,7 @@ void InvariantChecker::check_verdicts() {
         const bool off =
             joint.torque_verdict == lesson::Verdict::low || joint.torque_verdict == lesson::Verdict::high ||
             joint.angle_verdict == lesson::Verdict::low || joint.angle_verdict == lesson::Verdict::high ||
-            joint.condition != joint::JointCondition::sound;
+            joint.condition != joint::JointCondition::intact;
         if (ok && off) report(joint.id + " is rated OK despite a failed criterion");
         if (!std::isfinite(joint.torque) || !std::isfinite(joint.angle) || !std::isfinite(joint.clamp))
             report(joint.id + " has a result that is not finite");
@@ -128,8 +128,8 @@ void InvariantChecker::frame(const servo::Output& output, bool wrench_in_hand, d
     if (++frames_ % 32 == 0) check_verdicts();
     const lesson::Lesson& lesson = session_.lesson();
     const servo::State& state = session_.state();
-    const lesson::WorkState scene{lesson, session_.setup(),
-                                  world_.write(state, output, wrench_in_hand, room)};
+    const lesson::ObservedLesson scene{lesson, session_.setup(),
+                                       world_.write(state, output, wrench_in_hand, room)};
     const lesson::Situation now = lesson::situation(scene);
     if (previous_ && *previous_ != now) ++coverage_.left.at(index(*previous_));
     if (!previous_ || *previous_ != now) ++coverage_.reached.at(index(now));

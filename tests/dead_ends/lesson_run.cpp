@@ -19,7 +19,7 @@ LessonRun::LessonRun(session::LessonSession& lesson_session, InvariantChecker& i
     last.commanded_tool = servo::to_commanded_tool(player.hand.pose);
 }
 
-bool LessonRun::tick(servo::Input input, bool wrench_in_hand, double room, bool hint_key) {
+bool LessonRun::tick(servo::TickInput input, bool wrench_in_hand, double room, bool hint_key) {
     input.set_torque = static_cast<float>(set_torque_scale * lesson::wrench_set_torque(session.lesson()));
     const auto stepped = session.step(world, input);
     if (!stepped) {
@@ -40,14 +40,14 @@ void LessonRun::frame(trainer::MouseCommand command, std::optional<std::size_t> 
     trainer::apply_command(hand, command, session.setup(), session.state());
     for (int i = 0; i < frame_ticks && !over(); ++i) {
         const Vec3 before = hand.pose.position;
-        servo::Input input = trainer::step_hand(hand, session.setup(), session.state());
+        servo::TickInput input = trainer::step_hand(hand, session.setup(), session.state());
         if (const lesson::LessonStep* due = session.lesson().due(); due != nullptr && session.lesson().guides)
             input.guide = static_cast<std::int16_t>(due->joint);
         const auto steps = trainer::steps_to_undo(undo, session.lesson());
         if (steps && hand.action == trainer::HandAction::resting && !hand.nut) session.request_undo(*steps);
         double room = std::numeric_limits<double>::infinity();
         if (hand.wrench && hand.action == trainer::HandAction::holding)
-            room = hand.room - std::abs(hand.handle_angle - hand.stroke_begin);
+            room = hand.free_swing - std::abs(hand.handle_angle - hand.stroke_begin);
         double leap = glm::distance(before, hand.pose.position);
         // After a miss the hand continues from the pose at which an obstacle stopped the wrench.
         if (session.state().tool_contact && hand.wrench)

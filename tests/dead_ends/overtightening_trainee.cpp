@@ -42,7 +42,7 @@ JointAttempt random_attempt(Random& random, const session::LessonSession& sessio
 
 bool done(const JointAttempt& v, const session::LessonSession& session) {
     const joint::JointState& joint = session.state().joints[v.joint];
-    return v.peak >= v.goal || joint.condition != joint::JointCondition::sound || session.time() > v.until;
+    return v.peak >= v.goal || joint.condition != joint::JointCondition::intact || session.time() > v.until;
 }
 
 // Presses, drags as far as there is room, releases and presses again.
@@ -66,8 +66,8 @@ trainer::MouseCommand next_command(JointAttempt& v, trainer_test::Player& p,
 
     const bool on = session.state().engagement.joint == static_cast<int>(v.joint);
     if (on) v.peak = std::max(v.peak, sense * session.state().joints[v.joint].torque);
-    const bool spent =
-        p.hand.wrench && std::abs(p.hand.handle_angle - p.hand.stroke_begin) > set_back_share * p.hand.room;
+    const bool spent = p.hand.wrench && std::abs(p.hand.handle_angle - p.hand.stroke_begin) >
+                                            set_back_share * p.hand.free_swing;
     const bool missed = p.hand.missed && p.hand.action == trainer::HandAction::resting;
     if ((p.hand.action == trainer::HandAction::holding && spent) || missed || done(v, session)) {
         command.button_down = p.button_down = false;
@@ -104,7 +104,7 @@ void overtighten_at_device(LessonRun& run, std::uint64_t seed, double span) {
     trainees::SimulatedTrainee trainee(strong, seed, run.session.setup());
     bool wrench = false;
     while (run.session.time() < span && !run.over() && !run.failed()) {
-        const servo::Input input =
+        const servo::TickInput input =
             trainee.act(run.session.setup(), run.session.state(), run.session.lesson());
         if (input.grip != servo::Grip::none) wrench = input.grip == servo::Grip::wrench;
         run.tick(input, wrench, std::numeric_limits<double>::infinity(), random.chance(1e-3));

@@ -150,7 +150,7 @@ void act_randomly_at_device(LessonRun& run, std::uint64_t seed, double span, boo
         if (other) action = random_device_action(random, session, rough);
         if (session.state().engagement.joint >= 0) action.handle += action.rate * session.setup().dt;
         hand = onward(action, random, session, hand, other && random.chance(0.05));
-        servo::Input input;
+        servo::TickInput input;
         input.commanded_tool = servo::to_commanded_tool(hand);
         if (action.nonsense)
             input.commanded_tool.position[any(random, 3)] = std::numeric_limits<float>::quiet_NaN();

@@ -23,7 +23,7 @@ void compare(const char* key, const Result<std::unique_ptr<DeviceDriver>>& opene
     REQUIRE(facts != nullptr);
     const Description announced = facts->announced();
     CHECK(announced.renders == driver.renders);
-    CHECK(announced.reach.x == driver.reach.x);
+    CHECK(announced.half_workspace.x == driver.half_workspace.x);
     for (const auto limit :
          {&force::OutputLimits::force, &force::OutputLimits::torque, &force::OutputLimits::stiffness,
           &force::OutputLimits::torsion, &force::OutputLimits::damping, &force::OutputLimits::angular_damping,

@@ -110,7 +110,7 @@ TEST_CASE(
         }));
         CHECK(in_order);
         CHECK(device_thread->snapshot().usable);
-        CHECK(device_thread->snapshot().opening == 1);
+        CHECK(device_thread->snapshot().connection_number == 1);
         CHECK(device_thread->snapshot().sample.pose.position.x > 0.0);
     }
     CHECK(bench->written().back().force.x == 0.0);
@@ -162,7 +162,7 @@ TEST_CASE(
     bench->plugged = true;
     REQUIRE(eventually(
         [&] { return device_thread->snapshot().usable && device_thread->snapshot().number > at; }));
-    CHECK(device_thread->snapshot().opening == 2);
+    CHECK(device_thread->snapshot().connection_number == 2);
     REQUIRE(eventually([&] { return device_thread->report().fault_message.empty(); }));
 }
 
@@ -171,7 +171,7 @@ TEST_CASE("DeviceThread: wait_until_open reports why a missing device does not o
     bench->plugged = false;
     Result<DeviceThread> device_thread = DeviceThread::start(opens(bench));
     REQUIRE(device_thread);
-    REQUIRE(eventually([&] { return device_thread->report().refusals > 0; }));
+    REQUIRE(eventually([&] { return device_thread->report().failed_openings > 0; }));
     const auto none = device_thread->wait_until_open(0.0);
     REQUIRE_FALSE(none);
     CHECK(none.error().code == ErrorCode::no_device);

@@ -25,7 +25,7 @@ inline void check_description(const device::Description& d) {
     CHECK(d.rate >= 1.0);
     CHECK(d.rate <= 20'000.0);
     CHECK(std::abs(glm::length(d.axis) - 1.0) < 1e-9);
-    CHECK(glm::min(d.reach.x, glm::min(d.reach.y, d.reach.z)) >= 0.0);
+    CHECK(glm::min(d.half_workspace.x, glm::min(d.half_workspace.y, d.half_workspace.z)) >= 0.0);
     CHECK(d.buttons >= 0);
     CHECK(d.buttons <= 32);
     // A component is rendered if and only if it has a nonzero limit.

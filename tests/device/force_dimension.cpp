@@ -206,7 +206,7 @@ TEST_CASE(
         CHECK(d.limits.force == row.force);
         CHECK(d.limits.torque == row.torque);
         CHECK(d.limits.stiffness == row.stiffness);
-        CHECK(d.reach == Vec3(row.reach));
+        CHECK(d.half_workspace == Vec3(row.reach));
         CHECK(d.serial.empty());
     }
 }

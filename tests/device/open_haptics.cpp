@@ -138,13 +138,13 @@ TEST_CASE("OpenHaptics: limits are those that the arm reports, and at most those
     CHECK(known.limits.force == 3.3);
     CHECK(known.limits.torque == 0.0);
     CHECK(known.limits.stiffness == 400.0);
-    CHECK(glm::distance(known.reach, Vec3(0.075, 0.06, 0.06)) < 1e-12);
+    CHECK(glm::distance(known.half_workspace, Vec3(0.075, 0.06, 0.06)) < 1e-12);
     CHECK(known.remarks.size() == 2);
     CHECK(known.remarks.back().find("renders 0.88 N without a break") == 0);
     const Description weak = description({"Touch", 3, 3, {-60, -40, -30, 60, 40, 30}, 0.2, 2.0, 2.0});
     CHECK(weak.limits.force == 2.0);
     CHECK(weak.limits.stiffness == doctest::Approx(200.0));
-    CHECK(glm::distance(weak.reach, Vec3(0.06, 0.04, 0.03)) < 1e-12);
+    CHECK(glm::distance(weak.half_workspace, Vec3(0.06, 0.04, 0.03)) < 1e-12);
     CHECK(weak.remarks.front() == "senses no rotation: the tool keeps its orientation");
     CHECK(description(premium).limits.force == 8.5);
     CHECK(description({"PHANTOM Premium 3.0 6DOF", 6, 6, {}, 9, 99, 9}).limits.force == 22.0);
@@ -157,7 +157,7 @@ TEST_CASE("OpenHaptics: limits are those that the arm reports, and at most those
         CHECK(d.limits.force == 3.3);
         CHECK(d.limits.torque == 0.0);
         CHECK(d.limits.stiffness == 400.0);
-        CHECK(d.reach == Vec3(0.075));
+        CHECK(d.half_workspace == Vec3(0.075));
     }
     CHECK(description({"\x1b[31mTouch\n", 6, 3, {}, 0.5, 3.3, 0.88}).name == "OpenHaptics arm ([31mTouch)");
 }

@@ -206,7 +206,7 @@ TEST_CASE("Plug-in: an arm that calibrates for long says so, and goes on in the 
     const Bench bench;
     const OpenedArm first = bench.open_with("busy for long");
     REQUIRE_FALSE(first);
-    CHECK(preparation_of(first.error()) == Preparation{DeviceNeed::patience, {}});
+    CHECK(preparation_of(first.error()) == Preparation{DeviceNeed::wait, {}});
     CHECK(eventually([&] { return bench.open().has_value(); }));
 }
 
@@ -229,11 +229,11 @@ TEST_CASE("Plug-in: an arm without calls of the program for 50 ms renders no for
     REQUIRE(opened);
     REQUIRE((*opened)->write({Vec3(3, 0, 0), {}}));
     REQUIRE(read_many(**opened));
-    bench.show("released");  // now a zero wrench creates the file `released`
+    bench.show("released");  // now a zero command creates the file `released`
     CHECK(eventually([&] { return fs::exists(bench.folder / "released"); }));
 }
 
-TEST_CASE("Plug-in: closing it sends a zero wrench and switches the motors off") {
+TEST_CASE("Plug-in: closing it sends a zero command and switches the motors off") {
     const Bench bench;
     auto opened = bench.open();
     REQUIRE(opened);
@@ -260,7 +260,7 @@ TEST_CASE("Plug-in: closing it lets an exchange that has begun return") {
 TEST_CASE("Plug-in: one that damages its process or the connection is a lost device") {
     const Bench bench;
     for (const auto& [fault, text] : std::initializer_list<std::pair<const char*, const char*>>{
-             {"nonsense", "the plug-in faulty_arm: its process has sent nonsense"},
+             {"nonsense", "the plug-in faulty_arm: its process has sent an invalid reply"},
              {"closed connection", "the plug-in faulty_arm has closed its connection in exchange"}}) {
         CAPTURE(fault);
         bench.show("");

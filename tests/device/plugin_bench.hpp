@@ -23,7 +23,7 @@ inline void write_text(const std::filesystem::path& file, const std::string& tex
 struct PluginBench {
     Folder folder;
     std::filesystem::path plugin = folder / "faulty_arm.so";
-    std::shared_ptr<device::WaitingArms> waiting = device::make_waiting_arms();
+    std::shared_ptr<device::UnfinishedCalibrations> waiting = device::make_unfinished_calibrations();
     EnvironmentVariable fault_file{"FAULTY_ARM", (folder / "fault").c_str()};
 
     PluginBench() { std::filesystem::copy_file(plugins / "faulty_arm.so", plugin); }

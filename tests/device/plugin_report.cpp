@@ -46,7 +46,7 @@ TEST_CASE("Plug-in: the description is what the plug-in reports") {
     CHECK(d.limits.stiffness == 2000.0);
     CHECK(d.limits.damping == 10.0);
     CHECK(d.limits.delay == 1);  // a command waits for the next exchange
-    CHECK(d.reach == Vec3(0.1));
+    CHECK(d.half_workspace == Vec3(0.1));
     CHECK(d.buttons == 1);
     CHECK(d.remarks.size() == 2);
 }
@@ -160,7 +160,7 @@ TEST_CASE("Plug-in: limits beyond those of any arm are reduced, with a remark ea
     CHECK(d.limits.torsion == 40.0);
     CHECK(d.limits.damping == 20.0);
     CHECK(d.limits.angular_damping == 0.1);
-    CHECK(d.reach == Vec3(1.0, 0.1, 0.1));
+    CHECK(d.half_workspace == Vec3(1.0, 0.1, 0.1));
     CHECK(d.rate == 1000.0);
     CHECK(d.remarks.at(0) == "reports a force of 500 N; Boltwright uses 70 N at most");
 }

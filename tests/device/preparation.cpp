@@ -55,16 +55,16 @@ void poll(DeviceSupervisor& supervisor, VirtualTime& time, double seconds) {
 
 TEST_CASE("Move permission: it holds for one attempt, and giving it twice gives it once") {
     MovePermission permission;
-    CHECK_FALSE(permission.take());
-    permission.give();
-    permission.give();
+    CHECK_FALSE(permission.acquire());
+    permission.grant();
+    permission.grant();
     CHECK(permission.active());
-    CHECK(permission.take());
+    CHECK(permission.acquire());
     CHECK(permission.active());
-    permission.give();  // the user presses the key again while the arm moves
+    permission.grant();  // the user presses the key again while the arm moves
     permission.end();
     CHECK_FALSE(permission.active());
-    CHECK_FALSE(permission.take());
+    CHECK_FALSE(permission.acquire());
 }
 
 TEST_CASE("Preparation: an arm moves when it is permitted, and asks again after it was switched off") {
@@ -76,10 +76,10 @@ TEST_CASE("Preparation: an arm moves when it is permitted, and asks again after 
     poll(supervisor, time, 3.0);
     CHECK(supervisor.report().state == DeviceState::absent);
     CHECK(supervisor.report().preparation == Preparation{DeviceNeed::permission, {}});
-    CHECK(supervisor.report().refusals > 2);
+    CHECK(supervisor.report().failed_openings > 2);
     CHECK(library.arm.moved_by_itself() == 0);
 
-    options.permission->give();
+    options.permission->grant();
     poll(supervisor, time, 3.0);
     CHECK(supervisor.report().state != DeviceState::absent);
     CHECK(supervisor.report().preparation == Preparation{});
@@ -99,7 +99,7 @@ TEST_CASE("Preparation: a permission that an attempt did not need is used up") {
     library.arm.initialized(1);
     OpenOptions options;
     options.permission = std::make_shared<MovePermission>();
-    options.permission->give();
+    options.permission->grant();
     const DeviceFactory open = factory_for(arm_id, options);
     CHECK(open());
     library.power_cycle();

@@ -131,7 +131,7 @@ TEST_CASE("DeviceSupervisor: attempts to open back off exponentially, and the re
     CHECK(tries[0] == 0.0);
     for (std::size_t i = 0; i < 8; ++i)
         CHECK(tries[i + 1] - tries[i] == doctest::Approx(pauses[i]).epsilon(0.01));
-    CHECK(supervisor.report().refusals == tries.size());
+    CHECK(supervisor.report().failed_openings == tries.size());
 }
 
 TEST_CASE("DeviceSupervisor: a device that fails at its first read is not reopened in a busy loop") {
@@ -186,9 +186,9 @@ TEST_CASE("DeviceSupervisor: when commands stop, the force is released within 20
         supervised.until(last + 0.020);
         CHECK(supervised.force() == 0.0);
         CHECK(supervised.torque() == 0.0);
-        CHECK(supervised.supervisor.report().lapses == 1);
+        CHECK(supervised.supervisor.report().command_timeouts == 1);
         supervised.until(last + 0.5);
-        CHECK(supervised.supervisor.report().lapses == 1);
+        CHECK(supervised.supervisor.report().command_timeouts == 1);
         supervised.sends_commands = true;
         supervised.until(last + 0.51);
         CHECK(supervised.force() > 3.0);
@@ -238,7 +238,7 @@ TEST_CASE("DeviceSupervisor: commands older than the opening are never rendered;
     supervisor.poll([] { return ForceCommand{{Vec3(9, 0, 0), Vec3(0.0)}, true, 78}; });
     REQUIRE(state->commands.size() == 2);
     CHECK(state->commands[1].force == Vec3(9, 0, 0));
-    CHECK(supervisor.report().lapses == 0);
+    CHECK(supervisor.report().command_timeouts == 0);
 }
 
 TEST_CASE("DeviceSupervisor: a command is clamped to the described limits and axes") {
@@ -286,7 +286,7 @@ TEST_CASE(
     CHECK_FALSE(supervised.supervisor.report().fault_message.empty());
     CHECK(supervised.supervisor.report().openings == 1);
     supervised.until(3.9);
-    CHECK(supervised.supervisor.report().silences >= 2);
+    CHECK(supervised.supervisor.report().silence_timeouts >= 2);
     CHECK_FALSE(supervised.supervisor.report().fault_message.empty());
     supervised.until(4.0);
     while (supervised.supervisor.report().state != DeviceState::usable && supervised.time.now < 8.0)
@@ -324,7 +324,7 @@ TEST_CASE(
     CHECK(state->commands.size() < 70);
     for (std::size_t i = 1; i < state->commands.size(); ++i)
         CHECK(state->commands[i].force.x == doctest::Approx(state->began[i]).epsilon(1e-2).scale(0.1));
-    CHECK(supervisor.report().lapses == 0);
+    CHECK(supervisor.report().command_timeouts == 0);
 }
 
 }  // namespace device_supervisor_test

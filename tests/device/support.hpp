@@ -13,7 +13,7 @@ inline device::Description arm() {
     arm.name = "an arm";
     arm.id = "arm-1";
     arm.renders.fill(true);
-    arm.reach = Vec3(0.2);
+    arm.half_workspace = Vec3(0.2);
     arm.buttons = 2;
     return arm;
 }

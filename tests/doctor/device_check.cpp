@@ -47,7 +47,7 @@ TEST_CASE("Device check: the report has what was measured, and why the rest was 
     check.stiffness->responses = {0.004, 0.009, 0.005};
     text = device_check_report(check);
     CHECK(has(text,
-              "stable on this computer up to 0.8 N/mm of the announced 2 N/mm: at 1 N/mm the handle keeps "
+              "stable on this computer up to 0.8 N/mm of the reported 2 N/mm: at 1 N/mm the handle keeps "
               "oscillating\n"));
     CHECK(has(text, "moves by 0.03 mm within 5 ms of a command (median of 3 steps of 2.4 N"));
     check.stiffness->stable = 0.0;

@@ -57,11 +57,11 @@ TEST_CASE(
             Result<PlannedStation> planned = plan_station(what, request);
             REQUIRE_MESSAGE(planned, (planned ? "" : planned.error().message()));
             CHECK(planned->obstacles);
-            const servo::Setup setup = planned->options.setup({}, 1e-3);
-            Result<servo::State> state = planned->options.state(setup);
+            const servo::Setup setup = planned->options.make_setup({}, 1e-3);
+            Result<servo::State> state = planned->options.make_state(setup);
             REQUIRE(state);
             CHECK(state->tool_contact.has_value());
-            servo::Input input;
+            servo::TickInput input;
             input.commanded_tool = servo::to_commanded_tool(planned->options.home);
             input.dead_man = true;
             input.grip = servo::Grip::wrench;
@@ -82,10 +82,10 @@ TEST_CASE("Planned station: without obstacles, and on another nut") {
     Result<PlannedStation> planned = plan_station(what, request);
     REQUIRE(planned);
     CHECK(!planned->obstacles);
-    const servo::Setup setup = planned->options.setup({}, 1e-3);
-    Result<servo::State> state = planned->options.state(setup);
+    const servo::Setup setup = planned->options.make_setup({}, 1e-3);
+    Result<servo::State> state = planned->options.make_state(setup);
     REQUIRE(state);
-    servo::Input input;
+    servo::TickInput input;
     input.commanded_tool = servo::to_commanded_tool(planned->options.home);
     input.grip = servo::Grip::wrench;
     input.dead_man = true;

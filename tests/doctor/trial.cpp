@@ -126,14 +126,14 @@ TEST_CASE("Trial: the report has the samples and commands of each device and the
 
 TEST_CASE("Link statistics: they count samples from the first tick on, silence and the largest command") {
     LinkStats stats;
-    DeviceLink port;
-    port.number = 3;
-    count(stats, port, {Vec3(3.0, 4.0, 0.0), Vec3(0.0)});
-    port.silence = 0.02;
-    count(stats, port, {Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.5, 0.0)});
-    port.number = 4;
-    port.silence = 0.0;
-    count(stats, port, {});
+    DeviceLink link;
+    link.number = 3;
+    record_tick(stats, link, {Vec3(3.0, 4.0, 0.0), Vec3(0.0)});
+    link.silence = 0.02;
+    record_tick(stats, link, {Vec3(1.0, 0.0, 0.0), Vec3(0.0, 0.5, 0.0)});
+    link.number = 4;
+    link.silence = 0.0;
+    record_tick(stats, link, {});
     CHECK(stats.samples == 1);  // the device had sent three before
     CHECK(stats.silence == 0.0);
     CHECK(stats.longest_silence == 0.02);

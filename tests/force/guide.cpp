@@ -175,7 +175,7 @@ TEST_CASE(
 
 TEST_CASE("Guide: the force scales with the strength and fades in 0.25 s after engagement") {
     GuidingParameters guiding;
-    guiding.share = 0.5;
+    guiding.mode_share = 0.5;
     GuideState state;
     const GuideTarget target = nut_at(Vec3(0.0));
     const GuidedTool tool = tool_at(Vec3(0.1, 0, 0));
@@ -189,7 +189,7 @@ TEST_CASE("Guide: the force scales with the strength and fades in 0.25 s after e
         last = glm::length(request.command.force);
     }
     CHECK(request.command.force == Vec3(0.0));
-    guiding.share = 0.0;
+    guiding.mode_share = 0.0;
     for (int i = 0; i < 500; ++i)
         REQUIRE(guide(guiding, state, tool, target, all_free, dt).command.force == Vec3(0.0));
 }
@@ -320,7 +320,7 @@ TEST_CASE("Guide: the passivity controller does not count guiding work as genera
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         CAPTURE(seed);
         Random random(seed, 9);
-        test::Arm arm;
+        test::ArmModel arm;
         arm.parameters = test::random_arm(random);
         arm.parameters.stiffness = arm.parameters.angular_stiffness = 0.0;  // the hand yields
         arm.parameters.damping = std::min(arm.parameters.damping, 3.0);
@@ -333,7 +333,7 @@ TEST_CASE("Guide: the passivity controller does not count guiding work as genera
         OutputStage stage;
         const OutputLimits limits;
         for (int i = 0; i < 30'000; ++i) {
-            PortInput port;
+            DeviceInput port;
             port.pose = test::encoder_pose(arm);
             port.dead_man = true;
             const GuidedTool tool{port.pose.position, port.pose.orientation * Vec3(1, 0, 0),

@@ -19,8 +19,8 @@ namespace {
 constexpr double dt = 1e-3;
 const ForceRequest hard{{Vec3(100, 0, 0), Vec3(0, 100, 0)}};
 
-PortInput held() {
-    PortInput input;
+DeviceInput held() {
+    DeviceInput input;
     input.dead_man = true;
     return input;
 }
@@ -43,7 +43,7 @@ TEST_CASE("Output stage: zero within 20 ms of silence, NaN, a jump, a stop or a 
     for (int cause = 0; cause < 6; ++cause) {
         CAPTURE(cause);
         OutputStage stage = at_full(limits);
-        PortInput input = held();
+        DeviceInput input = held();
         ForceRequest request = hard;
         if (cause == 0) input.fresh = false;
         if (cause == 1) input.pose.position.x = nan;
@@ -62,7 +62,7 @@ TEST_CASE("Output stage: zero within 20 ms of silence, NaN, a jump, a stop or a 
 TEST_CASE("Output stage: a runaway at 5 m/s is released within 20 ms") {
     const OutputLimits limits;
     OutputStage stage = at_full(limits);
-    PortInput input = held();
+    DeviceInput input = held();
     OutputCommand out;
     for (int i = 0; i < 20; ++i) {
         input.pose.position.x += 5.0 * dt;
@@ -75,7 +75,7 @@ TEST_CASE("Output stage: a runaway at 5 m/s is released within 20 ms") {
 TEST_CASE("Output stage: after a fault the force ramps up") {
     const OutputLimits limits;
     OutputStage stage = at_full(limits);
-    PortInput input = held();
+    DeviceInput input = held();
     input.fresh = false;
     for (int i = 0; i < 50; ++i) render(limits, stage, input, hard, dt);
     input.fresh = true;
@@ -90,7 +90,7 @@ TEST_CASE("Output stage: for any input the output is finite, within the limits a
     Random random(12);
     OutputStage stage;
     Vec3 last(0.0);
-    PortInput input = held();
+    DeviceInput input = held();
     const auto wild = [&] { return random.normal() * std::pow(10.0, random.uniform(-3.0, 200.0)); };
     // Silence leaves the shortest time for the release.
     const double fastest =
@@ -115,7 +115,7 @@ TEST_CASE("Output stage: for any input the output is finite, within the limits a
         if (random.chance(0.0002)) running = 30;
         if (running-- > 0) input.pose.position.y += 5e-3;
         if (glm::length(input.pose.position) > 100.0) input.pose.position = Vec3(0.0);
-        PortInput now = input;
+        DeviceInput now = input;
         if (random.chance(0.0003)) now.pose.position.x = wild();
         now.fresh = random.chance(0.9);
         now.dead_man = random.chance(0.9995);
@@ -158,7 +158,7 @@ TEST_CASE("Output stage: during missed deadlines the last command counts for as 
     limits.damping = limits.angular_damping = 0.0;
     limits.force_rate = 1e6;
     OutputStage stage;
-    PortInput input = held();
+    DeviceInput input = held();
     const auto push = [&](double newton) {
         render(limits, stage, input, {{Vec3(newton, 0, 0), Vec3(0.0)}}, dt);
     };
@@ -179,7 +179,7 @@ TEST_CASE(
     const OutputLimits limits;
     OutputStage stage = at_full(limits);
     stage.passivity.balance = -1.0;
-    PortInput input = held();
+    DeviceInput input = held();
     input.dead_man = false;
     for (int i = 0; i < 30; ++i) render(limits, stage, input, {}, dt);
     input.dead_man = true;
@@ -193,7 +193,7 @@ TEST_CASE(
 TEST_CASE("Output stage: no allocation, lock or clock; the same inputs give the same bits") {
     const auto run = [] {
         OutputStage stage;
-        PortInput input = held();
+        DeviceInput input = held();
         Random random(5);
         OutputCommand out;
         std::uint64_t hash = 14695981039346656037ULL;

@@ -76,7 +76,7 @@ enum class StoredEnergy { reported, omitted };
 
 // The hand approaches, presses, shakes for half a second at 6 Hz and holds still for 1.5 s.
 PressResult press_wall(const Scene& scene, const OutputLimits& limits, StoredEnergy energy, double dt) {
-    test::Arm arm;
+    test::ArmModel arm;
     arm.parameters = scene.arm;
     arm.parameters.delay = limits.delay;
     arm.pose.position = arm.intention.position = clear * scene.way;
@@ -89,7 +89,7 @@ PressResult press_wall(const Scene& scene, const OutputLimits& limits, StoredEne
         double at = std::max(clear - scene.speed * t, -scene.press / scene.arm.stiffness);
         if (t > 2.0 && t < 2.5) at += 0.01 * std::sin(2.0 * pi * 6.0 * (t - 2.0));
         arm.intention.position = at * scene.way;
-        PortInput input;
+        DeviceInput input;
         input.pose = test::encoder_pose(arm);
         input.dead_man = true;
         ForceRequest request = wall_of(scene, input.pose);
@@ -141,7 +141,7 @@ TEST_CASE("Stability: a wall of 1 N/mm is rendered with at least 0.8 N/mm for ev
         CAPTURE(seed);
         Scene scene = random_scene(seed);
         scene.arm.friction = 0.0;  // friction would carry a part of the force
-        test::Arm arm;
+        test::ArmModel arm;
         arm.parameters = scene.arm;
         OutputStage stage;
         // Press with 3 N, then 5 N, for three seconds each. The stiffness is the difference of force over the
@@ -151,7 +151,7 @@ TEST_CASE("Stability: a wall of 1 N/mm is rendered with at least 0.8 N/mm for ev
         for (int k = 0; k < 6000; ++k) {
             const int level = k / 3000;
             arm.intention.position = -(level == 0 ? 3.0 : 5.0) / scene.arm.stiffness * n;
-            PortInput input;
+            DeviceInput input;
             input.pose = test::encoder_pose(arm);
             input.dead_man = true;
             const double depth = std::max(0.0, -glm::dot(input.pose.position, n));

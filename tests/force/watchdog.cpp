@@ -20,7 +20,7 @@ constexpr double dt = 1e-3;
 struct Device {
     OutputLimits limits;
     WatchdogState state;
-    PortInput input;
+    DeviceInput input;
     Device() { input.dead_man = true; }
 
     bool step() { return update_watchdog(limits, state, input, true, dt); }
@@ -102,19 +102,19 @@ TEST_CASE("Watchdog: eight silent milliseconds are accepted, nine are a fault; m
 
 TEST_CASE("Watchdog: an invalid pose is a fault, counted once, with recovery") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    const std::function<void(PortInput&)> broken[] = {
-        [&](PortInput& in) { in.pose.position.y = nan; },
-        [&](PortInput& in) { in.pose.position.z = std::numeric_limits<double>::infinity(); },
-        [&](PortInput& in) { in.pose.position.x = 1e300; },
-        [&](PortInput& in) { in.pose.orientation.w = nan; },
-        [&](PortInput& in) { in.pose.orientation = Quat(0.0, 0.0, 0.0, 0.0); },
-        [&](PortInput& in) { in.pose.orientation = Quat(2.0, 0.0, 0.0, 0.0); },
-        [&](PortInput& in) { in.valid = false; },
+    const std::function<void(DeviceInput&)> broken[] = {
+        [&](DeviceInput& in) { in.pose.position.y = nan; },
+        [&](DeviceInput& in) { in.pose.position.z = std::numeric_limits<double>::infinity(); },
+        [&](DeviceInput& in) { in.pose.position.x = 1e300; },
+        [&](DeviceInput& in) { in.pose.orientation.w = nan; },
+        [&](DeviceInput& in) { in.pose.orientation = Quat(0.0, 0.0, 0.0, 0.0); },
+        [&](DeviceInput& in) { in.pose.orientation = Quat(2.0, 0.0, 0.0, 0.0); },
+        [&](DeviceInput& in) { in.valid = false; },
     };
     for (const auto& spoil : broken) {
         Device device;
         device.move(0.1, 10);
-        const PortInput good = device.input;
+        const DeviceInput good = device.input;
         spoil(device.input);
         for (int i = 0; i < 5; ++i) CHECK_FALSE(device.step());
         CHECK(device.state.fault == Fault::no_pose);
@@ -220,7 +220,7 @@ TEST_CASE(
 TEST_CASE("Watchdog: every fault has a message") {
     for (std::size_t i = 0; i < fault_kinds; ++i)
         for (std::size_t j = 0; j < i; ++j)
-            CHECK(std::string(name(static_cast<Fault>(i))) != name(static_cast<Fault>(j)));
+            CHECK(std::string(message_for(static_cast<Fault>(i))) != message_for(static_cast<Fault>(j)));
 }
 
 }  // namespace force_watchdog_test

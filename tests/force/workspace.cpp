@@ -247,22 +247,23 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "rotated_reach: the farthest point on each of the user's axes is at the edge of the device's reach") {
+    "rotated_half_workspace: the farthest point on each of the user's axes is at the edge of the device's "
+    "reach") {
     Random random(12);
     const Vec3 reach(0.08, 0.06, 0.035);
-    CHECK(rotated_reach({1, 0, 0, 0}, reach) == reach);
-    const Vec3 quarter = rotated_reach(rotation(Vec3(0.0, 0.5 * pi, 0.0)), reach);
+    CHECK(rotated_half_workspace({1, 0, 0, 0}, reach) == reach);
+    const Vec3 quarter = rotated_half_workspace(rotation(Vec3(0.0, 0.5 * pi, 0.0)), reach);
     CHECK(glm::length(quarter - Vec3(0.035, 0.06, 0.08)) < 1e-12);
     for (int i = 0; i < 200; ++i) {
         const Quat turn = random_turn(random);
-        const Vec3 turned = rotated_reach(turn, reach);
+        const Vec3 turned = rotated_half_workspace(turn, reach);
         for (int axis = 0; axis < 3; ++axis) {
             Vec3 end(0.0);
             end[axis] = turned[axis];
             const Vec3 at = glm::abs(glm::conjugate(turn) * end) / reach;
             CHECK(std::max({at.x, at.y, at.z}) == doctest::Approx(1.0));
         }
-        CHECK(rotated_reach(turn, Vec3(0.0)) == Vec3(0.0));
+        CHECK(rotated_half_workspace(turn, Vec3(0.0)) == Vec3(0.0));
     }
 }
 

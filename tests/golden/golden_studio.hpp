@@ -38,7 +38,7 @@ assets::Model cube(const assets::Material& material, bool tangents = true);
 // Adds a texture of size × size to the model, with a colour for every texel (0 … 1); returns its index.
 template <class Color>
 int add_texture(assets::Model& model, int size, const Color& color) {
-    assets::Image image;
+    assets::Bitmap image;
     image.width = image.height = size;
     image.channels = 4;
     for (int y = 0; y < size; ++y)

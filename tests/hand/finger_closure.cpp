@@ -18,7 +18,7 @@ using namespace grasp_test;
 
 namespace {
 
-// m, the penetration that ball_spacing and stop_tolerance permit (finger_closure.hpp).
+// m, the penetration that sphere_spacing and stop_tolerance permit (finger_closure.hpp).
 constexpr double stated = 0.65 * mm;
 
 bool penetrates_tool(const TestTool& held, const hand::Hand& hand, const Pose& wrist, std::size_t d,

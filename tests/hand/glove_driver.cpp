@@ -33,7 +33,7 @@ TEST_CASE("GloveDriver: gloves of both sizes and hands stream through a pseudo-t
             }));
             CHECK(in_order);
             CHECK(driver.report().identity.sensors == sensors);
-            CHECK(driver.report().identity.hand == hand);
+            CHECK(driver.report().identity.side == hand);
             CHECK(driver.report().lost_bytes == 0);
             CHECK((driver.sample().frame.raw[index(Sensor::ring_dij)] == 0) == (sensors == 18));
         }

@@ -35,7 +35,7 @@ TEST_CASE("GloveHandshake: reads the identity and configures the stream") {
                 REQUIRE(handshake.done());
                 CHECK(took < 0.5);
                 CHECK(handshake.identity().sensors == sensors);
-                CHECK(handshake.identity().hand == hand);
+                CHECK(handshake.identity().side == hand);
                 CHECK(handshake.identity().plugged);
                 CHECK(handshake.identity().version == "1.2");
                 CHECK(glove.streaming());

@@ -22,7 +22,7 @@ struct Bench : Script {
     servo::Setup setup;
     servo::Output output;
     bool wrench = false;
-    double room = std::numeric_limits<double>::infinity();
+    double free_swing = std::numeric_limits<double>::infinity();
     HintState hints;
     HapticWorld world{2};
 
@@ -62,7 +62,9 @@ struct Bench : Script {
         for (const int joint : {0, 1}) pull(joint, 70.0);
     }
 
-    [[nodiscard]] WorkState work_state() { return {lesson, setup, world.write(state, output, wrench, room)}; }
+    [[nodiscard]] ObservedLesson work_state() {
+        return {lesson, setup, world.write(state, output, wrench, free_swing)};
+    }
     [[nodiscard]] Situation now() { return situation(work_state()); }
     const std::optional<Hint>& frame(double dt = 0.05, bool requested = false) {
         return update(hints, work_state(), dt, requested);

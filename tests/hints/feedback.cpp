@@ -50,7 +50,8 @@ struct Outcome {
     [[nodiscard]] std::vector<std::string> reasons() const {
         const words::Words en = words_in("en");
         std::vector<std::string> texts;
-        for (const Remark& remark : review().reasons) texts.push_back(remark_text(en, remark));
+        for (const DeductionText& deduction : review().reasons)
+            texts.push_back(deduction_text(en, deduction));
         return texts;
     }
     [[nodiscard]] std::vector<std::string_view> advice() const {
@@ -119,8 +120,8 @@ TEST_CASE("Feedback: each deduction has a reason with numbers and a piece of adv
         CHECK(r.reasons() == ReasonTexts{c.reason});
         CHECK(r.advice() == Keys{c.advice});
         for (const char* language : {"de", "zh"})
-            for (const Remark& remark : r.review().reasons)
-                CHECK(remark_text(words_in(language), remark).find('{') == std::string::npos);
+            for (const DeductionText& deduction : r.review().reasons)
+                CHECK(deduction_text(words_in(language), deduction).find('{') == std::string::npos);
     }
     Outcome loose(Task::loosen);
     loose.lesson.joints[1].result.torque = 0.0;
@@ -137,7 +138,7 @@ TEST_CASE("Feedback: advice begins with the costliest mistake and has at most th
     CHECK(r.advice() == Keys{"advice.torque_high", "advice.torque_low", "advice.done_already"});
     const Review review = r.review();
     double points = 0.0;
-    for (const Remark& remark : review.reasons) points += remark.points;
+    for (const DeductionText& deduction : review.reasons) points += deduction.points;
     CHECK(points == doctest::Approx(judge(r.lesson, test::make_world(r.state), 1e-3).score - 100.0));
 }
 
@@ -145,10 +146,10 @@ TEST_CASE("Feedback: reasons from a session file keep their stored text") {
     Outcome r;
     r.done(0, 50.0, 30.0);
     LessonResult result = judge(r.lesson, test::make_world(r.state), 1e-3);
-    for (ScoreReason& reason : result.reasons) reason = {reason.points, reason.text};
+    for (Deduction& reason : result.reasons) reason = {reason.points, reason.text};
     const Review review = lesson::review(r.assembly, result);
     REQUIRE(review.reasons.size() == 1);
-    CHECK(remark_text(words_in("zh"), review.reasons[0]) == result.reasons[0].text);
+    CHECK(deduction_text(words_in("zh"), review.reasons[0]) == result.reasons[0].text);
     CHECK(review.reasons[0].points == -25.0);
     CHECK(review.advice.empty());
 }
@@ -169,7 +170,7 @@ TEST_CASE("Feedback: enumeration values have distinct names in every language") 
                 text_key(Verdict::high)});
         differ({text_key(joint::Stage::navigation), text_key(joint::Stage::transition),
                 text_key(joint::Stage::linearity), text_key(joint::Stage::yield)});
-        differ({text_key(joint::JointCondition::sound), text_key(joint::JointCondition::stripped),
+        differ({text_key(joint::JointCondition::intact), text_key(joint::JointCondition::stripped),
                 text_key(joint::JointCondition::broken)});
         for (std::size_t a = 0; a < force::fault_kinds; ++a)
             for (std::size_t b = 0; b < a; ++b)

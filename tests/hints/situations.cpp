@@ -83,7 +83,7 @@ const Case cases[] = {
     {Situation::twist_back, "hint.twist_back", HintMotion::twist_back,
      [](Bench& b) {
          b.tick(0, Grip::fingers, 0.1, 1.0);
-         b.room = 0.01;
+         b.free_swing = 0.01;
      }},
     {Situation::other_way_on, "hint.other_way_on", HintMotion::spin,
      [](Bench& b) { b.tick(0, Grip::fingers, -0.1, -1.0); }},
@@ -122,7 +122,7 @@ const Case cases[] = {
      [](Bench& b) {
          b.seat_both();
          b.turn(0, 10.0);
-         b.room = 0.02;
+         b.free_swing = 0.02;
      }},
     {Situation::ease, "hint.ease", HintMotion::pull_on,
      [](Bench& b) {
@@ -225,7 +225,7 @@ const Case cases[] = {
     {Situation::set_back, "hint.set_back", HintMotion::set_back,
      [](Bench& b) {
          b.tick(1, Grip::wrench, -40.0);
-         b.room = 0.0;
+         b.free_swing = 0.0;
      },
      torque, Task::loosen},
     {Situation::free, "hint.free", HintMotion::lift,
@@ -243,8 +243,8 @@ const Case cases[] = {
 };
 
 // Announcements of a step, which depend on time.
-constexpr Situation announced[] = {Situation::next, Situation::round_run_down, Situation::round_tighten,
-                                   Situation::round_recheck, Situation::round_loosen};
+constexpr Situation announced[] = {Situation::next, Situation::pass_run_down, Situation::pass_tighten,
+                                   Situation::pass_recheck, Situation::pass_loosen};
 
 words::Words words_in(std::string_view language) {
     words::LoadedWords loaded = words::load_words(words::words_folder(), language);

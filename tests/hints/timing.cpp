@@ -175,8 +175,8 @@ TEST_CASE("Hints: stop is shown at once, a wrong action almost at once") {
 TEST_CASE("Hints: a pass is announced, then each next joint, for three seconds or until the hand is there") {
     Bench b;
     b.idle();
-    CHECK(b.frame()->situation == Situation::round_run_down);
-    CHECK(b.wait(2.8)->situation == Situation::round_run_down);
+    CHECK(b.frame()->situation == Situation::pass_run_down);
+    CHECK(b.wait(2.8)->situation == Situation::pass_run_down);
     CHECK(b.wait(0.4)->situation == Situation::find_by_fingers);
     b.seat(0);
     CHECK(b.frame()->situation == Situation::next);
@@ -186,16 +186,16 @@ TEST_CASE("Hints: a pass is announced, then each next joint, for three seconds o
     CHECK(b.wait(0.6)->situation == Situation::grip_nut);
     b.far_away();
     b.seat(1);
-    CHECK(b.frame()->situation == Situation::round_tighten);
+    CHECK(b.frame()->situation == Situation::pass_tighten);
     b.wrench = true;
     b.pull(0, 35.0);
     b.pull(1, 35.0);
     b.pull(0, 70.0);
     b.pull(1, 70.0);
-    CHECK(b.frame()->situation == Situation::round_recheck);
+    CHECK(b.frame()->situation == Situation::pass_recheck);
     Bench loose(Mode::guided, content::Strategy::torque, Task::loosen);
     loose.idle();
-    CHECK(loose.frame()->situation == Situation::round_loosen);
+    CHECK(loose.frame()->situation == Situation::pass_loosen);
 }
 
 TEST_CASE("Hints: restarting a step announces it and resets the level") {
@@ -231,7 +231,7 @@ TEST_CASE("Hints: no flicker during random actions") {
                 if (die == 0) b.wrench = !b.wrench;
                 if (die == 1) b.near(random.bits() % 2);
                 if (die == 2) b.far_away();
-                if (die == 3) b.room = random.chance(0.5) ? 0.0 : 1.0;
+                if (die == 3) b.free_swing = random.chance(0.5) ? 0.0 : 1.0;
                 joint = static_cast<int>(random.bits() % 3) - 1;
                 grip = random.chance(0.5) ? Grip::fingers : Grip::wrench;
                 torque = random.uniform(-3.0, 30.0);

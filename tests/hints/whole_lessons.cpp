@@ -72,14 +72,14 @@ HintLog play_through(const char* trainee, std::uint64_t seed, Mode mode, Task ta
     std::size_t step = 0;
     double shown_for = 1e9;
     while (lesson.due() != nullptr && state.tick < 1'800'000) {
-        const servo::Input input = hand.act(setup, state, lesson);
+        const servo::TickInput input = hand.act(setup, state, lesson);
         const servo::Output output = servo::tick(setup, state, input);
         test::observe_tick(lesson, components, state, output);
         if (input.grip != servo::Grip::none) wrench = input.grip == servo::Grip::wrench;
         for (const LessonEvent& event : lesson.events) add_event(mistakes, lesson, event);
         lesson.events.clear();
         if (state.tick % frame_ticks != 0) continue;
-        const WorkState work{lesson, setup, world.write(state, output, wrench)};
+        const ObservedLesson work{lesson, setup, world.write(state, output, wrench)};
         const std::optional<Hint>& hint = update(hints, work, frame_time);
         ++log.frames;
         if (const auto& mistake = update(mistakes, frame_time)) {
@@ -137,10 +137,10 @@ TEST_CASE("Hints: guided: a hint for the due joint is shown from the first tick 
     CHECK(mistakes > 0);
     // All situations of a regular lesson had a hint.
     for (const Situation s :
-         {Situation::round_run_down, Situation::round_tighten, Situation::round_recheck,
-          Situation::round_loosen, Situation::next, Situation::run_down, Situation::take_wrench,
-          Situation::pull, Situation::ease, Situation::stop, Situation::check, Situation::checked,
-          Situation::turn_off, Situation::wrong_joint, Situation::all_done}) {
+         {Situation::pass_run_down, Situation::pass_tighten, Situation::pass_recheck, Situation::pass_loosen,
+          Situation::next, Situation::run_down, Situation::take_wrench, Situation::pull, Situation::ease,
+          Situation::stop, Situation::check, Situation::checked, Situation::turn_off, Situation::wrong_joint,
+          Situation::all_done}) {
         CAPTURE(static_cast<int>(s));
         CHECK(seen.contains(s));
     }

@@ -25,7 +25,7 @@ Resistance constant(double tighten, double loosen, double lead = 0.0) {
     Resistance r;
     r.tighten = tighten;
     r.loosen = loosen;
-    r.lead = lead;
+    r.lead_torque = lead;
     return r;
 }
 

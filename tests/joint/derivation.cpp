@@ -17,7 +17,7 @@ namespace {
 JointDesign plain() {
     JointDesign d = test::m16_flange_joint();
     d.friction.static_ratio = 1.0;
-    d.running_torque = 0.0;
+    d.running_drag = 0.0;
     d.embedding_time = 1e12;
     d.axis = Vec3(1, 0, 0);
     return d;
@@ -25,7 +25,7 @@ JointDesign plain() {
 
 // Angle (rad) at which the joint alone carries the clamp force `force`, with its present plastic deformation.
 double angle_at(const MechanisticParameters& p, const MechanisticState& s, double force) {
-    return (p.seat.closure(force) + p.gap + s.plastic + s.stripped + s.embedding) / p.levers.lead;
+    return (p.seat.closure(force) + p.start_gap + s.plastic + s.stripped + s.embedding) / p.levers.lead;
 }
 
 MechanisticState tightened(const MechanisticParameters& p, double force, double share = 1.0) {
@@ -221,7 +221,7 @@ TEST_CASE("Derive: the nut's weight lowers the torque downward, raises it upward
         CAPTURE(up);
         const MechanisticParameters p = on(Vec3(std::sqrt(1.0 - up * up), up, 0.0));
         const Resistance r = resistance(p, MechanisticState{});
-        CHECK(std::abs(r.lead + up * lead) < 1e-12);
+        CHECK(std::abs(r.lead_torque + up * lead) < 1e-12);
         CHECK(std::abs(r.tighten + up * lead - std::abs(up) * friction) < 1e-12);
         CHECK(std::abs(r.loosen + up * lead + std::abs(up) * friction) < 1e-12);
     }
@@ -272,7 +272,7 @@ TEST_CASE(
     // The published friction levers minus the lead.
     const double lever = (-2.0 / (2.0 * pi) + 0.3 * 14.7 / (2.0 * std::cos(pi / 6.0)) + 0.4 * 24.0) * 1e-3;
     for (const double further : {0.0, 45.0, 90.0}) {
-        const PublishedReading off = published_read(p, {}, b.yield + further, Direction::loosen);
+        const PublishedResponse off = evaluate_published(p, {}, b.yield + further, Direction::loosen);
         REQUIRE(off.stage == Stage::yield);
         const double clamp = published_yield_torque(p, b.yield + further) / ((lever + 4e-3 / (2.0 * pi)));
         CHECK(off.clamp == doctest::Approx(clamp).epsilon(1e-9));

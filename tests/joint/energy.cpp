@@ -18,7 +18,7 @@ struct Cycle {
 Cycle random_cycle(const GroupParameters& group, Random& random, bool take_friction_off) {
     std::vector<JointState> joints = initial_state(group, 1);
     const MechanisticParameters& p = group.joints[0];
-    const double snug = p.gap / p.levers.lead;
+    const double snug = p.start_gap / p.levers.lead;
     const double span = to_radians(random.uniform(10.0, 250.0));
     Cycle cycle;
     const double dt = 1e-3;
@@ -39,7 +39,7 @@ Cycle random_cycle(const GroupParameters& group, Random& random, bool take_frict
             REQUIRE(s.embedding >= before.embedding);
             REQUIRE(s.stripped >= before.stripped);
             double torque = joints[0].torque;
-            if (take_friction_off) torque = resistance(p, s).lead;
+            if (take_friction_off) torque = resistance(p, s).lead_torque;
             // Rectangle rule with the torque at the end of the step.
             const double work = torque * (next - angle);
             cycle.work += work;

@@ -109,7 +109,8 @@ TEST_CASE("Flange: the sweep converges to the solution of the equations of all j
     for (std::size_t i = 0; i < 6; ++i) {
         const MechanisticParameters& p = group.joints[i];
         const MechanisticState& s = joints[i].mechanistic;
-        double left = p.levers.lead * s.angle - p.gap - s.plastic - s.embedding - p.seat.closure(s.clamp);
+        double left =
+            p.levers.lead * s.angle - p.start_gap - s.plastic - s.embedding - p.seat.closure(s.clamp);
         for (std::uint32_t k = group.interaction.row_begin[i]; k < group.interaction.row_begin[i + 1]; ++k)
             left -= group.interaction.value[k] * joints[group.interaction.column[k]].clamp;
         CHECK(std::abs(left) < 1e-12);  // m

@@ -45,7 +45,7 @@ Jumps jumps_of(const GroupParameters& group, const Path& path, double duration, 
 
 JointDesign steady(JointDesign d) {
     d.friction.static_ratio = 1.0;  // no breakaway, because these tests check the slope of the running torque
-    d.running_torque = 0.0;
+    d.running_drag = 0.0;
     return d;
 }
 
@@ -147,7 +147,7 @@ TEST_CASE(
     "degrees") {
     JointDesign design = test::m16_flange_joint();
     design.friction.static_ratio = 1.25;
-    design.running_torque = 0.0;
+    design.running_drag = 0.0;
     GroupParameters group = test::single(design);
     std::vector<JointState> joints = initial_state(group, 1);
     while (joints[0].clamp < 40e3) turn_nut(group, joints, 0, joints[0].nut.angle + 1e-4, 1.0, 1e-3);
@@ -254,7 +254,7 @@ TEST_CASE(
         if (weak_nut) CHECK(highest == doctest::Approx(300e6 * group.joints[0].thread.A_s).epsilon(0.01));
         CHECK(joints[0].clamp < 0.02 * highest);
         turn_nut(group, joints, 0, 0.0, -1.0, 1e-3);
-        CHECK(joints[0].condition != JointCondition::sound);
+        CHECK(joints[0].condition != JointCondition::intact);
     }
 }
 

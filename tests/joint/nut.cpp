@@ -24,7 +24,7 @@ NutDrive spring(double angle, double half_play = 0.0) {
 struct Tight {
     GroupParameters group = test::single([] {
         JointDesign d = test::m16_flange_joint();
-        d.running_torque = 0.0;
+        d.running_drag = 0.0;
         d.embedding_time = 1e9;
         return d;
     }());

@@ -83,8 +83,8 @@ TEST_CASE(
     const PublishedBoundaries b = published_boundaries(p);
     CHECK(b.yield - b.linearity == four(4.178));
     const PublishedState fresh;
-    CHECK(published_read(p, fresh, b.yield - 1e-9, on).torque ==
-          doctest::Approx(published_read(p, fresh, b.yield, on).torque).epsilon(1e-8));
+    CHECK(evaluate_published(p, fresh, b.yield - 1e-9, on).torque ==
+          doctest::Approx(evaluate_published(p, fresh, b.yield, on).torque).epsilon(1e-8));
 }
 
 TEST_CASE(
@@ -92,7 +92,7 @@ TEST_CASE(
     "that falls to 0.27") {
     const PublishedBoundaries b = published_boundaries(p);
     const PublishedState s;
-    const auto torque = [&](double degrees) { return published_read(p, s, degrees, on).torque; };
+    const auto torque = [&](double degrees) { return evaluate_published(p, s, degrees, on).torque; };
     CHECK(std::abs(torque(b.transition) - torque(b.transition - 1e-9)) > 1e-3);
     CHECK(std::abs(torque(b.linearity) - torque(b.linearity - 1e-9)) > 1.0);
     CHECK((torque(b.yield + 1e-4) - torque(b.yield)) / 1e-4 == doctest::Approx(0.27).epsilon(1e-3));
@@ -101,10 +101,10 @@ TEST_CASE(
 TEST_CASE("Published law: the stages follow in order of the angle") {
     const PublishedBoundaries b = published_boundaries(p);
     const PublishedState s;
-    CHECK(published_read(p, s, 0.0, on).stage == Stage::navigation);
-    CHECK(published_read(p, s, b.transition + 0.1, on).stage == Stage::transition);
-    CHECK(published_read(p, s, b.linearity + 0.1, on).stage == Stage::linearity);
-    CHECK(published_read(p, s, b.yield + 0.1, on).stage == Stage::yield);
+    CHECK(evaluate_published(p, s, 0.0, on).stage == Stage::navigation);
+    CHECK(evaluate_published(p, s, b.transition + 0.1, on).stage == Stage::transition);
+    CHECK(evaluate_published(p, s, b.linearity + 0.1, on).stage == Stage::linearity);
+    CHECK(evaluate_published(p, s, b.yield + 0.1, on).stage == Stage::yield);
 }
 
 TEST_CASE(
@@ -114,15 +114,15 @@ TEST_CASE(
     PublishedState s;
     CHECK(published_lever(p, on) - published_lever(p, off) == doctest::Approx(2e-3 / pi).epsilon(1e-9));
     published_advance(p, s, p.theta_max_deg);
-    const double clamp = published_read(p, s, p.theta_max_deg, on).clamp;
+    const double clamp = evaluate_published(p, s, p.theta_max_deg, on).clamp;
     CHECK(clamp == doctest::Approx(72.126 / published_lever(p, on)).epsilon(1e-9));
     // Turning back by the elastic angle of that clamp force removes it.
     const double back = clamp * published_degrees_per_newton(p);
     CHECK(s.set_deg == doctest::Approx(p.theta_max_deg - back - b.linearity).epsilon(1e-9));
-    CHECK(published_read(p, s, p.theta_max_deg - back + 0.01, off).clamp < 0.01 * clamp);
-    CHECK(published_read(p, s, p.theta_max_deg - 1.0, off).torque < 0.0);
+    CHECK(evaluate_published(p, s, p.theta_max_deg - back + 0.01, off).clamp < 0.01 * clamp);
+    CHECK(evaluate_published(p, s, p.theta_max_deg - 1.0, off).torque < 0.0);
     // Re-tightening follows the elastic line up to the previous angle, then the yield curve.
-    CHECK(published_read(p, s, p.theta_max_deg - 1e-6, on).clamp == doctest::Approx(clamp).epsilon(1e-3));
+    CHECK(evaluate_published(p, s, p.theta_max_deg - 1e-6, on).clamp == doctest::Approx(clamp).epsilon(1e-3));
 }
 
 TEST_CASE("Published law: the whole curve from the tool's entry point prints the oracle's figures") {

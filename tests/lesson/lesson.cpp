@@ -45,7 +45,7 @@ LessonRun play_through(const content::Assembly& given, const char* trainee, std:
     Lesson lesson = begin(assembly, mode, task);
     trainees::SimulatedTrainee hand(trainees::find_profile(trainee).value(), seed, setup);
     while (lesson.due() != nullptr && run.state.tick < 3'600'000) {
-        const servo::Input input = hand.act(setup, run.state, lesson);
+        const servo::TickInput input = hand.act(setup, run.state, lesson);
         const servo::Output output = servo::tick(setup, run.state, input);
         test::observe_tick(lesson, world, run.state, output);
         const double values[] = {output.force.x,       output.force.y,   output.force.z, output.torque.y,

@@ -39,7 +39,7 @@ LessonRun play_through(const content::Assembly& assembly, const char* trainee, s
     LessonRun run;
     run.deviation = setup.wrench.deviation;
     while (lesson.due() != nullptr && state.tick < 1'200'000) {
-        servo::Input input = hand.act(setup, state, lesson);
+        servo::TickInput input = hand.act(setup, state, lesson);
         input.set_torque = static_cast<float>(wrench_set_torque(lesson));
         const double trips = wrench_set_torque(lesson) * (1.0 + run.deviation);
         const servo::Output output = servo::tick(setup, state, input);

@@ -104,7 +104,7 @@ plot::Plot time_plot(const Script& script, double speed, double dt) {
     line(with_penalty(p.coupling, script, speed, dt, Penalty::every_point), "ln rest");
     line(with_penalty(p.coupling, script, speed, dt, Penalty::deepest), "ln cl");
     line(with_god_object(p, script, speed, dt), "ln p2");
-    plot.y = {plot::covering_ticks(0.0, p.coupling.force), "force on the hand, N"};
+    plot.y = {plot::covering_ticks(0.0, p.coupling.max_force), "force on the hand, N"};
     return plot;
 }
 

@@ -74,7 +74,7 @@ Run with_god_object(const GodObjectParameters& parameters, const Script& script,
     GodObjectState state = start_god_object(poses[0]);
     for (const Pose& device : poses) {
         step_god_object(parameters, state, device, script.scene, dt);
-        run.push_back({device.position, state.felt});
+        run.push_back({device.position, state.rendered});
     }
     return run;
 }
@@ -115,10 +115,10 @@ Shock shock_of(const Run& run, const proxy::Coupling& c, double dt) {
         for (std::size_t k = i - apart + 1; k <= i; ++k)
             own += c.stiffness * glm::length(run[k].device - run[k - 1].device);
         own += c.damping / dt * glm::length(now.device - run[i - 1].device);
-        shock.step = std::max(shock.step, change / c.force);
+        shock.step = std::max(shock.step, change / c.max_force);
         shock.torque_step =
-            std::max(shock.torque_step, glm::length(now.command.torque - then.command.torque) / c.torque);
-        if (before > 0.1 * c.force) shock.event = std::max(shock.event, (change - own) / before);
+            std::max(shock.torque_step, glm::length(now.command.torque - then.command.torque) / c.max_torque);
+        if (before > 0.1 * c.max_force) shock.event = std::max(shock.event, (change - own) / before);
     }
     return shock;
 }

@@ -165,7 +165,7 @@ TEST_CASE("Path tracer: a shadow is black; a transparent object casts a partial 
 
 TEST_CASE("Path tracer: the colour under a pixel is that of its texel") {
     assets::Model model = single(square(), matte(glm::vec3(1.0F)));
-    assets::Image image;
+    assets::Bitmap image;
     image.width = 2;
     image.height = 2;
     image.channels = 3;

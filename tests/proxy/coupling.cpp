@@ -24,7 +24,7 @@ TEST_CASE("Coupling: passive with the device's damping, within its stiffness, no
             for (const double stiffness : {400.0, 1000.0, 3000.0, 8000.0})
                 for (const double damping : {0.0, 0.2, 1.0, 5.0}) {
                     CouplingRange range;
-                    range.force = force;
+                    range.max_force = force;
                     range.stiffness = stiffness;
                     range.damping = damping;
                     range.dt = dt;
@@ -44,8 +44,8 @@ TEST_CASE("Coupling: a linear spring for small offsets that never exceeds the gr
     Coupling c;
     c.stiffness = 2000.0;
     c.torsion = 20.0;
-    c.force = 12.0;
-    c.torque = 0.4;
+    c.max_force = 12.0;
+    c.max_torque = 0.4;
     const auto at = [&](const Offset& offset) { return coupling_force(c, offset, offset, 1e-3); };
     CHECK(at(along(Vec3(1e-3, 0, 0))).force.x == doctest::Approx(2.0).epsilon(1e-3));
     CHECK(at(along(Vec3(0.0), Vec3(0, 1e-3, 0))).torque.y == doctest::Approx(0.02).epsilon(1e-3));
@@ -60,7 +60,7 @@ TEST_CASE("Coupling: a linear spring for small offsets that never exceeds the gr
     }
     CHECK(last == doctest::Approx(12.0).epsilon(1e-6));
     CHECK(at(along(Vec3(1e100, 0, 0))).force.x == doctest::Approx(12.0));
-    c.torque = 0.0;
+    c.max_torque = 0.0;
     CHECK(at(along(Vec3(0.0), Vec3(0.5, 0, 0))).torque == Vec3(0.0));
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("Coupling: a device thrown at a wall rebounds no faster, since its dam
     // Control: undamped and three times as stiff, the device gains speed.
     Coupling stiff = c;
     stiff.stiffness *= 3.0;
-    stiff.force = 1e3;
+    stiff.max_force = 1e3;
     CHECK(rebound(stiff, 0.0) > 0.2);
 }
 
@@ -115,8 +115,8 @@ TEST_CASE("Coupling: the stored energy equals that of the springs and never exce
     Coupling c;
     c.stiffness = 1500.0;
     c.torsion = 12.0;
-    c.force = 20.0;
-    c.torque = 2.0;
+    c.max_force = 20.0;
+    c.max_torque = 2.0;
     CHECK(stored_energy(c, along(Vec3(1e-3, 0, 0))) == doctest::Approx(0.75e-3).epsilon(1e-3));
     CHECK(stored_energy(c, along(Vec3(0.0), Vec3(0, 0.01, 0))) == doctest::Approx(0.6e-3).epsilon(1e-3));
     CHECK(stored_energy(c, {}) == 0.0);
@@ -134,7 +134,7 @@ TEST_CASE("Coupling: the stored energy equals that of the springs and never exce
 
 TEST_CASE("Coupling: without force output it keeps its stiffness as a weight and stores no energy") {
     CouplingRange range;
-    range.force = range.torque = 0.0;
+    range.max_force = range.max_torque = 0.0;
     const Coupling c = make_coupling(range);
     CHECK(c.stiffness > 0.0);
     CHECK(c.torsion > 0.0);

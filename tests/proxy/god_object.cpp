@@ -63,8 +63,8 @@ TEST_CASE("God-object: in free space the tool follows the device without force")
             at(Vec3(0.03 * std::sin(s), 0.02 * s, 0.05 + 0.04 * std::cos(s)), Vec3(0.1 * s, 0.2 * s, 0));
         const GodObjectStep step = step_god_object(p, state, device, scene, dt);
         REQUIRE(glm::length(state.constrained_tool.position - device.position) < 1e-9);
-        REQUIRE(glm::length(state.felt.force) < 1e-6);
-        REQUIRE(glm::length(state.felt.torque) < 1e-6);
+        REQUIRE(glm::length(state.rendered.force) < 1e-6);
+        REQUIRE(glm::length(state.rendered.torque) < 1e-6);
         REQUIRE(step.queries <= 2);
     }
 }
@@ -79,8 +79,8 @@ TEST_CASE("God-object: on a plane the tool slides under the device; force equals
         for (double x : {0.01, -0.02, 0.03}) {
             lead(p, state, at(0.015 * n + x * along), scene);
             CHECK(glm::length(state.constrained_tool.position - ((0.02 + p.skin) * n + x * along)) < 1e-6);
-            CHECK(glm::length(state.felt.force - 1000.0 * (0.005 + p.skin) * n) < 2e-3);
-            CHECK(glm::length(state.felt.torque) < 1e-6);
+            CHECK(glm::length(state.rendered.force - 1000.0 * (0.005 + p.skin) * n) < 2e-3);
+            CHECK(glm::length(state.rendered.torque) < 1e-6);
         }
     }
 }
@@ -94,7 +94,7 @@ TEST_CASE("God-object: two planes leave one direction, three leave none, and a w
         GodObjectState state = start_god_object(at(Vec3(0.01, 0.0, 0.01)));
         lead(p, state, at(Vec3(-0.004, 0.02, -0.003)), scene);
         CHECK(glm::length(state.constrained_tool.position - Vec3(s, 0.02, s)) < 2e-6);
-        CHECK(glm::length(state.felt.force - 1000.0 * Vec3(0.004 + s, 0, 0.003 + s)) < 5e-3);
+        CHECK(glm::length(state.rendered.force - 1000.0 * Vec3(0.004 + s, 0, 0.003 + s)) < 5e-3);
     }
     scene.obstacles.push_back(HalfSpace{Vec3(0, -1, 0), -0.01});
     for (const bool nearest : {false, true}) {
@@ -113,7 +113,7 @@ TEST_CASE("God-object: two planes leave one direction, three leave none, and a w
     CHECK(state.constrained_tool.position.x > 0.0);
     CHECK(state.constrained_tool.position.x < 0.5e-3);
     CHECK(state.constrained_tool.position.y == doctest::Approx(0.01).epsilon(1e-3));
-    CHECK(state.felt.force.x ==
+    CHECK(state.rendered.force.x ==
           doctest::Approx(1000.0 * (state.constrained_tool.position.x + 0.005)).epsilon(1e-3));
 }
 
@@ -130,9 +130,9 @@ TEST_CASE("God-object: a bar pressed on an off-centre pin tilts by the closed fo
     lead(p, state, at(Vec3(0, 0, -depth - 0.002)), scene);
     const double l = 0.1, k = 1000.0, kappa = 40.0;
     const double f = (depth + p.skin) / (1.0 / k + l * l / kappa);
-    CHECK(state.felt.force.z == doctest::Approx(f).epsilon(0.01));
+    CHECK(state.rendered.force.z == doctest::Approx(f).epsilon(0.01));
     // The rotation about −y lifts the end at +x. The device renders it as a torque about −y.
-    CHECK(state.felt.torque.y == doctest::Approx(-f * l).epsilon(0.02));
+    CHECK(state.rendered.torque.y == doctest::Approx(-f * l).epsilon(0.02));
     CHECK(-rotation_vector(state.constrained_tool.orientation).y ==
           doctest::Approx(f * l / kappa).epsilon(0.02));
 }
@@ -149,8 +149,8 @@ TEST_CASE("God-object: a bar held between two pins gives a pure torque without f
     // Gap of 0.1 mm minus the skin, at a lever of 0.1 m.
     const double turned = rotation_vector(state.constrained_tool.orientation).z;
     CHECK(turned == doctest::Approx((0.1e-3 - p.skin) / 0.1).epsilon(0.05));
-    CHECK(state.felt.torque.z == doctest::Approx(-10.0 * std::sin(turn - turned)).epsilon(1e-3));
-    CHECK(glm::length(state.felt.force) < 0.01);
+    CHECK(state.rendered.torque.z == doctest::Approx(-10.0 * std::sin(turn - turned)).epsilon(1e-3));
+    CHECK(glm::length(state.rendered.force) < 0.01);
 }
 
 TEST_CASE("God-object: friction sticks within its cone, and a slipping force lies on the cone") {
@@ -165,7 +165,7 @@ TEST_CASE("God-object: friction sticks within its cone, and a slipping force lie
         lead(p, state, at(Vec3(0.95 * mu * depth, 0, -depth)), scene);
         CHECK(glm::length(state.constrained_tool.position - stood) < 1e-6);
         lead(p, state, at(Vec3(0.03, 0.04, -depth)), scene);
-        const Vec3 f = state.felt.force;
+        const Vec3 f = state.rendered.force;
         CHECK(std::hypot(f.x, f.y) / f.z == doctest::Approx(mu).epsilon(1e-3));
         CHECK(glm::dot(glm::normalize(Vec3(f.x, f.y, 0)), Vec3(-0.6, -0.8, 0)) > 0.99);
         CHECK(state.constrained_tool.position.z ==
@@ -182,7 +182,7 @@ TEST_CASE("God-object: on a ball the tool is on the line from the centre to the 
         const Vec3 n(std::sin(angle), 0, std::cos(angle));
         lead(p, state, at(0.016 * n), scene, 40, 20);
         CHECK(glm::length(state.constrained_tool.position - (0.02 + p.skin) * n) < 2e-5);
-        CHECK(glm::length(state.felt.force - 1000.0 * (0.004 + p.skin) * n) < 0.05);
+        CHECK(glm::length(state.rendered.force - 1000.0 * (0.004 + p.skin) * n) < 0.05);
     }
 }
 
@@ -204,11 +204,11 @@ TEST_CASE("God-object: an approaching obstacle pushes the tool and penetrates by
     int ticks = 0;
     while (clearance(scene, state.constrained_tool) < 0.0 && ticks < 1000) {
         step_god_object(p, state, state.commanded_tool, scene, dt);
-        CHECK(glm::length(state.constrained_tool.position - last) <= p.recovery * dt + 1e-9);
+        CHECK(glm::length(state.constrained_tool.position - last) <= p.recovery_speed * dt + 1e-9);
         last = state.constrained_tool.position;
         ++ticks;
     }
-    CHECK(ticks == doctest::Approx(0.01 / (p.recovery * dt)).epsilon(0.1));
+    CHECK(ticks == doctest::Approx(0.01 / (p.recovery_speed * dt)).epsilon(0.1));
 }
 
 TEST_CASE("God-object: an invalid device pose changes neither tool nor force") {
@@ -222,7 +222,7 @@ TEST_CASE("God-object: an invalid device pose changes neither tool nor force") {
                              Pose{Vec3(0.0), Quat(nan, 0, 0, 0)}, Pose{Vec3(0.0), Quat(0, 0, 0, 0)}}) {
         CHECK(step_god_object(p, state, pose, scene, dt).queries == 0);
         CHECK(state.constrained_tool.position == before.constrained_tool.position);
-        CHECK(state.felt.force == before.felt.force);
+        CHECK(state.rendered.force == before.rendered.force);
     }
 }
 

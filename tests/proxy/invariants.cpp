@@ -107,7 +107,7 @@ TEST_CASE("God-object: in random scenes it never penetrates and keeps the query 
         const Tally tally = wander(scene, p, seed, seed % 3 == 0 ? 1.0 : 0.25, 1000);
         CAPTURE(seed);
         CHECK(tally.deepest <= 0.0);
-        CHECK(tally.most_queries <= p.queries);
+        CHECK(tally.most_queries <= p.max_queries);
         sum.deepest = std::max(sum.deepest, tally.deepest);
         sum.fastest = std::max(sum.fastest, tally.fastest);
         sum.in_contact += tally.in_contact;
@@ -126,13 +126,13 @@ TEST_CASE("God-object: in random scenes it never penetrates and keeps the query 
 
 TEST_CASE("God-object: expensive queries only delay the tool") {
     GodObjectParameters p = for_wrench();
-    p.work = 1000;
+    p.max_query_cost = 1000;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         CAPTURE(seed);
         const Scene scene = random_scene(seed, Pose{});
         const auto dear = [&](const Pose& pose, double band, std::span<Contact> out) {
             ContactQueryResult found = scene(pose, band, out);
-            found.work = 400;
+            found.query_cost = 400;
             return found;
         };
         Random random(seed, 7);
@@ -147,11 +147,11 @@ TEST_CASE("God-object: expensive queries only delay the tool") {
             device.orientation = rotation(ease * rotation_vector(device.orientation));
             const GodObjectStep step = step_god_object(p, state, device, dear, dt);
             most = std::max(most, step.queries);
-            REQUIRE(step.work == 400U * static_cast<std::uint32_t>(step.queries));
+            REQUIRE(step.query_cost == 400U * static_cast<std::uint32_t>(step.queries));
             REQUIRE(clearance(scene, state.constrained_tool) >= 0.0);
         }
         CHECK(most >= 3);
-        CHECK(most < p.queries);
+        CHECK(most < p.max_queries);
         // The hand rests: the tool finally reaches its constrained pose.
         bool arrived = false;
         for (int i = 0; i < 1000 && !arrived; ++i) {
@@ -179,7 +179,7 @@ TEST_CASE("God-object: a step allocates nothing, locks nothing, reads no clock, 
         for (int i = 0; i < 1000; ++i) step_god_object(p, state, hand(i * dt), scene, dt);
     });
     CHECK(seen.all() == 0);
-    CHECK(glm::length(state.felt.force) > 0.0);
+    CHECK(glm::length(state.rendered.force) > 0.0);
     CHECK(forbidden_in([] { std::vector<int> memory(100); }).allocations > 0);
 }
 
@@ -210,7 +210,7 @@ TEST_CASE("God-object: a flick at 2 m/s does not tunnel through a rib of 1 mm at
                 for (const Vec3& point : scene.points) REQUIRE((state.constrained_tool * point).x < 0.0);
             }
             CHECK(deepest <= 0.0);
-            CHECK(glm::length(state.felt.force) > 15.0);
+            CHECK(glm::length(state.rendered.force) > 15.0);
         }
     }
 }
@@ -267,13 +267,13 @@ TEST_CASE("God-object: a frictionless wall pushes only along its normal and neve
             device.position = glm::mix(start, device.position, ease);
             device.orientation = rotation(ease * rotation_vector(device.orientation));
             const GodObjectStep step = step_god_object(p, state, device, scene, dt);
-            const double push = glm::dot(state.felt.force, n);
+            const double push = glm::dot(state.rendered.force, n);
             // Tolerance below 1 %: when the tool leaves the wall, a rotation delayed by the torque's rate
             // limit holds it back.
-            REQUIRE(push >= -0.0075 * p.coupling.force);
+            REQUIRE(push >= -0.0075 * p.coupling.max_force);
             // Rate-limited steps are excluded: the tool has not reached its constrained pose.
             if (!step.rate_limited && !step.budget_exhausted)
-                REQUIRE(glm::length(state.felt.force - push * n) < 0.02 + 0.01 * push);
+                REQUIRE(glm::length(state.rendered.force - push * n) < 0.02 + 0.01 * push);
         }
     }
 }
@@ -296,7 +296,7 @@ TEST_CASE("God-object: a round trip yields no more energy than a sampled spring"
             const Twist moved = twist_between(last, device);
             // The force of the last tick acts while the hand moves.
             const double share =
-                glm::dot(state.felt.force, moved.linear) + glm::dot(state.felt.torque, moved.angular);
+                glm::dot(state.rendered.force, moved.linear) + glm::dot(state.rendered.torque, moved.angular);
             work += share;
             done += std::abs(share);
             sampled += p.coupling.stiffness * glm::dot(moved.linear, moved.linear) +

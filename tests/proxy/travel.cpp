@@ -21,7 +21,7 @@ TEST_CASE("Travel bound: no point of the tool's box exceeds it, and the farthest
     Random random(7);
     double closest = 0.0, saved = 0.0;
     for (int trial = 0; trial < 2000; ++trial) {
-        const Box box{Vec3(-0.02, -0.03, -0.006), Vec3(0.28, 0.03, 0.006)};
+        const BoundingBox box{Vec3(-0.02, -0.03, -0.006), Vec3(0.28, 0.03, 0.006)};
         const double radius = glm::length(Vec3(0.28, 0.03, 0.006));
         const Pose from{any(random, 1.0), glm::normalize(rotation(any(random, 2.0)))};
         const Twist twist{any(random, 2e-3), any(random, trial % 2 == 0 ? 5e-3 : 0.5)};

@@ -57,8 +57,10 @@ ContactMesh cylinder(double radius, int sides) {
     return t.mesh();
 }
 
-constexpr ForceRateLimits no_rate_limits{
-    .of_rendered = 10.0, .of_maximum = 10.0, .maximum = 10.0, .any_direction_share = 1.0};
+constexpr ForceRateLimits no_rate_limits{.tool_share_of_rendered = 10.0,
+                                         .tool_share_of_maximum = 10.0,
+                                         .total_share_of_maximum = 10.0,
+                                         .any_direction_share = 1.0};
 
 // Moves the device around the cylinder below its surface; the tool is a die that touches with one corner.
 Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_limits) {
@@ -78,7 +80,7 @@ Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_lim
     };
     GodObjectParameters p;
     p.coupling = proxy::make_coupling({});
-    p.radius = tool->reach();
+    p.radius = tool->origin_radius();
     p.rate_limits = rate_limits;
     p.friction_coefficient = 0.1;
     // One corner points down.
@@ -97,9 +99,9 @@ Trembling about_cylinder(int sides, bool smooth, const ForceRateLimits& rate_lim
     const int ticks = static_cast<int>(2.0 * furthest * radius / (speed * dt));
     for (int i = 0; i <= ticks; ++i) {
         step(furthest * (2.0 * i / ticks - 1.0), -depth);
-        if (i > 50) trembling.add(state.felt.force);
+        if (i > 50) trembling.add(state.rendered.force);
     }
-    CHECK(glm::length(state.felt.force) > 2.0);
+    CHECK(glm::length(state.rendered.force) > 2.0);
     return trembling;
 }
 

@@ -8,7 +8,7 @@ using namespace bolt::render;
 
 TEST_CASE("Maps: base colour, normals, roughness and holes are independent of the triangulation") {
     // A board of large texels seen from near uses the finest mip; coarser ones would be grey.
-    assets::Image board;
+    assets::Bitmap board;
     board.width = board.height = 32;
     board.channels = 4;
     for (int y = 0; y < 32; ++y)

@@ -19,9 +19,9 @@ constexpr float fov = 0.5F;
 constexpr glm::vec3 eye(0.1F, 1.9F, 1.3F), target(0.0F, 0.0F, 0.05F);
 
 // A small texture of smoothly varying colours; `even` gives one colour.
-assets::Image texels(std::uint32_t seed, bool even = false) {
+assets::Bitmap texels(std::uint32_t seed, bool even = false) {
     Random random(seed);
-    assets::Image image;
+    assets::Bitmap image;
     image.width = image.height = 4;
     image.channels = 4;
     for (std::size_t i = 0; i < 64; ++i)
@@ -31,8 +31,8 @@ assets::Image texels(std::uint32_t seed, bool even = false) {
 }
 
 // A normal map with slightly tilted normals.
-assets::Image bumps(std::uint32_t seed) {
-    assets::Image image = texels(seed);
+assets::Bitmap bumps(std::uint32_t seed) {
+    assets::Bitmap image = texels(seed);
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
         for (std::size_t c = 0; c < 2; ++c)
             image.pixels[i + c] = static_cast<std::uint8_t>(128 + (image.pixels[i + c] - 158) / 3);
@@ -42,8 +42,8 @@ assets::Image bumps(std::uint32_t seed) {
 }
 
 // Grain directions in all quadrants; blue: strength.
-assets::Image grains(std::uint32_t seed) {
-    assets::Image image = texels(seed);
+assets::Bitmap grains(std::uint32_t seed) {
+    assets::Bitmap image = texels(seed);
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
         const double angle = 0.3 + 0.02 * static_cast<double>(i);
         image.pixels[i] = static_cast<std::uint8_t>(127.5 + 127.0 * std::cos(angle));
@@ -53,7 +53,7 @@ assets::Image grains(std::uint32_t seed) {
 }
 
 // The plate under a lamp, with two sets of texture coordinates, the second rotated and larger.
-assets::Model plate(const assets::Material& material, assets::Texture texture, const assets::Image& image,
+assets::Model plate(const assets::Material& material, assets::Texture texture, const assets::Bitmap& image,
                     bool tangents = true) {
     assets::Model model = test::plate(material);
     texture.image = 0;
@@ -122,14 +122,14 @@ assets::Material stuff(float metallic, float roughness) {
 struct Case {
     std::string name;
     assets::Material material;
-    assets::Image image;
+    assets::Bitmap image;
     assets::TextureRef assets::Material::*map;
 };
 
 std::vector<Case> cases() {
     using M = assets::Material;
     std::vector<Case> all;
-    const auto add = [&](const char* name, const M& m, const assets::Image& image, auto map) {
+    const auto add = [&](const char* name, const M& m, const assets::Bitmap& image, auto map) {
         all.push_back({name, m, image, map});
         (all.back().material.*map).texture = 0;
     };
@@ -207,7 +207,7 @@ TEST_CASE("Material maps: a mesh without tangents gets tangents from its texture
 
 TEST_CASE("Material maps: a map with one value equals a constant") {
     test::Studio studio;
-    const assets::Image even = texels(10, true);
+    const assets::Bitmap even = texels(10, true);
     const auto value = [&](std::size_t c) { return static_cast<float>(even.pixels[c]) / 255.0F; };
     const auto same = [&](assets::Material with, assets::TextureRef assets::Material::*map, auto set) {
         (with.*map).texture = 0;

@@ -28,7 +28,7 @@ session::Header header_of(bool guide = true) {
     header.mode = lesson::Mode::guided;
     header.guide = guide;
     header.contact_models = "casing.glb";
-    header.device = force::OutputLimits{};
+    header.device_limits = force::OutputLimits{};
     header.servo_rate = 0.0;
     header.obstacle_names = {{ObstacleId::fixed(0), "casing"},
                              {ObstacleId::fixed(1), "lid"},
@@ -67,10 +67,10 @@ struct ScriptedSession {
 
 }  // namespace
 
-TEST_CASE("Haptic metrics: contacts with the due or the held nut are no bumps") {
+TEST_CASE("Haptic metrics: contacts with the due or the held nut are no obstacle_contacts") {
     ScriptedSession script;
     script.touch(200, 230, ObstacleId::fixed(0));
-    script.touch(270, 280, ObstacleId::fixed(1));  // 40 ms later: still the same bump
+    script.touch(270, 280, ObstacleId::fixed(1));  // 40 ms later: still the same contact
     script.touch(600, 650, ObstacleId::fixed(1));
     script.touch(900, 950, ObstacleId::nut(0));    // the due nut
     script.touch(1000, 1010, ObstacleId::nut(1));  // a nut that is not due
@@ -79,13 +79,13 @@ TEST_CASE("Haptic metrics: contacts with the due or the held nut are no bumps") 
     script.push(610, 620, 4.0F);
     for (const std::size_t piece : {1500U, 1U, 77U}) {
         const HapticMetrics metrics = script.metrics(piece);
-        REQUIRE(metrics.bumps.size() == 3);
-        CHECK(metrics.bumps[0].begin == doctest::Approx(0.2));
-        CHECK(metrics.bumps[0].length == doctest::Approx(0.08));
-        CHECK(metrics.bumps[0].obstacle == ObstacleId::fixed(0));
-        CHECK(metrics.bumps[1].length == doctest::Approx(0.05));
-        CHECK(metrics.bumps[1].peak_force == doctest::Approx(4.0));
-        CHECK(metrics.bumps[2].obstacle == ObstacleId::nut(1));
+        REQUIRE(metrics.obstacle_contacts.size() == 3);
+        CHECK(metrics.obstacle_contacts[0].begin == doctest::Approx(0.2));
+        CHECK(metrics.obstacle_contacts[0].length == doctest::Approx(0.08));
+        CHECK(metrics.obstacle_contacts[0].obstacle == ObstacleId::fixed(0));
+        CHECK(metrics.obstacle_contacts[1].length == doctest::Approx(0.05));
+        CHECK(metrics.obstacle_contacts[1].peak_force == doctest::Approx(4.0));
+        CHECK(metrics.obstacle_contacts[2].obstacle == ObstacleId::nut(1));
     }
 }
 
@@ -107,7 +107,7 @@ TEST_CASE(
     REQUIRE(metrics.force_jumps.size() >= 3);
     CHECK(metrics.force_jumps[0].change == 2.0);
     CHECK(metrics.force_jumps[2].change == 1.5);
-    CHECK(describe(metrics.force_jumps[0], {{"J01"}}, {}) == "wrench taking hold of J01");
+    CHECK(describe(metrics.force_jumps[0], {{"J01"}}, {}) == "wrench engages J01");
     script.push(700, 800, 2.5F);
     script.push(701, 702, 4.8F);  // 2.3 N: no device does this, but the page must report it
     CHECK(script.metrics().force.above == 2);
@@ -201,7 +201,7 @@ TEST_CASE("Studies: compare only attempts that differ in nothing but the aid and
         a.guided = i % 2 == 0;
         a.seed = static_cast<std::uint64_t>(i / 2);
         a.duration = (a.guided ? 60.0 : 120.0) + 6.0 * i;
-        a.bumps = i;
+        a.obstacle_contacts = i;
         a.finished = i != 7;
         attempts.push_back(a);
     }

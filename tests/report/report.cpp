@@ -55,14 +55,14 @@ TEST_CASE("Report: shows the figures of the results") {
         CHECK(has(cells, ">" + number(to_degrees(r.angle), 1) + "°<"));
         CHECK(has(cells, ">" + number(1e-3 * r.clamp, 1) + " <"));
         CHECK(has(cells, ">" + std::to_string(r.strokes) + "<"));
-        if (r.condition == joint::JointCondition::sound) {
+        if (r.condition == joint::JointCondition::intact) {
             CHECK(has(cells, std::string(name(r.overall))));
         } else {
             CHECK(has(cells, "✕ stripped"));
         }
     }
     CHECK(has(html, ">" + number(session.score, 1) + " <small>/ 100"));
-    for (const lesson::ScoreReason& reason : session.reasons) {
+    for (const lesson::Deduction& reason : session.reasons) {
         CHECK(has(html, ">" + signed_number(reason.points, 1) + "<"));
         CHECK(has(html, escape(reason.text)));
     }

@@ -196,7 +196,7 @@ SyntheticSession synthetic_session(const SyntheticOptions& options) {
         data.reasons = {{100.0, "twelve joints to do"}, {-1.0, "scatter of the clamp force above 3 %"}};
     }
     data.score = 0.0;
-    for (const lesson::ScoreReason& reason : data.reasons) data.score += reason.points;
+    for (const lesson::Deduction& reason : data.reasons) data.score += reason.points;
     data.complete = !options.cut_short;
     data.finished = !options.cut_short;
     data.recorded = data.duration = static_cast<double>(session.ticks.size()) * options.dt;

@@ -68,7 +68,7 @@ void TraineeInRoom::frame(const Pose& palm, double closed) {
     hand.grasp = static_cast<float>(closed);
     if (room.workpiece) {
         const Pose assembly =
-            trainer::adjusted(*room.workpiece, lesson().workplace.machine, room.turns, room.height);
+            trainer::adjusted(*room.workpiece, lesson().workplace.workpiece, room.turns, room.height);
         hand.grip = xr::TrackedPose{assembly * palm_, true};
         look_at(assembly *
                 (0.5 * (tool().position + (due() != nullptr ? nut(due()->joint) : tool().position))));
@@ -200,7 +200,7 @@ void TraineeInRoom::tighten(std::size_t joint) {
     lead_to({raised(from), over.orientation}, 0.02, 4.0, 1.0);
     lead_to({raised(over), over.orientation}, 0.02, 4.0, 1.0);
     lead_to(over, 0.006, 4.0, 1.0);
-    if (lower(joint, seated)) pull(joint, side.room);
+    if (lower(joint, seated)) pull(joint, side.free_swing);
     lift(up);
 }
 

@@ -58,14 +58,14 @@ struct TestWorkplace {
     explicit TestWorkplace(const char* name) {
         session::LessonOptions options;
         options.obstacles = session::Obstacles::required;
-        auto prepared = session::prepare(trainer_test::assembly(name), options);
+        auto prepared = session::prepare_session(trainer_test::assembly(name), options);
         REQUIRE(prepared);
         at = std::move(*prepared);
         auto loaded = scene::load_lesson_models(at.assembly);
         REQUIRE(loaded);
         models = std::move(*loaded);
         REQUIRE(models.missing.empty());
-        gpu_models->machine = without_buffers(models.machine.model);
+        gpu_models->workpiece = without_buffers(models.workpiece.model);
         gpu_models->workshop = without_buffers(models.workshop);
         gpu_models->wrench = without_buffers(models.wrench);
         gpu_models->hand = without_buffers(models.hand);
@@ -76,7 +76,7 @@ struct TestWorkplace {
         workplace = std::move(*made);
         postures = scene::make_postures(&at.state.tool_contact->wrench, at.setup.wrench.handle_length,
                                         hand::Side::right, scene::widest_nut(at.setup));
-        shoulder = scene::shoulder_position(workplace.machine);
+        shoulder = scene::shoulder_position(workplace.workpiece);
     }
 
     [[nodiscard]] const collision::CollisionWorld& solids() const { return at.state.tool_contact->world; }

@@ -33,7 +33,7 @@ struct Bench {
         handle = angle;
         const NutGeometry& nut = setup.nuts[0];
         const Vec3 at = nut_centre(nut, state.joints[0].nut.angle);
-        Input input = test::holding(grip, test::tool_at(nut, at, setup.wrench.head_angle + handle));
+        TickInput input = test::holding(grip, test::tool_at(nut, at, setup.wrench.head_angle + handle));
         input.set_torque = static_cast<float>(scale);
         return last = tick(setup, state, input);
     }

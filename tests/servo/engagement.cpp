@@ -83,7 +83,7 @@ TEST_CASE("Engagement: NaN, infinity and invalid quaternions engage nothing and 
     State state = initial_state(setup);
     const float nan = std::nanf("");
     for (int i = 0; i < 100; ++i) {
-        Input input;
+        TickInput input;
         input.dead_man = true;
         input.grip = Grip::wrench;
         input.guide = static_cast<std::int16_t>(i % 5 - 2);

@@ -162,7 +162,7 @@ TEST_CASE("Servo: an empty hand is guided to the nut's centre with k over the di
         Held held;
         const NutGeometry& nut = held.setup.nuts[static_cast<std::size_t>(guide)];
         const Vec3 away = 0.1 * nut.axis + 0.01 * nut.e2;
-        Input input = test::holding(Grip::none, test::tool_at(nut, nut_centre(nut, 0.0) + away, 0.0));
+        TickInput input = test::holding(Grip::none, test::tool_at(nut, nut_centre(nut, 0.0) + away, 0.0));
         input.guide = guide;
         Output output;
         for (int i = 0; i < 250; ++i)
@@ -215,7 +215,7 @@ TEST_CASE("Servo: a NaN pose at 40 kN releases the nut, which stays, and the tor
     REQUIRE(output.clamp >= 40e3);
     REQUIRE(glm::length(output.torque) > 0.5);
     const double stands_at = state.joints[0].nut.angle;
-    Input lost = test::holding(Grip::wrench, test::tool_at(nut, Vec3(0.0), angle));
+    TickInput lost = test::holding(Grip::wrench, test::tool_at(nut, Vec3(0.0), angle));
     lost.commanded_tool.position[1] = std::nanf("");
     double last = output.torque.y;
     for (int i = 0; i < 200; ++i) {
@@ -290,7 +290,7 @@ TEST_CASE("Servo: a device silent at full torque has zero output within 20 ms, a
     }
     REQUIRE(glm::length(output.torque) > 1.0);
     CHECK(output.fault == force::Fault::none);
-    Input silent = input();
+    TickInput silent = input();
     silent.fresh = false;
     for (int i = 0; i < 20; ++i) output = tick(setup, state, silent);
     CHECK(glm::length(output.torque) == 0.0);
@@ -300,7 +300,7 @@ TEST_CASE("Servo: a device silent at full torque has zero output within 20 ms, a
     CHECK(output.fault == force::Fault::none);
     CHECK(glm::length(output.torque) > 1.0);
 
-    Input stopped = input();
+    TickInput stopped = input();
     stopped.stop = true;
     for (int i = 0; i < 20; ++i) output = tick(setup, state, stopped);
     CHECK(glm::length(output.torque) == 0.0);

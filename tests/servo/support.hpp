@@ -38,8 +38,8 @@ inline servo::CommandedTool tool_at(const servo::NutGeometry& nut, const Vec3& p
     return commanded;
 }
 
-inline servo::Input holding(servo::Grip grip, const servo::CommandedTool& commanded) {
-    servo::Input input;
+inline servo::TickInput holding(servo::Grip grip, const servo::CommandedTool& commanded) {
+    servo::TickInput input;
     input.dead_man = true;
     input.grip = grip;
     input.commanded_tool = commanded;

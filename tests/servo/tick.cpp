@@ -17,13 +17,13 @@ using namespace bolt::servo;
 namespace {
 
 // Reaches above the nut, lowers the wrench onto it, pulls by 40 degrees, releases and lifts.
-Input scripted(const Setup& setup, const State& state, int i) {
+TickInput scripted(const Setup& setup, const State& state, int i) {
     const NutGeometry& nut = setup.nuts[0];
     const double fits = setup.wrench.head_angle;
     const double height = i < 1000 ? 0.05 * (1.0 - i / 1000.0) : i < 4000 ? 0.0 : 0.05 * (i - 4000) / 1000.0;
     const double pull = i < 1500 ? 0.0 : std::min(i - 1500, 2000) / 2000.0 * to_radians(40.0);
     const Vec3 at = nut_centre(nut, state.joints[0].nut.angle) + nut.axis * height;
-    Input input = test::holding(Grip::wrench, test::tool_at(nut, at, fits + pull));
+    TickInput input = test::holding(Grip::wrench, test::tool_at(nut, at, fits + pull));
     input.guide = 0;
     return input;
 }
@@ -198,7 +198,7 @@ TEST_CASE("Servo: without the dead-man switch nothing is held or rendered") {
     const Setup setup = test::two_joints();
     State state = initial_state(setup);
     for (int i = 0; i < 3000; ++i) {
-        Input input = scripted(setup, state, 1500 + i % 1000);
+        TickInput input = scripted(setup, state, 1500 + i % 1000);
         input.dead_man = false;
         const Output output = tick(setup, state, input);
         REQUIRE(output.joint == -1);

@@ -17,8 +17,8 @@ struct Bench {
     State state = initial_state(setup);
 
     // Input of a hand far from all nuts.
-    [[nodiscard]] Input away(std::uint8_t undo) const {
-        Input input = test::holding(Grip::none, test::tool_at(setup.nuts[0], Vec3(0.0, 1.0, 1.0), 0.0));
+    [[nodiscard]] TickInput away(std::uint8_t undo) const {
+        TickInput input = test::holding(Grip::none, test::tool_at(setup.nuts[0], Vec3(0.0, 1.0, 1.0), 0.0));
         input.checkpoint_action = undo;
         return input;
     }
@@ -75,13 +75,13 @@ TEST_CASE("Undo: not while a nut is held or the tool is beside it") {
     bench.turn(1.0);
     const NutGeometry& nut = bench.setup.nuts[0];
     const Vec3 at = nut_centre(nut, bench.state.joints[0].nut.angle);
-    Input input = test::holding(Grip::fingers, test::tool_at(nut, at, 0.0));
+    TickInput input = test::holding(Grip::fingers, test::tool_at(nut, at, 0.0));
     Output output;
     for (int i = 0; i < 50; ++i) output = tick(bench.setup, bench.state, input);
     REQUIRE(output.joint == 0);
     input.checkpoint_action = 1;
     CHECK(tick(bench.setup, bench.state, input).undone == 0);
-    Input beside = test::holding(Grip::none, test::tool_at(nut, at + 0.1 * nut.axis, 0.0));
+    TickInput beside = test::holding(Grip::none, test::tool_at(nut, at + 0.1 * nut.axis, 0.0));
     beside.checkpoint_action = 1;
     CHECK(tick(bench.setup, bench.state, beside).undone == 0);
     CHECK(bench.step(1).undone == 1);

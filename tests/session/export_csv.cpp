@@ -131,7 +131,7 @@ TEST_CASE("CSV export: an exported session reads back to the same ticks") {
         const char* const obstacles[] = {"", "housing", "a \"lid\", 盖", "#2"};
         CHECK(row[22] == std::to_string(tick.contacts));
         CHECK(row[23] == obstacles[*file_number(tick.touched) + 1]);
-        CHECK(row[24] == force::name(static_cast<force::Fault>(tick.fault)));
+        CHECK(row[24] == force::message_for(static_cast<force::Fault>(tick.fault)));
         CHECK(row[12] == name(static_cast<joint::Stage>(tick.stage)));
     }
 }
@@ -167,7 +167,9 @@ TEST_CASE("CSV export: the error for a failed write names the destination") {
     const Status to_full = export_csv(reader, full.get(), {1, "/dev/full"});
     REQUIRE_FALSE(to_full);
     CHECK(to_full.error().code == ErrorCode::failed);
-    CHECK(to_full.error().message() == "/dev/full: cannot be written: No space left on device");
+    CHECK(to_full.error().message() ==
+          "/dev/full: cannot be written: No space left on device; expected a destination that accepts more "
+          "data");
 
     int ends[2];
     REQUIRE(::pipe(ends) == 0);
@@ -177,7 +179,9 @@ TEST_CASE("CSV export: the error for a failed write names the destination") {
     const Status to_broken = export_csv(reader, broken.get(), {});
     ::signal(SIGPIPE, before);
     REQUIRE_FALSE(to_broken);
-    CHECK(to_broken.error().message() == "the standard output: cannot be written: Broken pipe");
+    CHECK(
+        to_broken.error().message() ==
+        "the standard output: cannot be written: Broken pipe; expected a destination that accepts more data");
 }
 
 TEST_CASE("CSV export: a damaged session is exported up to the damage, followed by an error") {

@@ -21,7 +21,7 @@ TEST_CASE("Session format: a session of format 1 opens with all its data") {
     CHECK(reader->header().assembly == "cover-m8");
     CHECK(reader->header().trainee_profile == "novice");
     CHECK_FALSE(reader->header().contact_models.has_value());  // format 1 does not store them
-    CHECK_FALSE(reader->header().device);
+    CHECK_FALSE(reader->header().device_limits);
     CHECK(reader->header().obstacle_names.empty());
     const std::vector<TickRecord> ticks = all_ticks(*reader);
     REQUIRE(ticks.size() == reader->tick_count());
@@ -43,7 +43,7 @@ TEST_CASE("Session format: a session of format 2 opens, without undo") {
     REQUIRE_MESSAGE(reader, (reader ? "" : reader.error().message()));
     CHECK(reader->complete());
     CHECK(reader->header().contact_models == "");
-    CHECK(reader->header().device);
+    CHECK(reader->header().device_limits);
     const std::vector<TickRecord> ticks = all_ticks(*reader);
     CHECK(ticks.size() > 10'000);
     bool held = false;
@@ -81,14 +81,14 @@ TEST_CASE("Session format: parsing the text of device limits returns all bits") 
         limits.torque = i % 3 == 0 ? 0.0 : random.uniform(0.0, 3.0);
         limits.stiffness = std::exp(random.uniform(-300.0, 300.0));
         limits.delay = i % 4;
-        limits.recovery = random.uniform();
+        limits.recovery_time = random.uniform();
         const auto read = parse_limits(limits_text(limits));
         REQUIRE(read);
         CHECK(limits_text(*read) == limits_text(limits));
         CHECK(read->force == limits.force);
         CHECK(read->stiffness == limits.stiffness);
         CHECK(read->delay == limits.delay);
-        CHECK(read->recovery == limits.recovery);
+        CHECK(read->recovery_time == limits.recovery_time);
     }
     const std::string good = limits_text({});
     CHECK_FALSE(parse_limits(""));

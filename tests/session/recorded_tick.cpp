@@ -10,7 +10,7 @@ using namespace bolt::session;
 TEST_CASE("Tick record: converting to a record and back returns the input") {
     Random random(11);
     for (int i = 0; i < 200; ++i) {
-        servo::Input input;
+        servo::TickInput input;
         input.commanded_tool = session::test::random_tick(random).commanded_tool;
         input.grip = static_cast<servo::Grip>(random.bits() % 3);
         input.dead_man = random.chance(0.5);

@@ -17,10 +17,10 @@ namespace {
 constexpr std::size_t count = 2500;
 
 // A hand that moves and turns, sends no sample in every seventh tick, and releases at the end.
-servo::Input hand_at(std::size_t i) {
+servo::TickInput hand_at(std::size_t i) {
     const double t = 1e-3 * static_cast<double>(i);
     const Quat q = rotation(Vec3(0.2 * std::sin(3.0 * t), t, 0.1));
-    servo::Input input;
+    servo::TickInput input;
     input.commanded_tool.position[0] = static_cast<float>(0.1 * std::sin(t));
     input.commanded_tool.position[1] = static_cast<float>(0.3 + 0.05 * t);
     input.commanded_tool.orientation[0] = static_cast<float>(q.w);
@@ -68,9 +68,9 @@ TEST_CASE("Replay device: a recorded hand repeats its motion, grip and release i
         station::StationInputs inputs;
         mailboxes.snapshots.update();
         inputs.mover = mailboxes.snapshots.latest();
-        const servo::Input input = station::read_inputs(layout, setup, state, inputs);
+        const servo::TickInput input = station::read_inputs(layout, setup, state, inputs);
         if (!input.fresh || next >= count) continue;
-        const servo::Input was = hand_at(next);
+        const servo::TickInput was = hand_at(next);
         for (int k = 0; k < 3; ++k)
             REQUIRE(std::abs(input.commanded_tool.position[k] - was.commanded_tool.position[k]) < 1e-6F);
         for (int k = 0; k < 4; ++k)

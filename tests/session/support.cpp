@@ -73,9 +73,10 @@ bool same(const Header& a, const Header& b) {
            a.mode == b.mode && a.task == b.task && a.trainee_profile == b.trainee_profile &&
            a.seed == b.seed && std::bit_cast<std::uint64_t>(a.dt) == std::bit_cast<std::uint64_t>(b.dt) &&
            a.program == b.program && a.guide == b.guide && a.contact_models == b.contact_models &&
-           a.device.has_value() == b.device.has_value() &&
-           (!a.device || limits_text(*a.device) == limits_text(*b.device)) && a.servo_rate == b.servo_rate &&
-           a.tool == b.tool && a.view_help == b.view_help && a.hand == b.hand && a.trainee == b.trainee &&
+           a.device_limits.has_value() == b.device_limits.has_value() &&
+           (!a.device_limits || limits_text(*a.device_limits) == limits_text(*b.device_limits)) &&
+           a.servo_rate == b.servo_rate && a.tool == b.tool && a.view_help == b.view_help &&
+           a.hand == b.hand && a.trainee == b.trainee &&
            std::ranges::equal(a.obstacle_names, b.obstacle_names,
                               [](const auto& x, const auto& y) { return x.id == y.id && x.name == y.name; });
 }
@@ -126,7 +127,7 @@ Header sample_header(double dt) {
     header.program = "boltwright 0.1.0";
     header.guide = true;
     header.contact_models = "cover.contact.glb 12 bytes, fnv1a 00000000075bcd15";
-    header.device = force::OutputLimits{};
+    header.device_limits = force::OutputLimits{};
     header.servo_rate = 4000.0;
     header.tool = "torque_wrench";
     header.view_help = true;

@@ -91,7 +91,7 @@ GodObjectParameters coupled(double dt) {
 
 // The hand descends, presses, shakes mainly sideways for half a second at 6 Hz, and then rests.
 Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputLimits& limits, double dt) {
-    test::Arm arm;
+    test::ArmModel arm;
     arm.parameters = t.arm;
     arm.parameters.delay = limits.delay;
     arm.pose.position = arm.intention.position = t.from;
@@ -107,15 +107,15 @@ Outcome run(const Trial& t, const GodObjectParameters& parameters, const OutputL
         const double shake = time > 2.0 && time < 2.5 ? std::sin(2.0 * pi * 6.0 * (time - 2.0)) : 0.0;
         at += Vec3(0.01, 0.006, 0.004) * shake;
         arm.intention.position = at;
-        PortInput input;
+        DeviceInput input;
         input.pose = test::encoder_pose(arm);
         input.dead_man = true;
         step_god_object(parameters, tool, input.pose, t.scene, dt);
-        const ForceRequest request{tool.felt, stored_energy(parameters.coupling, tool.offset)};
+        const ForceRequest request{tool.rendered, stored_energy(parameters.coupling, tool.offset)};
         test::step(arm, render(limits, stage, input, request, dt), dt);
         outcome.greatest_energy = std::max(outcome.greatest_energy, arm.energy_out);
         outcome.deepest = std::min(outcome.deepest, clearance(t.scene, tool.constrained_tool));
-        outcome.touched = outcome.touched || glm::length(tool.felt.force) > 0.2;
+        outcome.touched = outcome.touched || glm::length(tool.rendered.force) > 0.2;
         const double places[] = {arm.pose.position.z, (arm.pose * Vec3(-0.23, 0, 0)).z};
         for (int i = 0; i < 2; ++i) {
             if (time >= 2.6 && time < 3.1) early[i].add(places[i]);

@@ -15,8 +15,8 @@ Layout small_arm() {
     Layout layout = test::with_arm();
     layout.mover->limits.torque = 0.0;
     layout.mover->limits.force = 12.0;
-    layout.mover->reach = Vec3(0.075);
-    layout.workspace.scale = force::fitted_scale(layout.mover->reach, 0.23);
+    layout.mover->half_workspace = Vec3(0.075);
+    layout.workspace.scale = force::fitted_scale(layout.mover->half_workspace, 0.23);
     layout.workspace.power_ratio = 1.0 / layout.workspace.scale;
     layout.lever_arm = lever_arm_of(layout, 0.23);
     return layout;

@@ -128,9 +128,9 @@ TEST_CASE("Gloved hand: messages name its problems, worst first") {
     CHECK(lost[1] == "the port is gone");
     CHECK(messages({false, true}, hand::Side::right, report)[0].find("stays") == std::string::npos);
     report.fault_message[0] = '\0';
-    report.identity.hand = hand::Side::left;
+    report.identity.side = hand::Side::left;
     REQUIRE(messages({}, hand::Side::right, report).size() == 1);
-    CHECK(messages({}, hand::Side::right, report)[0].find("is a left one") != std::string::npos);
+    CHECK(messages({}, hand::Side::right, report)[0].find("it is a left glove") != std::string::npos);
     CHECK(messages({}, hand::Side::left, report).empty());
 }
 

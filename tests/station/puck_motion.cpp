@@ -36,7 +36,7 @@ TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stop
         rig.ticks(2000);
         CHECK(rig.tool().position.y == doctest::Approx(0.1).epsilon(1e-3));
     }
-    SUBCASE("the hand leads a blocked tool by at most max_lead") {
+    SUBCASE("the hand leads a blocked tool by at most max_ahead") {
         const Pose held = rig.state.output.constrained_tool;
         rig.inputs.mover.sample.velocity = Vec3(0.3, 0, 0);
         for (int i = 0; i < 1000; ++i) {
@@ -44,9 +44,9 @@ TEST_CASE("Puck: the tool moves at the puck's rate while that is valid, and stop
             read_inputs(rig.layout, rig.setup, rig.state, rig.inputs);
             rig.state.output.constrained_tool = held;
         }
-        CHECK(glm::length(rig.tool().position - held.position) == doctest::Approx(max_lead).epsilon(0.05));
+        CHECK(glm::length(rig.tool().position - held.position) == doctest::Approx(max_ahead).epsilon(0.05));
         const Vec3 turned = turn_between(held.orientation, rig.tool().orientation);
-        CHECK(glm::length(turned) <= max_angular_lead * 1.01);
+        CHECK(glm::length(turned) <= max_angle_ahead * 1.01);
     }
 }
 
@@ -121,7 +121,7 @@ TEST_CASE("Wheel: without an engaged nut it turns nothing, and that rotation is 
 
     Rig on = on_nut(layout);
     const Pose there = on.tool();
-    ++on.inputs.wheel.opening;  // replugged: its count restarts
+    ++on.inputs.wheel.connection_number;  // replugged: its count restarts
     on.inputs.wheel.sample.angle = 40.0;
     on.ticks(5);
     CHECK(glm::length(turn_between(there.orientation, on.tool().orientation)) < 1e-9);

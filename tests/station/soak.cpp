@@ -336,7 +336,7 @@ class Soak {
         if (now_ - since > recovery_timeout && state_.output.fault != force::Fault::none)
             statistics_.require(false,
                                 fmt::format("no device has a fault, but the output has \"{}\"",
-                                            force::name(state_.output.fault)),
+                                            force::message_for(state_.output.fault)),
                                 now_);
     }
 

@@ -63,7 +63,7 @@ StationOptions plan_of(device::DeviceFactory mover) {
     plan.open_timeout = 60.0;
     plan.device_threads.priority = plan.servo.priority = 0;
     plan.servo.lock_memory = false;
-    plan.setup = [](const force::OutputLimits& limits, double) { return test::two_joints(limits); };
+    plan.make_setup = [](const force::OutputLimits& limits, double) { return test::two_joints(limits); };
     return plan;
 }
 
@@ -173,7 +173,8 @@ TEST_CASE("Station: a driver that hangs is reported, although its thread is bloc
     REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
     cable->hangs = true;
     REQUIRE(eventually([&] {
-        return joined_lines(station->fault_messages()).find("hangs: unplug it") != std::string::npos;
+        return joined_lines(station->fault_messages()).find("has not answered for 0.5 s") !=
+               std::string::npos;
     }));
     cable->hangs = false;
     REQUIRE(eventually([&] { return station->fault_messages().empty(); }));
@@ -259,8 +260,9 @@ TEST_CASE("Station: a glove of the wrong side is reported; a gloved hand without
     plan.glove = line->port();
     Result<Station> station = Station::start(std::move(plan));
     REQUIRE(station);
-    REQUIRE(eventually(
-        [&] { return joined_lines(station->fault_messages()).find("is a left one") != std::string::npos; }));
+    REQUIRE(eventually([&] {
+        return joined_lines(station->fault_messages()).find("it is a left glove") != std::string::npos;
+    }));
     StationOptions bare = plan_of(puck.factory());
     bare.hand = test::hand_at_bar();
     CHECK_FALSE(Station::start(std::move(bare)));

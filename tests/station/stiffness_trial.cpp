@@ -37,7 +37,7 @@ device::ArmParameters arm_with(double mass, double damping) {
 
 // A trial on an arm whose forces arrive `late` ticks later than it announces.
 struct Bench {
-    device::Arm arm;
+    device::ArmModel arm;
     StiffnessTrial trial;
     double time = 0.0;           // s
     double largest_force = 0.0;  // N
@@ -50,7 +50,7 @@ struct Bench {
     }
     // Returns the force, N.
     double tick(bool enabled) {
-        force::PortInput input;
+        force::DeviceInput input;
         input.pose = device::encoder_pose(arm);
         input.dead_man = enabled;
         const force::OutputCommand command = step(trial, input, dt);
@@ -83,7 +83,7 @@ Measured measure(const device::ArmParameters& parameters, int late,
 
 TEST_CASE("Stiffness trial: a good arm renders all that it announces, with a fifth of its force") {
     const Measured m = measure(arm_with(0.3, 12.0), 0);
-    CHECK(m.trial.end == TrialEnd::announced);
+    CHECK(m.trial.end == TrialEnd::reported);
     CHECK(m.trial.stable == 5000.0);
     CHECK(m.largest_force <= 0.2 * 12.0 + 1e-9);
     CHECK(m.largest_force > 1.0);
@@ -98,7 +98,7 @@ TEST_CASE("Stiffness trial: the later the forces arrive, the lower the figure, a
         CAPTURE(late);
         const Measured m = measure(arm_with(0.3, 5.0), late);
         CHECK(m.trial.stable < before);
-        CHECK((m.trial.end == TrialEnd::announced) == (late == 0));
+        CHECK((m.trial.end == TrialEnd::reported) == (late == 0));
         before = m.trial.stable;
         const double response = median_response(m.trial).value_or(1.0);
         CHECK(response > response_before);
@@ -131,7 +131,7 @@ TEST_CASE("Stiffness trial: a hand that trembles and wanders does not make an ar
         bench.arm.intention.position = Vec3(wander, 1e-4 * std::sin(2.0 * pi * 9.0 * bench.time), 0.0);
         bench.tick(true);
     }
-    CHECK(bench.trial.end == TrialEnd::announced);
+    CHECK(bench.trial.end == TrialEnd::reported);
 }
 
 TEST_CASE("Stiffness trial: it renders only while the button is held, and goes on when it is held again") {
@@ -144,7 +144,7 @@ TEST_CASE("Stiffness trial: it renders only while the button is held, and goes o
     for (int i = 0; i < 1000; ++i) CHECK(bench.tick(false) == 0.0);
     CHECK(bench.trial.level == reached);
     for (int i = 0; i < 20000 && bench.trial.end == TrialEnd::none; ++i) bench.tick(true);
-    CHECK(bench.trial.end == TrialEnd::announced);
+    CHECK(bench.trial.end == TrialEnd::reported);
     for (int i = 0; i < 20; ++i) bench.tick(true);
     CHECK(bench.tick(true) == 0.0);
 }
@@ -165,7 +165,7 @@ TEST_CASE("Stiffness trial: an arm that renders along one axis is pushed along i
     device::Description d = announced();
     d.renders = {false, true, false, false, false, false};
     CHECK(begin_stiffness_trial(d).direction == Vec3(0, 1, 0));
-    CHECK(measure(arm_with(0.3, 12.0), 0, d).trial.end == TrialEnd::announced);
+    CHECK(measure(arm_with(0.3, 12.0), 0, d).trial.end == TrialEnd::reported);
 }
 
 }  // namespace station_stiffness_trial_test

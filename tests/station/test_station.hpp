@@ -26,7 +26,7 @@ struct Rig {
           state(station::initial_state(l)) {
         for (device::DeviceSnapshot* snapshot : {&inputs.mover, &inputs.wheel}) {
             snapshot->usable = true;
-            snapshot->opening = 1;
+            snapshot->connection_number = 1;
         }
         inputs.controls.dead_man = true;
         inputs.controls.grip = servo::Grip::wrench;

@@ -81,7 +81,7 @@ TEST_CASE("Station: after a clutch, a loss or a reconnection the tool stays and 
     rig.mover_speaks = false;
     rig.ticks(100);
     rig.inputs.mover.usable = rig.mover_speaks = true;
-    ++rig.inputs.mover.opening;
+    ++rig.inputs.mover.connection_number;
     rig.hand().position += Vec3(0, 0.3, 0);
     rig.hand().orientation = rotation(Vec3(0, 0, 1));
     rig.ticks(10);

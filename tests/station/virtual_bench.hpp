@@ -18,7 +18,7 @@ class VirtualBench final : public station_setup::LessonStation {
         while (!supervisor_.report().description) serve();
         layout_.mover = *supervisor_.report().description;
         layout_.mover_buttons = {1, 0, 0, 0};
-        options.device = station::limits_of(layout_);
+        options.device_limits = station::limits_of(layout_);
         session::set_device_limits(options, prepared);
         setup_ = prepared.setup;
         servo_ = std::move(prepared.state);

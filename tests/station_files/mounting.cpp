@@ -99,7 +99,7 @@ TEST_CASE("Station file: the handle feels a force along the user's axes, and pow
 
 TEST_CASE("Station file: without a scale it is fitted to the reach along the user's axes") {
     device::Description device = test::arm();
-    device.reach = Vec3(0.3, 0.2, 0.05);
+    device.half_workspace = Vec3(0.3, 0.2, 0.05);
     for (const auto& [members, reach] : {std::pair{R"()", Vec3(0.3, 0.2, 0.05)},
                                          {R"(, "mounting": {"yaw_deg": 90})", Vec3(0.05, 0.2, 0.3)}}) {
         const Layout layout = layout_of(arm_of(members), device);

@@ -40,12 +40,12 @@ class HapticWorld {
     }
 
     const world::World& write(const servo::State& state, const servo::Output& output, bool wrench,
-                              double room = std::numeric_limits<double>::infinity()) {
+                              double free_swing = std::numeric_limits<double>::infinity()) {
         world::write_haptics(world_, {state, {}, output});
         world::WorkingHand& hand = world_.only<world::WorkingHand>();
         hand.wrench = wrench;
         hand.action = world::HandAction::holding;
-        hand.room = room;
+        hand.free_swing = free_swing;
         return world_;
     }
 

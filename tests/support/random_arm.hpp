@@ -9,7 +9,7 @@
 
 namespace bolt::test {
 
-using device::Arm;
+using device::ArmModel;
 using device::ArmParameters;
 using device::encoder_pose;
 using device::step;

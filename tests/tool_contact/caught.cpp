@@ -30,7 +30,7 @@ struct Puller {
                    .count == 0;
     }
     Pose anywhere() {
-        const collision::Box& box = contact().world.shapes[contact().world.bodies[0].shape].solid.box;
+        const collision::BoundingBox& box = contact().world.shapes[contact().world.bodies[0].shape].solid.box;
         Pose pose;
         do {
             for (int k = 0; k < 3; ++k)

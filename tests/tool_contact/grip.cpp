@@ -39,7 +39,7 @@ struct Watch {
             step = std::max(step, glm::length(o.force - last.force));
             torque_step = std::max(torque_step, glm::length(o.torque - last.torque));
         }
-        const Vec3 felt = bench.state.tool_contact->god_object.felt.force;
+        const Vec3 felt = bench.state.tool_contact->god_object.rendered.force;
         if (!first) contact_step = std::max(contact_step, glm::length(felt - contact));
         contact = felt;
         first = false;

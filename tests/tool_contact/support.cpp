@@ -33,7 +33,7 @@ Pose Workbench::wrench(std::size_t joint, double above, double misfit, const Vec
 }
 
 servo::Output Workbench::step(const Pose& hand, servo::Grip grip) {
-    servo::Input input;
+    servo::TickInput input;
     input.dead_man = true;
     input.grip = grip;
     input.commanded_tool = servo::to_commanded_tool(hand);

@@ -58,7 +58,7 @@ TEST_CASE("Tool contact: a clumsy hand never passes through the pipe flange, nor
     Vec3 before(0.0);
     // Includes the first round with the wrench, after the nuts were run down by hand.
     while (lesson.due() != nullptr && samples < 500 && bench.state.tick < 10'000'000) {
-        const Input input = hand.act(bench.setup, bench.state, lesson);
+        const TickInput input = hand.act(bench.setup, bench.state, lesson);
         const Output output = tick(bench.setup, bench.state, input);
         test::observe_tick(lesson, world, bench.state, output);
         lesson.events.clear();

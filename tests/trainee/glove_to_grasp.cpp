@@ -94,7 +94,7 @@ TEST_CASE("Glove to grasp: from an emulated glove to a wrench in the hand") {
         CHECK(made.score > 0.5);
         content::GloveCalibration stored;
         stored.trainee = "Ada";
-        stored.hand = identity.hand;
+        stored.hand = identity.side;
         stored.sensors = identity.sensors;
         stored.date = "2026-11-22";
         stored.quality = made.score;

@@ -92,7 +92,7 @@ TEST_CASE("Dragged hand: only a pull on a bolt is stronger than the arm") {
     const auto pull = [&](double notches) {
         DraggedHand hand;
         drag_hand(hand, dragging({5.0, 0.0}, notches), scene);
-        return device::simulated_arm_parameters().stiffness * hand.motion.lead;
+        return device::simulated_arm_parameters().stiffness * hand.motion.max_deflection;
     };
     const double strength = device::simulated_arm_description().limits.force;
     CHECK(pull(0.0) < strength);

@@ -10,7 +10,7 @@ TEST_CASE(
     using namespace bolt;
     const content::Assembly assembly = trainer_test::assembly("cover-m8");
     session::LessonOptions options;
-    const auto begun = session::prepare(assembly, options);
+    const auto begun = session::prepare_session(assembly, options);
     REQUIRE(begun);
     scene::SceneWorld world;
     world::add_haptics(world, begun->state);

@@ -39,7 +39,7 @@ Outcome play_through(const char* name, session::LessonOptions options, double lo
         if (tick % 16 == 0)
             trainer::apply_command(player.hand, next_command(player, session, 0.016), session.setup(),
                                    session.state());
-        const servo::Input input = trainer::step_hand(player.hand, session.setup(), session.state());
+        const servo::TickInput input = trainer::step_hand(player.hand, session.setup(), session.state());
         REQUIRE(session.step(world, input));
         out.longest_jump = std::max(out.longest_jump, glm::distance(before, player.hand.pose.position));
         before = player.hand.pose.position;

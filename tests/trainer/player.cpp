@@ -55,7 +55,7 @@ trainer::MouseCommand next_command(Player& p, const session::LessonSession& sess
         const double missing = loosens ? 1.0 : std::max(0.15, 1.0 - p.peak / due->torque);
         command.turn = (loosens ? -1.0 : 1.0) * 1.2 * missing * seconds;
         const double swung = std::abs(p.hand.handle_angle - p.hand.stroke_begin);
-        enough = enough || swung > 0.97 * p.hand.room;
+        enough = enough || swung > 0.97 * p.hand.free_swing;
     }
     command.button_down = p.button_down =
         p.hand.button_down || p.hand.action == HandAction::reaching || p.hand.action == HandAction::lowering;

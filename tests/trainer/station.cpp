@@ -38,7 +38,7 @@ struct StationLesson {
     world::World world;
     StationClient client;
     test::VirtualBench* bench = nullptr;
-    StationIntent intent;
+    UserActions actions;
     StepUndo undo;
     std::set<Key> down;
     fs::path file;
@@ -53,7 +53,8 @@ struct StationLesson {
         options.mode = mode;
         options.obstacles = session::Obstacles::if_any;
         file = fs::path(BOLT_TRAINER_OUT) / "station.boltwright";
-        auto one = session::prepare(assembly, options), other = session::prepare(assembly, options);
+        auto one = session::prepare_session(assembly, options),
+             other = session::prepare_session(assembly, options);
         REQUIRE(one);
         REQUIRE(other);
         auto made = std::make_unique<test::VirtualBench>(std::move(*one), options);
@@ -68,7 +69,7 @@ struct StationLesson {
             pinch(false);
         }
 
-        options.device = bench->setup().limits;
+        options.device_limits = bench->setup().limits;
         session::set_device_limits(options, *other);
         auto begun = session::LessonSession::begin(std::move(*other), options, file);
         REQUIRE(begun);
@@ -103,12 +104,12 @@ struct StationLesson {
                 observe(undo, session->lesson(), event);
             }
         }
-        StationIntent now = intent;
+        UserActions now = actions;
         now.paused = now.paused || !continues(undo, *session);
         now.undo = steps_to_undo(undo, session->lesson());
-        const Status sent = send_intent(client, *session, now);
+        const Status sent = send_actions(client, *session, now);
         CHECK(sent);
-        intent.toggle_wrench = intent.recentre = false;
+        actions.toggle_wrench = actions.recentre = false;
     }
     void frames(double seconds) {
         for (double t = 0.0; t < seconds; t += frame_time) next_frame();
@@ -183,7 +184,7 @@ class KeyboardTrainee {
     }
     [[nodiscard]] bool with_gripper() const { return lesson_.bench->layout().mover->senses_gripper; }
     void lay_down() {
-        lesson_.intent.toggle_wrench = !with_gripper();
+        lesson_.actions.toggle_wrench = !with_gripper();
         holds_wrench_ = false;
         if (with_gripper()) hold_for_frame({});
         if (lesson_.client.gloved) lesson_.bench->hand_->held = false;
@@ -347,13 +348,13 @@ TEST_CASE("Station client: a pause stops the lesson, and undo works as with the 
     REQUIRE(lesson_run.session->lesson().current == 1);
     const std::size_t first = lesson_run.session->lesson().steps[0].joint;
     REQUIRE(lesson_run.session->state().joints[first].nut.angle > 6.0);
-    lesson_run.intent.paused = true;
+    lesson_run.actions.paused = true;
     lesson_run.frames(0.1);
     const double before = lesson_run.session->time();
     lesson_run.hold({Key::d});
     lesson_run.frames(1.0);
     CHECK(lesson_run.session->time() == before);
-    lesson_run.intent.paused = false;
+    lesson_run.actions.paused = false;
     lesson_run.hold({});
     request_undo(lesson_run.undo, lesson_run.session->lesson(), 1);
     lesson_run.frames(0.5);
@@ -405,17 +406,17 @@ TEST_CASE("Station client: only a gloved hand has a limited twist") {
     client.latest.input.grip = servo::Grip::fingers;
     client.nut_angle_at_grip = 40.0;
     client.latest.output.nut_angle = 40.0;
-    CHECK(hand_of(client).room == doctest::Approx(forearm_range));
+    CHECK(hand_of(client).free_swing == doctest::Approx(forearm_range));
     client.latest.output.nut_angle = 40.0 + to_radians(119.0);
-    CHECK(hand_of(client).room == doctest::Approx(to_radians(1.0)));
+    CHECK(hand_of(client).free_swing == doctest::Approx(to_radians(1.0)));
     client.latest.output.nut_angle = 40.0 - to_radians(150.0);
-    CHECK(hand_of(client).room == 0.0);
+    CHECK(hand_of(client).free_swing == 0.0);
     client.latest.input.grip = servo::Grip::wrench;
-    CHECK(std::isinf(hand_of(client).room));
+    CHECK(std::isinf(hand_of(client).free_swing));
     client.latest.input.grip = servo::Grip::fingers;
     client.gloved = false;
-    CHECK(std::isinf(hand_of(client).room));
+    CHECK(std::isinf(hand_of(client).free_swing));
     client.gloved = true;
     client.latest.output.joint = -1;
-    CHECK(std::isinf(hand_of(client).room));
+    CHECK(std::isinf(hand_of(client).free_swing));
 }

@@ -97,9 +97,9 @@ TEST_CASE(
         const std::size_t other = (p.session->lesson().due()->joint + 1) % 4;
         const glm::dvec2 at = driver.hold(other);
         driver.move(at + glm::dvec2(100.0, 0.0));
-        for (int i = 0; i < 30 && !p.coaching.mistakes.shown; ++i) driver.frame();
-        REQUIRE(p.coaching.mistakes.shown);
-        CHECK(p.coaching.mistakes.shown->kind == lesson::MistakeKind::out_of_turn);
+        for (int i = 0; i < 30 && !p.guidance.mistakes.shown; ++i) driver.frame();
+        REQUIRE(p.guidance.mistakes.shown);
+        CHECK(p.guidance.mistakes.shown->kind == lesson::MistakeKind::out_of_turn);
         REQUIRE(p.session->state().joints[other].nut.angle > 0.0);
         for (int i = 0; i < 10; ++i)
             driver.frame();  // a hand that continues grips again and makes no other mistake
@@ -110,7 +110,7 @@ TEST_CASE(
         CHECK((p.session->state().joints[other].nut.angle == 0.0) == guided);
         CHECK(hand_of(p).nut.has_value() != guided);
         CHECK(p.session->lesson().joints[other].result.out_of_turn == 1);
-        if (guided) CHECK(p.coaching.mistakes.shown);
+        if (guided) CHECK(p.guidance.mistakes.shown);
     }
 }
 
@@ -129,9 +129,9 @@ TEST_CASE("Trainer: a mistake in the last step restarts that step before the les
     REQUIRE(p.session->lesson().current == 1);
     const double seated = p.session->state().joints[0].nut.angle;
     user.torque_share = 1.3;
-    for (int i = 0; i < 20 && !p.coaching.mistakes.shown; ++i) user.play(p.session->time() + 1.0, 2);
-    REQUIRE(p.coaching.mistakes.shown);
-    CHECK(p.coaching.mistakes.shown->kind == lesson::MistakeKind::over_torque);
+    for (int i = 0; i < 20 && !p.guidance.mistakes.shown; ++i) user.play(p.session->time() + 1.0, 2);
+    REQUIRE(p.guidance.mistakes.shown);
+    CHECK(p.guidance.mistakes.shown->kind == lesson::MistakeKind::over_torque);
     CHECK(p.session->state().joints[0].nut.angle > seated);
     const auto marked = [&] {
         return std::any_of(p.scene.labels.begin(), p.scene.labels.end(), [](const render::Label& label) {
@@ -147,7 +147,7 @@ TEST_CASE("Trainer: a mistake in the last step restarts that step before the les
     CHECK(left > 0);
     CHECK(p.session->state().joints[0].nut.angle == seated);
     CHECK(p.session->lesson().current == 1);
-    CHECK(p.coaching.mistakes.shown);
+    CHECK(p.guidance.mistakes.shown);
     REQUIRE(driver.app().screen() == ShownScreen::lesson);
 
     user.torque_share = 1.0;
@@ -285,7 +285,7 @@ TEST_CASE("Trainer: hints are shown in every language, and none in an assessment
         HeadlessTrainer driver(std::move(o));
         for (int i = 0; i < 5; ++i) driver.frame();
         const bool helped = std::string(language) != "en";
-        CHECK(driver.lesson().coaching.hints.shown.has_value() == helped);
+        CHECK(driver.lesson().guidance.hints.shown.has_value() == helped);
         const Vec3 before = driver.lesson().view.camera.goal.target;
         driver.key(platform::Key::v);
         CHECK((driver.lesson().view.camera.goal.target != before) == helped);

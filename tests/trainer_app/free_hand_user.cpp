@@ -241,7 +241,7 @@ motion::GripAngle FreeHandUser::choose_side() const {
             motion::choose_grip(setup(), contact ? &*contact : nullptr, joint, nut_angle, fits, sign, stroke);
         if (side.flipped) continue;
         const double off = std::abs(std::remainder(side.handle - preferred, 2.0 * pi));
-        sides.emplace_back(off + 4.0 * (stroke - side.room), side);
+        sides.emplace_back(off + 4.0 * (stroke - side.free_swing), side);
     }
     if (sides.empty()) return {preferred, false, stroke};
     std::sort(sides.begin(), sides.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -281,7 +281,7 @@ bool FreeHandUser::approach() {
     const servo::NutGeometry& geometry = setup().nuts[joint];
     const auto& contact = state().tool_contact;
     const motion::GripAngle side = choose_side();
-    room_ = side.room;
+    room_ = side.free_swing;
     const double nut_angle = state().joints[joint].nut.angle;
     const double height =
         contact ? motion::hover_height(setup(), *contact, joint, nut_angle, side, most_hover) : most_hover;

@@ -31,9 +31,11 @@ int play_with_hand(TrainerDriver& driver, trainer::HandMode hand, double longest
 HandMeasures measure_hand(const TrainerDriver& driver, const std::filesystem::path& session, int presses) {
     const session::SessionReader reader = need(session::SessionReader::open(session));
     const analysis::SessionData data = need(analysis::read_session(reader));
-    HandMeasures measures{data.finished, data.duration, presses, data.score, data.metrics.bumps.size(),
-                          0.0,           std::nullopt};
-    for (const analysis::Bump& bump : data.metrics.bumps) measures.bump_seconds += bump.length;
+    HandMeasures measures{
+        data.finished, data.duration, presses, data.score, data.metrics.obstacle_contacts.size(),
+        0.0,           std::nullopt};
+    for (const analysis::ObstacleContact& contact : data.metrics.obstacle_contacts)
+        measures.bump_seconds += contact.length;
     const lesson::Lesson& lesson = driver.lesson().session->lesson();
     for (std::size_t i = 0; i < data.joints.size(); ++i) {
         double target = 0.0;

@@ -17,7 +17,7 @@ struct HandMeasures {
     double seconds = 0.0;  // of the lesson
     int presses = 0;       // of the left button
     double score = 0.0;
-    std::size_t bumps = 0;      // analysis::Bump
+    std::size_t bumps = 0;      // analysis::ObstacleContact
     double bump_seconds = 0.0;  // in all
     // Largest deviation of a joint from its target torque, fraction of it; none if all are tightened to
     // yield.

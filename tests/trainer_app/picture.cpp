@@ -120,7 +120,7 @@ TEST_CASE("Hint panel: it has its full size from its first frame on") {
     for (int i = 0; i < 120 && changed < 3; ++i) {
         if (i == 60) driver.key(platform::Key::h);
         driver.frame();
-        const auto& hint = driver.lesson().coaching.hints.shown;
+        const auto& hint = driver.lesson().guidance.hints.shown;
         const std::string now = hint ? lesson::hint_text(en.words, *hint) + std::to_string(hint->level) : "";
         if (now == said && first) {
             REQUIRE(hint_plate());

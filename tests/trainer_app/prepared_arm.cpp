@@ -37,7 +37,7 @@ struct UnpreparedArm {
     bool prepare(const device::ArmDialog& dialog) {
         while (now().need != device::DeviceNeed::none) {
             if (!dialog.on_preparation(now())) return false;
-            if (dialog.permission->take()) {
+            if (dialog.permission->acquire()) {
                 ++moved;
                 homing = true;
                 while (homing) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -56,7 +56,7 @@ struct UnpreparedArm {
                    const Equipment&, const std::string&,
                    const device::ArmDialog& dialog) -> Result<std::unique_ptr<station_setup::LessonStation>> {
             if (!prepare(dialog)) return fail(ErrorCode::no_device, "the arm is not prepared");
-            auto prepared = session::prepare(assembly, lesson_options);
+            auto prepared = session::prepare_session(assembly, lesson_options);
             if (!prepared) return fail(prepared.error());
             auto made = std::make_unique<test::VirtualBench>(std::move(*prepared), lesson_options);
             bench = made.get();

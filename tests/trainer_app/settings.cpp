@@ -182,7 +182,8 @@ TEST_CASE("Settings: left hand, driver height, captions and force scale apply to
     };
     const auto right = lesson(false, 1.0), left = lesson(true, 0.25);
     const ActiveLesson &r = *right->app().lesson(), &l = *left->app().lesson();
-    const double middle = 0.5 * static_cast<double>(r.workplace.machine.low.x + r.workplace.machine.high.x);
+    const double middle =
+        0.5 * static_cast<double>(r.workplace.workpiece.low.x + r.workplace.workpiece.high.x);
     const Vec3 grip(r.session->setup().wrench.handle_length, 0.0, 0.0);
     const double to_right = (hand_of(r).rest * grip).x - middle,
                  to_left = (hand_of(l).rest * grip).x - middle;

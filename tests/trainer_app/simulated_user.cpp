@@ -95,7 +95,7 @@ bool SimulatedUser::pull(std::size_t joint, glm::dvec2& pointer) {
     const bool yields = session.state().joints[joint].stage == joint::Stage::yield;
     const double until = torque_share * step_due.torque;
     if (lesson::requires_yield(session.lesson(), step_due) ? yields : torque >= until) return true;
-    if (hand_of(lesson()).room < spent * lesson().mouse.room) return true;
+    if (hand_of(lesson()).free_swing < spent * lesson().mouse.free_swing) return true;
     const glm::dvec2 lever = lever_on_screen(driver_.projection(), tool_of(lesson()).pose,
                                              setup.nuts[joint].axis, setup.wrench.handle_length);
     const double share = std::max(slowest_share, 1.0 - torque / until);

@@ -29,7 +29,7 @@ struct AtBench {
                    const device::ArmDialog&) -> Result<std::unique_ptr<station_setup::LessonStation>> {
             started.push_back(equipment);
             if (refuses) return fail(*refuses);
-            auto prepared = session::prepare(assembly, lesson_options);
+            auto prepared = session::prepare_session(assembly, lesson_options);
             if (!prepared) return fail(prepared.error());
             auto made = std::make_unique<test::VirtualBench>(std::move(*prepared), lesson_options);
             bench = made.get();
@@ -61,7 +61,7 @@ TEST_CASE("Trainer at a station: keys move the tool, a pause stops it, and the s
     REQUIRE(driver.app().screen() == ShownScreen::lesson);
     REQUIRE(driver.lesson().station);
     CHECK(driver.lesson().session->time() > 0.3);
-    CHECK(driver.lesson().coaching.hints.shown.has_value());
+    CHECK(driver.lesson().guidance.hints.shown.has_value());
     const Vec3 home = driver.lesson().station->home.position;
     CHECK(glm::distance(hand_of(driver.lesson()).pose.position, home) < 0.05);
     at.frame(driver, {down(platform::Key::e)});
@@ -181,7 +181,7 @@ TEST_CASE(
         driver.frame();
         const ActiveLesson& p = driver.lesson();
         const double middle =
-            0.5 * static_cast<double>(p.workplace.machine.low.x + p.workplace.machine.high.x);
+            0.5 * static_cast<double>(p.workplace.workpiece.low.x + p.workplace.workpiece.high.x);
         const Vec3 grip(p.session->setup().wrench.handle_length, 0.0, 0.0);
         const double aside = (p.station->rest * grip).x - middle;
         REQUIRE(driver.app().end_lesson());

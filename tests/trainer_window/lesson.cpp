@@ -40,7 +40,7 @@ void overdo(test::TrainerDriver& driver, test::SimulatedUser& user) {
     while (lesson.due() != nullptr && lesson.due()->kind == lesson::StepKind::run_down)
         user.play(p.session->time() + 1.0, lesson.current + 1);
     user.torque_share = 1.4;
-    while (!p.coaching.mistakes.shown && driver.app().screen() == trainer::ShownScreen::lesson)
+    while (!p.guidance.mistakes.shown && driver.app().screen() == trainer::ShownScreen::lesson)
         user.play(p.session->time() + 1.0);
     user.torque_share = 1.0;
     user.wait(3.0);

@@ -59,7 +59,8 @@ TEST_CASE("Vibration: silent while nothing moves, in every stage and at every to
     CHECK(free.sent.empty());
 }
 
-TEST_CASE("Vibration: the free nut gives one tick for each 30 degrees, at every speed up to the frame rate") {
+TEST_CASE(
+    "Vibration: the free nut gives one detent for each 30 degrees, at every speed up to the frame rate") {
     for (const double speed : {0.5, 3.0, 10.0, 20.0})
         for (const double direction : {1.0, -1.0}) {
             CAPTURE(speed);
@@ -67,18 +68,18 @@ TEST_CASE("Vibration: the free nut gives one tick for each 30 degrees, at every 
             player.input.angle = direction * to_radians(15.0);
             player.turn(direction * 12.0 * pi, 0.0, static_cast<int>(12.0 * pi / speed / player.dt));
             player.run(30);
-            CHECK(player.count(VibrationCue::tick) == doctest::Approx(72).epsilon(1.1 / 72.0));
-            CHECK(player.sent.size() == static_cast<std::size_t>(player.count(VibrationCue::tick)));
+            CHECK(player.count(VibrationCue::detent) == doctest::Approx(72).epsilon(1.1 / 72.0));
+            CHECK(player.sent.size() == static_cast<std::size_t>(player.count(VibrationCue::detent)));
         }
-    // Faster, ticks share frames; a nut that trembles at a notch does not tick.
+    // Faster, detents share frames; a nut that trembles at a detent gives no further cue.
     VibrationPlayer fast = engaged(Stage::navigation);
     fast.turn(60.0, 0.0, 1000);
-    CHECK(fast.count(VibrationCue::tick) > 60);
-    CHECK(fast.count(VibrationCue::tick) <= 91);
+    CHECK(fast.count(VibrationCue::detent) > 60);
+    CHECK(fast.count(VibrationCue::detent) <= 91);
     VibrationPlayer trembling = engaged(Stage::navigation);
     trembling.turn(to_radians(30.1), 0.0, 100);
     for (int i = 0; i < 200; ++i) trembling.turn(to_radians(i % 2 == 0 ? -5.0 : 5.0), 0.0, 20);
-    CHECK(trembling.count(VibrationCue::tick) == 1);
+    CHECK(trembling.count(VibrationCue::detent) == 1);
 }
 
 TEST_CASE("Vibration: undoing a step, which moves the nut at once, gives no cue") {
@@ -122,12 +123,12 @@ TEST_CASE("Vibration: the amplitude of the load grows with the torque by the sta
     double before = 0.0;
     int loads = 0;
     for (const test::SentCommand& one : player.sent) {
-        if (one.command.cue != VibrationCue::load) continue;
+        if (one.command.cue != VibrationCue::load_pulse) continue;
         ++loads;
         const double share = one.input.torque / one.input.target;
         CHECK(one.command.amplitude > before);
         CHECK(one.command.amplitude == doctest::Approx(0.6 * std::pow(share, 1.0 / 0.89)).epsilon(1e-9));
-        CHECK(one.command.frequency == options.load.frequency);
+        CHECK(one.command.frequency == options.load_pulse.frequency);
         before = one.command.amplitude;
     }
     CHECK(loads > 250);
@@ -138,17 +139,17 @@ TEST_CASE("Vibration: the amplitude of the load grows with the torque by the sta
     player.run(400);
     player.sent.clear();
     player.turn(0.0, 5.0, 1000);
-    CHECK(player.count(VibrationCue::load) == 0);
+    CHECK(player.count(VibrationCue::load_pulse) == 0);
     VibrationPlayer loosened = engaged(Stage::linearity);
     loosened.turn(0.0, -30.0, 1000);
-    CHECK(loosened.count(VibrationCue::load) > 80);
+    CHECK(loosened.count(VibrationCue::load_pulse) > 80);
     VibrationPlayer without_target = engaged(Stage::linearity);
     without_target.input.target = 0.0;
     without_target.turn(0.5, 50.0, 1000);
-    CHECK(without_target.count(VibrationCue::load) == 0);
+    CHECK(without_target.count(VibrationCue::load_pulse) == 0);
 }
 
-TEST_CASE("Vibration: yield gives one pulse, and the texture of the load becomes slower") {
+TEST_CASE("Vibration: yield gives one pulse, and the load pulses become slower") {
     VibrationPlayer player = engaged(Stage::linearity);
     player.turn(0.3, 50.0, 1000);
     player.input.stage = Stage::yield;
@@ -160,12 +161,12 @@ TEST_CASE("Vibration: yield gives one pulse, and the texture of the load becomes
     CHECK(player.count(VibrationCue::yield) == 1);
     int slow = 0;
     for (const test::SentCommand& one : player.sent)
-        if (one.command.cue == VibrationCue::load && one.time > 1.3) {
+        if (one.command.cue == VibrationCue::load_pulse && one.time > 1.3) {
             CHECK(one.command.frequency == player.options.yield_frequency);
             ++slow;
         }
     CHECK(slow > 50);
-    CHECK(player.options.yield_frequency < player.options.load.frequency);
+    CHECK(player.options.yield_frequency < player.options.load_pulse.frequency);
 }
 
 TEST_CASE("Vibration: a loaded nut that breaks away gives one pulse in each pull, in both directions") {
@@ -202,7 +203,7 @@ TEST_CASE("Vibration: slip, click and bump give one command each, whatever the f
         player.run(203);
         CHECK(player.count(VibrationCue::slip) == 1);
         CHECK(player.count(VibrationCue::click) == 1);
-        CHECK(player.count(VibrationCue::bump) == 1);
+        CHECK(player.count(VibrationCue::strike) == 1);
         CHECK(player.sent.size() == 3);
     }
     double before = 0.0;  // a faster strike is stronger, up to full_strike
@@ -228,7 +229,7 @@ TEST_CASE("Vibration: of several events in a frame the strongest comes first, an
     player.run(99);
     REQUIRE(player.sent.size() == 2);
     CHECK(player.sent[0].command.cue == VibrationCue::click);
-    CHECK(player.sent[1].command.cue == VibrationCue::bump);
+    CHECK(player.sent[1].command.cue == VibrationCue::strike);
     CHECK(player.sent[1].command.amplitude == doctest::Approx(0.8));  // the stronger of two strikes
     CHECK(player.sent[1].time >= player.sent[0].time + player.sent[0].command.duration - 1e-9);
 }

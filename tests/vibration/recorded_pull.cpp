@@ -77,7 +77,7 @@ void draw(std::span<const session::TickRecord> ticks, const VibrationPlayer& pla
             {static_cast<double>(i) * player.dt, static_cast<double>(ticks[i].wrench_torque)});
     torque.lines.push_back(line);
     for (const test::SentCommand& one : player.sent) {
-        const bool load = one.command.cue == VibrationCue::load;
+        const bool load = one.command.cue == VibrationCue::load_pulse;
         const double until = one.time + (load ? 0.011 : one.command.duration);
         vibration.lines.push_back({{{one.time, 0.0},
                                     {one.time, one.command.amplitude},
@@ -116,21 +116,22 @@ TEST_CASE("Vibration of a recorded pull: the cues come in the order of the stage
     const VibrationPlayer player = played(ticks);
     for (const test::SentCommand& one : player.sent) REQUIRE(test::is_valid(one.command));
 
-    const auto notches = times_of(player, VibrationCue::tick), seats = times_of(player, VibrationCue::seat),
-               loads = times_of(player, VibrationCue::load), yields = times_of(player, VibrationCue::yield);
+    const auto detents = times_of(player, VibrationCue::detent), seats = times_of(player, VibrationCue::seat),
+               loads = times_of(player, VibrationCue::load_pulse),
+               yields = times_of(player, VibrationCue::yield);
     // The nut is run down by 720° by hand until it reaches its seat.
     const auto seat = std::find_if(ticks.begin(), ticks.end(), [](const session::TickRecord& tick) {
         return tick.joint >= 0 && static_cast<Stage>(tick.stage) != Stage::navigation;
     });
     REQUIRE(seat != ticks.end());
     const double run_down = to_degrees(static_cast<double>(seat->nut_angle));
-    CHECK(notches.size() == doctest::Approx(std::floor(run_down / 30.0)).epsilon(1.1 / 24.0));
+    CHECK(detents.size() == doctest::Approx(std::floor(run_down / 30.0)).epsilon(1.1 / 24.0));
     REQUIRE(seats.size() == 1);
     REQUIRE(yields.size() == 1);  // the stage changes to yield twice within 20 ms
     REQUIRE(!loads.empty());
     const double seat_time = static_cast<double>(seat - ticks.begin()) * player.dt;
     CHECK(std::abs(seats[0] - seat_time) < 0.03);
-    CHECK(notches.back() <= seats[0]);
+    CHECK(detents.back() <= seats[0]);
     CHECK(seats[0] < loads.front());
     CHECK(loads.front() < yields[0]);
     draw(ticks, player);
@@ -162,7 +163,7 @@ TEST_CASE("Vibration of a recorded pull: in the linear stage a larger torque giv
     const VibrationPlayer player = played(recorded());
     std::vector<std::pair<double, double>> loads;  // torque, amplitude
     for (const test::SentCommand& one : player.sent)
-        if (one.command.cue == VibrationCue::load && one.input.stage == Stage::linearity)
+        if (one.command.cue == VibrationCue::load_pulse && one.input.stage == Stage::linearity)
             loads.emplace_back(one.input.torque, one.command.amplitude);
     REQUIRE(loads.size() > 50);
     std::sort(loads.begin(), loads.end());
@@ -182,7 +183,7 @@ TEST_CASE("Vibration of a recorded pull: repeated, it has the same bits") {
 }
 
 // M8 nuts that a robot loosened at 40 rpm: the torque falls within a turn, then the nut runs freely.
-TEST_CASE("Vibration of measured loosening: a load at the beginning, then one tick for each 30 degrees") {
+TEST_CASE("Vibration of measured loosening: a load at the beginning, then one detent for each 30 degrees") {
     constexpr double speed = to_radians(240.0), loaded = 0.15;  // rad/s, N·m
     const auto record = analysis::read_measured(test::test_file("data/m8_releasable.csv"));
     REQUIRE_MESSAGE(record, record.error().message());
@@ -205,11 +206,11 @@ TEST_CASE("Vibration of measured loosening: a load at the beginning, then one ti
             player.tick();
         }
         const double free = cycle.angle.back() - free_from;
-        CHECK(player.count(VibrationCue::tick) ==
+        CHECK(player.count(VibrationCue::detent) ==
               doctest::Approx(to_degrees(free) / 30.0).epsilon(1.1 / 25.0));
         for (const test::SentCommand& one : player.sent) {
             REQUIRE(test::is_valid(one.command));
-            if (one.command.cue == VibrationCue::load) CHECK(-one.input.angle < 2.0 * pi + 0.5);
+            if (one.command.cue == VibrationCue::load_pulse) CHECK(-one.input.angle < 2.0 * pi + 0.5);
         }
     }
 }

@@ -12,7 +12,7 @@ namespace {
 struct Bench {
     servo::Setup setup = test::two_joints();
     servo::State state = servo::initial_state(setup);
-    servo::Input input;
+    servo::TickInput input;
     world::World world;
 
     Bench() {

@@ -116,7 +116,7 @@ std::string format_table(const content::Assembly& assembly, const std::vector<Nu
     std::size_t width = 0;
     for (const NutVisibility& row : rows) width = std::max(width, row.joint.size());
     std::string text = fmt::format("{:{}}", "", width);
-    for (const content::Viewpoint& view : assembly.views) text += fmt::format("  {:>9}", view.name);
+    for (const content::NamedView& view : assembly.views) text += fmt::format("  {:>9}", view.name);
     text += "  best\n";
     for (const NutVisibility& row : rows) {
         text += fmt::format("{:{}}", row.joint, width);

@@ -174,7 +174,7 @@ std::vector<Pose> make_sweep(const collision::CollisionWorld& world, const colli
         std::vector<Pose> poses;
         // No point of the tool is faster than 0.3 m/s.
         const double turn = glm::length(rotation_vector(glm::conjugate(from.orientation) * to.orientation));
-        const double length = glm::length(to.position - from.position) + tool.reach() * turn;
+        const double length = glm::length(to.position - from.position) + tool.origin_radius() * turn;
         const int steps = 1 + static_cast<int>(1e3 * std::max(0.2, 1.875 * length / 0.3));
         for (int i = 0; i < steps; ++i) {
             const double t = static_cast<double>(i) / steps;

@@ -107,7 +107,7 @@ void plugin_exchange(benchmark::State& state) {
         device::ArmProcess process = unwrap(device::ArmProcess::start(plugins.front()));
         unwrap(process.call(device::PluginCall::open));
         measure(state, ticks, [&](int /*tick*/) {
-            unwrap(process.begin_exchange({sizeof(bw_arm_wrench_v1), 0, {}, {}}));
+            unwrap(process.begin_exchange({sizeof(bw_arm_command_v1), 0, {}, {}}));
             auto reply = unwrap(process.finish_exchange(1.0));
             benchmark::DoNotOptimize(reply);
         });

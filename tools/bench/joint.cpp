@@ -83,7 +83,7 @@ void yielding_tick(benchmark::State& state) {
     double angle = 0.0;
     for (auto _ : state) {
         angle += 2e-4;
-        if (joints[0].condition != JointCondition::sound) {
+        if (joints[0].condition != JointCondition::intact) {
             state.PauseTiming();
             joints = initial_state(group, 1);
             angle = 0.9;
@@ -124,7 +124,7 @@ void servo_tick_12_joints(benchmark::State& state) {
     description.max_torque = 200.0;
     const servo::Setup setup = servo::make_setup(description);
     servo::State servo = servo::initial_state(setup);
-    servo::Input input;
+    servo::TickInput input;
     input.dead_man = true;
     input.grip = servo::Grip::fingers;
     const Vec3 centre = servo::nut_centre(setup.nuts[0], 0.0);

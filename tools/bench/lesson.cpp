@@ -61,7 +61,7 @@ void headless_lesson_unrecorded(benchmark::State& state) {
         lesson::Lesson lesson = lesson::begin(loaded.assembly, lesson::Mode::guided, lesson::Task::tighten);
         trainees::SimulatedTrainee trainee(trainees::find_profile("expert").value(), 1, setup);
         while (lesson.due() != nullptr && servo.tick < 7'200'000) {
-            const servo::Input input = trainee.act(setup, servo, lesson);
+            const servo::TickInput input = trainee.act(setup, servo, lesson);
             const servo::Output output = servo::tick(setup, servo, input);
             world::write_haptics(world, {servo, input, output});
             lesson::observe(lesson, world);
@@ -93,7 +93,7 @@ void lesson_frames(benchmark::State& state, const char* name, session::Obstacles
             double frame_cost = 0.0;
             bool touches = false;
             for (double last_frame = 0.0; !lesson_session.finished() && lesson_session.time() < time_limit;) {
-                const servo::Input input =
+                const servo::TickInput input =
                     expert.act(lesson_session.setup(), lesson_session.state(), lesson_session.lesson());
                 const double start = bench::thread_microseconds();
                 const servo::Output output = unwrap(lesson_session.step(world, input, expert.take_events()));

@@ -222,15 +222,15 @@ void reset(ServoFixture& servo) {
 
 // Returns the device samples of a simulated arm that yields to the rendered force while the servo runs. The
 // result is the same for the same seed.
-std::vector<servo::Input> make_path(ServoFixture& servo, const DeviceModel& device, double seconds,
-                                    std::uint64_t seed) {
+std::vector<servo::TickInput> make_path(ServoFixture& servo, const DeviceModel& device, double seconds,
+                                        std::uint64_t seed) {
     const double dt = servo.setup.dt;
     const auto ticks = static_cast<std::size_t>(seconds / dt);
     // The impedance of a hand that leans on the tool.
-    const trainees::Impedance impedance{.force = 15.0, .torque = 1.5};
-    trainees::ArmDeflection arm;
+    const trainees::Impedance impedance{.max_force = 15.0, .max_torque = 1.5};
+    trainees::HandDeflection arm;
     MotionPlanner hand(servo, seed);
-    std::vector<servo::Input> inputs;
+    std::vector<servo::TickInput> inputs;
     inputs.reserve(ticks);
     Pose target = hand.begin();
     servo::Output output;
@@ -246,14 +246,14 @@ std::vector<servo::Input> make_path(ServoFixture& servo, const DeviceModel& devi
                 const double s = minimum_jerk(t);
                 target = {glm::mix(from.position, leg.to.position, s),
                           glm::slerp(from.orientation, leg.to.orientation, s)};
-                servo::Input input;
+                servo::TickInput input;
                 input.dead_man = true;
                 input.grip = servo::Grip::wrench;
                 input.guide = leg.guide;
-                input.commanded_tool =
-                    command_of(trainees::step_arm(impedance, arm, target, {output.force, output.torque},
-                                                  output.joint >= 0, dt),
-                               device.encoder);
+                input.commanded_tool = command_of(
+                    trainees::step_deflection(impedance, arm, target, {output.force, output.torque},
+                                              output.joint >= 0, dt),
+                    device.encoder);
                 inputs.push_back(input);
                 output = servo::tick(servo.setup, servo.state, input);
             }
@@ -298,7 +298,7 @@ struct ForceStatistics {
 void servo_tick(benchmark::State& state, const bench::DeviceModel& device, double seconds, bool touches) {
     run_or_skip(state, [&] {
         bench::ServoFixture servo = unwrap(bench::make_servo(device));
-        const std::vector<servo::Input> inputs = bench::make_path(servo, device, seconds, 1);
+        const std::vector<servo::TickInput> inputs = bench::make_path(servo, device, seconds, 1);
         for (auto _ : state) {
             std::vector<double> first(inputs.size()), least(inputs.size(), 1e9);
             ForceStatistics forces(device.dt);

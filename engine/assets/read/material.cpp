@@ -182,7 +182,7 @@ const char* media_type(const std::vector<std::uint8_t>& bytes) {
 
 Status read_textures(Document& document, Model& model) {
     for (std::size_t i = 0; i < document.images.size(); ++i) {
-        Image image;
+        Bitmap image;
         image.name = document.json["images"][i].value("name", "");
         const char* type = media_type(document.images[i]);
         // Optional extensions may add images of other types, to which no core texture refers.

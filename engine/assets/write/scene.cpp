@@ -191,7 +191,7 @@ Json write_light(const Light& light) {
 }
 
 Result<Json> write_image(GlbWriter& writer, std::size_t index) {
-    const Image& image = writer.model.images[index];
+    const Bitmap& image = writer.model.images[index];
     const std::string pointer = "/images/" + std::to_string(index);
     Json json = Json::object();
     if (!image.name.empty()) json["name"] = image.name;

@@ -105,7 +105,7 @@ class PluginServer {
     void release() {
         if (!enabled_) return;
         bw_arm_state_v1 state = blank_state();
-        const bw_arm_wrench_v1 nothing{sizeof nothing, 0, {}, {}};
+        const bw_arm_command_v1 nothing{sizeof nothing, 0, {}, {}};
         functions_->exchange(arm_, &nothing, &state);
     }
 
@@ -149,7 +149,7 @@ class PluginServer {
             }
             case PluginCall::exchange:
                 reply.state = blank_state();
-                return f.exchange(arm_, &request.wrench, &reply.state);
+                return f.exchange(arm_, &request.command, &reply.state);
         }
         return BW_ARM_ERROR;
     }

@@ -15,7 +15,7 @@ enum class PluginCall : std::uint32_t { count, open, info, calibrate, enable, ex
 struct PluginRequest {
     PluginCall call = PluginCall::count;
     std::int32_t argument = 0;  // index of open(), may_move of calibrate(), on of enable()
-    bw_arm_wrench_v1 wrench{};
+    bw_arm_command_v1 command{};
 };
 
 struct PluginReply {

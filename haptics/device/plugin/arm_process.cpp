@@ -86,8 +86,8 @@ Result<PluginReply> ArmProcess::call(PluginCall function, int argument) {
     return *replied;
 }
 
-Status ArmProcess::begin_exchange(const bw_arm_wrench_v1& wrench) {
-    return request(PluginCall::exchange, 0, wrench);
+Status ArmProcess::begin_exchange(const bw_arm_command_v1& command) {
+    return request(PluginCall::exchange, 0, command);
 }
 
 Result<std::optional<PluginReply>> ArmProcess::finish_exchange(double timeout) {
@@ -96,8 +96,8 @@ Result<std::optional<PluginReply>> ArmProcess::finish_exchange(double timeout) {
     return replied;
 }
 
-Status ArmProcess::request(PluginCall function, int argument, const bw_arm_wrench_v1& wrench) {
-    const PluginRequest request{function, argument, wrench};
+Status ArmProcess::request(PluginCall function, int argument, const bw_arm_command_v1& command) {
+    const PluginRequest request{function, argument, command};
     function_ = function;
     if (!child_ || !child_->send(std::as_bytes(std::span(&request, 1)))) return fail(ended());
     waiting_ = true;
@@ -112,8 +112,10 @@ Result<std::optional<PluginReply>> ArmProcess::reply(double timeout) {
     if (!*received) return std::optional<PluginReply>{};
     waiting_ = false;
     if (**received != sizeof replied || replied.call != function_)
-        return fail(
-            error("its process has sent nonsense", "a plug-in that uses only its own memory and files"));
+        return fail(error("its process has sent an invalid reply",
+                          fmt::format("{} bytes that begin with the called function (the plug-in may have "
+                                      "overwritten memory)",
+                                      sizeof replied)));
     if (replied.result >= 0) return std::optional(replied);
     // The plug-in can have overwritten any byte of its process.
     const std::string text = clean_text({replied.text, ::strnlen(replied.text, sizeof replied.text)});

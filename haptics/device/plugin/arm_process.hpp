@@ -22,7 +22,7 @@ class ArmProcess {
 
     // The two halves of exchange(): begin_exchange() never waits, finish_exchange() waits at most `timeout`
     // s; nullopt on timeout. Begin the next exchange only after this one has a reply.
-    Status begin_exchange(const bw_arm_wrench_v1& wrench);
+    Status begin_exchange(const bw_arm_command_v1& command);
     Result<std::optional<PluginReply>> finish_exchange(double timeout);
     [[nodiscard]] bool exchanging() const { return waiting_; }
 
@@ -35,7 +35,7 @@ class ArmProcess {
 
   private:
     ArmProcess(ChildSocket child, std::string name) : child_(std::move(child)), name_(std::move(name)) {}
-    Status request(PluginCall function, int argument, const bw_arm_wrench_v1& wrench);
+    Status request(PluginCall function, int argument, const bw_arm_command_v1& command);
     // nullopt if there is none yet
     Result<std::optional<PluginReply>> reply(double timeout);
     [[nodiscard]] Error ended();

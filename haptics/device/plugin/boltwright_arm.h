@@ -18,11 +18,12 @@
    against its own threads. count() is also called in short-lived processes, even while another process has
    an arm open: it must not disturb that arm.
 
-   An arm whose library has a clock and a thread of its own: exchange() leaves the wrench for that thread and
+   An arm whose library has a clock and a thread of its own: exchange() leaves the command (a force and a
+   torque) for that thread and
    returns the newest state of it.
 
    ORDER OF CALLS
-   open, info, calibrate (until it is done), enable(1), exchange (many times), exchange with a zero wrench,
+   open, info, calibrate (until it is done), enable(1), exchange (many times), exchange with a zero command,
    enable(0), close. An arm may be closed at any point. count() need not come first. After a negative result
    Boltwright takes the text of last_error, closes the arm, and opens it again later.
 
@@ -32,14 +33,14 @@
    process that needs longer is killed.
 
    SAFETY
-   Boltwright clamps each wrench to what info() reports, and what info() reports to 70 N, 3.1 N.m and
+   Boltwright clamps each command to what info() reports, and what info() reports to 70 N, 3.1 N.m and
    8000 N/m. It ramps forces up, and stops them if the hand is too fast, jumps, or sends no sample for 8 ms.
-   If the program makes no call for 50 ms, its process calls exchange() with a zero wrench. If the process
+   If the program makes no call for 50 ms, its process calls exchange() with a zero command. If the process
    ends or is killed, no function is called any more. THE ARM MUST THEN RELEASE ITS FORCE BY ITSELF: switch on
    its watchdog.
 
    A PLUG-IN MUST NOT
-   - render any force other than the wrench of the latest exchange() and the compensation of the arm's own
+   - render any force other than the command of the latest exchange() and the compensation of the arm's own
      weight, nor any force at all before enable(1) or after enable(0);
    - let the arm move by itself, except in calibrate() with may_move;
    - end the process, throw a C++ exception, replace signal handlers, or close files that it has not opened;
@@ -88,15 +89,16 @@ extern "C" {
 /* An open arm. The plug-in defines this structure as it likes. */
 struct bw_arm;
 
-/* What an arm is. A number that is not finite or is negative is an error. Larger values than those in
+/* Properties of an arm. A number that is not finite or is negative is an error. Larger values than those in
    brackets are reduced to them. */
 struct bw_arm_info_v1 {
     uint32_t size;   /* bytes, set by Boltwright */
     uint32_t axes;   /* BW_ARM_FORCE_X | ... */
     uint32_t flags;  /* BW_ARM_SENSES_ROTATION | ... */
     int32_t buttons; /* 0 to 32 */
-    /* Time from exchange() until its wrench acts on the hand and the state shows it, in ms, rounded up: 0 or
-       1, at a rate of 1000 also 2. Boltwright adds its own. If it is too small, forces may oscillate. */
+    /* Time from exchange() until its command acts on the hand and the state shows it, in ms, rounded up: 0 or
+       1, at a rate of 1000 also 2. Boltwright adds the
+       delay of its own threads. If it is too small, forces may oscillate. */
     int32_t delay;
     uint32_t reserved;    /* 0 */
     char name[64];        /* of the arm, for the user; empty: the name of the plug-in */
@@ -107,11 +109,11 @@ struct bw_arm_info_v1 {
     double max_torsion;   /* N.m/rad, likewise [40]; 0 without axes of torque */
     double max_damping;   /* N.s/m, that it renders without oscillation [20]; 0: none */
     double max_angular_damping; /* N.m.s/rad, likewise [0.1]; 0: none */
-    double reach[3];            /* m, half the workspace along each axis [1] */
+    double half_workspace[3];   /* m, half the workspace along each axis [1] */
 };
 
 /* A force and a torque on the hand at the point of the grip, along our axes. */
-struct bw_arm_wrench_v1 {
+struct bw_arm_command_v1 {
     uint32_t size; /* bytes, set by Boltwright */
     uint32_t reserved;
     double force[3];  /* N */
@@ -129,7 +131,7 @@ struct bw_arm_state_v1 {
     double gripper; /* 0 closed to 1 fully open; other values are clamped. With BW_ARM_SENSES_GRIPPER */
 };
 
-/* The functions of a plug-in; each must be there. The table must stay unchanged until the process ends. */
+/* The functions of a plug-in; none may be null. The table must stay unchanged until the process ends. */
 struct bw_arm_v1 {
     uint32_t size;     /* sizeof(struct bw_arm_v1) */
     uint32_t reserved; /* 0 */
@@ -155,10 +157,11 @@ struct bw_arm_v1 {
     /* Switches the motors on (1), with zero force, or off (0). Returns BW_ARM_DONE or BW_ARM_ERROR. */
     int (*enable)(struct bw_arm* arm, int on);
 
-    /* Renders `wrench` until the next call, and returns the newest state in `state`. May wait for the arm's
+    /* Renders `command` until the next call, and returns the newest state in `state`. May wait for the arm's
        next sample. Returns BW_ARM_DONE, BW_ARM_NO_SAMPLE, or BW_ARM_ERROR: the arm is lost, for example
        unplugged. */
-    int (*exchange)(struct bw_arm* arm, const struct bw_arm_wrench_v1* wrench, struct bw_arm_state_v1* state);
+    int (*exchange)(struct bw_arm* arm, const struct bw_arm_command_v1* command,
+                    struct bw_arm_state_v1* state);
 
     /* What the last call of a function with this arm had to report: what is wrong and what to do about it.
        NULL as `arm`: count or open. Never fails; NULL is an empty text. */

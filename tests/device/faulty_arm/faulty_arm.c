@@ -89,7 +89,7 @@ static int faulty_info(struct bw_arm* a, struct bw_arm_info_v1* about) {
     if (shows("no stiffness")) about->max_stiffness = 0.0;
     if (shows("slow")) about->rate = 50.0;
     if (shows("late")) about->delay = 3;
-    if (shows("no reach")) about->reach[1] = 0.0;
+    if (shows("no reach")) about->half_workspace[1] = 0.0;
     if (shows("buttons")) about->buttons = 33;
     if (shows("long name")) memset(about->name, 'x', sizeof about->name);
     if (shows("senses rotation")) about->flags = BW_ARM_SENSES_ROTATION;
@@ -103,7 +103,7 @@ static int faulty_info(struct bw_arm* a, struct bw_arm_info_v1* about) {
         about->max_torsion = 1e3;
         about->max_damping = 1e3;
         about->max_angular_damping = 1e3;
-        about->reach[0] = 50.0;
+        about->half_workspace[0] = 50.0;
         about->rate = 20000.0;
     }
     return BW_ARM_DONE;
@@ -130,10 +130,10 @@ static int faulty_enable(struct bw_arm* a, int on) {
     return enable(a, on);
 }
 
-static int faulty_exchange(struct bw_arm* a, const struct bw_arm_wrench_v1* wrench,
+static int faulty_exchange(struct bw_arm* a, const struct bw_arm_command_v1* command,
                            struct bw_arm_state_v1* state) {
     misbehave("exchange");
-    last_force = wrench->force[0];
+    last_force = command->force[0];
     if (last_force == 0.0 && shows("released")) {
         FILE* file = observation("released", "w");
         if (file != NULL) fclose(file);
@@ -149,7 +149,7 @@ static int faulty_exchange(struct bw_arm* a, const struct bw_arm_wrench_v1* wren
     }
     if (shows("20 ms")) usleep(20000);
     if (shows("silent")) return BW_ARM_NO_SAMPLE;
-    exchange(a, wrench, state);
+    exchange(a, command, state);
     if (shows("NaN")) state->position[2] = 0.0 / 0.0;
     if (shows("far away")) state->position[0] = 1e30;
     if (shows("bad turn")) state->orientation[0] = 0.5;

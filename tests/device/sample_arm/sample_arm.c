@@ -44,7 +44,7 @@ static int info(struct bw_arm* a, struct bw_arm_info_v1* about) {
     about->max_force = 10.0;
     about->max_stiffness = 2000.0;
     about->max_damping = 10.0;
-    about->reach[0] = about->reach[1] = about->reach[2] = 0.1;
+    about->half_workspace[0] = about->half_workspace[1] = about->half_workspace[2] = 0.1;
     about->buttons = 1;
     return BW_ARM_DONE;
 }
@@ -61,10 +61,11 @@ static int enable(struct bw_arm* a, int on) {
     return BW_ARM_DONE;
 }
 
-static int exchange(struct bw_arm* a, const struct bw_arm_wrench_v1* wrench, struct bw_arm_state_v1* state) {
+static int exchange(struct bw_arm* a, const struct bw_arm_command_v1* command,
+                    struct bw_arm_state_v1* state) {
     int i;
     for (i = 0; i < 3; ++i) {
-        const double motor = a->enabled ? wrench->force[i] : 0.0;
+        const double motor = a->enabled ? command->force[i] : 0.0;
         const double force = motor - a->stiffness * a->position[i];
         /* Implicit in the damping. */
         a->velocity[i] = (a->velocity[i] + PERIOD / MASS * force) / (1.0 + PERIOD / MASS * DAMPING);

@@ -86,7 +86,7 @@ Result<assets::TextureRef> add(assets::Model& model, const std::string& name, in
     }
     const Result<std::string> png = assets::encode_png(size, size, 3, pixels);
     if (!png) return tl::unexpected(png.error());
-    assets::Image image;
+    assets::Bitmap image;
     image.name = name;
     image.mime_type = "image/png";
     image.encoded.assign(png->begin(), png->end());

@@ -30,7 +30,7 @@ constexpr double open_gripper = 0.5236;  // rad, 30°
 constexpr std::array types_with_gripper{35, 37, 104, 105, 108, 109};
 constexpr std::array left_handed_types{36, 37, 105, 109};
 
-struct Arm {
+struct EmulatedArm {
     EmulatedArmHand hand{0.5, 300.0, 12.0};
     Vector intention{}, position{}, velocity{}, force{}, torque{};
     std::array<Vector, 3> rotation{Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}};  // rows
@@ -60,9 +60,9 @@ double given_delay() {
     return seconds != nullptr ? std::atof(seconds) : 0.0;
 }
 
-Arm arm{.initialized = std::getenv("EMULATED_ARM_INITIALIZED") != nullptr,
-        .buttons = held_buttons(),
-        .delay = given_delay()};
+EmulatedArm arm{.initialized = std::getenv("EMULATED_ARM_INITIALIZED") != nullptr,
+                .buttons = held_buttons(),
+                .delay = given_delay()};
 bool has_own_clock = true;
 thread_local int last_error = no_error;
 
@@ -215,8 +215,8 @@ void emu_corrupt(int on) { arm.corrupt = on != 0; }
 void emu_millimetres(int on) { arm.millimetres = on != 0; }
 void emu_position(double xyz[3]) { std::copy(arm.position.begin(), arm.position.end(), xyz); }
 void emu_force(double force[6]) {
-    const Arm none{};
-    const Arm& acting = renders() ? arm : none;
+    const EmulatedArm none{};
+    const EmulatedArm& acting = renders() ? arm : none;
     std::copy(acting.force.begin(), acting.force.end(), force);
     std::copy(acting.torque.begin(), acting.torque.end(), force + 3);
 }

@@ -18,7 +18,7 @@ Description announced(double force, double torque, const char* name) {
     d.limits.force = force;
     d.limits.torque = torque;
     if (!turns) d.limits.torsion = d.limits.angular_damping = 0.0;
-    d.reach = Vec3(0.075);
+    d.half_workspace = Vec3(0.075);
     return d;
 }
 
@@ -33,7 +33,7 @@ Description delta() {
     Description d = announced(20.0, 0.0, "delta.3");
     d.limits.stiffness = 5000.0;
     d.limits.damping = 15.0;
-    d.reach = Vec3(0.15);
+    d.half_workspace = Vec3(0.15);
     return d;
 }
 
@@ -41,7 +41,7 @@ Description falcon() {
     Description d = announced(8.0, 0.0, "Falcon");
     d.limits.stiffness = 3000.0;
     d.limits.damping = 5.0;
-    d.reach = Vec3(0.04);
+    d.half_workspace = Vec3(0.04);
     return d;
 }
 
@@ -58,7 +58,7 @@ Description lambda() {
     Description d = sigma();
     d.name = d.id = "lambda.7";
     d.limits.stiffness = 8000.0;
-    d.reach = Vec3(0.11);
+    d.half_workspace = Vec3(0.11);
     return d;
 }
 
@@ -75,7 +75,7 @@ Description premium() {
     d.limits.stiffness = 800.0;
     d.limits.damping = 5.0;
     d.limits.delay = 2;
-    d.reach = Vec3(0.12);
+    d.half_workspace = Vec3(0.12);
     return d;
 }
 
@@ -84,14 +84,14 @@ Description inverse3() {
     d.limits.stiffness = 1000.0;
     d.limits.damping = 5.0;
     d.limits.delay = 3;
-    d.reach = Vec3(0.1);
+    d.half_workspace = Vec3(0.1);
     return d;
 }
 
 // An arm behind a plug-in that announces force::OutputLimits as they stand.
 Description virtuose() {
     Description d = announced(20.0, 2.0, "plug-in");
-    d.reach = Vec3(0.2);
+    d.half_workspace = Vec3(0.2);
     return d;
 }
 

@@ -79,7 +79,7 @@ ArmRig::ArmRig(TightenedAssembly& tightened_assembly, const RigOptions& options)
     stiffen(servo.tool_contact->parameters.coupling, options.coupling_factor);
     station = station::initial_state(layout);
     inputs.mover.usable = true;
-    inputs.mover.opening = 1;
+    inputs.mover.connection_number = 1;
     inputs.controls.dead_man = true;
     inputs.controls.grip = servo::Grip::wrench;
     inputs.controls.guide = static_cast<std::int16_t>(options.guided_joint);
@@ -116,7 +116,7 @@ Pose ArmRig::device_pose(const Pose& tool) const {
             glm::normalize(back * tool.orientation * glm::conjugate(w.tool_to_device))};
 }
 
-double ArmRig::contact_force() const { return glm::length(servo.tool_contact->god_object.felt.force); }
+double ArmRig::contact_force() const { return glm::length(servo.tool_contact->god_object.rendered.force); }
 
 double ArmRig::coupling_stiffness() const {
     const force::WorkspaceMap& w = layout.workspace;

@@ -64,7 +64,7 @@ struct ArmRig {
     servo::State servo;
     station::StationState station;
     station::StationInputs inputs;
-    device::Arm arm;
+    device::ArmModel arm;
     Record record;
     force::OutputCommand command;  // of the last tick
     double time = 0.0;             // s

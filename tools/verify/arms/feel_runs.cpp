@@ -107,7 +107,7 @@ struct Aim {
 };
 
 // A level wrench above the casing or, for "side", beside it; not yet near it.
-Aim aim_at(const collision::Box& casing, std::string_view name, Random& random) {
+Aim aim_at(const collision::BoundingBox& casing, std::string_view name, Random& random) {
     const Vec3 up(0.0, 1.0, 0.0), middle = 0.5 * (casing.low + casing.high);
     const Quat level = glm::angleAxis(-0.5 * pi, Vec3(1.0, 0.0, 0.0));  // the wrench's normal points up
     const double heading = random.uniform(0.0, 2.0 * pi);
@@ -172,7 +172,7 @@ std::vector<Press> find_presses(TightenedAssembly& tightened, std::uint64_t seed
     const servo::Setup setup = session::make_setup(tightened.assembly, tightened.assembly.law, {}, 1, 1e-3);
     std::vector<Press> presses;
     Random random(seed, 41);
-    const collision::Box& casing = tightened.state.tool_contact->world.shapes.front().solid.box;
+    const collision::BoundingBox& casing = tightened.state.tool_contact->world.shapes.front().solid.box;
     for (const std::string_view name : {"face", "corner", "edge", "side", "near a bolt"})
         for (int tried = 0; tried < most_tries; ++tried) {
             const Aim aim = aim_at(casing, name, random);

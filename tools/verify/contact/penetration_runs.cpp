@@ -42,7 +42,7 @@ class SimulatedHand {
         : setup_(setup), state_(state), scene_(scene), run_(run) {}
 
     servo::Output step(const Pose& hand, servo::Grip grip = servo::Grip::wrench) {
-        servo::Input input;
+        servo::TickInput input;
         input.dead_man = true;
         input.grip = grip;
         input.commanded_tool = servo::to_commanded_tool(hand);

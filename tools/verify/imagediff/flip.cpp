@@ -232,7 +232,7 @@ double mean(std::span<const float> values) {
 
 Result<RgbImage> read_png(const std::filesystem::path& path) {
     BOLT_TRY_ASSIGN(const auto bytes, read_file(path, std::size_t{1} << 28U, ErrorCode::failed));
-    assets::Image png;
+    assets::Bitmap png;
     png.name = path.string();
     png.encoded.assign(bytes.begin(), bytes.end());
     if (Status decoded = assets::decode(png); !decoded) {

@@ -24,7 +24,7 @@ int wrapped(int index, int size, assets::Wrap wrap) {
     return period < size ? period : 2 * size - 1 - period;
 }
 
-glm::vec4 texel(const assets::Image& image, int x, int y, bool srgb) {
+glm::vec4 texel(const assets::Bitmap& image, int x, int y, bool srgb) {
     const auto channels = static_cast<std::size_t>(image.channels);
     const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width);
     const std::uint8_t* bytes = image.pixels.data() + (row + static_cast<std::size_t>(x)) * channels;
@@ -42,7 +42,7 @@ Result<Textures> Textures::load(const assets::Model& model) {
     Textures textures;
     textures.images_ = model.images;
     textures.textures_ = model.textures;
-    for (assets::Image& image : textures.images_) BOLT_TRY(assets::decode(image));
+    for (assets::Bitmap& image : textures.images_) BOLT_TRY(assets::decode(image));
     return textures;
 }
 
@@ -51,7 +51,7 @@ glm::vec4 Textures::sample(const assets::TextureRef& ref, const std::array<glm::
     if (ref.texture < 0) return glm::vec4(1.0F);
     const assets::Texture& texture = textures_[static_cast<std::size_t>(ref.texture)];
     if (texture.image < 0) return glm::vec4(1.0F);
-    const assets::Image& image = images_[static_cast<std::size_t>(texture.image)];
+    const assets::Bitmap& image = images_[static_cast<std::size_t>(texture.image)];
     const glm::vec2 scaled = texcoords[static_cast<std::size_t>(ref.texcoord & 1)] * ref.scale;
     const float c = std::cos(ref.rotation);
     const float s = std::sin(ref.rotation);

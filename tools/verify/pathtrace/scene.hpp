@@ -32,7 +32,7 @@ class Textures {
                                    bool srgb) const;
 
   private:
-    std::vector<assets::Image> images_;
+    std::vector<assets::Bitmap> images_;
     std::vector<assets::Texture> textures_;
 };
 

@@ -1,0 +1,10 @@
+// The side of a hand.
+#pragma once
+
+#include <cstdint>
+
+namespace bolt {
+
+enum class Side : std::uint8_t { left, right };
+
+}  // namespace bolt
