@@ -36,6 +36,7 @@ double shown_force(ActiveLesson& active) {
 }  // namespace
 
 TEST_CASE("Free hand: a simulated user aligns and tightens the nut by dragging alone") {
+    if (test::sanitized) return test::skip_rest("a nut by hand takes minutes under a sanitizer");
     HeadlessTrainer driver(free_hand("first-nut"), {{320, 180}, 0.3F, 0.05});
     driver.frame();
     REQUIRE(driver.lesson().station);
