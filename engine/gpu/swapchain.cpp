@@ -385,8 +385,8 @@ Result<std::uint32_t> present(Frames& frames, FrameContext& frame, std::span<con
         // A failure that concerns no single window, such as a lost device, is reported by the call only.
         const bool of_window = all == VK_SUBOPTIMAL_KHR || all == VK_ERROR_OUT_OF_DATE_KHR ||
                                all == VK_ERROR_SURFACE_LOST_KHR || all == VK_SUCCESS;
-        BOLT_TRY_ASSIGN(const auto done,
-                        shown[i]->handle(of_window ? results[i] : all, "presenting a picture"));
+        const VkResult result = of_window && shown.size() > 1 ? results[i] : all;
+        BOLT_TRY_ASSIGN(const auto done, shown[i]->handle(result, "presenting a picture"));
         if (!done) continue;
         shown[i]->losses_ = 0;
         ++presented;
