@@ -58,7 +58,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     check(*model);
-    for (Image image : model->images) (void)decode(image);
+    for (Bitmap image : model->images) (void)decode(image);
     for (const bool quantize : {false, true}) {
         const auto written = encode_glb(*model, {.quantize = quantize});
         require(written.has_value(), written ? "" : "cannot be written: " + written.error().message());
