@@ -16,23 +16,23 @@ smoke() {  # smoke NAME RUNS options...: in the background, two at a time
     names+=("$name")
     pids+=($!)
 }
-smoke assembly 20000 -dict="$here/assembly.dict" "$bin/../corpus/assembly"
-smoke chunk 50000
-smoke measured 100000 "$bin/../corpus/measured"
-smoke gltf 20000 -dict="$here/gltf.dict" -max_len=16384 "$bin/../corpus/gltf"
-smoke glove 100000 -max_len=4096 -dict="$here/glove.dict"
-smoke cal 100000 "$bin/../corpus/cal"
-smoke calibration 50000 -dict="$here/calibration.dict" -max_len=8192 "$bin/../corpus/calibration"
-smoke settings 50000 -dict="$here/settings.dict" -max_len=4096 "$bin/../corpus/settings"
-smoke station 50000 -dict="$here/station.dict" -max_len=4096 "$bin/../corpus/station"
-smoke points 100000 -max_len=2048 "$bin/../corpus/points"
-smoke displays 30000 -dict="$here/displays.dict" -max_len=4096 "$bin/../corpus/displays"
-smoke pvx 50000 -dict="$here/pvx.dict" -max_len=4096 "$bin/../corpus/pvx"
-smoke dtrack 200000 -dict="$here/dtrack.dict" -max_len=1024 "$bin/../corpus/dtrack"
-smoke report 200000 -max_len=512
-smoke force_device 200000 -max_len=1024 "$bin/../corpus/force_device"
-smoke haply 30000 -max_len=4096 -dict="$here/haply.dict" "$bin/../corpus/haply"
-smoke words 10000 -max_len=32768 "$bin/../corpus/words"
+smoke assembly 10000 -dict="$here/assembly.dict" "$bin/../corpus/assembly"
+smoke chunk 25000
+smoke measured 50000 "$bin/../corpus/measured"
+smoke gltf 10000 -dict="$here/gltf.dict" -max_len=16384 "$bin/../corpus/gltf"
+smoke glove 50000 -max_len=4096 -dict="$here/glove.dict"
+smoke cal 50000 "$bin/../corpus/cal"
+smoke calibration 25000 -dict="$here/calibration.dict" -max_len=8192 "$bin/../corpus/calibration"
+smoke settings 25000 -dict="$here/settings.dict" -max_len=4096 "$bin/../corpus/settings"
+smoke station 25000 -dict="$here/station.dict" -max_len=4096 "$bin/../corpus/station"
+smoke points 50000 -max_len=2048 "$bin/../corpus/points"
+smoke displays 15000 -dict="$here/displays.dict" -max_len=4096 "$bin/../corpus/displays"
+smoke pvx 25000 -dict="$here/pvx.dict" -max_len=4096 "$bin/../corpus/pvx"
+smoke dtrack 100000 -dict="$here/dtrack.dict" -max_len=1024 "$bin/../corpus/dtrack"
+smoke report 100000 -max_len=512
+smoke force_device 100000 -max_len=1024 "$bin/../corpus/force_device"
+smoke haply 15000 -max_len=4096 -dict="$here/haply.dict" "$bin/../corpus/haply"
+smoke words 5000 -max_len=32768 "$bin/../corpus/words"
 failed=0
 for i in "${!pids[@]}"; do
     wait "${pids[i]}" || { echo "FAILED: ${names[i]}"; cat "$work/${names[i]}.log"; failed=$((failed + 1)); }
