@@ -103,7 +103,7 @@ TEST_CASE(
     auto board = std::make_unique<emulate::Uhid>(plug_board());
     wait_for_device(pucks);
     wait_for_device(boards);
-    Doctor doctor({"cover-m8", "--device", boards, "--device", pucks, "--seconds", "600"});
+    Doctor doctor({assembly_without_models(), "--device", boards, "--device", pucks, "--seconds", "600"});
     REQUIRE_MESSAGE(doctor.prints("For 600 s", 60.0), Doctor::output());
     for (const char* words :
          {"Emulated SpaceMouse: moves the tool", "Emulated OpenFFBoard: turns the wrench on its bolt",

@@ -43,7 +43,7 @@ chmod +x "$root/init"
 (cd "$root" && find . | cpio -o -H newc --quiet | gzip -1) > "$work/initrd.gz"
 
 # The guest's clock counts instructions and does not wait in idle times, so its measurements do not depend on the load of this
-# machine. The limit only ends a guest that hangs: one that works takes 30 s to 120 s with other tests beside it.
+# machine. The limit only ends a guest that hangs: one that works takes about a minute of one processor.
 status=0
 timeout 600 qemu-system-x86_64 -M pc -m 768 -nographic -no-reboot -nic none -icount shift=1,sleep=off \
     -kernel "$kernel/vmlinuz" -initrd "$work/initrd.gz" -append "console=ttyS0 loglevel=1 panic=-1" \

@@ -59,7 +59,7 @@ TEST_CASE("Kernel: a wheel is found and renders the written torque") {
         CHECK(b.device->describe().limits.torque == doctest::Approx(2.0));
         with<emulate::EmulatedWheel>(b.plug, [](emulate::EmulatedWheel& w) { w.hand_stiffness = 10.0; });
         for (const double torque : {1.0, -1.5}) {
-            b.run(2.0, [&] { return torque; });
+            b.run(0.7, [&] { return torque; });
             CHECK(b.motor() == doctest::Approx(torque).epsilon(0.01));
             CHECK(b.last.angle == doctest::Approx(0.1 * torque).epsilon(0.05));
         }
@@ -75,7 +75,7 @@ TEST_CASE("Kernel: a spring rendered through hidraw rests at static equilibrium"
         w.hand_stiffness = 5.0;
         w.hand = 0.4;
     });
-    b.run(5.0, [&] { return 5.0 * (0.0 - b.last.angle); });
+    b.run(2.0, [&] { return 5.0 * (0.0 - b.last.angle); });
     CHECK(b.last.angle == doctest::Approx(0.2).epsilon(0.03));
 }
 
