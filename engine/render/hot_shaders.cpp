@@ -140,7 +140,7 @@ std::optional<Result<ShaderCode>> HotShaders::changed(double now) {
     if (files.empty() && !first) return {};
     for (const auto& [name, sources] : sources_)
         if (std::any_of(files.begin(), files.end(),
-                        [&](const fs::path& file) { return sources.contains(file); }))
+                        [&used = sources](const fs::path& file) { return used.contains(file); }))
             pending_.insert(name);
     std::string output;
     std::set<std::string> failed;

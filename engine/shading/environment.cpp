@@ -232,7 +232,7 @@ std::vector<CubeMap> prefilter(const RadianceImage& image, std::uint32_t size, s
     std::size_t count = 1;
     for (std::uint32_t s = size; s > 4; s /= 2) ++count;
     for (std::size_t level = 1; level < count; ++level) {
-        const std::vector<LobeSample> directions =
+        const std::vector<LobeSample> lobe_samples =
             lobe(level_roughness(level, count), samples << level, size);
         CubeMap cube{size >> level, {}};
         for (std::uint32_t face = 0; face < 6; ++face) {
@@ -244,7 +244,7 @@ std::vector<CubeMap> prefilter(const RadianceImage& image, std::uint32_t size, s
                     const glm::vec3 b = glm::cross(n, t);
                     glm::vec3 sum(0.0F);
                     float weights = 0.0F;
-                    for (const LobeSample& s : directions) {
+                    for (const LobeSample& s : lobe_samples) {
                         const glm::vec3 d = t * s.direction.x + b * s.direction.y + n * s.direction.z;
                         sum += s.weight * lookup(chain, d, s.level);
                         weights += s.weight;

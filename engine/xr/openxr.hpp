@@ -28,8 +28,8 @@ Status check(XrResult result, std::string_view function);
 
 // A pose in metres. The orientation is normalised, because runtimes send it with rounding errors.
 inline Pose to_pose(const XrPosef& pose) {
-    const Quat q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
-    return {{pose.position.x, pose.position.y, pose.position.z}, glm::normalize(q)};
+    const glm::quat q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
+    return {Vec3(glm::vec3(pose.position.x, pose.position.y, pose.position.z)), glm::normalize(Quat(q))};
 }
 inline XrPosef to_xr(const Pose& pose) {
     const auto f = [](double x) { return static_cast<float>(x); };
