@@ -38,6 +38,14 @@ endif()
 find_package(doctest QUIET)
 find_package(benchmark QUIET)
 
+# Projection walls on several computers; everything else works without it. A package would depend on an MPI library that few
+# users need.
+option(BOLT_WITH_MPI "Walls of several processes, if there is an MPI library" ON)
+if(BOLT_WITH_MPI)
+    enable_language(C)  # FindMPI asks the C compiler
+    find_package(MPI COMPONENTS C QUIET)
+endif()
+
 find_package(glfw3 REQUIRED)
 find_package(OpenXR REQUIRED)
 

@@ -45,8 +45,9 @@ std::vector<DisplayFinding> check_walls(const DisplayFile& displays);
 // The computer on which walls are checked.
 struct Computer {
     std::vector<Monitor> monitors;  // none: outputs are compared with one another only
-    int rank = 0;                   // its number in the file
+    int rank = 0;                   // of the process that shows its walls, in the file
     std::string display;            // X display of the program, such as ":0"; empty: unknown
+    int processes = 1;              // that show the walls together
 };
 
 // Returns true for names of the same X screen: ":0" is ":0.0".

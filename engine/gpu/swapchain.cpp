@@ -354,7 +354,8 @@ Result<bool> Swapchain::present(Frames& frames, FrameContext& frame, const Shown
     return presented == 1;
 }
 
-Result<std::uint32_t> present(Frames& frames, FrameContext& frame, std::span<const WindowPictures> windows) {
+Result<std::uint32_t> present(Frames& frames, FrameContext& frame, std::span<const WindowPictures> windows,
+                              const std::function<Status()>& before_presenting) {
     std::vector<Swapchain*> shown;
     std::vector<VkSemaphore> acquired, presentable;
     std::vector<VkSwapchainKHR> swapchains;
@@ -370,6 +371,7 @@ Result<std::uint32_t> present(Frames& frames, FrameContext& frame, std::span<con
         indices.push_back(image->index);
     }
     BOLT_TRY(frames.submit(frame, {acquired, presentable}));
+    if (before_presenting) BOLT_TRY(before_presenting());
     if (shown.empty()) return 0;
     std::vector<VkResult> results(shown.size(), VK_SUCCESS);
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};

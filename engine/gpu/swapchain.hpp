@@ -65,8 +65,10 @@ struct WindowPictures {
 
 // Copies the pictures to their windows, ends the frame, submits it, and presents all windows together, so
 // that they change in the same refresh of synchronised displays. Returns how many windows were presented;
-// the pictures of the others were drawn but dropped.
-Result<std::uint32_t> present(Frames& frames, FrameContext& frame, std::span<const WindowPictures> windows);
+// the pictures of the others were drawn but dropped. `before_presenting` is called between submitting and
+// presenting, for example to wait for other processes; it may be empty.
+Result<std::uint32_t> present(Frames& frames, FrameContext& frame, std::span<const WindowPictures> windows,
+                              const std::function<Status()>& before_presenting = {});
 
 // Handles the window's changes: a new size, no area (minimised), a lost surface. A picture that cannot be
 // presented is dropped, and the swapchain is recreated for the next one. After a lost device the caller must
@@ -94,7 +96,8 @@ class Swapchain {
 
   private:
     friend Result<std::uint32_t> present(Frames& frames, FrameContext& frame,
-                                         std::span<const WindowPictures> windows);
+                                         std::span<const WindowPictures> windows,
+                                         const std::function<Status()>& before_presenting);
     // An image of the swapchain that was acquired, and its semaphores.
     struct Acquired {
         std::uint32_t index = 0;

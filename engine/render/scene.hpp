@@ -55,6 +55,7 @@ struct Label {
     // like opaque parts.
     float occluded_visibility = 0.0F;
     float occlusion_margin = 0.0F;  // m: parts less far in front of the text do not hide it
+    bool operator==(const Label&) const = default;
 };
 
 // A flat picture in the scene, such as the user interface in a headset. It is drawn over the finished picture

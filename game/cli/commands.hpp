@@ -17,12 +17,6 @@ class App;
 namespace bolt::station_setup {
 struct StationRequest;
 }
-namespace bolt::platform {
-class Desktop;
-}
-namespace bolt::view {
-class Walls;
-}
 
 namespace bolt::cli {
 
@@ -45,12 +39,6 @@ void add_station_register(CLI::App& station, int& exit_code);
 
 // Adds the subcommand `test` to `displays`.
 void add_displays_test(CLI::App& displays, int& exit_code);
-
-// The windows of the walls in a display file. Prints doubtful findings unless `quiet`, and later, when the
-// tracker finds or loses the head, a line. Fails if the file has mistakes or does not fit the monitors, or if
-// the tracker cannot be used.
-Result<std::unique_ptr<view::Walls>> open_walls(const std::string& file, const platform::Desktop& desktop,
-                                                bool quiet);
 
 // The trial of a station, for `doctor` and `station try`.
 struct TrialOptions {

@@ -11,15 +11,15 @@
 #include "engine/base/file.hpp"
 #include "engine/base/result.hpp"
 #include "game/cli/commands.hpp"
+#include "game/cli/opened_walls.hpp"
 #include "game/cli/train_arguments.hpp"
 #include "game/lesson/lesson.hpp"
 #include "game/report/report.hpp"
 #include "game/session/contact_models.hpp"
 #include "game/session/export.hpp"
 #include "game/trainer/app.hpp"
+#include "game/trainer/shared_lesson.hpp"
 #include "game/view/pictures.hpp"
-#include "game/view/walls.hpp"
-#include "game/view/window.hpp"
 
 namespace bolt::cli {
 
@@ -266,10 +266,19 @@ int run_train(TrainArguments options) {
     std::error_code ignored;
     if (std::filesystem::exists(options.assembly, ignored))
         named.assembly = std::filesystem::absolute(options.assembly).lexically_normal().string();
-    Result<std::unique_ptr<view::Walls>> walls = std::unique_ptr<view::Walls>();
-    if (!options.displays.empty()) walls = open_walls(options.displays, *desktop, options.quiet);
-    if (!walls) return print_error(walls.error());
-    const Status done = run_window(named, *train, *equipment, {headset->get(), walls->get()}, *desktop);
+    Result<OpenedWalls> opened;
+    if (!options.displays.empty()) opened = open_walls(options.displays, *desktop, options.quiet);
+    if (!opened) return print_error(opened.error());
+    view::Walls* walls = opened->walls.get();
+    Status done;
+    if (opened->follower) {
+        trainer::FollowedLesson lesson;
+        done = follow_first_process(lesson, *opened, *desktop, {options.gpu, options.validate});
+    } else {
+        done = run_window(named, *train, *equipment, {headset->get(), walls}, *desktop);
+        if (!done && walls != nullptr && walls->leader() != nullptr)
+            walls->leader()->end(done.error().message());
+    }
     return done ? 0 : print_error(done.error());
 }
 

@@ -15,7 +15,6 @@ namespace {
 constexpr double longest_frame = 0.25;   // s; a slower frame delays the lesson instead of making it jump
 constexpr float text_size = 15.0F;       // points
 constexpr double timing_duration = 1.5;  // s, of the servo in the check of the computer
-constexpr glm::vec4 surroundings{0.02F, 0.025F, 0.035F, 1.0F};  // of the menu in a room
 
 std::string describe_event(const content::Assembly& assembly, const lesson::LessonEvent& event, double dt) {
     const std::string joint = event.joint >= 0
@@ -89,6 +88,7 @@ void App::release() {
         scene::destroy_drawables(active_->workplace.world);
     }
     pictures_.release();
+    if (sharing_) sharing_->panel.release();
     gpu_.reset();
 }
 
@@ -379,26 +379,17 @@ Status App::draw_panel(gpu::FrameContext& frame) {
 }
 
 Status App::draw_room(gpu::FrameContext& frame, const view::Immersion& immersion) {
-    static const render::Scene empty_scene;
     const Pose place = scene_in_room();
-    render::Scene scene = active_ ? active_->scene : empty_scene;
-    if (!active_) scene.background = surroundings;
+    render::Scene scene = active_ ? active_->scene : empty_room();
     if (in_room() && room_->panel)
         scene.panels.push_back(panel_in_scene(*room_->panel, place, gpu_->panel->image()));
-    for (std::uint32_t i = 0; i < immersion.groups.size(); ++i) {
-        const view::EyeGroup& group = immersion.groups[i];
-        std::vector<render::Eye> eyes;
-        for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, place));
-        if (!eyes.empty())
-            BOLT_TRY(
-                gpu_->context->renderer->render(frame, scene, eyes, group.size, view::immersive_group + i));
-    }
-    return {};
+    return draw_in_room(*gpu_->context->renderer, frame, scene, place, immersion);
 }
 
 Status App::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
     if (in_room()) {
         BOLT_TRY(draw_panel(frame));
+        if (sharing_) BOLT_TRY(sharing_->panel.record(*gpu_->context->device, frame, *gpu_->panel));
     } else if (window.size.width > 0 && window.size.height > 0) {
         BOLT_TRY(draw_pictures(frame, window.size, window.scale));
         BOLT_TRY(draw_interface(frame, gpu_->context->renderer->picture(0)));

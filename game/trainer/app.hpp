@@ -10,6 +10,7 @@
 #include "game/trainer/lesson_starter.hpp"
 #include "game/trainer/menu.hpp"
 #include "game/trainer/settings_screen.hpp"
+#include "game/trainer/shared_lesson.hpp"
 #include "game/trainer/tour.hpp"
 #include "game/view/window.hpp"
 
@@ -58,6 +59,7 @@ class App : public view::WindowContent {
 
     // Fails if the session cannot be recorded.
     Status update(const view::WindowFrame& window) override;
+    Status share(cluster::MessageWriter& message) override;
     // Fails if the GPU fails, or the session cannot be recorded.
     Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
     // Replaces both while the window is minimised: pauses a station.
@@ -159,6 +161,10 @@ class App : public view::WindowContent {
     std::map<std::string_view, std::vector<float>> system_times_;  // ms per frame of the lesson
 
     std::optional<Room> room_;  // since a display has surrounded the user
+
+    std::optional<LessonSharing> sharing_;  // since other processes show walls
+    std::uint32_t lesson_number_ = 0;       // counts the lessons of this program
+    SharedModels shared_models_;            // of the lesson
 
     std::unique_ptr<GpuResources> gpu_;
     AssemblyPictures pictures_;

@@ -79,6 +79,9 @@ Status App::enter_lesson(Result<StartedLesson> started, float aspect) {
     place_trainee(active, *context_, aspect);
     if (const Status sounds = start_sound(active, options_.sound); !sounds) log(sounds.error().message());
     apply_preferences();
+    ++lesson_number_;
+    shared_models_ = {context_->choice.assembly, context_->assembly.variant, context_->choice.tool,
+                      context_->worker.side};
     active.verdicts.assign(context_->assembly.joints.size(), lesson::Verdict::none);
     outcome_.reset();
     tour_ = tour_requested_ ? std::optional(Tour{}) : std::nullopt;

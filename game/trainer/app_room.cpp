@@ -19,6 +19,21 @@ Pose App::scene_in_room() const {
     return adjusted(*room_->workpiece, active_->workplace.workpiece, room_->turns, room_->height);
 }
 
+Status App::share(cluster::MessageWriter& message) {
+    if (!sharing_) sharing_.emplace();
+    SharedFrame frame;
+    if (active_) {
+        frame.models = &shared_models_;
+        frame.lesson = lesson_number_;
+        frame.on_gpu = gpu_->models.get();
+        frame.scene = &active_->scene;
+    }
+    frame.scene_in_room = scene_in_room();
+    if (in_room()) frame.panel = room_->panel;
+    sharing_->write(message, frame);
+    return {};
+}
+
 // Pauses a lesson that its user suddenly does not see: no device may push, and a tracked hand is gone. It
 // continues when the user sees it again; at the window it can be continued or ended before.
 void App::pause_unseen(bool seen) {

@@ -153,6 +153,18 @@ void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown
         if (glm::dvec2* at = pointer_position(event)) *at = (*at - offset) / size * panel;
 }
 
+Status draw_in_room(render::Renderer& renderer, gpu::FrameContext& frame, const render::Scene& scene,
+                    const Pose& scene_in_room, const view::Immersion& immersion) {
+    for (std::uint32_t i = 0; i < immersion.groups.size(); ++i) {
+        const view::EyeGroup& group = immersion.groups[i];
+        std::vector<render::Eye> eyes;
+        for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, scene_in_room));
+        if (!eyes.empty())
+            BOLT_TRY(renderer.render(frame, scene, eyes, group.size, view::immersive_group + i));
+    }
+    return {};
+}
+
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture) {
     const Pose at = inverse(scene_in_room) * panel;
     const glm::dvec2 half = 0.5 * point_size * panel_points;

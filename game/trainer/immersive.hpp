@@ -10,6 +10,7 @@
 
 #include "engine/platform/input.hpp"
 #include "engine/render/gpu_model.hpp"
+#include "engine/render/renderer.hpp"
 #include "engine/render/scene.hpp"
 #include "game/view/immersion.hpp"
 
@@ -75,6 +76,10 @@ glm::dvec2* pointer_position(platform::InputEvent& event);
 
 // Changes the pointer's positions from a window, where the panel's picture covers `shown`, to the panel.
 void move_to_panel(std::span<platform::InputEvent> events, const VkRect2D& shown);
+
+// Draws the scene for each group of eyes of the room. `scene_in_room`: the pose of the scene's frame.
+Status draw_in_room(render::Renderer& renderer, gpu::FrameContext& frame, const render::Scene& scene,
+                    const Pose& scene_in_room, const view::Immersion& immersion);
 
 // The panel in the scene whose frame is `scene_in_room`.
 render::Panel panel_in_scene(const Pose& panel, const Pose& scene_in_room, const gpu::Image& picture);

@@ -89,6 +89,7 @@ Result<StartedLesson> start_lesson(const LessonStart& start) {
 
     StartedLesson lesson;
     LessonContext& context = lesson.context;
+    context.choice = choice;
     session::LessonOptions& options = context.options;
     options = start.options;
     options.law = law_in_force(choice, start.settings, loaded.assembly.law);

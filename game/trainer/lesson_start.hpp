@@ -54,6 +54,7 @@ struct LessonStart {
 
 // The data that a lesson was started with. It outlives the lesson, because the result screen shows it.
 struct LessonContext {
+    LessonChoice choice;
     content::Assembly assembly;  // with the targets of the law in force, as the lesson uses it
     session::LessonOptions options;
     scene::LessonModels models;

@@ -101,7 +101,18 @@ Status WallPattern::update(const WindowFrame& window) {
         closed_ = closed_ || std::holds_alternative<platform::CloseEvent>(event) ||
                   (key != nullptr && key->down && key->key == platform::Key::escape);
     }
-    ++frame_number_;
+    if (!follows_) ++frame_number_;
+    return {};
+}
+
+Status WallPattern::share(cluster::MessageWriter& message) {
+    message.put(frame_number_);
+    return {};
+}
+
+Status WallPattern::follow(cluster::MessageReader& message) {
+    follows_ = true;
+    frame_number_ = message.get<std::uint64_t>();
     return {};
 }
 

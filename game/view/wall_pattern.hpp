@@ -20,6 +20,8 @@ class WallPattern : public WindowContent {
     Status start(GpuContext& gpu_context) override;
     void release() override;
     Status update(const WindowFrame& window) override;
+    Status share(cluster::MessageWriter& message) override;
+    Status follow(cluster::MessageReader& message) override;
     Status draw(gpu::FrameContext& frame, const WindowFrame& window) override;
     [[nodiscard]] bool closed() const override { return closed_; }
 
@@ -35,6 +37,7 @@ class WallPattern : public WindowContent {
     const content::DisplayFile& displays_;
     std::unique_ptr<GpuResources> gpu_;
     std::uint64_t frame_number_ = 0;
+    bool follows_ = false;  // the number comes from another process
     bool closed_ = false;
 };
 

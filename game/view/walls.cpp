@@ -23,6 +23,16 @@ Error output_error(const content::Wall& wall, std::string what, std::string expe
             std::move(expected)};
 }
 
+Error missing_process(const content::Wall& wall, int rank, int processes) {
+    Error error = output_error(
+        wall,
+        processes == 1 ? fmt::format("its output has rank {}, and the program was started alone", rank)
+                       : fmt::format("its output has rank {}, and there are {} processes", rank, processes),
+        fmt::format("mpirun -n {} or more (docs/displays.md)", rank + 1));
+    error.code = ErrorCode::usage;
+    return error;
+}
+
 std::string monitor_names(std::span<const content::Monitor> monitors) {
     std::string all;
     for (const content::Monitor& monitor : monitors)
@@ -32,10 +42,6 @@ std::string monitor_names(std::span<const content::Monitor> monitors) {
 
 Result<platform::DesktopArea> area_of(const content::Wall& wall, const content::DisplayOutput& output,
                                       const content::Computer& computer) {
-    if (output.rank != computer.rank)
-        return fail(output_error(
-            wall, fmt::format("its output is on computer {}", output.rank),
-            fmt::format("rank {}: this program shows the walls of one computer", computer.rank)));
     if (!output.display.empty() && !content::is_same_display(output.display, computer.display))
         return fail(output_error(wall, fmt::format("its output is on X display \"{}\"", output.display),
                                  fmt::format("\"{}\", which DISPLAY names", computer.display)));
@@ -84,8 +90,12 @@ bool on_a_wall(std::span<const content::Wall> walls, const Vec3& eye, const Vec3
     });
 }
 
-content::Computer this_computer(const platform::Desktop& desktop) {
+content::Computer this_computer(const platform::Desktop& desktop, const cluster::Cluster* cluster) {
     content::Computer computer;
+    if (cluster != nullptr) {
+        computer.rank = cluster->rank();
+        computer.processes = cluster->size();
+    }
     for (const platform::Monitor& monitor : platform::monitors(desktop))
         computer.monitors.push_back(
             {monitor.name, monitor.area.x, monitor.area.y, monitor.area.width, monitor.area.height});
@@ -100,13 +110,21 @@ Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& di
     for (std::size_t i = 0; i < displays.walls.size(); ++i) {
         const content::Wall& wall = displays.walls[i];
         const bool two = wall.right_output.has_value();
-        BOLT_TRY_ASSIGN(const auto area, area_of(wall, wall.output, computer));
-        windows.push_back({"Boltwright: " + wall.name, area, i,
-                           two ? WallWindow::Shows::left_output : WallWindow::Shows::all});
-        if (!two) continue;
-        BOLT_TRY_ASSIGN(const auto right, area_of(wall, *wall.right_output, computer));
-        windows.push_back({"Boltwright: " + wall.name, right, i, WallWindow::Shows::right_output});
+        const auto add = [&](const content::DisplayOutput& output, WallWindow::Shows shows) -> Status {
+            if (output.rank >= computer.processes)
+                return fail(missing_process(wall, output.rank, computer.processes));
+            if (output.rank != computer.rank) return {};
+            BOLT_TRY_ASSIGN(const auto area, area_of(wall, output, computer));
+            windows.push_back({"Boltwright: " + wall.name, area, i, shows});
+            return {};
+        };
+        BOLT_TRY(add(wall.output, two ? WallWindow::Shows::left_output : WallWindow::Shows::all));
+        if (two) BOLT_TRY(add(*wall.right_output, WallWindow::Shows::right_output));
     }
+    // The first process has the control window.
+    if (windows.empty() && computer.rank > 0)
+        return fail(ErrorCode::usage, fmt::format("process {} shows no wall", computer.rank),
+                    "as many processes as the display file has ranks");
     return windows;
 }
 
@@ -131,21 +149,54 @@ std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows sh
     return {};
 }
 
-Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, content::DisplayFile displays,
-                                           displays::HeadSource head,
-                                           std::function<void(const std::string&)> log) {
-    BOLT_TRY_ASSIGN(const auto plan, plan_wall_windows(displays, this_computer(desktop)));
-    std::unique_ptr<Walls> walls(new Walls(std::move(head)));
+Result<std::unique_ptr<Walls>> Walls::open(const platform::Desktop& desktop, WallsOptions options) {
+    BOLT_TRY_ASSIGN(const auto plan,
+                    plan_wall_windows(options.displays, this_computer(desktop, options.cluster)));
+    std::unique_ptr<Walls> walls(new Walls);
     for (const WallWindow& wanted : plan) {
-        platform::WindowOptions options;
-        options.title = wanted.title;
-        options.covers = wanted.area;
-        BOLT_TRY_ASSIGN(auto window, platform::Window::open(desktop, options));
+        platform::WindowOptions window_options;
+        window_options.title = wanted.title;
+        window_options.covers = wanted.area;
+        BOLT_TRY_ASSIGN(auto window, platform::Window::open(desktop, window_options));
         walls->outputs_.push_back({wanted, std::move(window), nullptr, {}});
     }
-    walls->displays_ = std::move(displays);
-    walls->log_ = std::move(log);
+    walls->displays_ = std::move(options.displays);
+    walls->head_ = std::move(options.head);
+    walls->cluster_ = options.cluster;
+    walls->log_ = std::move(options.log);
     return walls;
+}
+
+Walls::~Walls() {
+    if (!leader_) return;
+    if (log_ && frame_ > 0) log_(leader_->summary());
+    leader_->end({});
+}
+
+Status Walls::gather(std::uint64_t fingerprint, StopWaiting stop) {
+    if (cluster_ == nullptr || cluster_->rank() != 0) return {};
+    BOLT_TRY_ASSIGN(auto leader, WallLeader::begin(*cluster_, fingerprint, std::move(stop), log_));
+    leader_.emplace(std::move(leader));
+    return {};
+}
+
+Result<gpu::Surface> Walls::make_surface(const gpu::Instance& instance) {
+    return outputs_.front().window.make_surface(instance);
+}
+
+Status Walls::share(const Immersion& immersion, const cluster::Message& content) {
+    ClusterFrame frame;
+    frame.number = ++frame_;
+    frame.head = immersion.head;
+    frame.tracked = immersion.tracked;
+    frame.content = content;
+    return leader_->send(frame);
+}
+
+Status Walls::wait_for_others() {
+    BOLT_TRY_ASSIGN(const auto events, leader_->wait_until_drawn());
+    events_of_others_.insert(events_of_others_.end(), events.begin(), events.end());
+    return leader_->permit();
 }
 
 Status Walls::start(gpu::Device& device, const gpu::Instance& instance) {
@@ -173,7 +224,7 @@ void Walls::release() {
 }
 
 std::vector<platform::InputEvent> Walls::poll_events() {
-    std::vector<platform::InputEvent> events;
+    std::vector<platform::InputEvent> events = std::exchange(events_of_others_, {});
     for (Output& output : outputs_)
         for (const platform::InputEvent& event : output.window.poll_events())
             if (std::holds_alternative<platform::KeyEvent>(event) ||
@@ -203,12 +254,16 @@ void Walls::tell(tracking::HeadStatus status) {
 }
 
 Result<Immersion> Walls::begin_frame(double seconds) {
-    const tracking::FilteredHead head = head_.at(seconds);
+    const tracking::FilteredHead head = head_->at(seconds);
     const bool fixed = displays_.head.tracker == content::HeadTracker::fixed;
     if (!fixed) tell(head.status);
+    return begin_frame(head.pose, fixed || head.status == tracking::HeadStatus::tracked);
+}
+
+Result<Immersion> Walls::begin_frame(const Pose& head, bool tracked) {
     Immersion immersion;
-    immersion.head = head.pose;
-    immersion.tracked = fixed || head.status == tracking::HeadStatus::tracked;
+    immersion.head = head;
+    immersion.tracked = tracked;
     immersion.expected_head = displays_.head.fixed_head;
     immersion.shows = [this](const Vec3& point) {
         return on_a_wall(displays_.walls, displays_.head.fixed_head.position, point);
@@ -226,7 +281,7 @@ Result<Immersion> Walls::begin_frame(double seconds) {
             }
         }
         const bool visible = size.width > 0 && size.height > 0;
-        immersion.groups.push_back(visible ? wall_eyes(wall, head.pose, displays_.eye_separation, size)
+        immersion.groups.push_back(visible ? wall_eyes(wall, head, displays_.eye_separation, size)
                                            : EyeGroup{});
     }
     return immersion;

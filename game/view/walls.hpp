@@ -14,6 +14,7 @@
 #include "engine/render/renderer.hpp"
 #include "game/displays/head_source.hpp"
 #include "game/view/immersion.hpp"
+#include "game/view/wall_cluster.hpp"
 
 namespace bolt::view {
 
@@ -32,11 +33,11 @@ struct WallWindow {
     enum class Shows : std::uint8_t { all, left_output, right_output } shows = Shows::all;
 };
 
-// The computer that the program runs on, with rank 0.
-content::Computer this_computer(const platform::Desktop& desktop);
+// The computer that the process runs on. `cluster`: that of the process; null: it is the only one.
+content::Computer this_computer(const platform::Desktop& desktop, const cluster::Cluster* cluster = nullptr);
 
-// The windows of the outputs. Fails if an output is on a monitor that is not connected, on another X display,
-// or of another computer.
+// The windows of the outputs of this process. Fails if one is on a monitor that is not connected or on
+// another X display, if an output is of a process that does not exist, or if this process has none.
 Result<std::vector<WallWindow>> plan_wall_windows(const content::DisplayFile& displays,
                                                   const content::Computer& computer);
 
@@ -47,33 +48,58 @@ struct EyePlace {
 };
 std::vector<EyePlace> eye_places(const content::Wall& wall, WallWindow::Shows shows, VkExtent2D window);
 
-// The windows of all walls in this process. Not movable, because the swapchains refer to their windows.
+struct WallsOptions {
+    content::DisplayFile displays;
+    std::optional<displays::HeadSource> head;  // none in the processes that follow the first one
+    cluster::Cluster* cluster = nullptr;       // null: this process shows all walls
+    // Receives a line when the tracker finds or loses the head, or a process is slow; may be empty.
+    std::function<void(const std::string&)> log;
+};
+
+// The windows of the walls of this process. Not movable, because the swapchains refer to their windows.
 class Walls {
   public:
-    // `log` receives a line when the tracker finds or loses the head; it may be empty.
-    static Result<std::unique_ptr<Walls>> open(const platform::Desktop& desktop,
-                                               content::DisplayFile displays, displays::HeadSource head,
-                                               std::function<void(const std::string&)> log);
+    static Result<std::unique_ptr<Walls>> open(const platform::Desktop& desktop, WallsOptions options);
+    // Ends the other processes, if this is the first one of several.
+    ~Walls();
+    Walls(const Walls&) = delete;
+    Walls& operator=(const Walls&) = delete;
+
+    // Waits until the other processes have opened their walls (WallLeader::begin). Does nothing if this is
+    // the only process.
+    Status gather(std::uint64_t fingerprint, StopWaiting stop);
 
     // Creates the swapchains; release() destroys them before the device is destroyed.
     Status start(gpu::Device& device, const gpu::Instance& instance);
     void release();
 
-    // Keys and requests to close from all windows, since the last call. The pointer is that of the control
-    // window.
+    // Keys and requests to close from the windows of all processes, since the last call. The pointer is that
+    // of the control window.
     std::vector<platform::InputEvent> poll_events();
 
-    // The next frame: prepares the swapchains, and asks where the head is. Group i belongs to wall i.
+    // The next frame: prepares the swapchains, and reads the pose of the head at a time on the steady clock.
+    // Group i belongs to wall i; it is empty for a wall of another process.
     Result<Immersion> begin_frame(double seconds);
+    // The same with a head that another process has read.
+    Result<Immersion> begin_frame(const Pose& head, bool tracked);
     // Adds the pictures that the renderer has drawn for it.
     void add_pictures(const render::Renderer& renderer, const Immersion& immersion,
                       std::vector<gpu::WindowPictures>& windows) const;
 
+    // The first one of several processes; null: the only one, or another one.
+    [[nodiscard]] WallLeader* leader() { return leader_ ? &*leader_ : nullptr; }
+    // Sends the frame to the other processes. `content`: WindowContent::share.
+    Status share(const Immersion& immersion, const cluster::Message& content);
+    // Waits until they have drawn it, and permits all to present it.
+    Status wait_for_others();
+
     [[nodiscard]] const content::DisplayFile& displays() const { return displays_; }
     [[nodiscard]] double refresh_rate() const;  // Hz, the lowest of the windows; 0: unknown
+    // Makes the surface of a window, with which a device that can present is chosen.
+    [[nodiscard]] Result<gpu::Surface> make_surface(const gpu::Instance& instance);
 
   private:
-    explicit Walls(displays::HeadSource head) : head_(std::move(head)) {}
+    Walls() = default;
     struct Output {
         WallWindow plan;
         platform::Window window;
@@ -83,8 +109,12 @@ class Walls {
     void tell(tracking::HeadStatus status);
 
     content::DisplayFile displays_;
-    displays::HeadSource head_;
-    std::optional<tracking::HeadStatus> told_;  // in the log
+    std::optional<displays::HeadSource> head_;
+    cluster::Cluster* cluster_ = nullptr;
+    std::optional<WallLeader> leader_;
+    std::uint64_t frame_ = 0;                             // that was sent last
+    std::vector<platform::InputEvent> events_of_others_;  // since the last call of poll_events()
+    std::optional<tracking::HeadStatus> told_;            // in the log
     std::function<void(const std::string&)> log_;
     std::vector<Output> outputs_;
 };

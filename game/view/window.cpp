@@ -17,8 +17,6 @@ namespace bolt::view {
 
 namespace {
 
-constexpr float level_error = 0.7F;  // px
-
 double seconds() { return std::chrono::duration<double>(platform::Clock::now().time_since_epoch()).count(); }
 
 VkExtent2D size_of(const platform::Window& window) {
@@ -49,7 +47,7 @@ Result<Canvas> make_canvas(platform::Window& window, const gpu::Instance& instan
     const gpu::MakeSurface make_surface = [&] { return window.make_surface(instance); };
     BOLT_TRY_ASSIGN(auto surface, make_surface());
     render::RendererOptions renderer;
-    renderer.level_error_px = level_error;
+    renderer.level_error_px = window_level_error;
     renderer.keep_depth = options.headset != nullptr;
     gpu::VulkanCreator* creator = options.headset != nullptr ? options.headset->creator() : nullptr;
     Canvas canvas;
@@ -148,6 +146,12 @@ Status draw_walls(WindowContent& content, Canvas& canvas, Walls& walls, WindowFr
     BOLT_TRY_ASSIGN(const Immersion immersion, walls.begin_frame(canvas.last_frame));
     window.immersion = &immersion;
     BOLT_TRY(content.update(window));
+    WallLeader* leader = walls.leader();
+    if (leader != nullptr) {
+        cluster::MessageWriter shared;
+        BOLT_TRY(content.share(shared));
+        BOLT_TRY(walls.share(immersion, shared.message()));
+    }
     BOLT_TRY_ASSIGN(const auto recorded, gpu.frames->begin());
     BOLT_TRY(content.draw(*recorded, window));
     std::vector<gpu::WindowPictures> windows;
@@ -157,7 +161,16 @@ Status draw_walls(WindowContent& content, Canvas& canvas, Walls& walls, WindowFr
         windows.push_back({canvas.swapchain.get(), {{picture.image, picture.layer, {}, place}}, false});
     }
     walls.add_pictures(*gpu.renderer, immersion, windows);
-    BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows));
+    if (leader == nullptr) {
+        BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows));
+        return {};
+    }
+    // All present when all GPUs have finished, so that no wall lags behind by its drawing.
+    BOLT_TRY(gpu::present(*gpu.frames, *recorded, windows, [&]() -> Status {
+        BOLT_TRY(gpu.device->idle());
+        return walls.wait_for_others();
+    }));
+    leader->presented();
     return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "engine/cluster/message.hpp"
 #include "engine/platform/window.hpp"
 #include "game/view/camera.hpp"
 #include "game/view/immersion.hpp"
@@ -12,6 +13,7 @@
 namespace bolt::view {
 
 class Walls;
+class WallFollower;
 
 // A frame of a window.
 struct WindowFrame {
@@ -43,6 +45,10 @@ class WindowContent {
     [[nodiscard]] virtual render::ImageLayer window_picture(const render::Renderer& renderer) const {
         return renderer.picture(0);
     }
+    // On walls of several processes: share() writes what the others need to draw this frame, after update();
+    // there, follow() reads it before update(). Contents that are shown by one process need neither.
+    virtual Status share(cluster::MessageWriter&) { return {}; }
+    virtual Status follow(cluster::MessageReader&) { return {}; }
     // Replaces both while the window is minimised and no headset is used.
     virtual Status frame_while_hidden() { return {}; }
     // The window closes, or drawing has failed for good.
@@ -52,6 +58,8 @@ class WindowContent {
     // True once after each request to switch between window and full screen.
     [[nodiscard]] virtual bool take_full_screen_request() { return false; }
 };
+
+inline constexpr float window_level_error = 0.7F;  // px, of levels of detail in windows and on walls
 
 // Moves an orbit with the mouse: left button turns, right or middle button moves the target, the wheel zooms.
 class OrbitControl {
@@ -91,5 +99,9 @@ struct WindowRunOptions {
 // and return at any time; meanwhile the content is shown in the window.
 Status run_in_window(WindowContent& content, platform::Window& window, gpu::Instance& instance,
                      const WindowRunOptions& options = {});
+
+// Shows the walls of this process in step with the first one, until that ends. `gpu`: as in WindowRunOptions.
+Status follow_on_walls(WindowContent& content, Walls& walls, WallFollower& follower,
+                       const gpu::Instance& instance, const std::string& gpu);
 
 }  // namespace bolt::view

@@ -151,6 +151,33 @@ TEST_CASE("Walls: outputs become windows, and an output that is not here is refu
     wall.output.display = ":0.1";
     refused(":0.1");
     wall.output.display = {};
-    wall.output.rank = 2;
-    refused("computer 2");
+}
+
+TEST_CASE("Walls: each process opens the windows of its rank, and a rank without a process is refused") {
+    content::DisplayFile file = test::small_cave();
+    file.walls[1].output.rank = 1;
+    file.walls[3].output.rank = 1;
+    content::Computer computer{{{"DP-1", 0, 0, 1920, 1080}}, 0, ":0", 2};
+    const auto first = view::plan_wall_windows(file, computer);
+    REQUIRE(first);
+    CHECK(first->size() == test::cave_walls - 2);
+    computer.rank = 1;
+    const auto second = view::plan_wall_windows(file, computer);
+    REQUIRE(second);
+    REQUIRE(second->size() == 2);
+    CHECK((*second)[0].wall == 1);
+    CHECK((*second)[1].wall == 3);
+
+    const auto refused = [&](const char* part) {
+        const auto result = view::plan_wall_windows(file, computer);
+        REQUIRE_FALSE(result);
+        CHECK(result.error().code == ErrorCode::usage);
+        CHECK(result.error().message().find(part) != std::string::npos);
+    };
+    computer = {{}, 2, ":0", 3};
+    refused("process 2 shows no wall");
+    file.walls[1].output.rank = 4;
+    refused("wall \"front\": its output has rank 4, and there are 3 processes; expected mpirun -n 5");
+    computer = {{}, 0, ":0", 1};
+    refused("has rank 4, and the program was started alone");
 }

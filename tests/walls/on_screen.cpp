@@ -161,8 +161,10 @@ void run_cave(const Vec3& head, const std::function<void(const SpheresAround&)>&
     window_options.width = 200;
     window_options.height = 150;
     platform::Window window = test::need(platform::Window::open(desktop, window_options));
-    const auto walls = test::need(
-        view::Walls::open(desktop, displays, test::need(displays::HeadSource::open(displays.head, ".")), {}));
+    view::WallsOptions walls_options;
+    walls_options.displays = displays;
+    walls_options.head.emplace(test::need(displays::HeadSource::open(displays.head, ".")));
+    const auto walls = test::need(view::Walls::open(desktop, std::move(walls_options)));
     gpu::InstanceOptions options;
     options.validation = true;
     const std::vector<const char*> extensions = test::need(desktop.vulkan_extensions());

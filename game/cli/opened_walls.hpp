@@ -1,0 +1,35 @@
+// Projection walls for `train` and `displays test`: opens those of this process, alone or as one of a
+// cluster.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "game/view/walls.hpp"
+#include "game/view/window.hpp"
+
+namespace bolt::cli {
+
+// The walls of this process.
+struct OpenedWalls {
+    std::unique_ptr<cluster::Cluster> cluster;  // null: this process shows all walls
+    std::unique_ptr<view::Walls> walls;
+    std::optional<view::WallFollower> follower;  // if another process plays
+};
+
+// Opens the walls in a display file. Started by mpirun, waits until all processes have opened theirs. Prints
+// doubtful findings unless `quiet`, and later, when the tracker finds or loses the head, a line. Fails if the
+// file has mistakes or does not fit the monitors and processes, or if the tracker cannot be used.
+Result<OpenedWalls> open_walls(const std::string& file, const platform::Desktop& desktop, bool quiet);
+
+struct FollowOptions {
+    std::string gpu;  // as WindowRunOptions
+    bool validate = false;
+};
+
+// Shows `content` on the walls of a process that follows the first one, until that ends.
+Status follow_first_process(view::WindowContent& content, OpenedWalls& opened,
+                            const platform::Desktop& desktop, const FollowOptions& options);
+
+}  // namespace bolt::cli

@@ -1,0 +1,128 @@
+#include "game/trainer/shared_lesson.hpp"
+
+#include <utility>
+
+#include "content/format/assembly.hpp"
+#include "game/trainer/immersive.hpp"
+
+namespace bolt::trainer {
+
+namespace {
+
+view::StreamedModels streamed(const scene::GpuLessonModels& models) {
+    return {{&models.workpiece, &models.workshop, &models.wrench, &models.hand, &models.arrows},
+            &models.light};
+}
+
+void put_pose(cluster::MessageWriter& message, const Pose& pose) {
+    message.put(pose.position);
+    message.put(pose.orientation);
+}
+
+Pose get_pose(cluster::MessageReader& message) {
+    Pose pose;
+    pose.position = message.get<Vec3>();
+    pose.orientation = message.get<Quat>();
+    return pose;
+}
+
+Error unknown_scene() {
+    return {ErrorCode::failed, "the lesson that another process sent cannot be shown",
+            "the same program in all processes"};
+}
+
+}  // namespace
+
+render::Scene empty_room() {
+    render::Scene scene;
+    scene.background = {0.02F, 0.025F, 0.035F, 1.0F};
+    return scene;
+}
+
+void LessonSharing::write(cluster::MessageWriter& message, const SharedFrame& frame) {
+    const std::uint32_t lesson = frame.models != nullptr ? frame.lesson : 0;
+    message.put(lesson);
+    const bool news = lesson != lesson_;
+    // Models that were uploaded anew have other addresses, though the others still have theirs.
+    if (news || frame.on_gpu != on_gpu_) scene_.restart();
+    lesson_ = lesson;
+    on_gpu_ = frame.on_gpu;
+    message.put(news);
+    if (news && frame.models != nullptr) {
+        for (const std::string* text : {&frame.models->assembly, &frame.models->variant, &frame.models->tool})
+            message.put_text(*text);
+        message.put(frame.models->side);
+    }
+    put_pose(message, frame.scene_in_room);
+    message.put(frame.panel.has_value());
+    if (frame.panel) {
+        put_pose(message, *frame.panel);
+        panel.write(message);
+    }
+    if (lesson != 0) scene_.write(message, *frame.scene, streamed(*frame.on_gpu));
+}
+
+Status FollowedLesson::start(view::GpuContext& gpu_context) {
+    gpu_ = &gpu_context;
+    scene_ = empty_room();
+    return {};
+}
+
+void FollowedLesson::release() {
+    if (gpu_ != nullptr && gpu_->device) (void)gpu_->device->idle();
+    scene_ = empty_room();
+    panel_.release();
+    models_.reset();
+    lesson_ = 0;
+}
+
+// The assembly's folder may be elsewhere on this computer; then the one of its name is taken.
+Status FollowedLesson::load(const SharedModels& shared) {
+    const std::filesystem::path sent(shared.assembly);
+    std::error_code ignored;
+    const std::filesystem::path folder =
+        std::filesystem::exists(sent, ignored) ? sent : content::assembly_folder(sent.filename().string());
+    content::LoadedAssembly loaded = content::load_assembly(folder, shared.variant);
+    if (!loaded.ok()) return fail(loaded.errors.front());
+    BOLT_TRY(content::choose_tool(loaded.assembly, shared.tool));
+    BOLT_TRY_ASSIGN(const auto models, scene::load_lesson_models(loaded.assembly, shared.side));
+    BOLT_TRY(gpu_->device->idle());
+    BOLT_TRY_ASSIGN(auto uploaded, scene::upload(*gpu_->device, models));
+    models_ = std::move(uploaded);
+    return {};
+}
+
+Status FollowedLesson::follow(cluster::MessageReader& message) {
+    const auto lesson = message.get<std::uint32_t>();
+    const bool news = message.get<bool>();
+    if (news || lesson != lesson_) scene_ = empty_room();
+    if (news && lesson != 0) {
+        SharedModels shared;
+        for (std::string* text : {&shared.assembly, &shared.variant, &shared.tool})
+            *text = message.get_text();
+        shared.side = message.get<hand::Side>();
+        if (!message.ok() || shared.side > hand::Side::right) return fail(unknown_scene());
+        BOLT_TRY(load(shared));
+        lesson_ = lesson;
+    }
+    if (lesson == 0) lesson_ = 0;
+    if (lesson != lesson_) return fail(unknown_scene());
+    scene_in_room_ = get_pose(message);
+    panel_pose_.reset();
+    if (message.get<bool>()) {
+        panel_pose_ = get_pose(message);
+        BOLT_TRY(panel_.read(message));
+    }
+    if (lesson != 0) return view::read_scene(message, streamed(*models_), scene_);
+    return message.ok() ? Status{} : fail(unknown_scene());
+}
+
+Status FollowedLesson::draw(gpu::FrameContext& frame, const view::WindowFrame& window) {
+    BOLT_TRY(panel_.draw(*gpu_->device, frame));
+    scene_.panels.clear();
+    if (panel_pose_ && panel_.picture() != nullptr)
+        scene_.panels.push_back(panel_in_scene(*panel_pose_, scene_in_room_, panel_.picture()->image()));
+    return draw_in_room(*gpu_->renderer, frame, scene_, scene_in_room_, *window.immersion);
+}
+
+}  // namespace bolt::trainer

@@ -1,0 +1,71 @@
+// A lesson on projection walls that several processes show (game/view/wall_cluster.hpp): the first process
+// plays it, the others draw the same scene and panel.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "game/scene/workplace.hpp"
+#include "game/view/panel_stream.hpp"
+#include "game/view/scene_stream.hpp"
+#include "game/view/window.hpp"
+
+namespace bolt::trainer {
+
+// The models that a lesson shows, as every process can load them from its content.
+struct SharedModels {
+    std::string assembly, variant, tool;  // as LessonChoice
+    hand::Side side = hand::Side::right;
+};
+
+// A frame of the first process.
+struct SharedFrame {
+    const SharedModels* models = nullptr;  // null: there is no lesson
+    std::uint32_t lesson = 0;              // grows with every lesson; its models are loaded once
+    const scene::GpuLessonModels* on_gpu = nullptr;
+    const render::Scene* scene = nullptr;
+    Pose scene_in_room;
+    std::optional<Pose> panel;  // of its centre in the room; none: the room does not show it
+};
+
+// The part of the first process.
+class LessonSharing {
+  public:
+    void write(cluster::MessageWriter& message, const SharedFrame& frame);
+    view::PanelSender panel;
+
+  private:
+    view::SceneSender scene_;
+    std::uint32_t lesson_ = 0;                        // as the other processes have it
+    const scene::GpuLessonModels* on_gpu_ = nullptr;  // of the last frame
+};
+
+// What the other processes show: the content of their walls.
+class FollowedLesson : public view::WindowContent {
+  public:
+    FollowedLesson() = default;
+    Status start(view::GpuContext& gpu_context) override;
+    void release() override;
+    Status update(const view::WindowFrame&) override { return {}; }
+    // Loads the models of a new lesson.
+    Status follow(cluster::MessageReader& message) override;
+    Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override;
+    [[nodiscard]] bool closed() const override { return false; }
+
+  private:
+    Status load(const SharedModels& models);
+
+    view::GpuContext* gpu_ = nullptr;
+    std::uint32_t lesson_ = 0;  // whose models are loaded; 0: none
+    std::unique_ptr<scene::GpuLessonModels> models_;
+    render::Scene scene_;
+    Pose scene_in_room_;
+    std::optional<Pose> panel_pose_;
+    view::PanelReceiver panel_;
+};
+
+// The scene of the menu in a room: its panel in the dark.
+render::Scene empty_room();
+
+}  // namespace bolt::trainer

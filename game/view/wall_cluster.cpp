@@ -1,0 +1,297 @@
+#include "game/view/wall_cluster.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "engine/base/steady_seconds.hpp"
+
+namespace bolt::view {
+
+namespace {
+
+using cluster::Cluster;
+using cluster::Message;
+using cluster::MessageReader;
+using cluster::MessageWriter;
+using platform::InputEvent;
+
+// A process may compile shaders and load models for a while.
+constexpr double longest_silence = 60.0, noticed_silence = 3.0;  // s
+constexpr double forever = std::numeric_limits<double>::infinity();
+
+enum class MessageKind : std::uint8_t {
+    hello,    // the fingerprint of a process that is ready
+    frame,    // a ClusterFrame
+    drawn,    // its delay in the frame before, and the input of its windows
+    present,  // the permission
+    failed,   // exit code and words of an error
+    end,      // the first process ends; the reason
+};
+
+enum class EventKind : std::uint8_t { key, text, close };
+
+void put_events(MessageWriter& message, std::span<const InputEvent> events) {
+    std::uint32_t count = 0;
+    MessageWriter kept;
+    for (const InputEvent& event : events) {
+        if (const auto* key = std::get_if<platform::KeyEvent>(&event)) {
+            kept.put(EventKind::key);
+            kept.put(key->key);
+            for (const bool state : {key->down, key->repeated, key->modifiers.shift, key->modifiers.control,
+                                     key->modifiers.alt, key->modifiers.super})
+                kept.put(state);
+        } else if (const auto* text = std::get_if<platform::TextEvent>(&event)) {
+            kept.put(EventKind::text);
+            kept.put(text->character);
+        } else if (std::holds_alternative<platform::CloseEvent>(event)) {
+            kept.put(EventKind::close);
+        } else {
+            continue;
+        }
+        ++count;
+    }
+    message.put(count);
+    message.put_all(std::span<const std::byte>(kept.message()));
+}
+
+std::vector<InputEvent> get_events(MessageReader& message) {
+    const auto count = message.get<std::uint32_t>();
+    const Message bytes = message.get_all<std::byte>();
+    MessageReader kept(bytes);
+    std::vector<InputEvent> events;
+    for (std::uint32_t i = 0; i < count && kept.ok(); ++i) {
+        switch (kept.get<EventKind>()) {
+            case EventKind::key: {
+                platform::KeyEvent key;
+                key.key = kept.get<platform::Key>();
+                if (static_cast<std::size_t>(key.key) >= platform::key_count) kept.stop();
+                for (bool* state : {&key.down, &key.repeated, &key.modifiers.shift, &key.modifiers.control,
+                                    &key.modifiers.alt, &key.modifiers.super})
+                    *state = kept.get<bool>();
+                events.emplace_back(key);
+                break;
+            }
+            case EventKind::text:
+                events.emplace_back(platform::TextEvent{kept.get<char32_t>()});
+                break;
+            case EventKind::close:
+                events.emplace_back(platform::CloseEvent{});
+                break;
+            default:
+                kept.stop();
+        }
+    }
+    if (!kept.ok()) events.clear();
+    return events;
+}
+
+void put_pose(MessageWriter& message, const Pose& pose) {
+    message.put(pose.position);
+    message.put(pose.orientation);
+}
+
+Pose get_pose(MessageReader& message) {
+    Pose pose;
+    pose.position = message.get<Vec3>();
+    pose.orientation = message.get<Quat>();
+    return pose;
+}
+
+Error lost_process(Cluster& cluster, int rank) {
+    cluster.lost();
+    Error error;
+    error.what = fmt::format("{} has not answered for {:.0f} s", cluster.describe(rank), longest_silence);
+    error.expected = "all processes of the walls; restart them with mpirun";
+    return error;
+}
+
+Error strange_message(const Cluster& cluster, int rank) {
+    return {ErrorCode::failed, fmt::format("{} sent a message that does not fit", cluster.describe(rank)),
+            "the same program in all processes"};
+}
+
+// The error of another process, which begins with where it happened.
+Error reported_error(const Cluster& cluster, int rank, MessageReader& message) {
+    Error error;
+    const auto code = message.get<std::uint8_t>();
+    error.code = code >= 1 && code <= 4 ? static_cast<ErrorCode>(code) : ErrorCode::failed;
+    error.what = fmt::format("{}: {}", cluster.describe(rank), message.get_text());
+    error.expected = message.get_text();
+    return error;
+}
+
+double median(std::vector<float> values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return static_cast<double>(*middle);
+}
+
+}  // namespace
+
+// The next message of a process; none if the program was asked to end.
+Result<std::optional<Message>> WallLeader::answer_of(int rank) {
+    BOLT_TRY_ASSIGN(auto soon, cluster_->receive(rank, noticed_silence, stop_));
+    if (soon || stop_()) return soon;  // mpirun asks to end when a process has died
+    if (log_) log_(fmt::format("walls: {} does not answer; waiting", cluster_->describe(rank)));
+    BOLT_TRY_ASSIGN(auto late, cluster_->receive(rank, longest_silence - noticed_silence, stop_));
+    if (late || stop_()) return late;
+    return fail(lost_process(*cluster_, rank));
+}
+
+Result<WallLeader> WallLeader::begin(Cluster& cluster, std::uint64_t fingerprint, StopWaiting stop,
+                                     std::function<void(const std::string&)> log) {
+    WallLeader leader(cluster, std::move(stop), std::move(log));
+    leader.delays_.resize(static_cast<std::size_t>(cluster.size()), 0.0);
+    for (int rank = 1; rank < cluster.size(); ++rank) {
+        BOLT_TRY_ASSIGN(const auto answer, leader.answer_of(rank));
+        if (!answer) continue;  // the program ends
+        MessageReader message(*answer);
+        const auto kind = message.get<MessageKind>();
+        Error error;
+        if (kind == MessageKind::failed)
+            error = reported_error(cluster, rank, message);
+        else if (kind != MessageKind::hello)
+            error = strange_message(cluster, rank);
+        else if (message.get<std::uint64_t>() != fingerprint)
+            error = {ErrorCode::bad_content,
+                     fmt::format("{} has another display file or another version of the program",
+                                 cluster.describe(rank)),
+                     "the same on all computers"};
+        else
+            continue;
+        return fail(error);
+    }
+    return leader;
+}
+
+Status WallLeader::send(const ClusterFrame& frame) {
+    MessageWriter message;
+    message.put(MessageKind::frame);
+    message.put(frame.number);
+    put_pose(message, frame.head);
+    message.put(frame.tracked);
+    message.put_all(std::span<const std::byte>(frame.content));
+    sizes_.push_back(static_cast<std::uint32_t>(message.size()));
+    for (int rank = 1; rank < cluster_->size(); ++rank) BOLT_TRY(cluster_->send(rank, message.message()));
+    return {};
+}
+
+Result<std::vector<InputEvent>> WallLeader::wait_until_drawn() {
+    std::vector<InputEvent> events;
+    double first = own_delay_, last = own_delay_;
+    for (int rank = 1; rank < cluster_->size(); ++rank) {
+        BOLT_TRY_ASSIGN(const auto answer, answer_of(rank));
+        if (!answer) return events;
+        MessageReader message(*answer);
+        const auto kind = message.get<MessageKind>();
+        if (kind == MessageKind::failed) return fail(reported_error(*cluster_, rank, message));
+        if (kind != MessageKind::drawn) return fail(strange_message(*cluster_, rank));
+        const auto delay = message.get<double>();
+        first = std::min(first, delay);
+        last = std::max(last, delay);
+        for (InputEvent& event : get_events(message)) events.push_back(event);
+        if (!message.ok()) return fail(strange_message(*cluster_, rank));
+    }
+    if (permitted_ > 0.0) skews_.push_back(static_cast<float>(last - first));
+    return events;
+}
+
+Status WallLeader::permit() {
+    MessageWriter message;
+    message.put(MessageKind::present);
+    permitted_ = steady_seconds();
+    for (int rank = 1; rank < cluster_->size(); ++rank) BOLT_TRY(cluster_->send(rank, message.message()));
+    return {};
+}
+
+void WallLeader::presented() { own_delay_ = steady_seconds() - permitted_; }
+
+void WallLeader::end(const std::string& reason) {
+    if (!std::exchange(ended_, true)) dismiss(*cluster_, reason);
+}
+
+void WallLeader::dismiss(Cluster& cluster, const std::string& reason) {
+    MessageWriter message;
+    message.put(MessageKind::end);
+    message.put_text(reason);
+    // A process that has ended already needs no message.
+    for (int rank = 1; rank < cluster.size(); ++rank) (void)cluster.send(rank, message.message());
+}
+
+std::string WallLeader::summary() const {
+    const std::vector<float> sizes(sizes_.begin(), sizes_.end());
+    return fmt::format(
+        "walls: {} frames in {} processes; a frame has {:.0f} bytes (median; largest {}); the processes "
+        "presented "
+        "{:.2f} ms apart (median; largest {:.2f} ms)",
+        sizes_.size(), cluster_->size(), median(sizes),
+        sizes_.empty() ? 0U : *std::max_element(sizes_.begin(), sizes_.end()), 1e3 * median(skews_),
+        1e3 * static_cast<double>(skews_.empty() ? 0.0F : *std::max_element(skews_.begin(), skews_.end())));
+}
+
+Result<WallFollower> WallFollower::begin(Cluster& cluster, std::uint64_t fingerprint, StopWaiting stop) {
+    MessageWriter message;
+    message.put(MessageKind::hello);
+    message.put(fingerprint);
+    BOLT_TRY(cluster.send(0, message.message()));
+    return WallFollower(cluster, std::move(stop));
+}
+
+Result<std::optional<ClusterFrame>> WallFollower::next_frame() {
+    // The first process may be in a menu for hours; if it dies, mpirun ends this one.
+    BOLT_TRY_ASSIGN(const auto received, cluster_->receive(0, forever, stop_));
+    if (!received) return std::optional<ClusterFrame>();
+    MessageReader message(*received);
+    const auto kind = message.get<MessageKind>();
+    if (kind == MessageKind::end) {
+        const std::string reason = message.get_text();
+        if (reason.empty()) return std::optional<ClusterFrame>();
+        return fail(ErrorCode::failed, fmt::format("{} has ended: {}", cluster_->describe(0), reason));
+    }
+    ClusterFrame frame;
+    frame.number = message.get<std::uint64_t>();
+    frame.head = get_pose(message);
+    frame.tracked = message.get<bool>();
+    frame.content = message.get_all<std::byte>();
+    if (kind != MessageKind::frame || !message.ok()) return fail(strange_message(*cluster_, 0));
+    return std::optional(std::move(frame));
+}
+
+Result<bool> WallFollower::wait_for_permission(std::span<const InputEvent> events) {
+    MessageWriter message;
+    message.put(MessageKind::drawn);
+    message.put(delay_);
+    put_events(message, events);
+    BOLT_TRY(cluster_->send(0, message.message()));
+    BOLT_TRY_ASSIGN(const auto received, cluster_->receive(0, forever, stop_));
+    if (!received) return false;
+    MessageReader answer(*received);
+    const auto kind = answer.get<MessageKind>();
+    if (kind == MessageKind::end) {
+        const std::string reason = answer.get_text();
+        if (reason.empty()) return false;
+        return fail(ErrorCode::failed, fmt::format("{} has ended: {}", cluster_->describe(0), reason));
+    }
+    if (kind != MessageKind::present) return fail(strange_message(*cluster_, 0));
+    permitted_ = steady_seconds();
+    return true;
+}
+
+void WallFollower::presented() { delay_ = steady_seconds() - permitted_; }
+
+void WallFollower::report(Cluster& cluster, const Error& error) {
+    MessageWriter message;
+    message.put(MessageKind::failed);
+    message.put(static_cast<std::uint8_t>(error.code));
+    Error without = error;
+    without.expected.clear();
+    message.put_text(without.message());
+    message.put_text(error.expected);
+    (void)cluster.send(0, message.message());
+}
+
+}  // namespace bolt::view

@@ -1,0 +1,96 @@
+// Projection walls on several computers: the processes that mpirun started show one room in step. The first
+// process (rank 0) plays, and sends each frame to the others; when all have drawn it, all present it.
+//
+//   first process:  send the frame, draw it, wait until all have drawn it, permit, present
+//   another:        receive the frame, draw it, tell so, wait for the permission, present
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/base/math.hpp"
+#include "engine/cluster/cluster.hpp"
+#include "engine/platform/input.hpp"
+
+namespace bolt::view {
+
+// A frame, as the first process sends it.
+struct ClusterFrame {
+    std::uint64_t number = 0;
+    Pose head;                 // of the viewer, in the room
+    bool tracked = false;      // Immersion::tracked
+    cluster::Message content;  // WindowContent::share
+};
+
+// Where a cluster's waiting ends early: returns true when the program was asked to end.
+using StopWaiting = std::function<bool()>;
+
+// The part of the first process.
+class WallLeader {
+  public:
+    // Waits until all processes have opened their walls. Fails with the error of a process that could not, or
+    // if its `fingerprint` differs: that of the program and of the display file. `log` receives a line when a
+    // process is slow to answer; it may be empty.
+    static Result<WallLeader> begin(cluster::Cluster& cluster, std::uint64_t fingerprint, StopWaiting stop,
+                                    std::function<void(const std::string&)> log);
+
+    Status send(const ClusterFrame& frame);
+    // Waits until the other processes have drawn the frame, and returns the input of their windows: keys,
+    // text and requests to close. Fails if a process has ended, or does not answer for a minute.
+    Result<std::vector<platform::InputEvent>> wait_until_drawn();
+    // All present now. Call presented() afterwards.
+    Status permit();
+    void presented();
+    // Ends the other processes, once. `reason` is their error; empty: they end without one.
+    void end(const std::string& reason);
+    // The same before begin() has succeeded.
+    static void dismiss(cluster::Cluster& cluster, const std::string& reason);
+
+    // One line for the log: frames, bytes of a frame, and how far apart the processes presented.
+    [[nodiscard]] std::string summary() const;
+
+  private:
+    WallLeader(cluster::Cluster& cluster, StopWaiting stop, std::function<void(const std::string&)> log)
+        : cluster_(&cluster), stop_(std::move(stop)), log_(std::move(log)) {}
+    Result<std::optional<cluster::Message>> answer_of(int rank);
+
+    cluster::Cluster* cluster_;
+    StopWaiting stop_;
+    std::function<void(const std::string&)> log_;
+    double permitted_ = 0.0;      // s, when the last frame was permitted
+    double own_delay_ = 0.0;      // s, from there until this process had presented
+    std::vector<double> delays_;  // s, the same of each other process, for the frame before
+    bool ended_ = false;
+    std::vector<float> skews_;          // s, of each frame: from the first process that presented to the last
+    std::vector<std::uint32_t> sizes_;  // bytes of each frame
+};
+
+// The part of every other process.
+class WallFollower {
+  public:
+    static Result<WallFollower> begin(cluster::Cluster& cluster, std::uint64_t fingerprint, StopWaiting stop);
+
+    // Waits for the next frame. None: the first process has ended, or the program was asked to end. Fails
+    // with the reason that the first process gave for its end.
+    Result<std::optional<ClusterFrame>> next_frame();
+    // Tells that the frame is drawn and what was entered, and waits for the permission to present it. False:
+    // there is none, because the program ends.
+    Result<bool> wait_for_permission(std::span<const platform::InputEvent> events);
+    void presented();
+
+    // Tells the first process why this one cannot go on. Also instead of begin().
+    static void report(cluster::Cluster& cluster, const Error& error);
+
+  private:
+    WallFollower(cluster::Cluster& cluster, StopWaiting stop) : cluster_(&cluster), stop_(std::move(stop)) {}
+
+    cluster::Cluster* cluster_;
+    StopWaiting stop_;
+    double permitted_ = 0.0, delay_ = 0.0;  // s, as in WallLeader
+};
+
+}  // namespace bolt::view
