@@ -55,11 +55,14 @@ ordered_json json_of(const HeadTracking& head) {
     object["fixed"] = json_of(head.fixed_head);
     if (head.tracker == HeadTracker::dtrack || head.port != unless_given.port) object["port"] = head.port;
     if (head.tracker == HeadTracker::dtrack || head.body != unless_given.body) object["body"] = head.body;
+    if (head.tracker == HeadTracker::openxr || head.pose != unless_given.pose)
+        object["pose"] = name(head.pose);
     if (!head.recording.empty()) object["recording"] = head.recording;
     HeadTracking without_settings;
     without_settings.fixed_head = head.fixed_head;
     without_settings.port = head.port;
     without_settings.body = head.body;
+    without_settings.pose = head.pose;
     without_settings.recording = head.recording;
     if (head == without_settings) return object;
     for (const TrackerAxis& axis : head.axes) object["axes"].push_back(axis_name(axis));
@@ -117,10 +120,10 @@ std::string with_flat_arrays(std::string_view text) {
 
 bool HeadTracking::operator==(const HeadTracking& other) const {
     return tracker == other.tracker && same(fixed_head, other.fixed_head) && port == other.port &&
-           body == other.body && recording == other.recording && axes == other.axes && scale == other.scale &&
-           same(tracker_in_room, other.tracker_in_room) && same(head_in_body, other.head_in_body) &&
-           hold == other.hold && fade == other.fade && max_speed == other.max_speed &&
-           jump_time == other.jump_time;
+           body == other.body && pose == other.pose && recording == other.recording && axes == other.axes &&
+           scale == other.scale && same(tracker_in_room, other.tracker_in_room) &&
+           same(head_in_body, other.head_in_body) && hold == other.hold && fade == other.fade &&
+           max_speed == other.max_speed && jump_time == other.jump_time;
 }
 
 Quat orientation_of(const std::array<TrackerAxis, 3>& axes) {

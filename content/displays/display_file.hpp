@@ -69,6 +69,10 @@ inline double height(const Wall& wall) { return glm::length(wall.upper_right - w
 enum class HeadTracker : std::uint8_t { fixed, dtrack, openxr, file };
 std::string_view name(HeadTracker tracker);
 
+// What an OpenXR runtime tracks: the headset, or a controller, whose grip pose is used.
+enum class TrackedPose : std::uint8_t { headset, left_hand, right_hand };
+std::string_view name(TrackedPose pose);
+
 // An axis of the tracker: 0, 1, 2 for x, y, z.
 struct TrackerAxis {
     int axis = 0;
@@ -82,6 +86,7 @@ struct HeadTracking {
     Pose fixed_head{{0.0, 1.6, 0.0}, {1.0, 0.0, 0.0, 0.0}};  // without a tracker, and after it lost the head
     int port = 5000;                                         // UDP, dtrack
     int body = 0;                                            // dtrack
+    TrackedPose pose = TrackedPose::headset;                 // openxr
     std::string recording;  // file of recorded poses, relative to the folder of the display file
     std::array<TrackerAxis, 3> axes{{{0}, {1}, {2}}};  // those that point along the room's x, y and z
     double scale = 1.0;                                // m of the room per m of the tracker

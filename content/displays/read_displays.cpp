@@ -15,11 +15,12 @@ namespace {
 
 constexpr std::array<std::string_view, 4> stereo_names{"mono", "side_by_side", "top_bottom", "two_outputs"};
 constexpr std::array<std::string_view, 4> tracker_names{"fixed", "dtrack", "openxr", "file"};
+constexpr std::array<std::string_view, 3> pose_names{"headset", "left_hand", "right_hand"};
 constexpr double length_tolerance = 1e-3;  // of the length of a quaternion in the file
 
-template <class Enumeration>
+template <class Enumeration, std::size_t count>
 Enumeration read_name(const JsonReader& reader, const JsonNode& node,
-                      const std::array<std::string_view, 4>& names, Enumeration fallback) {
+                      const std::array<std::string_view, count>& names, Enumeration fallback) {
     const auto text = reader.text(node);
     const auto it = text ? std::find(names.begin(), names.end(), *text) : names.end();
     return it == names.end() ? fallback : static_cast<Enumeration>(it - names.begin());
@@ -95,6 +96,7 @@ HeadTracking read_head(JsonReader& reader, const JsonNode& node) {
     read_pose(reader, node, "fixed", head.fixed_head);
     head.port = read_integer(reader, reader.member(node, "port")).value_or(head.port);
     head.body = read_integer(reader, reader.member(node, "body")).value_or(head.body);
+    head.pose = read_name(reader, reader.member(node, "pose"), pose_names, head.pose);
     const JsonNode recording = reader.member(node, "recording");
     head.recording = reader.text(recording).value_or("");
     if (head.tracker == HeadTracker::file && !recording && reader.is_valid(recording.pointer))
@@ -201,6 +203,8 @@ const JsonSchema& displays_schema() {
 }  // namespace
 
 std::string_view name(StereoMode mode) { return stereo_names[static_cast<std::size_t>(mode)]; }
+
+std::string_view name(TrackedPose pose) { return pose_names[static_cast<std::size_t>(pose)]; }
 
 std::string_view name(HeadTracker tracker) { return tracker_names[static_cast<std::size_t>(tracker)]; }
 

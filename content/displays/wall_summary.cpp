@@ -42,7 +42,7 @@ std::string describe_head(const DisplayFile& displays) {
             text += fmt::format("DTrack on UDP port {}, body {}", head.port, head.body);
             break;
         case HeadTracker::openxr:
-            text += "pose of the OpenXR runtime";
+            text += fmt::format("OpenXR, {}", name(head.pose));
             break;
         case HeadTracker::file:
             text += "recorded in " + in_quotes(head.recording);

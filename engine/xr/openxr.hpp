@@ -5,13 +5,17 @@
 #pragma once
 
 #include "engine/gpu/vk.hpp"
-// The order matters: openxr_platform.h needs Vulkan's types.
+// The order matters: openxr_platform.h needs the types of Vulkan and of the clock.
+#include <ctime>
 #define XR_USE_GRAPHICS_API_VULKAN
+#define XR_USE_TIMESPEC
 #include <openxr/openxr.h>
 #include <openxr/openxr_platform.h>
 
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "engine/base/math.hpp"
 #include "engine/base/result.hpp"
@@ -25,6 +29,14 @@ std::string_view name(XrResult result);
 // or headset and a lost one have the code no_device; Error::lost is set if the instance or the session was
 // lost, after which only destroying it succeeds.
 Status check(XrResult result, std::string_view function);
+
+// What all instances of OpenXR have in common: the extensions that the runtime offers (fails with
+// ErrorCode::no_device if there is no runtime), and the program's description without extensions.
+Result<std::vector<std::string>> offered_extensions();
+XrInstanceCreateInfo instance_info();
+// The loader keeps a runtime until an instance of it is destroyed, also if the user has since chosen another
+// runtime. Call this if no instance is created after offered_extensions().
+void unload_runtime();
 
 // A pose in metres. The orientation is normalised, because runtimes send it with rounding errors.
 inline Pose to_pose(const XrPosef& pose) {

@@ -58,7 +58,9 @@ Status load(XrInstance instance, const char* name, Function& function) {
     return {};
 }
 
-Result<std::vector<std::string>> runtime_extensions() {
+}  // namespace
+
+Result<std::vector<std::string>> offered_extensions() {
     std::vector<XrExtensionProperties> listed;
     const XrResult result =
         enumerate(listed, XrExtensionProperties{XR_TYPE_EXTENSION_PROPERTIES},
@@ -80,15 +82,11 @@ XrInstanceCreateInfo instance_info() {
     return info;
 }
 
-// The loader keeps a runtime until an instance of it is destroyed, also if the user has since chosen another
-// runtime.
 void unload_runtime() {
     const XrInstanceCreateInfo info = instance_info();
     XrInstance instance = XR_NULL_HANDLE;
     if (XR_SUCCEEDED(xrCreateInstance(&info, &instance))) (void)xrDestroyInstance(instance);
 }
-
-}  // namespace
 
 Result<std::unique_ptr<Runtime>> Runtime::open() {
     // The loader prints its own messages to stderr, in addition to the results that are reported here.
@@ -102,7 +100,7 @@ Result<std::unique_ptr<Runtime>> Runtime::open() {
 }
 
 Status Runtime::create_xr_instance() {
-    BOLT_TRY_ASSIGN(const auto available, runtime_extensions());
+    BOLT_TRY_ASSIGN(const auto available, offered_extensions());
     const auto has = [&](const char* extension) {
         return std::find(available.begin(), available.end(), extension) != available.end();
     };

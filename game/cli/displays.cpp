@@ -180,11 +180,11 @@ int track_head(const DisplaysArguments& options) {
     const content::LoadedDisplays loaded = content::load_displays(options.file);
     if (!loaded.ok()) return print_error(loaded.errors);
     const content::HeadTracking& head = loaded.displays.head;
-    if (head.tracker == content::HeadTracker::fixed || head.tracker == content::HeadTracker::openxr)
+    if (head.tracker == content::HeadTracker::fixed)
         return print_error(
             {ErrorCode::usage,
              fmt::format("the tracker of {} is \"{}\"", options.file, content::name(head.tracker)),
-             "\"dtrack\" or \"file\""});
+             "\"dtrack\", \"openxr\" or \"file\""});
     auto source = displays::HeadSource::open(head, std::filesystem::path(options.file).parent_path());
     if (!source) return print_error(source.error());
     catch_interruption();

@@ -72,10 +72,6 @@ Result<std::unique_ptr<view::Walls>> open_checked_walls(const std::string& file,
     if (unusable)
         return fail(ErrorCode::bad_content, fmt::format("{}: the walls cannot be shown", file),
                     "a display file without mistakes for these monitors");
-    if (loaded.displays.head.tracker == content::HeadTracker::openxr)
-        return fail(ErrorCode::no_device,
-                    fmt::format("{}: the tracker \"openxr\" is not supported on walls", file),
-                    "\"fixed\", \"dtrack\" or \"file\"");
     view::WallsOptions options;
     if (first) {
         BOLT_TRY_ASSIGN(auto head, displays::HeadSource::open(loaded.displays.head,

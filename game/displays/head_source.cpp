@@ -9,6 +9,24 @@ namespace bolt::displays {
 
 using content::HeadTracker;
 
+namespace {
+
+constexpr double search_interval = 1.0;  // s
+
+xr::TrackedThing thing_of(content::TrackedPose pose) {
+    switch (pose) {
+        case content::TrackedPose::left_hand:
+            return xr::TrackedThing::left_hand;
+        case content::TrackedPose::right_hand:
+            return xr::TrackedThing::right_hand;
+        case content::TrackedPose::headset:
+            break;
+    }
+    return xr::TrackedThing::head;
+}
+
+}  // namespace
+
 Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std::filesystem::path& folder) {
     HeadSource source;
     source.registration_ = {content::orientation_of(head.axes), head.scale, head.tracker_in_room,
@@ -25,6 +43,9 @@ Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std
     } else if (head.tracker == HeadTracker::file) {
         BOLT_TRY_ASSIGN(auto poses, tracking::load_recorded_poses(folder / head.recording));
         source.recording_ = std::move(poses);
+    } else if (head.tracker == HeadTracker::openxr) {
+        source.tracked_ = thing_of(head.pose);
+        BOLT_TRY_ASSIGN(source.openxr_, xr::PoseTracker::open(*source.tracked_));
     }
     return source;
 }
@@ -57,7 +78,21 @@ void HeadSource::play(double now) {
     played_until_ = until;
 }
 
+void HeadSource::track(double now) {
+    if (!openxr_ && now >= next_search_) {
+        next_search_ = now + search_interval;
+        if (auto found = xr::PoseTracker::open(*tracked_)) openxr_ = std::move(*found);
+    }
+    if (!openxr_) return;
+    const auto pose = openxr_->read();
+    if (!pose)
+        openxr_.reset();
+    else if (*pose)
+        add({now, **pose});
+}
+
 tracking::FilteredHead HeadSource::at(double now) {
+    if (tracked_) track(now);
     if (receiver_) receive(now);
     if (!recording_.empty()) play(now);
     const tracking::FilteredHead head = tracking::filter_head(state_, settings_, waiting_, now);

@@ -9,6 +9,7 @@
 #include "engine/tracking/dtrack_receiver.hpp"
 #include "engine/tracking/head_filter.hpp"
 #include "engine/tracking/head_pose.hpp"
+#include "engine/xr/pose_tracker.hpp"
 
 namespace bolt::displays {
 
@@ -21,7 +22,8 @@ struct TrackerCounts {
 
 class HeadSource {
   public:
-    // `folder`: that of the display file. Fails if the UDP port is in use, or the recording is wrong.
+    // `folder`: that of the display file. Fails if the UDP port is in use, the recording is wrong, or there
+    // is no OpenXR runtime that tracks. A runtime that ends later is searched for once a second.
     static Result<HeadSource> open(const content::HeadTracking& head, const std::filesystem::path& folder);
 
     // The head at the time `now`, s on a steady clock, which must not decrease from call to call. Reads what
@@ -38,12 +40,16 @@ class HeadSource {
     HeadSource() = default;
     void receive(double now);
     void play(double now);
+    void track(double now);
 
     tracking::TrackerRegistration registration_;
     tracking::HeadFilterSettings settings_;
     tracking::HeadFilterState state_;
     std::optional<tracking::DtrackReceiver> receiver_;
     int body_ = 0;
+    std::optional<xr::TrackedThing> tracked_;  // with tracker openxr only
+    std::unique_ptr<xr::PoseTracker> openxr_;  // null: the runtime has ended
+    double next_search_ = 0.0;                 // s
     std::vector<tracking::HeadSample> recording_;
     std::optional<double> started_;              // when the recording began, less the time of its first pose
     double played_until_ = 0.0;                  // s, in the recording

@@ -94,7 +94,15 @@ send 4 & player=$!
 expect 1 'Body 3 is not seen; DTrack sees 4' "${run[@]}" track dtrack.json --seconds 2
 kill $player; wait $player 2> /dev/null
 player=
-expect 2 'the tracker of lab.json is "fixed"; expected "dtrack" or "file"' "${run[@]}" track lab.json
+expect 2 'the tracker of lab.json is "fixed"; expected "dtrack", "openxr" or "file"' "${run[@]}" track lab.json
+# The mock runtime has a headset at rest, and a controller in no hand.
+change 's/"tracker": "dtrack"/"tracker": "openxr", "pose": "headset"/' headset.json
+export XR_RUNTIME_JSON=${bin%/bin}/mock_openxr/mock_openxr.json
+expect 0 'tracked +x +0.000  y +1.600  z +0.000 m +looks +0 degrees' "${run[@]}" track headset.json --seconds 1
+change 's/"tracker": "dtrack"/"tracker": "openxr", "pose": "left_foot"/' foot.json
+expect 3 'foot.json:[0-9]+:[0-9]+: /head/pose: .*left_foot.*; expected' "${run[@]}" track foot.json
+XR_RUNTIME_JSON=/nowhere.json expect 4 'no OpenXR runtime' "${run[@]}" track headset.json
+unset XR_RUNTIME_JSON
 
 # The manual page has the commands and their options.
 "$bin/boltwright" --man-page > page

@@ -69,7 +69,7 @@ expect 3 'crossed.json:[0-9]+:' bash -c "sed '0,/\[1.5, 0, -1.5\]/s//[1.5, 0.4, 
 expect 3 'far.json:[0-9]+:[0-9]+: wall "front": the window 300x240\+9000\+200 is not on the monitors; expected' \
     bash -c "sed 's/\[0, 200\]/[9000, 200]/' walls.json > far.json; $(printf '%q ' "${train[@]}") far.json"
 expect 3 'none.csv' bash -c "sed 's/head.csv/none.csv/' walls.json > none.json; $(printf '%q ' "${train[@]}") none.json"
-expect 4 'openxr.json: the tracker "openxr" is not supported on walls' \
+expect 4 'OpenXR' env XR_RUNTIME_JSON=/nowhere.json \
     bash -c "sed 's/\"tracker\": \"file\", \"recording\": \"head.csv\"/\"tracker\": \"openxr\"/' walls.json > openxr.json; $(printf '%q ' "${train[@]}") openxr.json"
 expect 4 'there is no display' env -u DISPLAY "${train[@]}" walls.json
 expect 2 'displays without --headless and --hmd' "${train[@]}" walls.json --headless

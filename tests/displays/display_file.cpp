@@ -72,6 +72,7 @@ TEST_CASE("Displays: all members are read") {
     CHECK(head.fixed_head.orientation == Quat(0.6, 0.0, 0.8, 0.0));
     CHECK(head.port == 5001);
     CHECK(head.body == 3);
+    CHECK(head.pose == TrackedPose::right_hand);
     CHECK(head.recording == "walk.csv");
     CHECK(head.axes == std::array<TrackerAxis, 3>{{{0, false}, {2, false}, {1, true}}});
     CHECK(head.scale == 0.5);

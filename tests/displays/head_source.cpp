@@ -103,7 +103,6 @@ TEST_CASE("Head source: recorded poses are played once from the first call on, a
 
 TEST_CASE("Head source: poses that the caller adds are those of the tracked body") {
     HeadTracking head;
-    head.tracker = HeadTracker::openxr;
     head.scale = 2.0;
     head.tracker_in_room.position = {0.0, 1.0, 0.0};
     HeadSource source = opened(head);

@@ -278,6 +278,15 @@ XrResult XRAPI_CALL create_vulkan_device(XrInstance, const XrVulkanDeviceCreateI
     });
 }
 
+// The mock's clock is the steady clock, or time passes with the frames only.
+XrResult XRAPI_CALL convert_timespec(XrInstance, const timespec* time, XrTime* converted) {
+    return call("xrConvertTimespecTimeToTimeKHR", Level::instance, [&](State& s, auto&) {
+        *converted =
+            s.instance->config.real_time ? XrTime{time->tv_sec} * 1'000'000'000 + time->tv_nsec : now(s);
+        return XR_SUCCESS;
+    });
+}
+
 }  // namespace
 
 void add_instance_functions(FunctionTable& table) {
@@ -299,6 +308,7 @@ void add_instance_functions(FunctionTable& table) {
     add(table, "xrCreateVulkanInstanceKHR", &create_vulkan_instance);
     add(table, "xrGetVulkanGraphicsDevice2KHR", &graphics_device);
     add(table, "xrCreateVulkanDeviceKHR", &create_vulkan_device);
+    add(table, "xrConvertTimespecTimeToTimeKHR", &convert_timespec);
 }
 
 }  // namespace bolt::mock

@@ -64,8 +64,9 @@ struct Config {
     std::uint32_t max_width = 256, max_height = 256;
     // In the runtime's order: R16G16B16A16_UNORM, R8G8B8A8_SRGB, D32_SFLOAT.
     std::vector<std::int64_t> formats{91, 43, 126};
-    std::vector<std::string> extensions{"XR_KHR_vulkan_enable2", "XR_KHR_composition_layer_depth",
-                                        "XR_KHR_visibility_mask", "XR_EXT_hand_tracking"};
+    std::vector<std::string> extensions{"XR_KHR_vulkan_enable2",  "XR_KHR_composition_layer_depth",
+                                        "XR_KHR_visibility_mask", "XR_EXT_hand_tracking",
+                                        "XR_MND_headless",        "XR_KHR_convert_timespec_time"};
     std::vector<XrEnvironmentBlendMode> blend_modes{XR_ENVIRONMENT_BLEND_MODE_OPAQUE};
     std::vector<XrReferenceSpaceType> spaces{XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL,
                                              XR_REFERENCE_SPACE_TYPE_STAGE};

@@ -16,6 +16,7 @@ const char* extension_of(std::string_view function) {
     if (contains("Vulkan")) return XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME;
     if (contains("VisibilityMask")) return XR_KHR_VISIBILITY_MASK_EXTENSION_NAME;
     if (contains("HandTracker") || contains("HandJoints")) return XR_EXT_HAND_TRACKING_EXTENSION_NAME;
+    if (contains("ConvertTimespec")) return XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME;
     return nullptr;
 }
 

@@ -9,7 +9,8 @@ namespace bolt::mock {
 
 namespace {
 
-XrResult open_session(State& s, const XrGraphicsBindingVulkan2KHR& binding) {
+// Opens the device of a session with pictures.
+XrResult check_binding(State& s, const XrGraphicsBindingVulkan2KHR& binding, Session& session) {
     constexpr const char* name = "xrCreateSession";
     Instance& instance = *s.instance;
     const VulkanObjects& made = instance.created;
@@ -20,9 +21,18 @@ XrResult open_session(State& s, const XrGraphicsBindingVulkan2KHR& binding) {
         binding.device == VK_NULL_HANDLE || binding.physicalDevice != made.physical)
         return refuse(s, name, XR_ERROR_GRAPHICS_DEVICE_INVALID,
                       "is given Vulkan objects that the runtime did not make");
-    Session session;
     if (open_device(session.vulkan, made, binding.queueFamilyIndex, binding.queueIndex) != VK_SUCCESS)
         return XR_ERROR_RUNTIME_FAILURE;
+    return XR_SUCCESS;
+}
+
+// A session without pictures if `binding` is null.
+XrResult open_session(State& s, const XrGraphicsBindingVulkan2KHR* binding) {
+    Instance& instance = *s.instance;
+    Session session;
+    session.headless = binding == nullptr;
+    if (binding != nullptr)
+        if (const XrResult opened = check_binding(s, *binding, session); XR_FAILED(opened)) return opened;
     session.id = ++s.last_id;
     session.last_display = instance.config.real_time ? now(s) : 1'000'000'000;
     session.origins[XR_REFERENCE_SPACE_TYPE_STAGE] = {{0, {}}};
@@ -40,9 +50,10 @@ XrResult XRAPI_CALL create_session(XrInstance, const XrSessionCreateInfo* info, 
         if (s.instance->session)
             return refuse(s, name, XR_ERROR_LIMIT_REACHED, "is called while a session exists");
         const auto* binding = static_cast<const XrGraphicsBindingVulkan2KHR*>(info->next);
-        if (binding == nullptr || binding->type != XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR)
+        const bool headless = s.instance->extensions.count(XR_MND_HEADLESS_EXTENSION_NAME) != 0;
+        if (!headless && (binding == nullptr || binding->type != XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR))
             return refuse(s, name, XR_ERROR_GRAPHICS_DEVICE_INVALID, "is given no Vulkan device");
-        const XrResult result = open_session(s, *binding);
+        const XrResult result = open_session(s, binding);
         if (XR_SUCCEEDED(result)) *session = handle_of<XrSession>(s.instance->session->id);
         return result;
     });
@@ -81,6 +92,11 @@ XrResult XRAPI_CALL begin_session(XrSession, const XrSessionBeginInfo* info) {
         session.begun_once = false;
         session.waited.reset();
         session.begun.reset();
+        // A session without frames has focus at once.
+        if (session.headless)
+            for (const XrSessionState state :
+                 {XR_SESSION_STATE_SYNCHRONIZED, XR_SESSION_STATE_VISIBLE, XR_SESSION_STATE_FOCUSED})
+                enter_state(s, state);
         if (!s.worn) stop_session(s);
         return XR_SUCCESS;
     });

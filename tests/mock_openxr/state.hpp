@@ -64,6 +64,7 @@ struct Session {
     std::uint64_t id = 0;
     XrSessionState state = XR_SESSION_STATE_UNKNOWN;
     bool running = false;
+    bool headless = false;    // without pictures and frames
     bool exiting = false;     // STOPPING leads to EXITING
     bool begun_once = false;  // a frame since xrBeginSession
     bool attached = false;

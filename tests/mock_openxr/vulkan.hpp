@@ -6,6 +6,7 @@
 #include <vulkan/vulkan_core.h>
 // The order matters: openxr_platform.h needs Vulkan's types.
 #define XR_USE_GRAPHICS_API_VULKAN
+#define XR_USE_TIMESPEC
 #include <openxr/openxr_platform.h>
 
 #include <cstdint>

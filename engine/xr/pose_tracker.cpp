@@ -1,0 +1,244 @@
+#include "engine/xr/pose_tracker.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/xr/openxr.hpp"
+
+namespace bolt::xr {
+
+namespace {
+
+constexpr const char* headless_extension = XR_MND_HEADLESS_EXTENSION_NAME;
+constexpr const char* clock_extension = XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME;
+// Controllers that are also sold as trackers, or whose grip pose is easily fixed to glasses.
+constexpr std::array<const char*, 5> tracker_profiles{
+    "/interaction_profiles/khr/simple_controller", "/interaction_profiles/oculus/touch_controller",
+    "/interaction_profiles/valve/index_controller", "/interaction_profiles/htc/vive_controller",
+    "/interaction_profiles/microsoft/motion_controller"};
+constexpr XrSpaceLocationFlags fully_tracked =
+    XR_SPACE_LOCATION_ORIENTATION_VALID_BIT | XR_SPACE_LOCATION_POSITION_VALID_BIT |
+    XR_SPACE_LOCATION_ORIENTATION_TRACKED_BIT | XR_SPACE_LOCATION_POSITION_TRACKED_BIT;
+
+Result<XrPath> to_path(XrInstance instance, const std::string& text) {
+    XrPath path = XR_NULL_PATH;
+    BOLT_TRY(check(xrStringToPath(instance, text.c_str(), &path), "xrStringToPath"));
+    return path;
+}
+
+}  // namespace
+
+// The order of the members is that of their dependencies.
+struct PoseTracker::Objects {
+    InstanceHandle instance;
+    SessionHandle session;
+    ActionSetHandle actions;
+    SpaceHandle base, thing;
+    PFN_xrConvertTimespecTimeToTimeKHR to_time = nullptr;
+    XrViewConfigurationType views = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+    bool running = false, focused = false, ended = false;
+
+    Status create_instance();
+    Status create_session();
+    Status create_spaces(TrackedThing tracked);
+    Result<SpaceHandle> reference_space(XrReferenceSpaceType type) const;
+    Result<SpaceHandle> grip_space(const char* hand);
+    Status follow_events();
+    Result<std::optional<Pose>> locate() const;
+};
+
+Status PoseTracker::Objects::create_instance() {
+    // The loader prints its own messages to stderr, in addition to the results that are reported here.
+    (void)setenv("XR_LOADER_DEBUG", "none", 0);
+    BOLT_TRY_ASSIGN(const auto offered, offered_extensions());
+    for (const char* needed : {headless_extension, clock_extension}) {
+        if (std::find(offered.begin(), offered.end(), needed) != offered.end()) continue;
+        unload_runtime();
+        return fail(
+            ErrorCode::no_device,
+            fmt::format("the OpenXR runtime cannot track without a headset's pictures: it lacks {}", needed),
+            "one that can, such as Monado");
+    }
+    XrInstanceCreateInfo info = instance_info();
+    const std::array<const char*, 2> enabled{headless_extension, clock_extension};
+    info.enabledExtensionCount = static_cast<std::uint32_t>(enabled.size());
+    info.enabledExtensionNames = enabled.data();
+    XrInstance raw = XR_NULL_HANDLE;
+    Status created = check(xrCreateInstance(&info, &raw), "xrCreateInstance");
+    if (!created) {
+        created.error().code = ErrorCode::no_device;
+        return created;
+    }
+    instance = InstanceHandle(raw);
+    PFN_xrVoidFunction function = nullptr;
+    BOLT_TRY(check(xrGetInstanceProcAddr(raw, "xrConvertTimespecTimeToTimeKHR", &function),
+                   "xrConvertTimespecTimeToTimeKHR"));
+    to_time = reinterpret_cast<PFN_xrConvertTimespecTimeToTimeKHR>(function);
+    return {};
+}
+
+Status PoseTracker::Objects::create_session() {
+    XrSystemGetInfo system{XR_TYPE_SYSTEM_GET_INFO};
+    system.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
+    XrSystemId id = XR_NULL_SYSTEM_ID;
+    BOLT_TRY(check(xrGetSystem(instance.get(), &system, &id), "xrGetSystem"));
+    std::vector<XrViewConfigurationType> types;
+    BOLT_TRY(
+        check(enumerate(types, XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO,
+                        [&](std::uint32_t capacity, std::uint32_t* count, XrViewConfigurationType* values) {
+                            return xrEnumerateViewConfigurations(instance.get(), id, capacity, count, values);
+                        }),
+              "xrEnumerateViewConfigurations"));
+    if (!types.empty()) views = types.front();
+    XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO};
+    info.systemId = id;
+    XrSession raw = XR_NULL_HANDLE;
+    BOLT_TRY(check(xrCreateSession(instance.get(), &info, &raw), "xrCreateSession"));
+    session = SessionHandle(raw);
+    return {};
+}
+
+Result<SpaceHandle> PoseTracker::Objects::reference_space(XrReferenceSpaceType type) const {
+    XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO};
+    info.referenceSpaceType = type;
+    info.poseInReferenceSpace = {{0, 0, 0, 1}, {0, 0, 0}};
+    XrSpace raw = XR_NULL_HANDLE;
+    BOLT_TRY(check(xrCreateReferenceSpace(session.get(), &info, &raw), "xrCreateReferenceSpace"));
+    return SpaceHandle(raw);
+}
+
+Result<SpaceHandle> PoseTracker::Objects::grip_space(const char* hand) {
+    XrActionSetCreateInfo set{XR_TYPE_ACTION_SET_CREATE_INFO};
+    fmt::format_to_n(set.actionSetName, sizeof set.actionSetName - 1, "tracker");
+    fmt::format_to_n(set.localizedActionSetName, sizeof set.localizedActionSetName - 1, "Tracker");
+    XrActionSet raw_set = XR_NULL_HANDLE;
+    BOLT_TRY(check(xrCreateActionSet(instance.get(), &set, &raw_set), "xrCreateActionSet"));
+    actions = ActionSetHandle(raw_set);
+    BOLT_TRY_ASSIGN(XrPath side, to_path(instance.get(), hand));
+    XrActionCreateInfo action{XR_TYPE_ACTION_CREATE_INFO};
+    fmt::format_to_n(action.actionName, sizeof action.actionName - 1, "pose");
+    fmt::format_to_n(action.localizedActionName, sizeof action.localizedActionName - 1, "Pose");
+    action.actionType = XR_ACTION_TYPE_POSE_INPUT;
+    action.countSubactionPaths = 1;
+    action.subactionPaths = &side;
+    XrAction grip = XR_NULL_HANDLE;
+    BOLT_TRY(check(xrCreateAction(raw_set, &action, &grip), "xrCreateAction"));
+    BOLT_TRY_ASSIGN(const auto pose, to_path(instance.get(), std::string(hand) + "/input/grip/pose"));
+    for (const char* name : tracker_profiles) {
+        BOLT_TRY_ASSIGN(const auto profile, to_path(instance.get(), name));
+        const XrActionSuggestedBinding binding{grip, pose};
+        XrInteractionProfileSuggestedBinding suggested{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING};
+        suggested.interactionProfile = profile;
+        suggested.countSuggestedBindings = 1;
+        suggested.suggestedBindings = &binding;
+        // A runtime rejects controllers that it does not know; the others still work.
+        const XrResult accepted = xrSuggestInteractionProfileBindings(instance.get(), &suggested);
+        if (accepted != XR_ERROR_PATH_UNSUPPORTED)
+            BOLT_TRY(check(accepted, "xrSuggestInteractionProfileBindings"));
+    }
+    XrSessionActionSetsAttachInfo attach{XR_TYPE_SESSION_ACTION_SETS_ATTACH_INFO};
+    attach.countActionSets = 1;
+    attach.actionSets = &raw_set;
+    BOLT_TRY(check(xrAttachSessionActionSets(session.get(), &attach), "xrAttachSessionActionSets"));
+    XrActionSpaceCreateInfo create{XR_TYPE_ACTION_SPACE_CREATE_INFO};
+    create.action = grip;
+    create.subactionPath = side;
+    create.poseInActionSpace = {{0, 0, 0, 1}, {0, 0, 0}};
+    XrSpace raw = XR_NULL_HANDLE;
+    BOLT_TRY(check(xrCreateActionSpace(session.get(), &create, &raw), "xrCreateActionSpace"));
+    return SpaceHandle(raw);
+}
+
+Status PoseTracker::Objects::create_spaces(TrackedThing tracked) {
+    std::vector<XrReferenceSpaceType> types;
+    BOLT_TRY(check(enumerate(types, XR_REFERENCE_SPACE_TYPE_VIEW,
+                             [&](std::uint32_t capacity, std::uint32_t* count, XrReferenceSpaceType* values) {
+                                 return xrEnumerateReferenceSpaces(session.get(), capacity, count, values);
+                             }),
+                   "xrEnumerateReferenceSpaces"));
+    const bool stage = std::find(types.begin(), types.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != types.end();
+    BOLT_TRY_ASSIGN(base,
+                    reference_space(stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL));
+    if (tracked == TrackedThing::head) {
+        BOLT_TRY_ASSIGN(thing, reference_space(XR_REFERENCE_SPACE_TYPE_VIEW));
+    } else {
+        BOLT_TRY_ASSIGN(
+            thing, grip_space(tracked == TrackedThing::left_hand ? "/user/hand/left" : "/user/hand/right"));
+    }
+    return {};
+}
+
+// Begins and ends the session when the runtime says so. After a loss nothing may be called.
+Status PoseTracker::Objects::follow_events() {
+    while (!ended) {
+        XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
+        const XrResult result = xrPollEvent(instance.get(), &event);
+        if (result == XR_EVENT_UNAVAILABLE) return {};
+        BOLT_TRY(check(result, "xrPollEvent"));
+        if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) ended = true;
+        if (event.type != XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) continue;
+        const auto* changed = reinterpret_cast<const XrEventDataSessionStateChanged*>(&event);
+        focused = changed->state == XR_SESSION_STATE_FOCUSED;
+        if (changed->state == XR_SESSION_STATE_READY) {
+            XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO};
+            info.primaryViewConfigurationType = views;
+            BOLT_TRY(check(xrBeginSession(session.get(), &info), "xrBeginSession"));
+            running = true;
+        } else if (changed->state == XR_SESSION_STATE_STOPPING) {
+            running = false;
+            BOLT_TRY(check(xrEndSession(session.get()), "xrEndSession"));
+        } else if (changed->state == XR_SESSION_STATE_LOSS_PENDING ||
+                   changed->state == XR_SESSION_STATE_EXITING) {
+            ended = true;
+        }
+    }
+    return {};
+}
+
+Result<std::optional<Pose>> PoseTracker::Objects::locate() const {
+    if (actions && focused) {
+        const XrActiveActionSet active{actions.get(), XR_NULL_PATH};
+        XrActionsSyncInfo sync{XR_TYPE_ACTIONS_SYNC_INFO};
+        sync.countActiveActionSets = 1;
+        sync.activeActionSets = &active;
+        BOLT_TRY(check(xrSyncActions(session.get(), &sync), "xrSyncActions"));
+    }
+    timespec now{};
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    XrTime time = 0;
+    BOLT_TRY(check(to_time(instance.get(), &now, &time), "xrConvertTimespecTimeToTimeKHR"));
+    XrSpaceLocation location{XR_TYPE_SPACE_LOCATION};
+    BOLT_TRY(check(xrLocateSpace(thing.get(), base.get(), time, &location), "xrLocateSpace"));
+    if ((location.locationFlags & fully_tracked) != fully_tracked) return std::optional<Pose>();
+    const Pose pose = to_pose(location.pose);
+    if (!finite(pose.position) || !std::isfinite(pose.orientation.w)) return std::optional<Pose>();
+    return std::optional(pose);
+}
+
+Result<std::unique_ptr<PoseTracker>> PoseTracker::open(TrackedThing thing) {
+    auto objects = std::make_unique<Objects>();
+    BOLT_TRY(objects->create_instance());
+    BOLT_TRY(objects->create_session());
+    BOLT_TRY(objects->create_spaces(thing));
+    return std::unique_ptr<PoseTracker>(new PoseTracker(std::move(objects)));
+}
+
+PoseTracker::PoseTracker(std::unique_ptr<Objects> objects) : objects_(std::move(objects)) {}
+PoseTracker::~PoseTracker() = default;
+
+Result<std::optional<Pose>> PoseTracker::read() {
+    BOLT_TRY(objects_->follow_events());
+    if (objects_->ended) {
+        Error error{ErrorCode::no_device, "the OpenXR runtime has ended", "one that runs"};
+        error.lost = true;
+        return fail(std::move(error));
+    }
+    if (!objects_->running) return std::optional<Pose>();
+    return objects_->locate();
+}
+
+}  // namespace bolt::xr

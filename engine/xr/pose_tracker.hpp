@@ -1,0 +1,35 @@
+// The pose of something that the OpenXR runtime tracks, without pictures in a headset (XR_MND_headless): the
+// head of a viewer of projection walls.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "engine/base/math.hpp"
+#include "engine/base/result.hpp"
+
+namespace bolt::xr {
+
+// The headset, or a controller that is fixed to the viewer's glasses: its grip pose.
+enum class TrackedThing : std::uint8_t { head, left_hand, right_hand };
+
+class PoseTracker {
+  public:
+    // Fails with ErrorCode::no_device if there is no runtime, it cannot track without pictures, or nothing is
+    // connected; trying again later may then succeed.
+    static Result<std::unique_ptr<PoseTracker>> open(TrackedThing thing);
+    PoseTracker(const PoseTracker&) = delete;
+    PoseTracker& operator=(const PoseTracker&) = delete;
+    ~PoseTracker();
+
+    // The pose now, in the runtime's stage, or where it has none in its local space: x right, y up, m. None:
+    // it is not tracked at the moment. Fails if the runtime has ended; the tracker must then be destroyed.
+    Result<std::optional<Pose>> read();
+
+  private:
+    struct Objects;
+    explicit PoseTracker(std::unique_ptr<Objects> objects);
+    std::unique_ptr<Objects> objects_;
+};
+
+}  // namespace bolt::xr

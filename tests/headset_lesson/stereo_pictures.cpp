@@ -1,0 +1,146 @@
+// The pictures that arrive in a headset, through OpenXR's loader and the loop of the window, are those that
+// are drawn of the same scene without a headset and without a window, to the bit.
+#include <optional>
+
+#include "game/view/shown_model.hpp"
+#include "game/view/window.hpp"
+#include "tests/mock_openxr/mock_runtime.hpp"
+#include "tests/support/need.hpp"
+
+using namespace bolt;
+
+namespace {
+
+// A cover with its bolts in front of the user.
+const Pose model_in_room{{0.0, 1.35, -0.45}, rotation({0.0, 0.5, 0.0})};
+
+struct ShownCover {
+    view::LoadedModel model;
+    render::EnvironmentLight light;
+    std::unique_ptr<view::ShownModel> shown;
+
+    explicit ShownCover(gpu::Device& device) {
+        view::ModelLoadResult loaded = view::load_model("cover-m8");
+        REQUIRE(loaded.ok());
+        model = std::move(loaded.model);
+        light = test::need(render::upload_environment(device, test::need(view::load_light("studio"))));
+        shown = test::need(view::show_model(device, model, light));
+    }
+};
+
+std::vector<render::Eye> eyes_at_model(const view::EyeGroup& group) {
+    std::vector<render::Eye> eyes;
+    for (const render::Eye& eye : group.eyes) eyes.push_back(render::seen_from(eye, model_in_room));
+    return eyes;
+}
+
+// Shows the cover for some frames.
+class CoverInHeadset : public view::WindowContent {
+  public:
+    Status start(view::GpuContext& gpu) override {
+        gpu_ = &gpu;
+        cover_.emplace(*gpu.device);
+        return {};
+    }
+    void release() override {
+        (void)gpu_->device->idle();
+        cover_.reset();
+    }
+    Status update(const view::WindowFrame& window) override {
+        if (window.immersion != nullptr && ++frames_ > 6) closed_ = true;
+        return {};
+    }
+    Status draw(gpu::FrameContext& frame, const view::WindowFrame& window) override {
+        if (window.immersion != nullptr && !window.immersion->groups.empty()) {
+            group_ = window.immersion->groups.front();
+            return gpu_->renderer->render(frame, cover_->shown->scene, eyes_at_model(group_), group_.size,
+                                          view::immersive_group);
+        }
+        const render::Eye eye;
+        return gpu_->renderer->render(frame, cover_->shown->scene, std::span(&eye, 1), window.size);
+    }
+    [[nodiscard]] bool closed() const override { return closed_; }
+    [[nodiscard]] const view::EyeGroup& group() const { return group_; }
+
+  private:
+    view::GpuContext* gpu_ = nullptr;
+    std::optional<ShownCover> cover_;
+    view::EyeGroup group_;  // of the last frame
+    int frames_ = 0;
+    bool closed_ = false;
+};
+
+// The pictures of the last frame that the headset got, and the eyes that they were drawn for.
+struct InHeadset {
+    std::vector<mock::Picture> pictures;
+    view::EyeGroup group;
+};
+
+InHeadset show_in_headset(const Pose& head) {
+    mock::Config config;
+    config.width = config.max_width = 320;
+    config.height = config.max_height = 300;
+    const test::MockRuntime mock(config);
+    mock->set_head({head});
+    mock->set_capture(true);
+    platform::Desktop desktop = test::need(platform::Desktop::open());
+    platform::Window window =
+        test::need(platform::Window::open(desktop, {"Stereo pictures", 160, 120, false}));
+    const std::vector<const char*> extensions = test::need(desktop.vulkan_extensions());
+    gpu::InstanceOptions options;
+    options.validation = true;
+    options.extensions = extensions;
+    gpu::Instance instance = test::need(gpu::Instance::create(options));
+    xr::Headset headset(xr::HeadsetOptions{});
+    view::WindowRunOptions run;
+    run.headset = &headset;
+    run.adapts_resolution = false;
+    run.instance = options;
+    CoverInHeadset content;
+    const Status done = view::run_in_window(content, window, instance, run);
+    REQUIRE_MESSAGE(done, (done ? "" : done.error().message()));
+    for (const std::string& message : instance.log().messages) FAIL_CHECK(message);
+    InHeadset shown{{}, content.group()};
+    for (const mock::Frame& frame : mock->take_frames()) {
+        if (frame.views.empty()) continue;
+        shown.pictures.clear();
+        for (const mock::SubmittedView& view : frame.views) shown.pictures.push_back(view.picture);
+    }
+    return shown;
+}
+
+std::vector<render::Picture> draw_without_headset(const view::EyeGroup& group) {
+    const gpu::Instance instance = test::need(gpu::Instance::create({}));
+    render::RendererOptions renderer;
+    renderer.level_error_px = view::window_level_error;
+    renderer.keep_depth = true;
+    const view::GpuContext gpu = test::need(view::make_gpu_context(instance, {}, renderer));
+    std::vector<render::Picture> pictures;
+    {
+        const ShownCover cover(*gpu.device);
+        pictures = test::need(render::take_pictures(*gpu.device, *gpu.frames, *gpu.renderer,
+                                                    cover.shown->scene, eyes_at_model(group), group.size));
+    }
+    return pictures;
+}
+
+}  // namespace
+
+TEST_CASE("Stereo pictures: those in the headset are those that are drawn without one, from two positions") {
+    std::vector<std::uint8_t> before;
+    for (const Pose& head : {Pose{{0.0, 1.6, 0.0}, rotation({-0.4, 0.0, 0.0})},
+                             Pose{{0.2, 1.5, -0.1}, rotation({-0.2, 0.4, 0.1})}}) {
+        const InHeadset shown = show_in_headset(head);
+        REQUIRE(shown.pictures.size() == 2);
+        const std::vector<render::Picture> drawn = draw_without_headset(shown.group);
+        REQUIRE(drawn.size() == 2);
+        for (std::size_t eye = 0; eye < 2; ++eye) {
+            CHECK(shown.pictures[eye].width == drawn[eye].width);
+            CHECK(shown.pictures[eye].rgba == drawn[eye].rgba);
+        }
+        // Controls: the eyes differ, and so do the positions.
+        CHECK(drawn[0].rgba != drawn[1].rgba);
+        CHECK(drawn[0].rgba != before);
+        before = drawn[0].rgba;
+    }
+}
