@@ -14,7 +14,7 @@ Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std
     source.registration_ = {content::orientation_of(head.axes), head.scale, head.tracker_in_room,
                             head.head_in_body};
     source.settings_.fixed_head = head.fixed_head;
-    source.settings_.hold = head.hold;
+    source.settings_.dropout_time = head.hold;
     source.settings_.fade = head.fade;
     source.settings_.max_speed = head.max_speed;
     source.settings_.jump_time = head.jump_time;
@@ -29,7 +29,7 @@ Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std
     return source;
 }
 
-void HeadSource::add(const tracking::HeadSample& body) {
+void HeadSource::add(const tracking::BodySample& body) {
     ++counts_.samples;
     waiting_.push_back({body.time, tracking::head_in_room(registration_, body.pose)});
 }
@@ -52,7 +52,7 @@ void HeadSource::play(double now) {
         played_until_ = -std::numeric_limits<double>::infinity();
     }
     const double until = now - *started_;
-    for (const tracking::HeadSample& pose : tracking::poses_between(recording_, played_until_, until))
+    for (const tracking::BodySample& pose : tracking::poses_between(recording_, played_until_, until))
         add({pose.time + *started_, pose.pose});
     played_until_ = until;
 }

@@ -29,7 +29,7 @@ class HeadSource {
     tracking::FilteredHead at(double now);
 
     // For trackers that the caller reads: the pose of the tracked body in the tracker's frame. at() uses it.
-    void add(const tracking::HeadSample& body);
+    void add(const tracking::BodySample& body);
 
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
     [[nodiscard]] int port() const { return receiver_ ? receiver_->port() : 0; }
@@ -44,7 +44,7 @@ class HeadSource {
     tracking::HeadFilterState state_;
     std::optional<tracking::DtrackReceiver> receiver_;
     int body_ = 0;
-    std::vector<tracking::HeadSample> recording_;
+    std::vector<tracking::BodySample> recording_;
     std::optional<double> started_;              // when the recording began, less the time of its first pose
     double played_until_ = 0.0;                  // s, in the recording
     std::vector<tracking::HeadSample> waiting_;  // in the room, since the last call of at()

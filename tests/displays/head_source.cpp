@@ -69,7 +69,7 @@ TEST_CASE("Head source: the tracked body of DTrack is the head, in the axes of t
     now += 0.2;
     CHECK(test::eventually([&] {
         (void)source.at(now);
-        return source.counts().dtrack.frames == 61;
+        return source.counts().dtrack.good_packets == 61;
     }));
     CHECK(source.at(now).status == HeadStatus::held);
     CHECK(source.at(now).pose.position.x == doctest::Approx(0.1));

@@ -118,11 +118,11 @@ TEST_CASE("Planned station: it can be started; without a selected device the sub
 
 TEST_CASE("Planned station: what a station file says holds for its devices only") {
     content::StationFile file;
-    content::StationArm& arm = file.arm.emplace();
+    content::StationMover& arm = file.arm.emplace();
     arm.device = "haply:0";
     arm.mounting = {0.5 * pi, 0.1, 0.2};
     arm.scale = 3.0;
-    arm.power = 0.25;
+    arm.power_ratio = 0.25;
     arm.buttons = Buttons{4, 8, 16, 32};
     arm.limits.force = 5.0;
     content::StationWheel& wheel = file.wheel.emplace();
