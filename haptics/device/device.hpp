@@ -119,7 +119,7 @@ force::OutputCommand clamp_to_limits(const Description& description, force::Outp
 // Opens the device; called again after each loss. The error states a remedy for the user.
 using DeviceFactory = std::function<Result<std::unique_ptr<DeviceDriver>>()>;
 
-// Properties that a wheel does not report: the builder of the station enters them.
+// Properties that a wheel does not report: the installer enters them.
 struct WheelConfig {
     // Motor torque at full drive, N·m. Overestimating it weakens the rendered torque, which is the safe side;
     // the default is that of the strongest wheels on the market.

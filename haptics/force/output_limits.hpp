@@ -59,7 +59,7 @@ inline OutputLimits scaled(const OutputLimits& limits, double scale) {
     return less;
 }
 
-// Upper bounds that the builder of a station sets for a device; none: the device's own limit. Units as in
+// Upper bounds that the installer sets for a device; none: the device's own limit. Units as in
 // OutputLimits.
 struct LimitBounds {
     std::optional<double> force, torque;

@@ -35,7 +35,7 @@ struct StationLinkStats {
     LinkStats mover, wheel;
 };
 
-// How the mover's workspace maps to the assembly's, as far as the builder of the station determines it.
+// How the mover's workspace maps to the assembly's, as far as the installer determines it.
 struct WorkspaceOptions {
     // Unit, from the device's frame to the user's: not the identity if the device is mounted at another angle
     // than its maker intends.
