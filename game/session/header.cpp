@@ -15,7 +15,7 @@ namespace {
 template <class Limits, class Visit>
 void for_each_limit(Limits& l, Visit visit) {
     visit("force_N", l.force), visit("torque_Nm", l.torque);
-    visit("force_rate_N_s", l.force_rate), visit("torque_rate_Nm_s", l.torque_rate);
+    visit("force_rate_N_s", l.force_slew_rate), visit("torque_rate_Nm_s", l.torque_slew_rate);
     visit("ramp_up_s", l.ramp_up), visit("release_s", l.release);
     visit("stiffness_N_m", l.stiffness), visit("torsion_Nm_rad", l.torsion);
     visit("damping_Ns_m", l.damping), visit("angular_damping_Nms_rad", l.angular_damping);

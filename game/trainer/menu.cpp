@@ -13,7 +13,7 @@ namespace {
 constexpr float column_width = 480.0F, menu_margin = 24.0F;
 constexpr float card_width = 176.0F, thumbnail_height = 92.0F, card_padding = 6.0F;
 // Below this size the menu is one column that scrolls.
-constexpr float least_wide_width = 940.0F, least_wide_height = 690.0F;
+constexpr float min_wide_width = 940.0F, min_wide_height = 690.0F;
 
 const ImVec4 primary{0.13F, 0.55F, 0.36F, 1.0F}, primary_hovered{0.16F, 0.64F, 0.42F, 1.0F};
 constexpr ImU32 column_color = IM_COL32(20, 24, 29, 244), strip_color = IM_COL32(20, 24, 29, 226),
@@ -23,7 +23,7 @@ constexpr ImGuiWindowFlags menu_flags = ImGuiWindowFlags_NoDecoration | ImGuiWin
                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground;
 
 bool is_wide(const glm::vec2& size, float scale) {
-    return size.x >= least_wide_width * scale && size.y >= least_wide_height * scale;
+    return size.x >= min_wide_width * scale && size.y >= min_wide_height * scale;
 }
 
 float wrapped_height(const std::string& text, float width) {

@@ -105,7 +105,7 @@ void SettingsScreen::draw_person(const ScreenContext& context, content::TraineeS
                     {content::min_seated_eye_height, content::max_seated_eye_height, "%.2f m", 1.0});
         record_widget(context, "settings.seated_height");
     }
-    draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::least_force_scale, 1.0});
+    draw_slider(words["menu.force_scale"].c_str(), settings.force_scale, {content::min_force_scale, 1.0});
     record_widget(context, "menu.force_scale");
     ImGui::Checkbox(words["menu.force_arrow"].c_str(), &settings.force_arrow);
     record_widget(context, "menu.force_arrow");

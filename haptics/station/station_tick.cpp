@@ -40,8 +40,8 @@ constexpr double max_slew_share = 0.1;  // of the greatest force and torque, per
 constexpr double millisecond = 1e-3;    // s
 
 force::OutputLimits with_limited_slew_rates(force::OutputLimits limits) {
-    limits.force_rate = std::min(limits.force_rate, max_slew_share * limits.force / millisecond);
-    limits.torque_rate = std::min(limits.torque_rate, max_slew_share * limits.torque / millisecond);
+    limits.force_slew_rate = std::min(limits.force_slew_rate, max_slew_share * limits.force / millisecond);
+    limits.torque_slew_rate = std::min(limits.torque_slew_rate, max_slew_share * limits.torque / millisecond);
     return limits;
 }
 
@@ -65,7 +65,7 @@ force::OutputLimits limits_of(const Layout& layout) {
     if (!layout.wheel) return limits;
     const force::OutputLimits& wheel = layout.wheel->limits;
     limits.torque = renders_torque(*layout.wheel) ? wheel.torque : 0.0;
-    limits.torque_rate = wheel.torque_rate;
+    limits.torque_slew_rate = wheel.torque_slew_rate;
     limits.torsion = wheel.torsion;
     limits.angular_damping = wheel.angular_damping;
     limits.angular_speed = wheel.angular_speed;

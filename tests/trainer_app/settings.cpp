@@ -76,7 +76,7 @@ TEST_CASE(
     CHECK(s.palette == content::PaletteKind::distinct);
     CHECK(s.volume < 0.4);
     CHECK(s.force_scale < 0.4);
-    CHECK(s.force_scale >= content::least_force_scale);
+    CHECK(s.force_scale >= content::min_force_scale);
     CHECK(later.keys().of(Action::tool) == Key::g);
     const SettingsTrainer another(options(true, "Bea"));
     CHECK_FALSE(another.settings().left_handed);
