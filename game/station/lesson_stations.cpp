@@ -27,13 +27,13 @@ class ThreadedStation final : public LessonStation {
     const station::DisplayedHand* hand() override { return station_.hand(); }
     std::vector<std::string> fault_messages() override { return station_.fault_messages(); }
     device::ArmNeeds needs() override {
-        const device::DeviceReport* report = station_.mover_report();
-        if (report == nullptr) return {};
-        return {report->preparation, permission_ && permission_->active()};
+        const device::DeviceStatus* status = station_.mover_status();
+        if (status == nullptr) return {};
+        return {status->preparation, permission_ && permission_->active()};
     }
-    device::Condition condition() override {
-        const device::DeviceReport* report = station_.mover_report();
-        return report != nullptr ? report->condition : device::Condition{};
+    device::DeviceHealth health() override {
+        const device::DeviceStatus* status = station_.mover_status();
+        return status != nullptr ? status->health : device::DeviceHealth{};
     }
     void permit_move() override {
         if (permission_) permission_->grant();
@@ -59,7 +59,7 @@ class FrameSteppedStation final : public LessonStation {
     Status open(const station::StationOptions& options) {
         BOLT_TRY_ASSIGN(auto driver, arm_.factory()());
         driver_ = std::move(driver);
-        BOLT_TRY_ASSIGN(auto layout, station::make_layout(options, driver_->describe(), {}));
+        BOLT_TRY_ASSIGN(auto layout, station::make_layout(options, driver_->description(), {}));
         layout_ = std::move(layout);
         setup_ = options.make_setup(station::limits_of(layout_), 1.0 / options.servo.rate);
         BOLT_TRY_ASSIGN(auto state, options.make_state(setup_));

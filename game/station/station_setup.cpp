@@ -26,7 +26,7 @@ std::optional<DeviceRole> role_of(device::DeviceKind kind) {
         case device::DeviceKind::arm:
         case device::DeviceKind::puck:
             return DeviceRole::mover;
-        case device::DeviceKind::board:
+        case device::DeviceKind::open_ffboard:
         case device::DeviceKind::wheel:
             return DeviceRole::wheel;
         case device::DeviceKind::other:

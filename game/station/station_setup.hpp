@@ -160,7 +160,7 @@ class LessonStation {
     virtual std::vector<std::string> fault_messages() = 0;       // of devices and glove, present ones
     // Needs of the device that moves the tool before it can be opened again, after it was lost.
     virtual device::ArmNeeds needs() { return {}; }
-    virtual device::Condition condition() { return {}; }  // of that device
+    virtual device::DeviceHealth health() { return {}; }  // of that device
     virtual void permit_move() {}  // to that device, for its next attempt (device::MovePermission)
 
     [[nodiscard]] virtual const station::Layout& layout() const = 0;

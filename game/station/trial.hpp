@@ -26,7 +26,7 @@ void update_episodes(std::vector<Episode>& episodes, std::span<const std::string
 struct DeviceTrial {
     device::Description description;
     station::LinkStats stats;
-    std::uint64_t malformed = 0, losses = 0;  // reports; disconnections
+    std::uint64_t malformed_samples = 0, losses = 0;  // losses: disconnections
 };
 
 struct GloveTrial {

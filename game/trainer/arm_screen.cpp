@@ -85,9 +85,9 @@ void pause_for_arm(StationClient& client, LessonClock& clock) {
     }
 }
 
-std::optional<words::TextKey> arm_warning(const device::Condition& condition) {
-    if (condition.cooling) return words::TextKey("arm.rests");
-    if (device::is_warm(condition)) return words::TextKey("arm.warm");
+std::optional<words::TextKey> arm_warning(const device::DeviceHealth& health) {
+    if (health.cooling) return words::TextKey("arm.rests");
+    if (device::is_warm(health)) return words::TextKey("arm.warm");
     return {};
 }
 

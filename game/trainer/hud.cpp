@@ -308,7 +308,7 @@ void draw_device_messages(const ActiveLesson& active, const words::Words& w, con
     // The screen about the arm has better words for what it needs.
     if (!active.station || active.station->needs.any()) return;
     std::vector<HudLine> lines;
-    if (const auto warning = arm_warning(active.station->condition)) lines.push_back({w[*warning], warm});
+    if (const auto warning = arm_warning(active.station->health)) lines.push_back({w[*warning], warm});
     for (const std::string& message : active.station->fault_messages) lines.push_back({message, warm});
     text_panel("##fault_messages", {12.0F * scale, static_cast<float>(size.y) - 12.0F * scale}, {0.0F, 1.0F},
                lines, 0.5F * static_cast<float>(size.x));

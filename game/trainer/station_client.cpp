@@ -205,7 +205,7 @@ void update_client(StationClient& client, const session::LessonSession& session)
     client.latest = client.link->latest_tick();
     client.fault_messages = client.link->fault_messages();
     client.needs = client.link->needs();
-    client.condition = client.link->condition();
+    client.health = client.link->health();
     const station::DisplayedHand* hand = client.link->hand();
     client.gloved = hand != nullptr;
     client.has_gripper = client.link->layout().mover && client.link->layout().mover->senses_gripper;

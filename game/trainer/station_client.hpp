@@ -109,7 +109,7 @@ struct StationClient {
     bool near_wrench = false;             // the resting wrench is within reach of the hand
     bool nut_is_nearer = false;           // than the wrench, of both within reach: the hand closes on the nut
     std::vector<std::string> fault_messages;  // of devices and glove
-    device::Condition condition;              // of the device that moves the tool
+    device::DeviceHealth health;              // of the device that moves the tool
     device::ArmNeeds needs;                   // of the device that moves the tool, after it was lost
     bool waits_for_arm = false;               // the lesson is paused until the arm has what it needs
     bool paused_before = false;               // the user had paused the lesson before the arm did

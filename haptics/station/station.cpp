@@ -170,10 +170,10 @@ std::vector<std::string> Station::fault_messages() {
     std::vector<std::string> messages;
     for (auto* thread : {&shared_->mover, &shared_->wheel}) {
         if (!thread->has_value()) continue;
-        const device::DeviceReport& report = (*thread)->report();
-        if (!report.fault_message.empty()) messages.push_back(report.fault_message);
-        if (report.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
-            messages.push_back(report.description->name +
+        const device::DeviceStatus& status = (*thread)->status();
+        if (!status.fault_message.empty()) messages.push_back(status.fault_message);
+        if (status.state == device::DeviceState::usable && (*thread)->blocked_for() > driver_timeout)
+            messages.push_back(status.description->name +
                                ": has not answered for 0.5 s; expected a device that answers: "
                                "unplug it and plug it in again");
     }
@@ -190,11 +190,11 @@ std::vector<std::string> Station::fault_messages() {
     return messages;
 }
 
-const device::DeviceReport* Station::mover_report() {
-    return shared_->mover ? &shared_->mover->report() : nullptr;
+const device::DeviceStatus* Station::mover_status() {
+    return shared_->mover ? &shared_->mover->status() : nullptr;
 }
-const device::DeviceReport* Station::wheel_report() {
-    return shared_->wheel ? &shared_->wheel->report() : nullptr;
+const device::DeviceStatus* Station::wheel_status() {
+    return shared_->wheel ? &shared_->wheel->status() : nullptr;
 }
 const hand::GloveReport* Station::glove_report() {
     return shared_->hand ? &shared_->hand->report() : shared_->glove ? &shared_->glove->report() : nullptr;

@@ -99,8 +99,8 @@ class Station {
 
     // Reports of the devices and the glove, null if absent, and the link statistics of the latest tick. For
     // the thread that calls fault_messages().
-    const device::DeviceReport* mover_report();
-    const device::DeviceReport* wheel_report();
+    const device::DeviceStatus* mover_status();
+    const device::DeviceStatus* wheel_status();
     const hand::GloveReport* glove_report();
     const StationLinkStats& link_stats();
 

@@ -33,7 +33,7 @@ class PlayedLesson {
     [[nodiscard]] bool finished() const { return session_->finished(); }
     [[nodiscard]] const session::LessonSession& session() const { return *session_; }
     [[nodiscard]] const FeltForces& felt() const { return felt_; }
-    [[nodiscard]] const device::DeviceReport& report() const { return supervisor_->report(); }
+    [[nodiscard]] const device::DeviceStatus& status() const { return supervisor_->status(); }
     [[nodiscard]] const station::Layout& layout() const { return layout_; }
     [[nodiscard]] const station::StationTick& latest() const { return latest_; }
     session::LessonOutcome finish();

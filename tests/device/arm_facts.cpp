@@ -18,7 +18,7 @@ namespace {
 void compare(const char* key, const Result<std::unique_ptr<DeviceDriver>>& opened) {
     CAPTURE(key);
     REQUIRE_MESSAGE(opened, (opened ? "" : opened.error().message()));
-    const Description& driver = (*opened)->describe();
+    const Description& driver = (*opened)->description();
     const arm_validation::ArmFacts* facts = arm_validation::find_arm(key);
     REQUIRE(facts != nullptr);
     const Description announced = facts->announced();

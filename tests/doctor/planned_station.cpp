@@ -111,8 +111,8 @@ TEST_CASE("Planned station: it can be started; without a selected device the sub
     station->set_controls(controls);
     REQUIRE(test::eventually([&] { return station->latest_tick().output.joint == 0; }));
     REQUIRE(test::eventually([&] { return station->link_stats().mover.samples > 10; }));
-    CHECK(station->mover_report()->description->name == "mouse and keyboard");
-    CHECK(station->wheel_report() == nullptr);
+    CHECK(station->mover_status()->description->name == "mouse and keyboard");
+    CHECK(station->wheel_status() == nullptr);
     CHECK(station->glove_report() == nullptr);
 }
 

@@ -15,8 +15,8 @@ class VirtualBench final : public station_setup::LessonStation {
     VirtualBench(session::SessionSetup prepared, session::LessonOptions options)
         : puck_({}, device::virtual_timer(time_)),
           supervisor_(puck_.factory(), device::virtual_timer(time_)) {
-        while (!supervisor_.report().description) serve();
-        layout_.mover = *supervisor_.report().description;
+        while (!supervisor_.status().description) serve();
+        layout_.mover = *supervisor_.status().description;
         layout_.mover_buttons = {1, 0, 0, 0};
         options.device_limits = station::limits_of(layout_);
         session::set_device_limits(options, prepared);
@@ -61,7 +61,7 @@ class VirtualBench final : public station_setup::LessonStation {
     [[nodiscard]] std::uint64_t lost_ticks() const override { return lost_; }
     const station::DisplayedHand* hand() override { return hand_ ? &*hand_ : nullptr; }
     std::vector<std::string> fault_messages() override { return fault_messages_; }
-    device::Condition condition() override { return condition_; }
+    device::DeviceHealth health() override { return health_; }
     device::ArmNeeds needs() override { return needs_; }
     void permit_move() override { ++permissions_; }
     [[nodiscard]] const station::Layout& layout() const override { return layout_; }
@@ -74,7 +74,7 @@ class VirtualBench final : public station_setup::LessonStation {
     // State of the station and its faults, set by tests.
     std::vector<std::string> fault_messages_;
     device::ArmNeeds needs_;
-    device::Condition condition_;
+    device::DeviceHealth health_;
     int permissions_ = 0;  // that the user has given
     std::uint64_t lost_ = 0;
     std::optional<station::DisplayedHand> hand_;  // of a gloved hand

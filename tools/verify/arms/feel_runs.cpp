@@ -228,7 +228,7 @@ Pose wrench_on_nut(TightenedAssembly& tightened, double above) {
 // rad by which the hand's intention leads the wrench so that its spring pulls with this share of what the
 // device can render.
 double lead_for(const ArmRig& rig, double share) {
-    const device::ArmParameters& hand = rig.arm.parameters;
+    const device::HandAndArmParameters& hand = rig.arm.parameters;
     const force::OutputLimits& limits = rig.layout.mover->limits;
     if (limits.torque > 0.0)
         return std::min((rig.pushes_only ? 0.1 : share) * limits.torque / hand.angular_stiffness, 1.2);
