@@ -165,8 +165,7 @@ Result<Header> header_of(const HeaderTexts& texts, const std::string& file) {
     parser.required(key::assembly_file, header.assembly_file);
     parser.required(key::assembly_text, header.assembly_text);
     parser.required(key::variant, header.variant);
-    parser.required(key::law, header.law, "published or mechanistic",
-                    [](std::string_view text) { return named<joint::Law>(text, 2); });
+    parser.required(key::law, header.law, "published or mechanistic", joint::law_named);
     parser.required(key::mode, header.mode, "guided, practice or assessment",
                     [](std::string_view text) { return named<lesson::Mode>(text, 3); });
     parser.required(key::task, header.task, "tighten or loosen",

@@ -32,7 +32,7 @@ struct MeasuredRegistration {
 Result<MeasuredRegistration> register_frames(content::CoordinateFrame from, content::CoordinateFrame to,
                                              std::span<const PointPair> pairs, const std::string& date);
 
-// A table of the points, and the figures that assess the registration.
+// A table of the points, and the values that assess the registration.
 std::string describe(const MeasuredRegistration& measured);
 
 // Fails if the rms or the error of the check point is too large, and names the point to touch again.

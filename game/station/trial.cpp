@@ -20,7 +20,7 @@ constexpr double supervisor_silence = 0.25;  // s of silence that the device sup
 bool renders(const std::optional<device::Description>& d) {
     return d && (station::renders_force(*d) || station::renders_torque(*d));
 }
-bool renders(const station::Layout& layout) { return renders(layout.mover) || renders(layout.wheel); }
+bool renders(const station::DeviceLayout& layout) { return renders(layout.mover) || renders(layout.wheel); }
 
 std::string sample_summary(double count, double seconds, double age, double silence) {
     return fmt::format(
@@ -164,7 +164,7 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
     return trial;
 }
 
-std::string describe_station(station::Layout layout, const DeviceSelection& devices) {
+std::string describe_station(station::DeviceLayout layout, const DeviceSelection& devices) {
     std::string text;
     if (!devices.mover) {
         layout.mover.reset();

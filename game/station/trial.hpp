@@ -58,7 +58,7 @@ StationTrial run_trial(station::Station& station, const PlannedStation& planned,
 std::string describe(const servo::ThreadPrivileges& privileges);
 
 // Texts for the terminal: the devices with their roles and the button that enables their forces; the results.
-std::string describe_station(station::Layout layout, const DeviceSelection& devices);
+std::string describe_station(station::DeviceLayout layout, const DeviceSelection& devices);
 std::string trial_report(const StationTrial& trial);
 
 // The reasons why the station is unfit for training, worst first; empty if it is fit.

@@ -55,7 +55,7 @@ ScreenAction action_of(const ArmScreen& screen, std::span<const platform::InputE
 
 ScreenAction draw_arm(const ScreenContext& context, const ArmScreen& screen) {
     ScreenAction action = ScreenAction::none;
-    begin_panel(context, "##arm", 420.0F * context.scale, 0.94F);
+    begin_dialog(context, "##arm", 420.0F * context.scale, 0.94F);
     const bool warns = screen.needs.moves || asks(screen.needs);
     draw_wrapped(request_of(context.words, screen.needs), warns ? warning_text : muted_text);
     ImGui::Separator();

@@ -50,7 +50,7 @@ bool draw_wide_button(const ScreenContext& context, words::TextKey key, const Im
     }
     const bool pressed = ImGui::Button(context.words[key].c_str(), size);
     if (is_primary) ImGui::PopStyleColor(2);
-    record_widget(context, key);
+    note_widget(context, key);
     return pressed;
 }
 
@@ -107,7 +107,7 @@ bool draw_card(const ScreenContext& context, const AssemblyEntry& entry, bool is
     ImGui::PushID(entry.name.c_str());
     const bool pressed = ImGui::Selectable("##card", is_selected, 0, size);
     ImGui::PopID();
-    record_widget(context, "menu.assemblies");
+    note_widget(context, "menu.assemblies");
     context.drawn_widgets.back().assembly = entry.name;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 low(at.x + padding, at.y + padding),

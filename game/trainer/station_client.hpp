@@ -14,6 +14,7 @@
 #include "engine/platform/input.hpp"
 #include "game/lesson/hints.hpp"
 #include "game/session/lesson_session.hpp"
+#include "game/station/lesson_station.hpp"
 #include "game/station/station_setup.hpp"
 #include "game/trainer/controls.hpp"
 #include "game/trainer/dragged_hand.hpp"
@@ -146,7 +147,7 @@ struct UserActions {
 
 // Returns true if a device renders forces, which then requires a dead-man switch: a button, or the tool in a
 // gloved hand.
-bool needs_dead_man(const station::Layout& layout);
+bool needs_dead_man(const station::DeviceLayout& layout);
 
 // m between thumb tip and index fingertip below which a gloved hand pinches.
 inline constexpr double pinch_distance = 0.035;

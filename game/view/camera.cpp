@@ -97,7 +97,7 @@ Orbit limit_eye_height(const Orbit& orbit, double eye) {
     return lower;
 }
 
-Orbit frame_all(const Orbit& o, const render::BoundingBox& box, float aspect) {
+Orbit fit_to_box(const Orbit& o, const render::BoundingBox& box, float aspect) {
     render::Perspective perspective;
     perspective.fov = static_cast<float>(o.fov);
     perspective.aspect = aspect;
@@ -252,7 +252,7 @@ CloseUpEye close_up_eye(const ViewTarget& target, const Pose& tool, double swing
     return best;
 }
 
-motion::ViewHelper view_help() {
+motion::ViewHelper make_view_helper() {
     return [model = std::make_shared<motion::VisibilityModel>()](const motion::ViewRequest& request) {
         Viewpoint now;
         now.eye = glm::vec3(request.eye);

@@ -18,7 +18,7 @@ constexpr std::size_t commands_per_tick = 16;  // further ones wait for the next
 }  // namespace
 
 struct Station::Shared {
-    Layout layout;
+    DeviceLayout layout;
     servo::Setup setup;
     servo::State state;
     StationState station;
@@ -85,7 +85,7 @@ Status open(const device::DeviceFactory& factory, const StationOptions& options,
 // A wrench that is grasped comes into the palm in this time. Chosen: as fast as a hand regrasps.
 constexpr double absolute_return_time = 0.1;  // s
 
-force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& options) {
+force::WorkspaceMap make_workspace(const DeviceLayout& layout, const StationOptions& options) {
     force::WorkspaceMap map;
     map.rotation = glm::normalize(options.workspace.rotation);
     if (!layout.mover || layout.mover->sensing != device::Sensing::pose) return map;
@@ -99,9 +99,9 @@ force::WorkspaceMap make_workspace(const Layout& layout, const StationOptions& o
 
 }  // namespace
 
-Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
-                           std::optional<device::Description> wheel) {
-    Layout layout;
+Result<DeviceLayout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
+                                 std::optional<device::Description> wheel) {
+    DeviceLayout layout;
     layout.mover = std::move(mover);
     if (layout.mover) layout.mover->limits = force::lowered(layout.mover->limits, options.mover_limits);
     layout.wheel = std::move(wheel);
@@ -204,7 +204,7 @@ const StationLinkStats& Station::link_stats() {
     return shared_->link_stats.latest();
 }
 const DisplayedHand* Station::hand() { return shared_->hand ? &shared_->hand->displayed() : nullptr; }
-const Layout& Station::layout() const { return shared_->layout; }
+const DeviceLayout& Station::layout() const { return shared_->layout; }
 const servo::Setup& Station::setup() const { return shared_->setup; }
 hand::GloveDriver* Station::glove() { return shared_->glove ? &*shared_->glove : nullptr; }
 servo::ServoThread& Station::servo() { return *shared_->thread; }

@@ -69,8 +69,8 @@ struct StationOptions {
 
 // The layout of these devices: workspace and lever arm from the options, or fitted to the devices. The
 // mover's limits are lowered here, before anything uses them. Fails as check().
-Result<Layout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
-                           std::optional<device::Description> wheel);
+Result<DeviceLayout> make_layout(const StationOptions& options, std::optional<device::Description> mover,
+                                 std::optional<device::Description> wheel);
 
 class Station {
   public:
@@ -104,7 +104,7 @@ class Station {
     const hand::GloveReport* glove_report();
     const StationLinkStats& link_stats();
 
-    [[nodiscard]] const Layout& layout() const;
+    [[nodiscard]] const DeviceLayout& layout() const;
     [[nodiscard]] const servo::Setup& setup() const;
     [[nodiscard]] hand::GloveDriver* glove();  // null: no glove, or a gloved hand uses it
     [[nodiscard]] servo::ServoThread& servo();

@@ -92,8 +92,8 @@ struct SoakStatistics {
     }
 };
 
-Layout arm_and_wheel() {
-    Layout layout;
+DeviceLayout arm_and_wheel() {
+    DeviceLayout layout;
     layout.mover = test::arm();
     layout.wheel = test::wheel_of(8.0);
     layout.home.position = Vec3(0.0, 0.15, 0.0);
@@ -345,7 +345,7 @@ class Soak {
     Vec3 tool_ = arm_and_wheel().home.position;  // m, commanded at the last tick
     double wheel_at_ = 0.0, turned_at_ = 0.0, direction_ = 1.0;
     // Declared before the devices, whose hands use them.
-    Layout layout_;
+    DeviceLayout layout_;
     servo::Setup setup_;
     servo::State servo_;
     StationState state_;

@@ -4,7 +4,7 @@
 #include <deque>
 
 #include "game/session/lesson_session.hpp"
-#include "game/station/station_setup.hpp"
+#include "game/station/lesson_station.hpp"
 #include "haptics/device/device.hpp"
 #include "haptics/device/device_thread.hpp"
 
@@ -64,7 +64,7 @@ class VirtualBench final : public station_setup::LessonStation {
     device::DeviceHealth health() override { return health_; }
     device::ArmNeeds needs() override { return needs_; }
     void permit_move() override { ++permissions_; }
-    [[nodiscard]] const station::Layout& layout() const override { return layout_; }
+    [[nodiscard]] const station::DeviceLayout& layout() const override { return layout_; }
     [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
     const servo::Timing* stop() override {
         stopped_ = true;
@@ -110,7 +110,7 @@ class VirtualBench final : public station_setup::LessonStation {
     device::DeviceSupervisor supervisor_;
     device::DeviceMailboxes mailboxes_;
     device::DeviceSnapshot snapshot_;
-    station::Layout layout_;
+    station::DeviceLayout layout_;
     servo::Setup setup_;
     servo::State servo_;
     station::StationState state_;

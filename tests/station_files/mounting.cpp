@@ -19,15 +19,15 @@ content::StationMover arm_of(const std::string& members) {
     return *station->arm;
 }
 
-Layout layout_of(const content::StationMover& arm, const device::Description& device,
-                 double handle_length = 0.23) {
+DeviceLayout layout_of(const content::StationMover& arm, const device::Description& device,
+                       double handle_length = 0.23) {
     StationOptions options;
     options.workspace = {content::orientation_of(arm.mounting), arm.scale, arm.power_ratio};
     options.mover_limits = arm.limits;
     options.mover_buttons = arm.buttons.value_or(options.mover_buttons);
     options.handle_length = handle_length;
     options.home = test::with_arm().home;
-    Result<Layout> layout = make_layout(options, device, std::nullopt);
+    Result<DeviceLayout> layout = make_layout(options, device, std::nullopt);
     REQUIRE(layout);
     return *layout;
 }
@@ -87,7 +87,7 @@ TEST_CASE("Station file: the handle feels a force along the user's axes, and pow
     Random random(11);
     for (int i = 0; i < 50; ++i) {
         const content::StationMover arm = any_arm(random);
-        const Layout layout = layout_of(arm, test::arm());
+        const DeviceLayout layout = layout_of(arm, test::arm());
         CHECK(layout.workspace.scale == *arm.scale);
         CHECK(layout.workspace.power_ratio == arm.power_ratio.value_or(1.0 / *arm.scale));
         const Vec3 on_tool = any(random);
@@ -102,7 +102,7 @@ TEST_CASE("Station file: without a scale it is fitted to the reach along the use
     device.half_workspace = Vec3(0.3, 0.2, 0.05);
     for (const auto& [members, reach] : {std::pair{R"()", Vec3(0.3, 0.2, 0.05)},
                                          {R"(, "mounting": {"yaw_deg": 90})", Vec3(0.05, 0.2, 0.3)}}) {
-        const Layout layout = layout_of(arm_of(members), device);
+        const DeviceLayout layout = layout_of(arm_of(members), device);
         CHECK(layout.workspace.scale == doctest::Approx(force::fitted_scale(reach, 0.23)));
         CHECK(layout.workspace.power_ratio == 1.0 / layout.workspace.scale);
     }
@@ -161,7 +161,7 @@ TEST_CASE("Station file: limits are only ever lowered, and no command of a tick 
         if (random.chance(0.8)) arm.limits.force = random.uniform(0.0, 40.0);
         if (random.chance(0.8)) arm.limits.torque = random.uniform(0.05, 4.0);
         if (random.chance(0.8)) arm.limits.stiffness = random.uniform(50.0, 4000.0);
-        const Layout layout = layout_of(arm, device);
+        const DeviceLayout layout = layout_of(arm, device);
         const double force = std::min(device.limits.force, arm.limits.force.value_or(1e9));
         const double torque = std::min(device.limits.torque, arm.limits.torque.value_or(1e9));
         CHECK(layout.mover->limits.force == force);

@@ -1,7 +1,6 @@
-// The two stations of a lesson: one on threads, one whose ticks run with the frames.
-#include <deque>
+#include "game/station/lesson_station.hpp"
 
-#include "game/station/station_setup.hpp"
+#include <deque>
 
 namespace bolt::station_setup {
 
@@ -38,7 +37,7 @@ class ThreadedStation final : public LessonStation {
     void permit_move() override {
         if (permission_) permission_->grant();
     }
-    [[nodiscard]] const station::Layout& layout() const override { return station_.layout(); }
+    [[nodiscard]] const station::DeviceLayout& layout() const override { return station_.layout(); }
     [[nodiscard]] const servo::Setup& setup() const override { return station_.setup(); }
     const servo::Timing* stop() override {
         station_.stop();
@@ -90,7 +89,7 @@ class FrameSteppedStation final : public LessonStation {
     [[nodiscard]] std::uint64_t lost_ticks() const override { return 0; }
     const station::DisplayedHand* hand() override { return nullptr; }
     std::vector<std::string> fault_messages() override { return {}; }
-    [[nodiscard]] const station::Layout& layout() const override { return layout_; }
+    [[nodiscard]] const station::DeviceLayout& layout() const override { return layout_; }
     [[nodiscard]] const servo::Setup& setup() const override { return setup_; }
     const servo::Timing* stop() override { return nullptr; }
 
@@ -118,7 +117,7 @@ class FrameSteppedStation final : public LessonStation {
     device::SimulatedArm arm_;
     std::unique_ptr<device::DeviceDriver> driver_;
     device::DeviceSnapshot snapshot_;
-    station::Layout layout_;
+    station::DeviceLayout layout_;
     servo::Setup setup_;
     servo::State servo_;
     station::StationState state_;
