@@ -30,9 +30,9 @@ std::array<double, N> read_numbers(MemberReader& members, const json& object, co
     std::array<double, N> numbers{};
     const json* list = members.find(object, at, key);
     if (list == nullptr) return numbers;
-    const std::string place = at + "/" + key;
+    const std::string pointer = at + "/" + key;
     if (!list->is_array() || list->size() != N) {
-        members.report(place, JsonPart::value, fmt::format("\"{}\" is not a list of {} numbers", key, N),
+        members.report(pointer, JsonPart::value, fmt::format("\"{}\" is not a list of {} numbers", key, N),
                        fmt::format("{} numbers in [ ]", N));
         return numbers;
     }
@@ -40,7 +40,7 @@ std::array<double, N> read_numbers(MemberReader& members, const json& object, co
         const json& value = (*list)[i];
         numbers[i] = value.is_number() ? value.get<double>() : bolt::nan;
         if (numbers[i] >= low && numbers[i] <= high) continue;
-        members.report(fmt::format("{}/{}", place, i), JsonPart::value,
+        members.report(fmt::format("{}/{}", pointer, i), JsonPart::value,
                        fmt::format("\"{}\" cannot have {}", key, in_quotes(value.dump())),
                        fmt::format("a number from {} to {}", low, high));
         numbers[i] = low;
@@ -96,12 +96,12 @@ int read_point_count(MemberReader& members, const json& object, const std::strin
 void check_residuals(MemberReader& members, const std::string& at, const Registration& one) {
     constexpr double rounding = 1e-9;  // m
     if (!one.largest_left_out) return;
-    const std::string place = at + "/largest_left_out_m";
+    const std::string pointer = at + "/largest_left_out_m";
     if (one.points == 3)  // the two that remain determine no pose
-        members.report(place, JsonPart::value, "with 3 points none can be left out",
+        members.report(pointer, JsonPart::value, "with 3 points none can be left out",
                        "more points, or no \"largest_left_out_m\"");
     else if (*one.largest_left_out < one.rms - rounding)
-        members.report(place, JsonPart::value,
+        members.report(pointer, JsonPart::value,
                        fmt::format("a largest residual of {:g} is impossible with an rms of {:g}",
                                    *one.largest_left_out, one.rms),
                        "a number that is not less than \"rms_m\"");
@@ -110,14 +110,14 @@ void check_residuals(MemberReader& members, const std::string& at, const Registr
 std::optional<PointPair> read_check_point(MemberReader& members, const json& object, const std::string& at) {
     const auto found = object.find("check_point");
     if (found == object.end()) return std::nullopt;
-    const std::string place = at + "/check_point";
+    const std::string pointer = at + "/check_point";
     if (!found->is_object()) {
-        members.report(place, JsonPart::value, "\"check_point\" is not an object", "an object {...}");
+        members.report(pointer, JsonPart::value, "\"check_point\" is not an object", "an object {...}");
         return std::nullopt;
     }
-    members.check_known(*found, place, {"from_m", "to_m"});
-    return PointPair{read_point(members, *found, place, "from_m"),
-                     read_point(members, *found, place, "to_m")};
+    members.check_known(*found, pointer, {"from_m", "to_m"});
+    return PointPair{read_point(members, *found, pointer, "from_m"),
+                     read_point(members, *found, pointer, "to_m")};
 }
 
 Registration read_registration(MemberReader& members, const json& object, const std::string& at) {

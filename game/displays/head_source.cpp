@@ -29,7 +29,7 @@ Result<HeadSource> HeadSource::open(const content::HeadTracking& head, const std
     return source;
 }
 
-void HeadSource::add(const tracking::BodySample& body) {
+void HeadSource::add_sample(const tracking::BodySample& body) {
     ++counts_.samples;
     waiting_.push_back({body.time, tracking::head_in_room(registration_, body.pose)});
 }
@@ -43,7 +43,7 @@ void HeadSource::receive(double now) {
         const auto at = std::lower_bound(counts_.bodies.begin(), counts_.bodies.end(), body.id);
         if (at == counts_.bodies.end() || *at != body.id) counts_.bodies.insert(at, body.id);
     }
-    if (const tracking::DtrackBody* body = tracking::find_body(*frame, body_)) add({now, body->pose});
+    if (const tracking::DtrackBody* body = tracking::find_body(*frame, body_)) add_sample({now, body->pose});
 }
 
 void HeadSource::play(double now) {
@@ -53,7 +53,7 @@ void HeadSource::play(double now) {
     }
     const double until = now - *started_;
     for (const tracking::BodySample& pose : tracking::poses_between(recording_, played_until_, until))
-        add({pose.time + *started_, pose.pose});
+        add_sample({pose.time + *started_, pose.pose});
     played_until_ = until;
 }
 

@@ -12,7 +12,7 @@
 
 namespace bolt::displays {
 
-// What has arrived from the tracker.
+// The samples that have arrived from the tracker.
 struct TrackerCounts {
     tracking::DtrackCounts dtrack;  // with tracker dtrack only
     std::uint64_t samples = 0;      // poses of the tracked body
@@ -24,12 +24,13 @@ class HeadSource {
     // `folder`: that of the display file. Fails if the UDP port is in use, or the recording is wrong.
     static Result<HeadSource> open(const content::HeadTracking& head, const std::filesystem::path& folder);
 
-    // The head at the time `now`, s on a steady clock, which must not decrease from call to call. Reads what
-    // has arrived; never waits. Recorded poses are played once, from the first call on.
+    // Updates the head and returns it at the time `now`, s on a steady clock, which must not decrease from
+    // call to call. Reads the samples that have arrived; never waits. Recorded poses are played once, from
+    // the first call on.
     tracking::FilteredHead at(double now);
 
-    // For trackers that the caller reads: the pose of the tracked body in the tracker's frame. at() uses it.
-    void add(const tracking::BodySample& body);
+    // For trackers that the caller reads. at() uses the sample.
+    void add_sample(const tracking::BodySample& body);
 
     [[nodiscard]] const TrackerCounts& counts() const { return counts_; }
     [[nodiscard]] int port() const { return receiver_ ? receiver_->port() : 0; }

@@ -107,7 +107,7 @@ TEST_CASE("Head source: poses that the caller adds are those of the tracked body
     head.scale = 2.0;
     head.tracker_in_room.position = {0.0, 1.0, 0.0};
     HeadSource source = opened(head);
-    source.add({5.0, {{0.1, 0.2, 0.3}, {1, 0, 0, 0}}});
+    source.add_sample({5.0, {{0.1, 0.2, 0.3}, {1, 0, 0, 0}}});
     const auto shown = source.at(5.0);
     CHECK(shown.status == HeadStatus::tracked);
     CHECK(glm::length(shown.pose.position - Vec3(0.2, 1.4, 0.6)) < 1e-12);
