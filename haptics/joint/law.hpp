@@ -1,5 +1,5 @@
-// The laws of a joint: how the torque on its nut and its clamp force follow from the angle of the nut. A group
-// of joints (group.hpp) has one of them. CONTRIBUTING.md lists the places that a new law touches.
+// The laws of a joint: how the torque on its nut and its clamp force follow from the angle of the nut. A
+// group of joints (group.hpp) has one of them. CONTRIBUTING.md lists the places that a new law touches.
 #pragma once
 
 #include <array>

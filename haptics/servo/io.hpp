@@ -59,7 +59,7 @@ struct Output {
     Vec3 force{0.0};
     Vec3 torque{0.0};
 
-    force::Fault fault = force::Fault::none;  // reason for which the output is held at zero
+    force::Fault fault = force::Fault::none;  // reason for which the output is zero
 
     Pose constrained_tool;       // pose that contacts permit, in the assembly's frame
     std::uint16_t contacts = 0;  // constraints within the contact band
