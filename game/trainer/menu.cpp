@@ -192,10 +192,14 @@ void draw_language_buttons(const ScreenContext& context, float right, content::T
 
 ScreenAction first_of(ScreenAction a, ScreenAction b) { return a != ScreenAction::none ? a : b; }
 
-// The choices on the left; the assembly, its description and the cards on the right. Clears `fits` if the
-// window is not high enough.
-ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures& pictures,
-                       LessonChoice& choice, Preferences& preferences, bool& fits) {
+struct WideMenu {
+    ScreenAction action = ScreenAction::none;
+    bool fits = true;  // false: the picture is not high enough
+};
+
+// The choices on the left; the assembly, its description and the cards on the right.
+WideMenu draw_wide(const ScreenContext& context, Menu& menu, const MenuPictures& pictures,
+                   LessonChoice& choice, Preferences& preferences) {
     const float scale = context.scale, edge = menu_margin * scale, column = column_width * scale;
     const ImVec2 size(static_cast<float>(context.size.x), static_cast<float>(context.size.y));
     const float inner = column - 2.0F * edge, right_width = size.x - column - 2.0F * edge;
@@ -213,7 +217,7 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
     const float actions =
         3.5F * ImGui::GetFrameHeight() + 3.0F * spacing +
         (menu.first_start ? wrapped_height(context.words["menu.tour.about"], inner) + spacing : 0.0F);
-    fits = ImGui::GetCursorPosY() <= size.y - edge - actions;
+    bool fits = ImGui::GetCursorPosY() <= size.y - edge - actions;
     ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), size.y - edge - actions));
     action = first_of(action, draw_start(context, inner, menu, choice));
     action = first_of(action, draw_pages(context, inner));
@@ -240,7 +244,7 @@ ScreenAction draw_wide(const ScreenContext& context, Menu& menu, const MenuPictu
     ImGui::SetCursorPosY(size.y - edge - card);
     draw_cards(context, right_width, menu, pictures, choice);
     ImGui::EndGroup();
-    return action;
+    return {action, fits};
 }
 
 // Everything in one column that scrolls, with the buttons at the top.
@@ -320,12 +324,11 @@ ScreenAction draw_menu(const ScreenContext& context, Menu& menu, const MenuPictu
         wide ? menu_flags : menu_flags & ~(ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar));
     ImGui::PopStyleVar(2);
     menu.covered = {};
-    bool fits = true;
-    const ScreenAction action = wide ? draw_wide(context, menu, pictures, choice, preferences, fits)
-                                     : draw_narrow(context, menu, pictures, choice, preferences);
+    const WideMenu drawn = wide ? draw_wide(context, menu, pictures, choice, preferences)
+                                : WideMenu{draw_narrow(context, menu, pictures, choice, preferences), true};
     ImGui::End();
-    if (!fits) menu.too_tall = shown;
-    return action;
+    if (!drawn.fits) menu.too_tall = shown;
+    return drawn.action;
 }
 
 }  // namespace bolt::trainer
