@@ -186,7 +186,7 @@ std::optional<Sample> DeviceSupervisor::poll(FunctionRef<ForceCommand()> latest_
 
 namespace {
 
-constexpr double status_interval = 0.1;  // s between two updates of the status if only counters have changed
+constexpr double publish_interval = 0.1;  // s between two updates of the status if only counters have changed
 
 // Returns true if the status must be published now.
 bool changed(const DeviceStatus& now, const DeviceStatus& before) {
@@ -239,7 +239,7 @@ struct DeviceThread::Shared {
             run_once(supervisor, mailboxes, snapshot);
             last_return.store(timer.now(), std::memory_order_relaxed);
             const DeviceStatus& now = supervisor.status();
-            if (!changed(now, before) && timer.now() - published_at < status_interval) continue;
+            if (!changed(now, before) && timer.now() - published_at < publish_interval) continue;
             before = now;
             published_at = timer.now();
             mailboxes.statuses.write(now);
