@@ -333,7 +333,7 @@ TEST_CASE("Haply: BOLTWRIGHT_HAPLY names the service") {
 TEST_CASE("Haply: the vendor's row lists and opens the arm of the service that the environment names") {
     const Bench bench;
     const auto backends = arm_backends();
-    const auto row = std::find_if(backends.begin(), vendors.end(),
+    const auto row = std::find_if(backends.begin(), backends.end(),
                                   [](const ArmBackend& backend) { return backend.name == "haply"; });
     REQUIRE(row != backends.end());
     setenv("BOLTWRIGHT_HAPLY", bench.service.states.text().c_str(), 1);
